@@ -1,0 +1,46 @@
+// Pinhole and thin-lens cameras.
+#pragma once
+
+#include "cameras/camera.h"
+
+namespace duet {
+
+/// What both have in common: a frustum of rays along +z of the camera's space.
+struct PerspectiveView {
+  Transform to_world;
+  Point2i film;             ///< size of the full image in pixels
+  double horizontal_fov = 45;  ///< degrees
+  /// Shift of the image in units of its width and height.
+  double offset_x = 0, offset_y = 0;
+  double near_clip = 1e-2, far_clip = 1e4;
+};
+
+class PerspectiveCamera : public Camera {
+ public:
+  explicit PerspectiveCamera(const PerspectiveView& view);
+  Ray sample_ray(const Point2f& film, const Point2f& lens) const override;
+
+ protected:
+  /// The point of the plane z = 1 in camera space that is seen at a film position.
+  Vector3f film_direction(const Point2f& film) const;
+  /// A ray from `origin` (camera space) along unit `direction`, between the clipping planes.
+  Ray clipped_ray(const Point3f& origin, const Vector3f& direction) const;
+
+ private:
+  Transform to_world_;
+  float scale_, center_x_, center_y_;
+  float near_, far_;
+};
+
+/// Rays leave a disk-shaped aperture and meet in the plane of focus.
+class ThinLensCamera final : public PerspectiveCamera {
+ public:
+  ThinLensCamera(const PerspectiveView& view, double aperture_radius, double focus_distance);
+  Ray sample_ray(const Point2f& film, const Point2f& lens) const override;
+  bool has_lens() const override { return true; }
+
+ private:
+  float aperture_radius_, focus_distance_;
+};
+
+}  // namespace duet

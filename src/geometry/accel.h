@@ -1,0 +1,41 @@
+// Ray queries against all shapes of a scene.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "geometry/shape.h"
+
+namespace duet {
+
+/// An acceleration structure over shapes that must outlive it and stay where they are.
+class Accel {
+ public:
+  /// The shapes in `top` stand in the scene directly; those of `groups` only through instances.
+  /// `threads` bounds the threads used to build. Throws std::runtime_error if memory runs out.
+  Accel(const std::vector<Shape>& shapes, ShapeRange top, const std::vector<ShapeRange>& groups,
+        const std::vector<Instance>& instances, int threads);
+  ~Accel();
+  Accel(const Accel&) = delete;
+  Accel& operator=(const Accel&) = delete;
+
+  /// The nearest hit with 0 < t < ray.tmax.
+  bool closest_hit(const Ray& ray, Hit& hit) const;
+  /// Whether anything lies between the ray's origin and ray.tmax.
+  bool occluded(const Ray& ray) const;
+  /// The box around everything.
+  Bounds bounds() const;
+
+ private:
+  struct Device;
+  std::unique_ptr<Device> device_;
+  /// Copies of what the queries need, so that they follow one pointer less.
+  void* scene_ = nullptr;
+  uint32_t top_first_ = 0, top_count_ = 0;
+  const std::vector<ShapeRange>* groups_ = nullptr;
+  const std::vector<Instance>* instances_ = nullptr;
+};
+
+}  // namespace duet

@@ -1,0 +1,206 @@
+// The only file that knows Embree. Versions 3.13 and 4 differ in how per-ray arguments are passed.
+#if __has_include(<embree4/rtcore.h>)
+#include <embree4/rtcore.h>
+#else
+#include <embree3/rtcore.h>
+#endif
+
+#include <fmt/format.h>
+
+#include <stdexcept>
+
+#include "geometry/accel.h"
+
+namespace duet {
+
+namespace {
+
+void check(RTCDevice device, const char* doing) {
+  const RTCError error = rtcGetDeviceError(device);
+  if (error == RTC_ERROR_NONE) return;
+  throw std::runtime_error(fmt::format("Embree failed {}: {}", doing,
+                                       error == RTC_ERROR_OUT_OF_MEMORY ? "out of memory"
+                                                                        : "internal error"));
+}
+
+void analytic_bounds_callback(const RTCBoundsFunctionArguments* args) {
+  const Bounds b = analytic_bounds(*static_cast<const Shape*>(args->geometryUserPtr));
+  args->bounds_o->lower_x = b.lower.x;
+  args->bounds_o->lower_y = b.lower.y;
+  args->bounds_o->lower_z = b.lower.z;
+  args->bounds_o->upper_x = b.upper.x;
+  args->bounds_o->upper_y = b.upper.y;
+  args->bounds_o->upper_z = b.upper.z;
+}
+
+Ray to_ray(const RTCRay& r) {
+  return {{r.org_x, r.org_y, r.org_z}, {r.dir_x, r.dir_y, r.dir_z}, r.tfar};
+}
+
+void analytic_intersect_callback(const RTCIntersectFunctionNArguments* args) {
+  if (args->N != 1 || !args->valid[0]) return;
+  auto* ray_hit = reinterpret_cast<RTCRayHit*>(args->rayhit);
+  const Shape& shape = *static_cast<const Shape*>(args->geometryUserPtr);
+  double t[2];
+  if (!intersect_analytic(shape, to_ray(ray_hit->ray), ray_hit->ray.tnear, ray_hit->ray.tfar, t))
+    return;
+  ray_hit->ray.tfar = float(t[0]);
+  ray_hit->hit.u = ray_hit->hit.v = 0;
+  ray_hit->hit.primID = args->primID;
+  ray_hit->hit.geomID = args->geomID;
+  ray_hit->hit.instID[0] = args->context->instID[0];
+}
+
+void analytic_occluded_callback(const RTCOccludedFunctionNArguments* args) {
+  if (args->N != 1 || !args->valid[0]) return;
+  auto* ray = reinterpret_cast<RTCRay*>(args->ray);
+  const Shape& shape = *static_cast<const Shape*>(args->geometryUserPtr);
+  double t[2];
+  if (intersect_analytic(shape, to_ray(*ray), ray->tnear, ray->tfar, t)) ray->tfar = -INFINITY;
+}
+
+RTCGeometry make_geometry(RTCDevice device, const Shape& shape) {
+  if (shape.kind != ShapeKind::mesh) {
+    RTCGeometry g = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_USER);
+    rtcSetGeometryUserPrimitiveCount(g, 1);
+    rtcSetGeometryUserData(g, const_cast<Shape*>(&shape));
+    rtcSetGeometryBoundsFunction(g, analytic_bounds_callback, nullptr);
+    rtcSetGeometryIntersectFunction(g, analytic_intersect_callback);
+    rtcSetGeometryOccludedFunction(g, analytic_occluded_callback);
+    return g;
+  }
+  const TriangleMesh& m = *shape.mesh;
+  RTCGeometry g = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);
+  // Embree may read 4 bytes beyond the last vertex of a shared buffer: meshes for rendering reserve
+  // them (see shared_vertices in scene/build.cpp).
+  rtcSetSharedGeometryBuffer(g, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, m.positions.data(), 0,
+                             sizeof(Point3f), m.positions.size());
+  rtcSetSharedGeometryBuffer(g, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, m.triangles.data(), 0,
+                             3 * sizeof(uint32_t), m.triangles.size());
+  return g;
+}
+
+RTCScene make_scene(RTCDevice device) {
+  RTCScene s = rtcNewScene(device);
+  rtcSetSceneBuildQuality(s, RTC_BUILD_QUALITY_MEDIUM);
+  return s;
+}
+
+void attach(RTCScene scene, RTCGeometry g, uint32_t id) {
+  rtcCommitGeometry(g);
+  rtcAttachGeometryByID(scene, g, id);
+  rtcReleaseGeometry(g);
+}
+
+}  // namespace
+
+struct Accel::Device {
+  RTCDevice device = nullptr;
+  std::vector<RTCScene> scenes;  ///< the top scene, then one per group
+  ~Device() {
+    for (RTCScene s : scenes) rtcReleaseScene(s);
+    if (device) rtcReleaseDevice(device);
+  }
+};
+
+Accel::Accel(const std::vector<Shape>& shapes, ShapeRange top,
+             const std::vector<ShapeRange>& groups, const std::vector<Instance>& instances,
+             int threads)
+    : device_(std::make_unique<Device>()),
+      top_first_(top.first),
+      top_count_(top.count),
+      groups_(&groups),
+      instances_(&instances) {
+  device_->device = rtcNewDevice(fmt::format("threads={}", threads).c_str());
+  if (!device_->device) throw std::runtime_error("Embree could not be started");
+  RTCDevice device = device_->device;
+  device_->scenes.push_back(make_scene(device));
+  RTCScene scene = device_->scenes[0];
+  for (uint32_t i = 0; i < top.count; ++i)
+    attach(scene, make_geometry(device, shapes[top.first + i]), i);
+  for (const ShapeRange& group : groups) {
+    RTCScene s = make_scene(device);
+    device_->scenes.push_back(s);
+    for (uint32_t i = 0; i < group.count; ++i)
+      attach(s, make_geometry(device, shapes[group.first + i]), i);
+    rtcCommitScene(s);
+  }
+  for (uint32_t i = 0; i < instances.size(); ++i) {
+    RTCGeometry g = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_INSTANCE);
+    rtcSetGeometryInstancedScene(g, device_->scenes[1 + instances[i].group]);
+    rtcSetGeometryTimeStepCount(g, 1);
+    rtcSetGeometryTransform(g, 0, RTC_FORMAT_FLOAT3X4_ROW_MAJOR,
+                            instances[i].to_world.rows().data());
+    attach(scene, g, top.count + i);
+  }
+  check(device, "to take over the geometry");
+  rtcCommitScene(scene);
+  check(device, "to build the acceleration structure");
+  scene_ = scene;
+}
+
+Accel::~Accel() = default;
+
+namespace {
+
+inline void set_ray(RTCRay& r, const Ray& ray) {
+  r.org_x = ray.origin.x, r.org_y = ray.origin.y, r.org_z = ray.origin.z;
+  r.dir_x = ray.direction.x, r.dir_y = ray.direction.y, r.dir_z = ray.direction.z;
+  r.tnear = 0, r.tfar = ray.tmax;
+  r.time = 0, r.mask = ~0u, r.id = 0, r.flags = 0;
+}
+
+}  // namespace
+
+bool Accel::closest_hit(const Ray& ray, Hit& hit) const {
+  RTCRayHit rh;
+  set_ray(rh.ray, ray);
+  rh.hit.geomID = RTC_INVALID_GEOMETRY_ID;
+  rh.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
+#if RTC_VERSION_MAJOR >= 4
+  rtcIntersect1(static_cast<RTCScene>(scene_), &rh);
+#else
+  RTCIntersectContext context;
+  rtcInitIntersectContext(&context);
+  rtcIntersect1(static_cast<RTCScene>(scene_), &context, &rh);
+#endif
+  if (rh.hit.geomID == RTC_INVALID_GEOMETRY_ID) return false;
+  hit.t = rh.ray.tfar;
+  hit.u = rh.hit.u;
+  hit.v = rh.hit.v;
+  hit.primitive = rh.hit.primID;
+  if (rh.hit.instID[0] == RTC_INVALID_GEOMETRY_ID) {
+    hit.shape = top_first_ + rh.hit.geomID;
+    hit.instance = kNone;
+  } else {
+    hit.instance = rh.hit.instID[0] - top_count_;
+    hit.shape = (*groups_)[(*instances_)[hit.instance].group].first + rh.hit.geomID;
+  }
+  return true;
+}
+
+bool Accel::occluded(const Ray& ray) const {
+  RTCRay r;
+  set_ray(r, ray);
+#if RTC_VERSION_MAJOR >= 4
+  rtcOccluded1(static_cast<RTCScene>(scene_), &r);
+#else
+  RTCIntersectContext context;
+  rtcInitIntersectContext(&context);
+  rtcOccluded1(static_cast<RTCScene>(scene_), &context, &r);
+#endif
+  return r.tfar < 0;
+}
+
+Bounds Accel::bounds() const {
+  RTCBounds b;
+  rtcGetSceneBounds(static_cast<RTCScene>(scene_), &b);
+  Bounds out;
+  if (b.lower_x <= b.upper_x) {
+    out.lower = {b.lower_x, b.lower_y, b.lower_z};
+    out.upper = {b.upper_x, b.upper_y, b.upper_z};
+  }
+  return out;
+}
+
+}  // namespace duet

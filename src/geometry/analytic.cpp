@@ -1,0 +1,252 @@
+#include <algorithm>
+
+#include "geometry/shape.h"
+#include "geometry/surface.h"
+#include "math/warp.h"
+
+namespace duet {
+
+namespace {
+
+struct Local {
+  double x, y, z;
+};
+
+Local to_local(const Matrix4& m, const Point3f& p) {
+  const auto row = [&](int i) { return m[i][0] * p.x + m[i][1] * p.y + m[i][2] * p.z + m[i][3]; };
+  return {row(0), row(1), row(2)};
+}
+
+Local to_local(const Matrix4& m, const Vector3f& v) {
+  const auto row = [&](int i) { return m[i][0] * v.x + m[i][1] * v.y + m[i][2] * v.z; };
+  return {row(0), row(1), row(2)};
+}
+
+/// Roots of |o + t d|² = 1, over the first `dimensions` coordinates. The discriminant is formed from
+/// the point of closest approach, which keeps its digits for far origins.
+/// Source: Haines et al., "Precision Improvements for Ray/Sphere Intersection", Ray Tracing Gems, 2019.
+bool unit_quadric_roots(const Local& o, const Local& d, bool use_z, double t[2]) {
+  const double z = use_z ? 1 : 0;
+  const double a = d.x * d.x + d.y * d.y + z * d.z * d.z;
+  if (!(a > 0)) return false;
+  const double b = -(o.x * d.x + o.y * d.y + z * o.z * d.z) / a;
+  const double px = o.x + b * d.x, py = o.y + b * d.y, pz = z * (o.z + b * d.z);
+  const double h2 = 1 - (px * px + py * py + pz * pz);
+  if (!(h2 >= 0)) return false;
+  const double h = std::sqrt(h2 / a);
+  t[0] = b - h, t[1] = b + h;
+  return true;
+}
+
+}  // namespace
+
+int intersect_analytic(const Shape& shape, const Ray& ray, double tnear, double tfar, double t[2]) {
+  const Local o = to_local(shape.to_local, ray.origin);
+  const Local d = to_local(shape.to_local, ray.direction);
+  int n = 0;
+  const auto accept = [&](double s) {
+    if (s > tnear && s < tfar) t[n++] = s;
+  };
+  double roots[2];
+  switch (shape.kind) {
+    case ShapeKind::sphere:
+      if (unit_quadric_roots(o, d, true, roots)) accept(roots[0]), accept(roots[1]);
+      break;
+    case ShapeKind::cylinder:
+      if (unit_quadric_roots(o, d, false, roots))
+        for (const double s : roots) {
+          const double z = o.z + s * d.z;
+          if (z >= 0 && z <= 1) accept(s);
+        }
+      break;
+    case ShapeKind::disk: {
+      const double s = -o.z / d.z;
+      const double x = o.x + s * d.x, y = o.y + s * d.y;
+      if (x * x + y * y <= 1) accept(s);
+      break;
+    }
+    case ShapeKind::mesh: break;
+  }
+  return n;
+}
+
+void Bounds::extend(const Point3f& p) {
+  lower = {std::min(lower.x, p.x), std::min(lower.y, p.y), std::min(lower.z, p.z)};
+  upper = {std::max(upper.x, p.x), std::max(upper.y, p.y), std::max(upper.z, p.z)};
+}
+
+Bounds analytic_bounds(const Shape& shape) {
+  Bounds b;
+  const float z0 = shape.kind == ShapeKind::sphere ? -1.0f : 0.0f;
+  const float z1 = shape.kind == ShapeKind::disk ? 0.0f : 1.0f;
+  for (int i = 0; i < 8; ++i)
+    b.extend(shape.to_world(Point3f(i & 1 ? 1.f : -1.f, i & 2 ? 1.f : -1.f, i & 4 ? z1 : z0)));
+  // The box of a box is larger than that of the shape, but never smaller: pad for rounding only.
+  const float pad = kOffsetScale * std::max(max_abs(b.lower), max_abs(b.upper));
+  b.lower = b.lower - Vector3f(pad), b.upper = b.upper + Vector3f(pad);
+  return b;
+}
+
+float area_stretch(const Shape& shape, const Normal3f& local_normal) {
+  // |det M| |M^-T n|, the general law for how an affine map stretches oriented areas.
+  const auto& r = shape.to_world.rows();
+  const Vector3f x(r[0][0], r[1][0], r[2][0]), y(r[0][1], r[1][1], r[2][1]),
+      z(r[0][2], r[1][2], r[2][2]);
+  return std::abs(dot(x, cross(y, z))) * length(shape.to_world(local_normal));
+}
+
+namespace {
+
+/// Area of the unit shape.
+float local_area(ShapeKind kind) {
+  return kind == ShapeKind::sphere ? 4 * kPi : kind == ShapeKind::disk ? kPi : 2 * kPi;
+}
+
+/// Position and normal of the point of the unit shape with these uniform parameters.
+void unit_point(ShapeKind kind, const Point2f& u, Point3f& p, Normal3f& n) {
+  switch (kind) {
+    case ShapeKind::sphere: {
+      n = Normal3f(square_to_sphere(u));
+      p = Point3f(n);
+      break;
+    }
+    case ShapeKind::disk: {
+      const Point2f d = square_to_disk(u);
+      p = {d.x, d.y, 0};
+      n = {0, 0, 1};
+      break;
+    }
+    default: {
+      const float phi = 2 * kPi * u.x;
+      n = {std::cos(phi), std::sin(phi), 0};
+      p = {n.x, n.y, u.y};
+    }
+  }
+}
+
+/// True if the surface faces the other way than the transformed normal of the unit shape. A sphere
+/// mirrored by its transform is inside out, the other shapes are not; so it is in Mitsuba.
+bool faces_inwards(const Shape& s) {
+  return s.flip_normals != (s.kind == ShapeKind::sphere && s.to_world.mirrors());
+}
+
+Normal3f world_normal(const Shape& shape, const Normal3f& local) {
+  const Normal3f n = normalize(shape.to_world(local));
+  return faces_inwards(shape) ? -n : n;
+}
+
+float rounding_offset(const Shape& shape, const Point3f& p) {
+  const auto& r = shape.to_world.rows();
+  float extent = max_abs(p);
+  for (const auto& row : r)
+    extent = std::max(extent, std::abs(row[3]) + std::abs(row[0]) + std::abs(row[1]) +
+                                  std::abs(row[2]));
+  return kOffsetScale * extent;
+}
+
+}  // namespace
+
+PdfA pdf_analytic(const Shape& shape, const Normal3f& local_normal) {
+  return {1 / (local_area(shape.kind) * area_stretch(shape, local_normal))};
+}
+
+ShapePoint sample_analytic(const Shape& shape, const Point2f& u) {
+  Point3f p;
+  Normal3f n;
+  unit_point(shape.kind, u, p, n);
+  ShapePoint s;
+  s.position = shape.to_world(p);
+  s.ng = world_normal(shape, n);
+  s.pdf = pdf_analytic(shape, n);
+  s.offset = rounding_offset(shape, s.position);
+  const float phi = std::atan2(p.y, p.x);
+  const float around = (phi < 0 ? phi + 2 * kPi : phi) * (0.5f * kInvPi);
+  switch (shape.kind) {
+    case ShapeKind::sphere:
+      s.uv = {around, std::acos(std::clamp(p.z, -1.0f, 1.0f)) * kInvPi};
+      break;
+    case ShapeKind::disk: s.uv = {std::sqrt(p.x * p.x + p.y * p.y), around}; break;
+    default: s.uv = {around, p.z};
+  }
+  return s;
+}
+
+double surface_area(const Shape& shape) {
+  if (shape.kind == ShapeKind::mesh) {
+    double area = 0;
+    for (uint32_t i = 0; i < shape.mesh->triangles.size(); ++i) area += triangle_area(*shape.mesh, i);
+    return area;
+  }
+  // The midpoint rule over the parameters: exact for unstretched shapes.
+  constexpr int kSteps = 64;
+  double sum = 0;
+  for (int i = 0; i < kSteps; ++i)
+    for (int j = 0; j < kSteps; ++j) {
+      Point3f p;
+      Normal3f n;
+      unit_point(shape.kind, {(float(i) + 0.5f) / kSteps, (float(j) + 0.5f) / kSteps}, p, n);
+      sum += area_stretch(shape, n);
+    }
+  return sum / (kSteps * kSteps) * local_area(shape.kind);
+}
+
+Surface make_analytic_surface(const Shape& shape, const Ray& ray, const Hit& hit) {
+  const Local o = to_local(shape.to_local, ray.origin);
+  const Local d = to_local(shape.to_local, ray.direction);
+  double x = o.x + hit.t * d.x, y = o.y + hit.t * d.y, z = o.z + hit.t * d.z;
+  Surface s;
+  s.shape = &shape;
+  Normal3f n;
+  // Back onto the surface, to remove the rounding error of the distance.
+  switch (shape.kind) {
+    case ShapeKind::sphere: {
+      const double l = 1 / std::sqrt(x * x + y * y + z * z);
+      x *= l, y *= l, z *= l;
+      n = {float(x), float(y), float(z)};
+      break;
+    }
+    case ShapeKind::cylinder: {
+      const double l = 1 / std::sqrt(x * x + y * y);
+      x *= l, y *= l;
+      n = {float(x), float(y), 0};
+      break;
+    }
+    default: z = 0, n = {0, 0, 1};
+  }
+  const Point3f p{float(x), float(y), float(z)};
+  s.position = shape.to_world(p);
+  s.ng = world_normal(shape, n);
+  s.offset = rounding_offset(shape, s.position);
+  if (!shape.needs.uv && !shape.needs.tangents) {
+    s.shading = Frame(s.ng);
+    return s;
+  }
+  const float r = std::sqrt(p.x * p.x + p.y * p.y);
+  const float cos_phi = r > 0 ? p.x / r : 1.0f, sin_phi = r > 0 ? p.y / r : 0.0f;
+  const float phi = std::atan2(p.y, p.x);
+  const float around = (phi < 0 ? phi + 2 * kPi : phi) * (0.5f * kInvPi);
+  const Vector3f tangent(-2 * kPi * p.y, 2 * kPi * p.x, 0);
+  Vector3f du, dv;
+  switch (shape.kind) {
+    case ShapeKind::sphere:
+      s.uv = {around, std::acos(std::clamp(p.z, -1.0f, 1.0f)) * kInvPi};
+      du = tangent;
+      dv = Vector3f(p.z * cos_phi, p.z * sin_phi, -r) * kPi;
+      break;
+    case ShapeKind::disk:
+      s.uv = {r, around};
+      du = {cos_phi, sin_phi, 0};
+      dv = r > 0 ? tangent : Vector3f(0, 1, 0);
+      break;
+    default:
+      s.uv = {around, p.z};
+      du = tangent;
+      dv = {0, 0, 1};
+  }
+  s.dp_du = shape.to_world(du);
+  s.dp_dv = shape.to_world(dv);
+  s.shading = Frame::from_tangent(s.ng, s.dp_du);
+  return s;
+}
+
+}  // namespace duet

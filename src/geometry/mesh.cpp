@@ -1,0 +1,78 @@
+#include "geometry/mesh.h"
+
+namespace duet {
+
+const MeshAttribute* TriangleMesh::find_attribute(const std::string& name) const {
+  for (const MeshAttribute& a : attributes)
+    if (a.name == name) return &a;
+  return nullptr;
+}
+
+void compute_vertex_normals(TriangleMesh& mesh) {
+  mesh.normals.assign(mesh.positions.size(), Normal3f{});
+  for (const auto& t : mesh.triangles) {
+    const Point3f p[3] = {mesh.positions[t[0]], mesh.positions[t[1]], mesh.positions[t[2]]};
+    const Vector3f n = cross(p[1] - p[0], p[2] - p[0]);
+    const float l = length(n);
+    if (!(l > 0)) continue;
+    const Normal3f face(n / l);
+    for (int i = 0; i < 3; ++i) {
+      const Vector3f a = p[(i + 1) % 3] - p[i], b = p[(i + 2) % 3] - p[i];
+      const float angle = std::atan2(length(cross(a, b)), dot(a, b));
+      mesh.normals[t[i]] = mesh.normals[t[i]] + face * angle;
+    }
+  }
+  for (Normal3f& n : mesh.normals) {
+    const float l = length(n);
+    n = l > 0 ? n / l : Normal3f{};
+  }
+}
+
+void transform_mesh(TriangleMesh& mesh, const Matrix4& to_world) {
+  if (to_world == Matrix4{}) return;
+  const Transform transform(to_world);
+  for (Point3f& p : mesh.positions) p = transform(p);
+  for (Normal3f& n : mesh.normals) {
+    const Normal3f m = transform(n);
+    const float l = length(m);
+    n = l > 0 ? m / l : Normal3f{};
+  }
+}
+
+TriangleMesh make_cube() {
+  // Per face: the normal and the directions of increasing u and v.
+  struct Face {
+    Vector3f n, u, v;
+  };
+  static constexpr std::array<Face, 6> kFaces{{{{0, -1, 0}, {0, 0, 1}, {1, 0, 0}},
+                                               {{0, 1, 0}, {-1, 0, 0}, {0, 0, -1}},
+                                               {{1, 0, 0}, {0, 1, 0}, {0, 0, -1}},
+                                               {{0, 0, 1}, {0, 1, 0}, {1, 0, 0}},
+                                               {{-1, 0, 0}, {0, 1, 0}, {0, 0, 1}},
+                                               {{0, 0, -1}, {0, -1, 0}, {1, 0, 0}}}};
+  static constexpr std::array<Point2f, 4> kCorners{{{0, 1}, {1, 1}, {1, 0}, {0, 0}}};
+  TriangleMesh mesh;
+  for (const Face& f : kFaces) {
+    const uint32_t base = uint32_t(mesh.positions.size());
+    for (const Point2f& c : kCorners) {
+      const Vector3f p = f.n + f.u * (2 * c.x - 1) + f.v * (2 * c.y - 1);
+      mesh.positions.push_back(Point3f(p));
+      mesh.normals.push_back(Normal3f(f.n));
+      mesh.uvs.push_back(c);
+    }
+    mesh.triangles.push_back({base, base + 1, base + 2});
+    mesh.triangles.push_back({base + 3, base, base + 2});
+  }
+  return mesh;
+}
+
+TriangleMesh make_rectangle() {
+  TriangleMesh mesh;
+  mesh.positions = {{-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0}};
+  mesh.normals.assign(4, {0, 0, 1});
+  mesh.uvs = {{0, 0}, {1, 0}, {1, 1}, {0, 1}};
+  mesh.triangles = {{0, 1, 2}, {0, 2, 3}};
+  return mesh;
+}
+
+}  // namespace duet

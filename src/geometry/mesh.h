@@ -1,0 +1,50 @@
+// A triangle mesh: what mesh files yield and what is rendered.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "math/transform.h"
+#include "math/vector.h"
+
+namespace duet {
+
+/// Further data of a mesh by name, for the `mesh_attribute` texture.
+struct MeshAttribute {
+  std::string name;  ///< with its prefix "vertex_" or "face_"
+  int channels = 3;  ///< 1 or 3
+  bool per_face = false;
+  std::vector<float> data;  ///< elements × channels
+  bool operator==(const MeshAttribute&) const = default;
+};
+
+/// Vertices are shared by the triangles that name them. Arrays other than `positions` and
+/// `triangles` may be empty; otherwise they have one entry per vertex.
+struct TriangleMesh {
+  std::vector<Point3f> positions;
+  std::vector<Normal3f> normals;
+  std::vector<Point2f> uvs;
+  std::vector<std::array<uint32_t, 3>> triangles;
+  std::vector<MeshAttribute> attributes;
+
+  bool operator==(const TriangleMesh&) const = default;
+  const MeshAttribute* find_attribute(const std::string& name) const;
+};
+
+/// Replaces the normals by the angle-weighted means of the faces around each vertex; a vertex without
+/// a proper face gets a normal of zero.
+/// Source: Thürmer & Wüthrich, "Computing Vertex Normals from Polygonal Facets", 1998.
+void compute_vertex_normals(TriangleMesh& mesh);
+
+/// Moves all vertices and normals to where `to_world` puts them. A mirroring transform also turns the
+/// triangles around, so that the front stays the side from which the vertices run counter-clockwise.
+void transform_mesh(TriangleMesh& mesh, const Matrix4& to_world);
+
+/// The cube with corners at ±1, with normals and texture coordinates per face.
+TriangleMesh make_cube();
+/// The rectangle from (−1, −1, 0) to (1, 1, 0), facing +z, with texture coordinates from 0 to 1.
+TriangleMesh make_rectangle();
+
+}  // namespace duet

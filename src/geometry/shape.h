@@ -1,0 +1,110 @@
+// Shapes as they are rendered: triangle meshes in world space and three analytic surfaces.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+
+#include "geometry/mesh.h"
+#include "math/measure.h"
+#include "math/transform.h"
+
+namespace duet {
+
+enum class ShapeKind : uint8_t {
+  mesh,
+  sphere,    ///< unit sphere around the origin
+  disk,      ///< unit disk in the plane z = 0, facing +z
+  cylinder,  ///< radius 1 around the z axis, from z = 0 to 1, facing outwards, without caps
+};
+
+/// What the materials and lights on a surface ask of a hit. What nobody asks for is not computed.
+struct SurfaceNeeds {
+  bool uv = false;        ///< texture coordinates
+  bool tangents = false;  ///< dp/du and dp/dv, and a shading frame aligned with them
+  SurfaceNeeds operator|(const SurfaceNeeds& o) const {
+    return {uv || o.uv, tangents || o.tangents};
+  }
+};
+
+/// An unsigned index that may be absent.
+inline constexpr uint32_t kNone = ~0u;
+
+/// One surface of the scene with what is attached to it. Analytic shapes may be stretched and
+/// mirrored by any invertible affine transform.
+struct Shape {
+  ShapeKind kind = ShapeKind::mesh;
+  /// Turns the surface inside out. For meshes and analytic shapes alike.
+  bool flip_normals = false;
+  SurfaceNeeds needs;
+  uint32_t material = kNone;
+  uint32_t light = kNone;
+
+  std::shared_ptr<const TriangleMesh> mesh;  ///< in world space; for meshes only
+  Transform to_world;                        ///< for analytic shapes only
+  Matrix4 to_local;                          ///< its inverse in double precision
+};
+
+/// An affine copy of a group of shapes.
+struct Instance {
+  uint32_t group = 0;
+  Transform to_world;
+  /// Largest stretch of the transform, for bounds on rounding errors.
+  float scale = 1;
+};
+
+/// Consecutive shapes that are placed together by instances.
+struct ShapeRange {
+  uint32_t first = 0, count = 0;
+};
+
+/// Where a ray met the scene. (u, v) are barycentric coordinates on triangles (weights of the second
+/// and third vertex) and unused on analytic shapes.
+struct Hit {
+  float t, u, v;
+  uint32_t primitive;
+  uint32_t shape;
+  uint32_t instance;  ///< kNone outside of instances
+};
+
+/// The intersections of a ray with an analytic shape in (tnear, tfar), nearest first: their number is
+/// returned and the distances are stored in `t`. Works in double precision and on directions of any
+/// length.
+int intersect_analytic(const Shape& shape, const Ray& ray, double tnear, double tfar, double t[2]);
+
+/// Lower and upper corner of an analytic shape's box in world space.
+struct Bounds {
+  Point3f lower{INFINITY}, upper{-INFINITY};
+  void extend(const Point3f& p);
+  void extend(const Bounds& b) { extend(b.lower), extend(b.upper); }
+  bool empty() const { return !(lower.x <= upper.x); }
+  Point3f center() const { return lower + (upper - lower) * 0.5f; }
+  /// Radius of a sphere around the centre that contains the box.
+  float radius() const { return empty() ? 0.0f : 0.5f * length(upper - lower); }
+};
+Bounds analytic_bounds(const Shape& shape);
+
+/// A point of a shape, chosen or parametrised by a uniform pair of numbers.
+struct ShapePoint {
+  Point3f position;
+  /// Unit geometric normal on the side that emits: that of the shading normal.
+  Normal3f ng;
+  Point2f uv;
+  float offset = 0;  ///< as in Surface
+  PdfA pdf;
+};
+
+/// A point of triangle `primitive`, uniform over its area. `pdf` is one over the triangle's area.
+ShapePoint sample_triangle(const Shape& shape, uint32_t primitive, const Point2f& u);
+/// A point of an analytic shape; `pdf` is exact also where a stretched shape makes it uneven.
+ShapePoint sample_analytic(const Shape& shape, const Point2f& u);
+/// The density with which sample_analytic makes the point whose normal in the shape's own space is
+/// `local_normal` (unit length).
+PdfA pdf_analytic(const Shape& shape, const Normal3f& local_normal);
+/// World-space surface area per area of the unit shape at a point with this local normal.
+float area_stretch(const Shape& shape, const Normal3f& local_normal);
+
+float triangle_area(const TriangleMesh& mesh, uint32_t primitive);
+/// Total area; of a stretched sphere or cylinder by numerical integration to about six digits.
+double surface_area(const Shape& shape);
+
+}  // namespace duet

@@ -1,0 +1,87 @@
+// The film: gathers weighted samples into pixels, tile by tile.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "image/filter.h"
+#include "image/image.h"
+#include "math/vector.h"
+
+namespace duet {
+
+/// A rectangle of whole pixels; `x1` and `y1` are one past the end.
+struct PixelBounds {
+  int x0 = 0, y0 = 0, x1 = 0, y1 = 0;
+  int width() const { return x1 - x0; }
+  int height() const { return y1 - y0; }
+  bool empty() const { return x1 <= x0 || y1 <= y0; }
+  bool contains(int x, int y) const { return x >= x0 && x < x1 && y >= y0 && y < y1; }
+  bool operator==(const PixelBounds&) const = default;
+  PixelBounds intersect(const PixelBounds& o) const;
+  PixelBounds grow(int border) const { return {x0 - border, y0 - border, x1 + border, y1 + border}; }
+};
+
+/// The sums of the samples taken in one square of the film. A sample also counts for pixels beyond
+/// the square, as far as the filter reaches; tiles keep those sums apart, so that threads share
+/// nothing and the film adds them in the same order whatever ran when.
+class FilmTile {
+ public:
+  /// `sampled` are the pixels in which samples are taken, `stored` those they may count for.
+  FilmTile(const PixelBounds& sampled, const PixelBounds& stored, int channels);
+
+  const PixelBounds& sampled() const { return sampled_; }
+  const PixelBounds& stored() const { return stored_; }
+
+  /// Adds `count` samples with the given sums of channels to a pixel (unit box filter only).
+  void add_to_pixel(int x, int y, std::span<const float> sums, float count);
+  /// Adds a sample at a film position to all pixels within the filter's reach.
+  void add_sample(const ReconstructionFilter& filter, const Point2f& position,
+                  std::span<const float> values);
+  /// Adds the sums of another tile of the same bounds.
+  void add(const FilmTile& other);
+  void clear();
+
+ private:
+  friend class Film;
+  double* sums(int x, int y) {
+    return &data_[(size_t(y - stored_.y0) * stored_.width() + (x - stored_.x0)) * (channels_ + 1)];
+  }
+  PixelBounds sampled_, stored_;
+  int channels_;
+  std::vector<double> data_;  ///< per pixel: sum of weights, then the weighted sum of each channel
+};
+
+/// A film is the set of its tiles. Their grid is anchored at the full image's origin, so that a crop
+/// window has the very samples, and the very sums, of the full image.
+class Film {
+ public:
+  static constexpr int kTileSize = 16;
+
+  /// `full` is the size of the whole image, `crop` the window to be developed within it. Samples are
+  /// taken in the window and within the filter's reach around it, but never outside the image.
+  Film(Point2i full, const PixelBounds& crop, const FilterDescription& filter,
+       std::vector<std::string> channels);
+
+  const ReconstructionFilter& filter() const { return filter_; }
+  const PixelBounds& crop() const { return crop_; }
+  Point2i full_size() const { return full_; }
+  const std::vector<std::string>& channels() const { return channels_; }
+  std::vector<FilmTile>& tiles() { return tiles_; }
+
+  /// The weighted means of the window's pixels; a pixel that no sample reached is zero.
+  Image develop() const;
+  /// Adds the sums of another film of the same layout.
+  void add(const Film& other);
+  void clear();
+
+ private:
+  Point2i full_;
+  PixelBounds crop_;
+  ReconstructionFilter filter_;
+  std::vector<std::string> channels_;
+  std::vector<FilmTile> tiles_;
+};
+
+}  // namespace duet

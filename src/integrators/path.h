@@ -1,0 +1,29 @@
+// Path tracing with next event estimation.
+#pragma once
+
+#include "integrators/integrator.h"
+
+namespace duet {
+
+struct PathOptions {
+  int max_depth = -1;  ///< longest path in segments; −1 is no limit
+  int rr_depth = 5;    ///< segments before roulette begins
+  bool hide_emitters = false;
+  /// Ignore directions that the shading and the geometric normal see on different sides.
+  bool strict_normals = false;
+};
+
+/// Unidirectional path tracing from the camera. Light is found by light samples and by BSDF samples,
+/// weighted by the power heuristic (Veach 1997, section 9.2.4).
+class PathIntegrator final : public Integrator {
+ public:
+  explicit PathIntegrator(const PathOptions& options) : options_(options) {}
+  std::vector<std::string> channels() const override { return {"R", "G", "B", "A"}; }
+  void render_tile(const Scene& scene, const Film& film, FilmTile& tile, const SampleRange& samples,
+                   RenderCounters& counters) const override;
+
+ private:
+  PathOptions options_;
+};
+
+}  // namespace duet

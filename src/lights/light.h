@@ -1,0 +1,70 @@
+// The doorway to lights: how much they send where, and how to choose a direction towards them.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+
+#include "geometry/surface.h"
+#include "math/measure.h"
+#include "math/spectrum.h"
+
+namespace duet {
+
+/// A light seen from a point.
+struct LightSample {
+  Vector3f wi;      ///< unit direction towards the light
+  Point3f target;   ///< a point just before the light's surface; only if `finite`
+  Spectrum weight;  ///< incident radiance over the density, or irradiance for delta lights
+  PdfW pdf;         ///< at the lit point; zero for delta lights, which no BSDF sample can find
+  bool finite = true;  ///< false if the light is infinitely far away
+  bool delta = false;
+};
+
+/// Where light comes from when a ray finds it.
+enum class LightKind : uint8_t {
+  area,         ///< a surface: found by hits
+  environment,  ///< all around the scene: found by rays that leave it
+  delta,        ///< a point or a single direction: found by no ray
+};
+
+class Light {
+ public:
+  explicit Light(LightKind kind) : kind_(kind) {}
+  virtual ~Light() = default;
+
+  LightKind kind() const { return kind_; }
+
+  /// A direction from `from` towards the light. Empty if the light does not reach the point.
+  /// `from` must be at a distance from the light that its own rounding error does not swallow.
+  virtual std::optional<LightSample> sample_direct(const Point3f& from, const Point2f& u) const = 0;
+
+  /// Emitted power over all wavelengths, W, or an estimate of it: the share of this light when one
+  /// of many is chosen.
+  virtual float power() const = 0;
+
+ private:
+  LightKind kind_;
+};
+
+/// A light that is a surface of the scene.
+class SurfaceLight : public Light {
+ public:
+  SurfaceLight() : Light(LightKind::area) {}
+  /// Radiance that leaves a point of the surface in the unit direction `w`.
+  virtual Spectrum emitted(const Surface& surface, const Vector3f& w) const = 0;
+  /// The density with which sample_direct(from, …) makes the direction to `surface`, which lies at
+  /// distance² `d2` in the unit direction `wi`.
+  virtual PdfW pdf_direct(const Point3f& from, const Surface& surface, const Vector3f& wi,
+                          float d2) const = 0;
+};
+
+/// A light that surrounds the scene.
+class EnvironmentLight : public Light {
+ public:
+  EnvironmentLight() : Light(LightKind::environment) {}
+  /// Radiance that arrives from the unit direction `wi`.
+  virtual Spectrum emitted(const Vector3f& wi) const = 0;
+  virtual PdfW pdf_direct(const Vector3f& wi) const = 0;
+};
+
+}  // namespace duet

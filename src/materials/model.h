@@ -1,0 +1,54 @@
+// The contract of a scattering model: what each BSDF file implements.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+
+#include "math/frame.h"
+#include "math/measure.h"
+#include "math/spectrum.h"
+
+namespace duet {
+
+/// What is carried along the path that a BSDF is asked about. Refraction scales radiance by the square
+/// of the relative index but leaves importance alone (Veach 1997, section 5.2).
+enum class Transport : uint8_t { radiance, importance };
+
+/// Value f(wo, wi) |cos θ_i| of the smooth lobes and the density with which sample() makes wi.
+struct ModelEval {
+  Spectrum value;
+  float pdf = 0;  ///< per solid angle of wi
+};
+
+struct ModelSample {
+  Vector3f wi;
+  Spectrum weight;  ///< f |cos θ_i| / pdf, or the delta lobe's coefficient over its probability
+  float pdf = 0;    ///< per solid angle; for a delta lobe its probability
+  float eta = 1;    ///< index on wi's side over that on wo's side (1 for reflection)
+  bool delta = false;
+};
+
+/// A model has its parameters as plain numbers, already looked up at the hit. Directions are unit
+/// vectors in the local frame and point away from the surface: wo to where the path comes from, wi to
+/// where it goes. All functions are const and know nothing of the frame. Each model provides
+///
+///   ModelEval eval(wo, wi, transport)            smooth lobes only; zero if there are none
+///   std::optional<ModelSample> sample(wo, u, v, transport)
+///                                                u picks the lobe, v the direction; empty if the
+///                                                direction made carries nothing
+///   bool has_smooth(), has_delta()               which kinds of lobes there are
+///   bool needs_choice()                          whether sample() looks at u
+///
+/// eval and sample must agree: over many samples, mean(weight · g(wi)) = ∫ f |cos| g dwi plus the
+/// delta terms. Reciprocity lets bidirectional methods ask for the density of the reverse direction
+/// by exchanging wo and wi.
+template <class M>
+concept ScatteringModel = requires(const M& m, const Vector3f& w, float u, const Point2f& v) {
+  { m.eval(w, w, Transport::radiance) } -> std::same_as<ModelEval>;
+  { m.sample(w, u, v, Transport::radiance) } -> std::same_as<std::optional<ModelSample>>;
+  { m.has_smooth() } -> std::same_as<bool>;
+  { m.has_delta() } -> std::same_as<bool>;
+  { m.needs_choice() } -> std::same_as<bool>;
+};
+
+}  // namespace duet

@@ -1,0 +1,57 @@
+// The closed set of scattering models. A new model is added to the list here.
+#pragma once
+
+#include <type_traits>
+
+#include "materials/diffuse.h"
+#include "materials/null.h"
+
+/// X(enumerator, type) for each model.
+#define DUET_BSDF_MODELS(X) \
+  X(diffuse, DiffuseModel)  \
+  X(null, NullModel)
+
+namespace duet {
+
+#define DUET_ENUMERATOR(name, type) name,
+enum class ModelKind : uint8_t { DUET_BSDF_MODELS(DUET_ENUMERATOR) };
+#undef DUET_ENUMERATOR
+
+/// Room for any one model; the kind is kept beside it.
+union ModelUnion {
+  ModelUnion() {}
+#define DUET_MEMBER(name, type) type name;
+  DUET_BSDF_MODELS(DUET_MEMBER)
+#undef DUET_MEMBER
+};
+
+#define DUET_CHECK(name, type)                         \
+  static_assert(ScatteringModel<type>);                \
+  static_assert(std::is_trivially_copyable_v<type>);   \
+  static_assert(std::is_trivially_destructible_v<type>);
+DUET_BSDF_MODELS(DUET_CHECK)
+#undef DUET_CHECK
+
+/// Stores `model` and its kind in anything with members `kind` and `model`.
+#define DUET_SET(name, type)                           \
+  template <class Component>                           \
+  void set_model(Component& c, const type& model) {    \
+    c.kind = ModelKind::name;                          \
+    c.model.name = model;                              \
+  }
+DUET_BSDF_MODELS(DUET_SET)
+#undef DUET_SET
+
+/// Calls `f` with the model that is stored in `c`.
+template <class Component, class F>
+inline auto visit_model(const Component& c, F&& f) {
+  switch (c.kind) {
+#define DUET_CASE(name, type) \
+  case ModelKind::name: return f(c.model.name);
+    DUET_BSDF_MODELS(DUET_CASE)
+#undef DUET_CASE
+  }
+  __builtin_unreachable();
+}
+
+}  // namespace duet

@@ -1,0 +1,95 @@
+// Random numbers by index: (seed, pixel, sample, dimension) → number, so that any sample of any pixel
+// can be made anywhere and at any time.
+#pragma once
+
+#include <cstdint>
+
+#include "math/hash.h"
+#include "math/sobol.h"
+#include "math/vector.h"
+
+namespace duet {
+
+/// Which numbers a sampler hands out.
+enum class SampleSequence {
+  independent,  ///< hashed counters: statistically independent samples
+  sobol,        ///< Owen-scrambled Sobol' points, scrambled anew for every pixel
+};
+
+/// The random numbers of the samples of one pixel, handed out dimension by dimension.
+/// Numbers lie in [0, 1).
+class Sampler {
+ public:
+  /// `pixel` identifies the pixel within the full image (never within a crop or a tile); `scramble`
+  /// is the number of the batch: batches of one seed are independent of one another.
+  Sampler(SampleSequence sequence, uint64_t seed, uint32_t scramble, uint64_t pixel)
+      : sequence_(sequence), pixel_key_(hash_combine(hash_combine(seed, scramble), pixel)) {}
+
+  /// Continues at dimension 0 of the sample with this index.
+  void start_sample(uint32_t index) {
+    dimension_ = 0;
+    if (sequence_ == SampleSequence::independent) {
+      key_ = mix64(pixel_key_ + index);
+      return;
+    }
+    index_ = index & ((1u << kSobolIndexBits) - 1);
+    // A sequence that is used up goes on with a new scramble.
+    const uint32_t round = index >> kSobolIndexBits;
+    key_ = round == 0 ? pixel_key_ : hash_combine(pixel_key_, round);
+    block_ = 0;
+    row_ = sobol_row(index_);
+  }
+
+  /// Continues at the given dimension: each vertex of a path has dimensions of its own, so that what
+  /// one vertex uses does not shift the numbers of the next.
+  void start_dimension(uint32_t d) {
+    dimension_ = d;
+    if (sequence_ == SampleSequence::sobol) select_block(d / kSobolDimensions);
+  }
+
+  float next_1d() {
+    const uint32_t d = dimension_++;
+    if (sequence_ == SampleSequence::independent) return to_unit_float(uint32_t(draw(d) >> 32));
+    return scrambled(d);
+  }
+
+  Point2f next_2d() {
+    const uint32_t d = dimension_;
+    dimension_ += 2;
+    if (sequence_ == SampleSequence::independent) {
+      const uint64_t bits = draw(d);
+      return {to_unit_float(uint32_t(bits >> 32)), to_unit_float(uint32_t(bits))};
+    }
+    const float x = scrambled(d);
+    return {x, scrambled(d + 1)};
+  }
+
+ private:
+  uint64_t draw(uint32_t d) const { return mix64(key_ + 0x9e3779b97f4a7c15ull * (d + 1)); }
+
+  float scrambled(uint32_t d) {
+    if (d / kSobolDimensions != block_) select_block(d / kSobolDimensions);
+    const uint32_t scramble = mix32(uint32_t(key_ >> 32) + 0x9e3779b9u * (d + 1));
+    return to_unit_float(owen_scramble_reversed(row_.value(d % kSobolDimensions), scramble));
+  }
+
+  /// Dimensions come in blocks of kSobolDimensions; later blocks use the same points in another order
+  /// that is itself an Owen scramble, so each prefix of the sequence stays well distributed.
+  /// Source: Burley, "Practical Hash-based Owen Scrambling", JCGT 9(4), 2020.
+  void select_block(uint32_t block) {
+    if (block == block_) return;
+    block_ = block;
+    const uint32_t shuffle = mix32(uint32_t(key_) ^ (0x85ebca6bu * block));
+    row_ = sobol_row(block == 0 ? index_ : shuffle_index(index_, shuffle));
+  }
+
+  SampleSequence sequence_;
+  uint32_t index_ = 0;
+  uint32_t dimension_ = 0;
+  uint32_t block_ = 0;
+  uint64_t pixel_key_;
+  uint64_t key_ = 0;
+  SobolRow row_;
+};
+
+}  // namespace duet

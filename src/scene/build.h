@@ -1,0 +1,24 @@
+// From a description to a scene: the one place where things are made by name.
+#pragma once
+
+#include <memory>
+
+#include "base/diagnostics.h"
+#include "scene/description.h"
+#include "scene/scene.h"
+
+namespace duet {
+
+struct BuildOptions {
+  /// Which of the description's sensors to look through.
+  size_t sensor = 0;
+  int threads = 1;
+};
+
+/// Builds what the description says; null, with errors in `diagnostics`, if something in it cannot be
+/// built (a missing image, a transform that cannot be inverted, …). All such errors are reported
+/// together. The description's meshes move into the scene where nothing else holds them.
+std::unique_ptr<Scene> build_scene(SceneDescription description, const BuildOptions& options,
+                                   Diagnostics& diagnostics);
+
+}  // namespace duet

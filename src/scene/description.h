@@ -1,0 +1,421 @@
+// The scene as plain data: what every parser yields and what build() makes a Scene of.
+//
+// A description has one meaning, whatever file version it came from: colours are linear sRGB,
+// parameters have their names and units of Mitsuba 3, references are indices, meshes are loaded.
+// Two descriptions compare equal if they describe the same scene; places and names do not count.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "base/diagnostics.h"
+#include "geometry/mesh.h"
+#include "image/filter.h"
+#include "materials/microfacet_kind.h"
+#include "math/fov.h"
+#include "math/spectrum.h"
+#include "math/transform.h"
+#include "textures/bitmap_options.h"
+
+namespace duet {
+
+/// Indices into the arrays of a SceneDescription.
+enum class TextureId : uint32_t {};
+enum class MaterialId : uint32_t {};
+
+/// A parameter that is either a constant or a texture.
+using ColorInput = std::variant<Spectrum, TextureId>;
+using FloatInput = std::variant<double, TextureId>;
+
+/// How a thing is called in the file, for messages; it does not count in comparisons.
+struct Label {
+  std::string text;
+  friend bool operator==(const Label&, const Label&) { return true; }
+};
+
+// ---- Textures ---------------------------------------------------------------------------------
+
+struct BitmapTexture {
+  std::string file;  ///< resolved path
+  TextureFilter filter = TextureFilter::bilinear;
+  WrapMode wrap_u = WrapMode::repeat, wrap_v = WrapMode::repeat;
+  /// Values are data, not colours: nothing is decoded.
+  bool raw = false;
+  /// Overrides the file's transfer curve: 1 is linear, −1 sRGB, another number a power. Absent: sRGB
+  /// for 8-bit files, linear for floating-point files.
+  std::optional<double> gamma;
+  TextureChannel channel = TextureChannel::all;
+  UvTransform to_uv;
+  bool operator==(const BitmapTexture&) const = default;
+};
+
+struct CheckerboardTexture {
+  ColorInput color0 = Spectrum(0.4f), color1 = Spectrum(0.2f);
+  UvTransform to_uv;
+  bool operator==(const CheckerboardTexture&) const = default;
+};
+
+struct MeshAttributeTexture {
+  std::string attribute;
+  double scale = 1;
+  bool operator==(const MeshAttributeTexture&) const = default;
+};
+
+struct TextureDescription {
+  SourceLocation where;
+  Label label;
+  std::variant<BitmapTexture, CheckerboardTexture, MeshAttributeTexture> model;
+  bool operator==(const TextureDescription&) const = default;
+};
+
+// ---- Materials --------------------------------------------------------------------------------
+
+/// A rough interface; absent where the interface is smooth.
+struct Roughness {
+  MicrofacetDistribution distribution = MicrofacetDistribution::beckmann;
+  FloatInput alpha_u = 0.1, alpha_v = 0.1;
+  bool sample_visible = true;
+  bool operator==(const Roughness&) const = default;
+};
+
+struct DiffuseMaterial {
+  ColorInput reflectance = Spectrum(0.5f);
+  bool operator==(const DiffuseMaterial&) const = default;
+};
+
+/// `eta` and `k` are relative to the outside. A perfect mirror has eta = 0 and k = 1.
+struct ConductorMaterial {
+  ColorInput eta = Spectrum(0.0f), k = Spectrum(1.0f);
+  ColorInput specular_reflectance = Spectrum(1.0f);
+  std::optional<Roughness> roughness;
+  bool operator==(const ConductorMaterial&) const = default;
+};
+
+struct DielectricMaterial {
+  FloatInput eta = 1.5046 / 1.000277;  ///< inside over outside
+  ColorInput specular_reflectance = Spectrum(1.0f), specular_transmittance = Spectrum(1.0f);
+  std::optional<Roughness> roughness;
+  bool operator==(const DielectricMaterial&) const = default;
+};
+
+struct ThinDielectricMaterial {
+  double eta = 1.5046 / 1.000277;
+  ColorInput specular_reflectance = Spectrum(1.0f), specular_transmittance = Spectrum(1.0f);
+  bool operator==(const ThinDielectricMaterial&) const = default;
+};
+
+struct PlasticMaterial {
+  double eta = 1.49 / 1.000277;
+  ColorInput diffuse_reflectance = Spectrum(0.5f), specular_reflectance = Spectrum(1.0f);
+  bool nonlinear = false;
+  std::optional<Roughness> roughness;  ///< isotropic: alpha_v equals alpha_u
+  bool operator==(const PlasticMaterial&) const = default;
+};
+
+/// Burley 2012 and 2015, as parametrised by Mitsuba 3.
+struct PrincipledMaterial {
+  ColorInput base_color = Spectrum(0.5f);
+  FloatInput roughness = 0.5, anisotropic = 0.0, metallic = 0.0, spec_trans = 0.0;
+  /// The index of refraction, or Burley's `specular`; Mitsuba takes one of them.
+  double eta = 1.5;
+  std::optional<double> specular;
+  FloatInput spec_tint = 0.0, sheen = 0.0, sheen_tint = 0.0, flatness = 0.0;
+  FloatInput clearcoat = 0.0, clearcoat_gloss = 0.0;
+  double diffuse_reflectance_sampling_rate = 1, main_specular_sampling_rate = 1,
+         clearcoat_sampling_rate = 1;
+  bool operator==(const PrincipledMaterial&) const = default;
+};
+
+struct PrincipledThinMaterial {
+  ColorInput base_color = Spectrum(0.5f);
+  FloatInput roughness = 0.5, anisotropic = 0.0, spec_trans = 0.0, eta = 1.5, spec_tint = 0.0,
+             sheen = 0.0, sheen_tint = 0.0, flatness = 0.0, diff_trans = 0.0;
+  double spec_reflectance_sampling_rate = 1, spec_transmittance_sampling_rate = 1,
+         diffuse_reflectance_sampling_rate = 1, diffuse_transmittance_sampling_rate = 1;
+  bool operator==(const PrincipledThinMaterial&) const = default;
+};
+
+struct TwoSidedMaterial {
+  MaterialId front{}, back{};
+  bool operator==(const TwoSidedMaterial&) const = default;
+};
+
+struct MaskMaterial {
+  FloatInput opacity = 0.5;
+  MaterialId nested{};
+  bool operator==(const MaskMaterial&) const = default;
+};
+
+/// (1 − weight) · first + weight · second.
+struct BlendMaterial {
+  FloatInput weight = 0.5;
+  MaterialId first{}, second{};
+  bool operator==(const BlendMaterial&) const = default;
+};
+
+struct BumpMapMaterial {
+  TextureId height{};
+  double scale = 1;
+  bool flip_invalid_normals = true, use_shadowing_function = true;
+  MaterialId nested{};
+  bool operator==(const BumpMapMaterial&) const = default;
+};
+
+struct NormalMapMaterial {
+  TextureId normals{};
+  bool flip_invalid_normals = true, use_shadowing_function = true;
+  MaterialId nested{};
+  bool operator==(const NormalMapMaterial&) const = default;
+};
+
+struct NullMaterial {
+  bool operator==(const NullMaterial&) const = default;
+};
+
+struct MaterialDescription {
+  SourceLocation where;
+  Label label;
+  std::variant<DiffuseMaterial, ConductorMaterial, DielectricMaterial, ThinDielectricMaterial,
+               PlasticMaterial, PrincipledMaterial, PrincipledThinMaterial, TwoSidedMaterial,
+               MaskMaterial, BlendMaterial, BumpMapMaterial, NormalMapMaterial, NullMaterial>
+      model;
+  bool operator==(const MaterialDescription&) const = default;
+};
+
+// ---- Shapes -----------------------------------------------------------------------------------
+
+/// Where a mesh came from, so that a description can be written out again.
+struct MeshSource {
+  std::string file;       ///< resolved path, or "" for a mesh made by the program
+  std::string plugin;     ///< obj, ply, serialized
+  int shape_index = 0;    ///< of a serialized file
+  bool face_normals = false;
+  bool flip_tex_coords = true;
+  std::optional<double> max_smooth_angle;
+};
+
+/// The mesh in its own space. Shapes may share one.
+struct MeshShape {
+  std::shared_ptr<const TriangleMesh> mesh;
+  MeshSource source;
+  friend bool operator==(const MeshShape& a, const MeshShape& b) {
+    return a.mesh == b.mesh || (a.mesh && b.mesh && *a.mesh == *b.mesh);
+  }
+};
+struct RectangleShape {
+  bool operator==(const RectangleShape&) const = default;
+};
+struct CubeShape {
+  bool operator==(const CubeShape&) const = default;
+};
+/// Unit shapes; a centre, radius or end points are part of `to_world`.
+struct SphereShape {
+  bool operator==(const SphereShape&) const = default;
+};
+struct DiskShape {
+  bool operator==(const DiskShape&) const = default;
+};
+struct CylinderShape {
+  bool operator==(const CylinderShape&) const = default;
+};
+/// A copy of SceneDescription::groups[group].
+struct InstanceShape {
+  uint32_t group = 0;
+  bool operator==(const InstanceShape&) const = default;
+};
+
+/// Radiance of a surface that emits.
+struct AreaEmission {
+  SourceLocation where;
+  ColorInput radiance = Spectrum(1.0f);
+  bool operator==(const AreaEmission&) const = default;
+};
+
+struct ShapeDescription {
+  SourceLocation where;
+  Label label;
+  std::variant<MeshShape, RectangleShape, CubeShape, SphereShape, DiskShape, CylinderShape,
+               InstanceShape>
+      geometry;
+  Matrix4 to_world;
+  bool flip_normals = false;
+  MaterialId material{};  ///< not used by instances
+  std::optional<AreaEmission> emission;
+  bool operator==(const ShapeDescription&) const = default;
+};
+
+struct ShapeGroupDescription {
+  SourceLocation where;
+  Label label;
+  std::vector<ShapeDescription> shapes;
+  bool operator==(const ShapeGroupDescription&) const = default;
+};
+
+// ---- Lights that are not surfaces -------------------------------------------------------------
+
+/// Radiant intensity in all directions, W/sr.
+struct PointLight {
+  Spectrum intensity{1.0f};
+  bool operator==(const PointLight&) const = default;
+};
+/// At the origin of its transform, along +z. Angles in degrees from the axis: full intensity within
+/// beam_width, none beyond cutoff_angle, linear in the angle between.
+struct SpotLight {
+  Spectrum intensity{1.0f};
+  double cutoff_angle = 20, beam_width = 15;
+  std::optional<TextureId> texture;
+  bool operator==(const SpotLight&) const = default;
+};
+/// A pinhole camera turned around: throws the texture through a frustum along +z.
+struct ProjectorLight {
+  ColorInput irradiance = Spectrum(1.0f);
+  double scale = 1;
+  double fov = 45;
+  FovAxis fov_axis = FovAxis::x;
+  bool operator==(const ProjectorLight&) const = default;
+};
+/// Irradiance on a plane across the direction +z.
+struct DirectionalLight {
+  Spectrum irradiance{1.0f};
+  bool operator==(const DirectionalLight&) const = default;
+};
+struct ConstantLight {
+  Spectrum radiance{1.0f};
+  bool operator==(const ConstantLight&) const = default;
+};
+/// A latitude–longitude image around the scene, +y up.
+struct EnvironmentMapLight {
+  std::string file;  ///< resolved path
+  double scale = 1;
+  std::optional<double> gamma;  ///< as in BitmapTexture
+  bool operator==(const EnvironmentMapLight&) const = default;
+};
+
+struct LightDescription {
+  SourceLocation where;
+  Label label;
+  std::variant<PointLight, SpotLight, ProjectorLight, DirectionalLight, ConstantLight,
+               EnvironmentMapLight>
+      model;
+  Matrix4 to_world;
+  /// 0.6's `samplingWeight`: multiplies the light's share in the choice of a light.
+  double sampling_weight = 1;
+  bool operator==(const LightDescription&) const = default;
+};
+
+// ---- Sensor, film, sampler --------------------------------------------------------------------
+
+enum class SensorKind { perspective, thinlens, orthographic };
+enum class PixelFormat { luminance, luminance_alpha, rgb, rgba, xyz, xyza };
+enum class ComponentFormat { half, single };
+
+/// A window of the film in pixels.
+struct CropWindow {
+  int x = 0, y = 0, width = 0, height = 0;
+  bool operator==(const CropWindow&) const = default;
+};
+
+/// How 0.6's ldrfilm turns radiance into display values. Used for PNG and JPEG output only.
+struct ToneMapping {
+  bool reinhard = false;
+  double gamma = -1;  ///< −1 is the sRGB curve
+  double exposure = 0;  ///< in stops
+  double key = 0.18, burn = 0;  ///< Reinhard's operator
+  bool operator==(const ToneMapping&) const = default;
+};
+
+struct FilmDescription {
+  SourceLocation where;
+  int width = 768, height = 576;
+  std::optional<CropWindow> crop;
+  FilterDescription filter;
+  PixelFormat pixel_format = PixelFormat::rgb;
+  ComponentFormat component_format = ComponentFormat::half;
+  std::optional<ToneMapping> tone_mapping;
+  bool operator==(const FilmDescription&) const = default;
+};
+
+struct SamplerDescription {
+  std::string name = "independent";  ///< as the scene calls it
+  int sample_count = 4;
+  uint64_t seed = 0;
+  bool operator==(const SamplerDescription&) const = default;
+};
+
+struct SensorDescription {
+  SourceLocation where;
+  Label label;
+  SensorKind kind = SensorKind::perspective;
+  Matrix4 to_world;  ///< looks along +z, +x to the left of the image, +y up
+  double fov = 45;   ///< degrees
+  FovAxis fov_axis = FovAxis::x;
+  double principal_point_offset_x = 0, principal_point_offset_y = 0;  ///< in image sizes
+  double near_clip = 1e-2, far_clip = 1e4;
+  double aperture_radius = 0, focus_distance = 0;  ///< thinlens
+  FilmDescription film;
+  SamplerDescription sampler;
+  bool operator==(const SensorDescription&) const = default;
+};
+
+// ---- Integrator -------------------------------------------------------------------------------
+
+struct PathIntegratorDescription {
+  int max_depth = -1;  ///< in segments; −1 is no limit
+  int rr_depth = 5;
+  bool hide_emitters = false, strict_normals = false;
+  bool operator==(const PathIntegratorDescription&) const = default;
+};
+struct DirectIntegratorDescription {
+  int emitter_samples = 1, bsdf_samples = 1;
+  bool hide_emitters = false, strict_normals = false;
+  bool operator==(const DirectIntegratorDescription&) const = default;
+};
+struct DepthIntegratorDescription {
+  bool operator==(const DepthIntegratorDescription&) const = default;
+};
+/// Layers by their Mitsuba name and the name they get in the file.
+struct AovDescription {
+  struct Layer {
+    std::string kind, name;
+    bool operator==(const Layer&) const = default;
+  };
+  std::vector<Layer> layers;
+  bool operator==(const AovDescription&) const = default;
+};
+
+struct IntegratorDescription {
+  SourceLocation where;
+  std::variant<PathIntegratorDescription, DirectIntegratorDescription, DepthIntegratorDescription>
+      method;
+  AovDescription aovs;   ///< layers asked for by an `aov` integrator
+  bool image = true;     ///< false if an `aov` integrator has no nested integrator
+  bool moments = false;  ///< wrapped in a `moment` integrator: second moments as layers
+  bool operator==(const IntegratorDescription&) const = default;
+};
+
+// ---- The scene --------------------------------------------------------------------------------
+
+struct SceneDescription {
+  std::string file;  ///< the main file
+  std::vector<TextureDescription> textures;
+  std::vector<MaterialDescription> materials;
+  std::vector<ShapeDescription> shapes;
+  std::vector<ShapeGroupDescription> groups;
+  std::vector<LightDescription> lights;
+  std::vector<SensorDescription> sensors;
+  IntegratorDescription integrator;
+  /// What is rendered differently from what the file asks for, one sentence each.
+  std::vector<Diagnostic> approximations;
+
+  /// Compares what is described; the order of things counts.
+  friend bool operator==(const SceneDescription& a, const SceneDescription& b) {
+    return a.textures == b.textures && a.materials == b.materials && a.shapes == b.shapes &&
+           a.groups == b.groups && a.lights == b.lights && a.sensors == b.sensors &&
+           a.integrator == b.integrator;
+  }
+};
+
+}  // namespace duet

@@ -1,0 +1,48 @@
+// The scene as it is rendered: immutable once built.
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "cameras/camera.h"
+#include "geometry/accel.h"
+#include "geometry/surface.h"
+#include "lights/light.h"
+#include "lights/picker.h"
+#include "materials/bsdf.h"
+#include "textures/texture.h"
+
+namespace duet {
+
+/// Everything that rays can meet. Owns its parts; indices in shapes refer to these arrays.
+struct Scene {
+  std::vector<Shape> shapes;
+  ShapeRange top;
+  std::vector<ShapeRange> groups;
+  std::vector<Instance> instances;
+  std::vector<std::unique_ptr<Texture>> textures;
+  std::vector<std::unique_ptr<Material>> materials;
+  std::vector<std::unique_ptr<Light>> lights;
+  LightPicker picker;
+  /// The light that rays find when they leave the scene, or null; and its index.
+  const EnvironmentLight* environment = nullptr;
+  uint32_t environment_index = kNone;
+  std::unique_ptr<Camera> camera;
+  std::unique_ptr<Accel> accel;
+
+  Scene() = default;
+  Scene(const Scene&) = delete;
+  Scene& operator=(const Scene&) = delete;
+
+  Surface surface(const Ray& ray, const Hit& hit) const {
+    const Instance* instance = hit.instance == kNone ? nullptr : &instances[hit.instance];
+    return make_surface(shapes[hit.shape], instance, ray, hit);
+  }
+  /// The light on a shape, or null.
+  const SurfaceLight* light_on(const Shape& shape) const {
+    return shape.light == kNone ? nullptr
+                                : static_cast<const SurfaceLight*>(lights[shape.light].get());
+  }
+};
+
+}  // namespace duet

@@ -1,0 +1,49 @@
+// What a material parameter may be: a constant, or a texture looked up at each hit.
+#pragma once
+
+#include "geometry/surface.h"
+#include "math/spectrum.h"
+
+namespace duet {
+
+/// A function on surfaces. A colour texture asked for a number yields its luminance, a grey one asked
+/// for a colour yields grey, as in Mitsuba.
+class Texture {
+ public:
+  virtual ~Texture() = default;
+  virtual Spectrum color(const Surface& s) const = 0;
+  virtual float value(const Surface& s) const = 0;
+  /// Derivatives of value() by the surface's texture coordinates.
+  virtual Point2f gradient(const Surface& s) const = 0;
+  /// Mean over the texture's domain: used to weigh one light or lobe against another.
+  virtual Spectrum average() const = 0;
+  /// Whether a lookup reads the texture coordinates (and not just where on the mesh it is).
+  virtual bool needs_uv() const { return true; }
+  /// Upper bound of any channel of color().
+  virtual float maximum() const = 0;
+};
+
+/// A colour parameter. The constant costs no call.
+struct ColorSlot {
+  Spectrum constant;
+  const Texture* texture = nullptr;
+
+  Spectrum operator()(const Surface& s) const { return texture ? texture->color(s) : constant; }
+  Spectrum average() const { return texture ? texture->average() : constant; }
+  float maximum() const { return texture ? texture->maximum() : constant.max(); }
+  bool is_constant() const { return !texture; }
+  bool needs_uv() const { return texture && texture->needs_uv(); }
+};
+
+/// A number parameter.
+struct FloatSlot {
+  float constant = 0;
+  const Texture* texture = nullptr;
+
+  float operator()(const Surface& s) const { return texture ? texture->value(s) : constant; }
+  float average() const { return texture ? texture->average().mean() : constant; }
+  bool is_constant() const { return !texture; }
+  bool needs_uv() const { return texture && texture->needs_uv(); }
+};
+
+}  // namespace duet
