@@ -26,9 +26,15 @@ State& state() {
 
 }  // namespace
 
-void set_level(Level level) { state().level = level; }
-Level level() { return state().level; }
-void set_before_write(void (*hook)()) { state().before_write = hook; }
+void set_level(Level level) {
+  state().level = level;
+}
+Level level() {
+  return state().level;
+}
+void set_before_write(void (*hook)()) {
+  state().before_write = hook;
+}
 
 void open_file(const std::string& path) {
   try {

@@ -8,7 +8,7 @@ namespace duet {
 /// What both have in common: a frustum of rays along +z of the camera's space.
 struct PerspectiveView {
   Transform to_world;
-  Point2i film;             ///< size of the full image in pixels
+  Point2i film;                ///< size of the full image in pixels
   double horizontal_fov = 45;  ///< degrees
   /// Shift of the image in units of its width and height.
   double offset_x = 0, offset_y = 0;

@@ -33,13 +33,14 @@ struct TriangleMesh {
   const MeshAttribute* find_attribute(const std::string& name) const;
 };
 
-/// Replaces the normals by the angle-weighted means of the faces around each vertex; a vertex without
-/// a proper face gets a normal of zero.
-/// Source: Thürmer & Wüthrich, "Computing Vertex Normals from Polygonal Facets", 1998.
+/// Replaces the normals by the angle-weighted means of the faces around each vertex; a vertex
+/// without a proper face gets a normal of zero. Source: Thürmer & Wüthrich, "Computing Vertex
+/// Normals from Polygonal Facets", 1998.
 void compute_vertex_normals(TriangleMesh& mesh);
 
-/// Moves all vertices and normals to where `to_world` puts them. A mirroring transform also turns the
-/// triangles around, so that the front stays the side from which the vertices run counter-clockwise.
+/// Moves all vertices and normals to where `to_world` puts them. A mirroring transform also turns
+/// the triangles around, so that the front stays the side from which the vertices run
+/// counter-clockwise.
 void transform_mesh(TriangleMesh& mesh, const Matrix4& to_world);
 
 /// The cube with corners at ±1, with normals and texture coordinates per face.

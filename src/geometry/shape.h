@@ -57,8 +57,8 @@ struct ShapeRange {
   uint32_t first = 0, count = 0;
 };
 
-/// Where a ray met the scene. (u, v) are barycentric coordinates on triangles (weights of the second
-/// and third vertex) and unused on analytic shapes.
+/// Where a ray met the scene. (u, v) are barycentric coordinates on triangles (weights of the
+/// second and third vertex) and unused on analytic shapes.
 struct Hit {
   float t, u, v;
   uint32_t primitive;
@@ -66,9 +66,9 @@ struct Hit {
   uint32_t instance;  ///< kNone outside of instances
 };
 
-/// The intersections of a ray with an analytic shape in (tnear, tfar), nearest first: their number is
-/// returned and the distances are stored in `t`. Works in double precision and on directions of any
-/// length.
+/// The intersections of a ray with an analytic shape in (tnear, tfar), nearest first: their number
+/// is returned and the distances are stored in `t`. Works in double precision and on directions of
+/// any length.
 int intersect_analytic(const Shape& shape, const Ray& ray, double tnear, double tfar, double t[2]);
 
 /// Lower and upper corner of an analytic shape's box in world space.

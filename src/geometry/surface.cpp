@@ -80,18 +80,16 @@ Surface make_mesh_surface(const Shape& shape, const Hit& hit) {
 
 }  // namespace
 
-Surface make_surface(const Shape& shape, const Instance* instance, const Ray& ray,
-                     const Hit& hit) {
+Surface make_surface(const Shape& shape, const Instance* instance, const Ray& ray, const Hit& hit) {
   if (!instance)
     return shape.kind == ShapeKind::mesh ? make_mesh_surface(shape, hit)
                                          : make_analytic_surface(shape, ray, hit);
   const Transform& place = instance->to_world;
-  Surface s = shape.kind == ShapeKind::mesh
-                  ? make_mesh_surface(shape, hit)
-                  : make_analytic_surface(shape,
-                                          {place.inverse(ray.origin), place.inverse(ray.direction),
-                                           ray.tmax},
-                                          hit);
+  Surface s =
+      shape.kind == ShapeKind::mesh
+          ? make_mesh_surface(shape, hit)
+          : make_analytic_surface(
+                shape, {place.inverse(ray.origin), place.inverse(ray.direction), ray.tmax}, hit);
   const float local = s.offset;
   s.position = place(s.position);
   // The rounding errors of the copy, those of placing it, and those of bringing rays to it.

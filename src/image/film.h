@@ -20,7 +20,9 @@ struct PixelBounds {
   bool contains(int x, int y) const { return x >= x0 && x < x1 && y >= y0 && y < y1; }
   bool operator==(const PixelBounds&) const = default;
   PixelBounds intersect(const PixelBounds& o) const;
-  PixelBounds grow(int border) const { return {x0 - border, y0 - border, x1 + border, y1 + border}; }
+  PixelBounds grow(int border) const {
+    return {x0 - border, y0 - border, x1 + border, y1 + border};
+  }
 };
 
 /// The sums of the samples taken in one square of the film. A sample also counts for pixels beyond
@@ -61,8 +63,8 @@ struct FilmLayout {
   FilterDescription filter;
 };
 
-/// A film is the set of its tiles. Their grid is anchored at the full image's origin, so that a crop
-/// window has the very samples, and the very sums, of the full image.
+/// A film is the set of its tiles. Their grid is anchored at the full image's origin, so that a
+/// crop window has the very samples, and the very sums, of the full image.
 class Film {
  public:
   static constexpr int kTileSize = 16;

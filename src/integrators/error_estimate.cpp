@@ -53,8 +53,9 @@ void PartialMeans::add_part(const Film& film) {
     size_t i = 0;
     for (int y = own.y0; y < own.y1; ++y)
       for (int x = own.x0; x < own.x1; ++x, ++i) {
-        const size_t at = (size_t(y - tile.stored().y0) * tile.stored().width() +
-                           size_t(x - tile.stored().x0)) * stride;
+        const size_t at =
+            (size_t(y - tile.stored().y0) * tile.stored().width() + size_t(x - tile.stored().x0)) *
+            stride;
         const double* now = &tile.data()[at];
         const double* then = &before_[k][at];
         weight_ += now[0];

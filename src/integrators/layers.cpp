@@ -29,13 +29,18 @@ std::vector<const char*> suffixes(LayerKind kind) {
   switch (kind) {
     case LayerKind::albedo:
     case LayerKind::moments:
-    case LayerKind::variance: return {"R", "G", "B"};
-    case LayerKind::depth: return {"T"};
-    case LayerKind::uv: return {"U", "V"};
+    case LayerKind::variance:
+      return {"R", "G", "B"};
+    case LayerKind::depth:
+      return {"T"};
+    case LayerKind::uv:
+      return {"U", "V"};
     case LayerKind::prim_index:
     case LayerKind::shape_index:
-    case LayerKind::samples: return {"I"};
-    default: return {"X", "Y", "Z"};
+    case LayerKind::samples:
+      return {"I"};
+    default:
+      return {"X", "Y", "Z"};
   }
 }
 
@@ -80,18 +85,37 @@ void evaluate_layer(LayerKind kind, const Scene& scene, const Surface& s, const 
       out[0] = a.r, out[1] = a.g, out[2] = a.b;
       break;
     }
-    case LayerKind::depth: out[0] = hit.t; break;
-    case LayerKind::position: put(s.position, out); break;
-    case LayerKind::uv: out[0] = s.uv.x, out[1] = s.uv.y; break;
-    case LayerKind::normal: put(s.shading.n, out); break;
-    case LayerKind::geo_normal: put(s.ng, out); break;
-    case LayerKind::dp_du: put(s.dp_du, out); break;
-    case LayerKind::dp_dv: put(s.dp_dv, out); break;
-    case LayerKind::prim_index: out[0] = float(hit.primitive); break;
-    case LayerKind::shape_index: out[0] = float(hit.shape); break;
+    case LayerKind::depth:
+      out[0] = hit.t;
+      break;
+    case LayerKind::position:
+      put(s.position, out);
+      break;
+    case LayerKind::uv:
+      out[0] = s.uv.x, out[1] = s.uv.y;
+      break;
+    case LayerKind::normal:
+      put(s.shading.n, out);
+      break;
+    case LayerKind::geo_normal:
+      put(s.ng, out);
+      break;
+    case LayerKind::dp_du:
+      put(s.dp_du, out);
+      break;
+    case LayerKind::dp_dv:
+      put(s.dp_dv, out);
+      break;
+    case LayerKind::prim_index:
+      out[0] = float(hit.primitive);
+      break;
+    case LayerKind::shape_index:
+      out[0] = float(hit.shape);
+      break;
     case LayerKind::moments:
     case LayerKind::variance:
-    case LayerKind::samples: break;
+    case LayerKind::samples:
+      break;
   }
 }
 

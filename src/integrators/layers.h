@@ -12,18 +12,18 @@ namespace duet {
 
 enum class LayerKind {
   albedo,
-  depth,      ///< distance from the camera
+  depth,  ///< distance from the camera
   position,
   uv,
-  normal,     ///< of shading
+  normal,  ///< of shading
   geo_normal,
   dp_du,
   dp_dv,
   prim_index,
   shape_index,
-  moments,    ///< mean of the squares of the samples' colours
-  variance,   ///< of the pixel's colours, as if samples were independent
-  samples,    ///< number of samples of the pixel
+  moments,   ///< mean of the squares of the samples' colours
+  variance,  ///< of the pixel's colours, as if samples were independent
+  samples,   ///< number of samples of the pixel
 };
 
 struct Layer {

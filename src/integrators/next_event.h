@@ -25,8 +25,8 @@ inline bool sides_differ(const Surface& s, const Vector3f& w) {
   return dot(s.ng, w) * dot(s.shading.n, w) <= 0;
 }
 
-/// The camera's ray continued behind all emitting surfaces that it meets first: what `hide_emitters`
-/// means in Mitsuba 3. The environment is hidden by whoever traces the ray.
+/// The camera's ray continued behind all emitting surfaces that it meets first: what
+/// `hide_emitters` means in Mitsuba 3. The environment is hidden by whoever traces the ray.
 inline Ray behind_emitters(const Scene& scene, Ray ray, RenderCounters& counters) {
   for (;;) {
     Hit hit;
@@ -38,15 +38,15 @@ inline Ray behind_emitters(const Scene& scene, Ray ray, RenderCounters& counters
   }
 }
 
-/// Next event estimation at a surface point: radiance towards the Bsdf's wo that comes straight from
-/// one chosen light, weighted against BSDF sampling. Uses up to three dimensions of the sampler. The
-/// scene must have a light.
+/// Next event estimation at a surface point: radiance towards the Bsdf's wo that comes straight
+/// from one chosen light, weighted against BSDF sampling. Uses up to three dimensions of the
+/// sampler. The scene must have a light.
 inline Spectrum sample_light(const Scene& scene, const Surface& s, const Bsdf& bsdf,
                              bool strict_normals, const SampleShares& shares, Sampler& sampler,
                              RenderCounters& counters) {
   const Point2f u = sampler.next_2d();
-  const LightPicker::Pick pick = scene.picker.size() == 1 ? LightPicker::Pick{0, 1}
-                                                          : scene.picker.pick(sampler.next_1d());
+  const LightPicker::Pick pick =
+      scene.picker.size() == 1 ? LightPicker::Pick{0, 1} : scene.picker.pick(sampler.next_1d());
   const Light& chosen = *scene.lights[pick.light];
   // The common kind is called directly, so that the compiler can look into it.
   const auto light = chosen.kind() == LightKind::area
@@ -86,8 +86,8 @@ inline Spectrum weighted_environment(const Scene& scene, const Vector3f& w,
   if (!scene.environment) return {};
   const Spectrum emitted = scene.environment->emitted(w);
   if (!bsdf_pdf) return emitted;
-  const float pdf = scene.environment->pdf_direct(w).value *
-                    scene.picker.probability(scene.environment_index);
+  const float pdf =
+      scene.environment->pdf_direct(w).value * scene.picker.probability(scene.environment_index);
   return emitted * power_heuristic(bsdf_pdf->value * shares.bsdf, pdf * shares.light);
 }
 

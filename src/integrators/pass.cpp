@@ -104,8 +104,8 @@ class Renderer {
     }
   }
 
-  /// By how much to lengthen the batches: towards the length that should meet the target, but at most
-  /// doubling, and within the time that is left.
+  /// By how much to lengthen the batches: towards the length that should meet the target, but at
+  /// most doubling, and within the time that is left.
   int next_batch_part(int length, double target) const {
     double needed = double(length);
     if (relative_rmse_) needed *= std::pow(*relative_rmse_ / target, 2) - 1;
@@ -118,11 +118,13 @@ class Renderer {
     return part;
   }
 
-  /// Parts of a timed render grow until they last about a sixteenth of the budget, and end within it.
+  /// Parts of a timed render grow until they last about a sixteenth of the budget, and end within
+  /// it.
   int next_part(int count, double took, int total) const {
     const double budget = *request_.budget.seconds, left = budget - seconds();
     const double per_sample = std::max(took / count, 1e-9);
-    const double wanted = std::min({double(2 * count), budget / 16 / per_sample, left / per_sample});
+    const double wanted =
+        std::min({double(2 * count), budget / 16 / per_sample, left / per_sample});
     return int(std::clamp(wanted, 1.0, double(total)));
   }
 

@@ -18,10 +18,10 @@ struct RenderBudget {
 };
 
 struct RenderProgress {
-  double fraction = 0;  ///< of the budget, as far as it is known
-  double seconds = 0;   ///< since rendering began
-  int spp = 0;          ///< samples that every pixel has
-  double samples = 0;   ///< samples taken in all pixels together
+  double fraction = 0;                  ///< of the budget, as far as it is known
+  double seconds = 0;                   ///< since rendering began
+  int spp = 0;                          ///< samples that every pixel has
+  double samples = 0;                   ///< samples taken in all pixels together
   std::optional<double> relative_rmse;  ///< estimate so far
 };
 
@@ -49,8 +49,8 @@ struct RenderResult {
   bool rmse_is_upper_bound = false;
 };
 
-/// Renders until the budget is used up. The image depends on the scene, the integrator, the film, the
-/// seed, the sequence and the number of samples; never on the number of threads.
+/// Renders until the budget is used up. The image depends on the scene, the integrator, the film,
+/// the seed, the sequence and the number of samples; never on the number of threads.
 RenderResult render(const Scene& scene, const Integrator& integrator, const FilmLayout& layout,
                     const RenderRequest& request);
 

@@ -6,8 +6,8 @@ namespace duet {
 
 namespace {
 
-/// Random numbers set aside for each vertex: direction to and choice of the light, direction and lobe
-/// of the BSDF, roulette.
+/// Random numbers set aside for each vertex: direction to and choice of the light, direction and
+/// lobe of the BSDF, roulette.
 constexpr uint32_t kDimensionsPerVertex = 8;
 constexpr uint32_t kBsdfDimension = 4;
 
@@ -21,7 +21,7 @@ Spectrum PathIntegrator::radiance(const Scene& scene, const Ray& camera_ray, Sam
   Spectrum sum, throughput(1);
   std::optional<PdfW> bsdf_pdf;  // of the last direction, if light samples compete with it
   Point3f from = ray.origin;
-  float eta = 1;                 // relative index of refraction along the path
+  float eta = 1;  // relative index of refraction along the path
   for (int depth = 1;; ++depth) {
     Hit hit;
     ++counters.closest_rays;
@@ -34,8 +34,7 @@ Spectrum PathIntegrator::radiance(const Scene& scene, const Ray& camera_ray, Sam
     ++counters.path_vertices;
     const Surface s = scene.surface(ray, hit);
     if (s.shape->light != kNone)
-      sum += throughput *
-             weighted_emission(scene, s, from, ray.direction, hit.t, bsdf_pdf, shares);
+      sum += throughput * weighted_emission(scene, s, from, ray.direction, hit.t, bsdf_pdf, shares);
     if (depth == options_.max_depth) {
       alpha = 1;
       break;
@@ -44,8 +43,8 @@ Spectrum PathIntegrator::radiance(const Scene& scene, const Ray& camera_ray, Sam
     const uint32_t dimension = kFirstVertexDimension + kDimensionsPerVertex * uint32_t(depth - 1);
     if (bsdf.has_smooth() && scene.picker.size() > 0) {
       sampler.start_dimension(dimension);
-      sum += throughput * sample_light(scene, s, bsdf, options_.strict_normals, shares, sampler,
-                                       counters);
+      sum += throughput *
+             sample_light(scene, s, bsdf, options_.strict_normals, shares, sampler, counters);
     }
     sampler.start_dimension(dimension + kBsdfDimension);
     const Point2f v = sampler.next_2d();

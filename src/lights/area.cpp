@@ -6,7 +6,8 @@ namespace duet {
 
 namespace {
 
-/// The triangles (a b c), (a c d) of a parallelogram with texture coordinates that are none or affine.
+/// The triangles (a b c), (a c d) of a parallelogram with texture coordinates that are none or
+/// affine.
 bool is_parallelogram(const TriangleMesh& m) {
   if (m.triangles.size() != 2 || m.positions.size() != 4 || !m.attributes.empty()) return false;
   const auto &s = m.triangles[0], &t = m.triangles[1];
@@ -81,7 +82,8 @@ ShapePoint AreaLight::sample_point(const Point2f& u) const {
       p.pdf = {float(1 / area_)};
       return p;
     }
-    default: return sample_analytic(shape_, u);
+    default:
+      return sample_analytic(shape_, u);
   }
 }
 

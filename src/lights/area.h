@@ -41,10 +41,10 @@ class AreaLight final : public SurfaceLight {
   DiscreteDistribution triangles_;
   double area_;
   float power_;
-  Point3f corner_;           ///< of the parallelogram, just off its surface
+  Point3f corner_;  ///< of the parallelogram, just off its surface
   Vector3f edge_u_, edge_v_;
   Normal3f normal_;
-  Point3f center_;           ///< of the sphere
+  Point3f center_;  ///< of the sphere
   float radius_ = 0;
 };
 

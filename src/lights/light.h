@@ -12,10 +12,10 @@ namespace duet {
 
 /// A light seen from a point.
 struct LightSample {
-  Vector3f wi;      ///< unit direction towards the light
-  Point3f target;   ///< a point just before the light's surface; only if `finite`
-  Spectrum weight;  ///< incident radiance over the density, or irradiance for delta lights
-  PdfW pdf;         ///< at the lit point; zero for delta lights, which no BSDF sample can find
+  Vector3f wi;         ///< unit direction towards the light
+  Point3f target;      ///< a point just before the light's surface; only if `finite`
+  Spectrum weight;     ///< incident radiance over the density, or irradiance for delta lights
+  PdfW pdf;            ///< at the lit point; zero for delta lights, which no BSDF sample can find
   bool finite = true;  ///< false if the light is infinitely far away
   bool delta = false;
 };

@@ -37,7 +37,8 @@ inline uint32_t find_interval(const float* cdf, size_t n, float u) {
 DiscreteDistribution::DiscreteDistribution(std::span<const float> weights)
     : cdf_(weights.size() + 1) {
   assert(!weights.empty());
-  sum_ = accumulate(weights.size(), [&](size_t i) { return double(weights[i]); }, cdf_.data());
+  sum_ = accumulate(
+      weights.size(), [&](size_t i) { return double(weights[i]); }, cdf_.data());
 }
 
 DiscreteDistribution::Pick DiscreteDistribution::sample(float u) const {
@@ -79,7 +80,8 @@ BilinearDistribution::Sample BilinearDistribution::sample(Point2f u) const {
   const uint32_t x = find_interval(cdf, width_ - 1, u.x);
   const float ux = std::clamp((u.x - cdf[x]) / (cdf[x + 1] - cdf[x]), 0.0f, 0x1.fffffep-1f);
   const int y = int(row.index), i = int(x);
-  const float f00 = node(i, y), f10 = node(i + 1, y), f01 = node(i, y + 1), f11 = node(i + 1, y + 1);
+  const float f00 = node(i, y), f10 = node(i + 1, y), f01 = node(i, y + 1),
+              f11 = node(i + 1, y + 1);
   // First along y by the sums of the edges, then along x by the interpolated edge.
   const float dy = sample_linear(row.remapped, f00 + f10, f01 + f11);
   const float dx = sample_linear(ux, lerp(f00, f01, dy), lerp(f10, f11, dy));
@@ -94,9 +96,9 @@ float BilinearDistribution::density(const Point2f& p) const {
   const float y = std::clamp(p.y, 0.0f, 1.0f) * float(height_ - 1);
   const int i = std::min(int(x), width_ - 2), j = std::min(int(y), height_ - 2);
   const float dx = x - float(i), dy = y - float(j);
-  return float(lerp(lerp(node(i, j), node(i + 1, j), dx),
-                    lerp(node(i, j + 1), node(i + 1, j + 1), dx), dy) /
-               integral_);
+  return float(
+      lerp(lerp(node(i, j), node(i + 1, j), dx), lerp(node(i, j + 1), node(i + 1, j + 1), dx), dy) /
+      integral_);
 }
 
 }  // namespace duet

@@ -9,8 +9,8 @@
 
 namespace duet {
 
-/// Picks an index with probability proportional to its weight, by inversion of the cumulative sum, so
-/// that well distributed variates stay well distributed.
+/// Picks an index with probability proportional to its weight, by inversion of the cumulative sum,
+/// so that well distributed variates stay well distributed.
 class DiscreteDistribution {
  public:
   DiscreteDistribution() = default;
@@ -40,8 +40,8 @@ class DiscreteDistribution {
 class BilinearDistribution {
  public:
   BilinearDistribution() = default;
-  /// `nodes` holds width × height values (row-major, finite, not negative); they sit at the corners of
-  /// (width − 1) × (height − 1) cells that tile the unit square.
+  /// `nodes` holds width × height values (row-major, finite, not negative); they sit at the corners
+  /// of (width − 1) × (height − 1) cells that tile the unit square.
   BilinearDistribution(std::vector<float> nodes, int width, int height);
 
   struct Sample {

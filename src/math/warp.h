@@ -10,7 +10,8 @@ inline void small_sincos(float x, float& sine, float& cosine) {
   const float x2 = x * x;
   sine = x * (1 + x2 * (-1.6666654611e-1f + x2 * (8.3321608736e-3f - 1.9515295891e-4f * x2)));
   cosine = 1 - 0.5f * x2 +
-           x2 * x2 * (4.166664568298827e-2f + x2 * (-1.388731625493765e-3f + 2.443315711809948e-5f * x2));
+           x2 * x2 *
+               (4.166664568298827e-2f + x2 * (-1.388731625493765e-3f + 2.443315711809948e-5f * x2));
 }
 
 /// Uniform on the unit disk; keeps neighbouring points together.

@@ -13,10 +13,12 @@ struct BuildOptions {
   /// Which of the description's sensors to look through.
   size_t sensor = 0;
   int threads = 1;
+  /// What the image's layers ask of all surfaces, on top of what the materials need.
+  SurfaceNeeds layer_needs;
 };
 
-/// Builds what the description says; null, with errors in `diagnostics`, if something in it cannot be
-/// built (a missing image, a transform that cannot be inverted, …). All such errors are reported
+/// Builds what the description says; null, with errors in `diagnostics`, if something in it cannot
+/// be built (a missing image, a transform that cannot be inverted, …). All such errors are reported
 /// together. The description's meshes move into the scene where nothing else holds them.
 std::unique_ptr<Scene> build_scene(SceneDescription description, const BuildOptions& options,
                                    Diagnostics& diagnostics);

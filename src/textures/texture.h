@@ -6,8 +6,8 @@
 
 namespace duet {
 
-/// A function on surfaces. A colour texture asked for a number yields its luminance, a grey one asked
-/// for a colour yields grey, as in Mitsuba.
+/// A function on surfaces. A colour texture asked for a number yields its luminance, a grey one
+/// asked for a colour yields grey, as in Mitsuba.
 class Texture {
  public:
   virtual ~Texture() = default;

@@ -39,7 +39,8 @@ TEST_CASE("weights that are all zero mean equal chances") {
 TEST_CASE("the bilinear distribution samples its own density") {
   std::vector<float> nodes;
   for (int y = 0; y < 5; ++y)
-    for (int x = 0; x < 7; ++x) nodes.push_back(float((x * 7 + y * 3) % 5) * (y == 2 ? 0.0f : 1.0f));
+    for (int x = 0; x < 7; ++x)
+      nodes.push_back(float((x * 7 + y * 3) % 5) * (y == 2 ? 0.0f : 1.0f));
   const BilinearDistribution d(nodes, 7, 5);
   const auto result = test::chi2_square(
       [&](Point2f u, Point2f& p) {
