@@ -1,5 +1,6 @@
 #include "base/parallel.h"
 
+#include <tbb/global_control.h>
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
 
@@ -44,6 +45,8 @@ void parallel_for(size_t count, int threads, const std::function<void(size_t)>& 
     for (size_t i = 0; i < count; ++i) work(i);
     return;
   }
+  // Without this TBB starts no more threads than the machine has processors.
+  const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, size_t(threads));
   tbb::task_arena arena(threads);
   arena.execute([&] {
     tbb::parallel_for(
