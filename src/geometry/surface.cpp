@@ -30,10 +30,13 @@ struct Corners {
   Normal3f normal() const { return Normal3f(cross(e1, e2)); }
 };
 
-/// Derivatives of the position by the texture coordinates; false if they do not exist.
+/// Derivatives of the position by the texture coordinates (without any, by the barycentric ones);
+/// false if they do not exist.
 bool tangents(const TriangleMesh& m, const std::array<uint32_t, 3>& t, const Corners& c,
               Surface& s) {
-  if (m.uvs.empty()) return false;
+  s.dp_du = c.e1;
+  s.dp_dv = c.e2;
+  if (m.uvs.empty()) return true;
   const Point2f a = m.uvs[t[1]] - m.uvs[t[0]], b = m.uvs[t[2]] - m.uvs[t[0]];
   const float det = a.x * b.y - a.y * b.x;
   const float inv = 1 / det;
