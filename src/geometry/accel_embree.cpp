@@ -18,9 +18,9 @@ namespace {
 void check(RTCDevice device, const char* doing) {
   const RTCError error = rtcGetDeviceError(device);
   if (error == RTC_ERROR_NONE) return;
-  throw std::runtime_error(fmt::format("Embree failed {}: {}", doing,
-                                       error == RTC_ERROR_OUT_OF_MEMORY ? "out of memory"
-                                                                        : "internal error"));
+  throw std::runtime_error(
+      fmt::format("Embree failed {}: {}", doing,
+                  error == RTC_ERROR_OUT_OF_MEMORY ? "out of memory" : "internal error"));
 }
 
 void analytic_bounds_callback(const RTCBoundsFunctionArguments* args) {

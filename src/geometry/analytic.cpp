@@ -22,9 +22,9 @@ Local to_local(const Matrix4& m, const Vector3f& v) {
   return {row(0), row(1), row(2)};
 }
 
-/// Roots of |o + t d|² = 1, over the first `dimensions` coordinates. The discriminant is formed from
-/// the point of closest approach, which keeps its digits for far origins.
-/// Source: Haines et al., "Precision Improvements for Ray/Sphere Intersection", Ray Tracing Gems, 2019.
+/// Roots of |o + t d|² = 1, over the first `dimensions` coordinates. The discriminant is formed
+/// from the point of closest approach, which keeps its digits for far origins. Source: Haines et
+/// al., "Precision Improvements for Ray/Sphere Intersection", Ray Tracing Gems, 2019.
 bool unit_quadric_roots(const Local& o, const Local& d, bool use_z, double t[2]) {
   const double z = use_z ? 1 : 0;
   const double a = d.x * d.x + d.y * d.y + z * d.z * d.z;
@@ -65,7 +65,8 @@ int intersect_analytic(const Shape& shape, const Ray& ray, double tnear, double 
       if (x * x + y * y <= 1) accept(s);
       break;
     }
-    case ShapeKind::mesh: break;
+    case ShapeKind::mesh:
+      break;
   }
   return n;
 }
@@ -139,8 +140,8 @@ float rounding_offset(const Shape& shape, const Point3f& p) {
   const auto& r = shape.to_world.rows();
   float extent = max_abs(p);
   for (const auto& row : r)
-    extent = std::max(extent, std::abs(row[3]) + std::abs(row[0]) + std::abs(row[1]) +
-                                  std::abs(row[2]));
+    extent =
+        std::max(extent, std::abs(row[3]) + std::abs(row[0]) + std::abs(row[1]) + std::abs(row[2]));
   return kOffsetScale * extent;
 }
 
@@ -150,31 +151,37 @@ PdfA pdf_analytic(const Shape& shape, const Normal3f& local_normal) {
   return {1 / (local_area(shape.kind) * area_stretch(shape, local_normal))};
 }
 
+Point2f analytic_uv(ShapeKind kind, const Point3f& p) {
+  const float phi = std::atan2(p.y, p.x);
+  const float around = (phi < 0 ? phi + 2 * kPi : phi) * (0.5f * kInvPi);
+  switch (kind) {
+    case ShapeKind::sphere:
+      return {around, std::acos(std::clamp(p.z, -1.0f, 1.0f)) * kInvPi};
+    case ShapeKind::disk:
+      return {std::sqrt(p.x * p.x + p.y * p.y), around};
+    default:
+      return {around, p.z};
+  }
+}
+
 ShapePoint sample_analytic(const Shape& shape, const Point2f& u) {
   Point3f p;
   Normal3f n;
   unit_point(shape.kind, u, p, n);
   ShapePoint s;
   s.position = shape.to_world(p);
-  s.ng = world_normal(shape, n);
+  s.ng = s.ns = world_normal(shape, n);
   s.pdf = pdf_analytic(shape, n);
   s.offset = rounding_offset(shape, s.position);
-  const float phi = std::atan2(p.y, p.x);
-  const float around = (phi < 0 ? phi + 2 * kPi : phi) * (0.5f * kInvPi);
-  switch (shape.kind) {
-    case ShapeKind::sphere:
-      s.uv = {around, std::acos(std::clamp(p.z, -1.0f, 1.0f)) * kInvPi};
-      break;
-    case ShapeKind::disk: s.uv = {std::sqrt(p.x * p.x + p.y * p.y), around}; break;
-    default: s.uv = {around, p.z};
-  }
+  s.uv = analytic_uv(shape.kind, p);
   return s;
 }
 
 double surface_area(const Shape& shape) {
   if (shape.kind == ShapeKind::mesh) {
     double area = 0;
-    for (uint32_t i = 0; i < shape.mesh->triangles.size(); ++i) area += triangle_area(*shape.mesh, i);
+    for (uint32_t i = 0; i < shape.mesh->triangles.size(); ++i)
+      area += triangle_area(*shape.mesh, i);
     return area;
   }
   // The midpoint rule over the parameters: exact for unstretched shapes.
@@ -211,7 +218,8 @@ Surface make_analytic_surface(const Shape& shape, const Ray& ray, const Hit& hit
       n = {float(x), float(y), 0};
       break;
     }
-    default: z = 0, n = {0, 0, 1};
+    default:
+      z = 0, n = {0, 0, 1};
   }
   const Point3f p{float(x), float(y), float(z)};
   s.position = shape.to_world(p);
@@ -221,25 +229,21 @@ Surface make_analytic_surface(const Shape& shape, const Ray& ray, const Hit& hit
     s.shading = Frame(s.ng);
     return s;
   }
+  s.uv = analytic_uv(shape.kind, p);
   const float r = std::sqrt(p.x * p.x + p.y * p.y);
   const float cos_phi = r > 0 ? p.x / r : 1.0f, sin_phi = r > 0 ? p.y / r : 0.0f;
-  const float phi = std::atan2(p.y, p.x);
-  const float around = (phi < 0 ? phi + 2 * kPi : phi) * (0.5f * kInvPi);
   const Vector3f tangent(-2 * kPi * p.y, 2 * kPi * p.x, 0);
   Vector3f du, dv;
   switch (shape.kind) {
     case ShapeKind::sphere:
-      s.uv = {around, std::acos(std::clamp(p.z, -1.0f, 1.0f)) * kInvPi};
       du = tangent;
       dv = Vector3f(p.z * cos_phi, p.z * sin_phi, -r) * kPi;
       break;
     case ShapeKind::disk:
-      s.uv = {r, around};
       du = {cos_phi, sin_phi, 0};
       dv = r > 0 ? tangent : Vector3f(0, 1, 0);
       break;
     default:
-      s.uv = {around, p.z};
       du = tangent;
       dv = {0, 0, 1};
   }

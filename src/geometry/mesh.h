@@ -33,13 +33,14 @@ struct TriangleMesh {
   const MeshAttribute* find_attribute(const std::string& name) const;
 };
 
-/// Replaces the normals by the angle-weighted means of the faces around each vertex; a vertex without
-/// a proper face gets a normal of zero.
-/// Source: Thürmer & Wüthrich, "Computing Vertex Normals from Polygonal Facets", 1998.
+/// Replaces the normals by the angle-weighted means of the faces around each vertex; a vertex
+/// without a proper face gets a normal of zero. Source: Thürmer & Wüthrich, "Computing Vertex
+/// Normals from Polygonal Facets", 1998.
 void compute_vertex_normals(TriangleMesh& mesh);
 
-/// Moves all vertices and normals to where `to_world` puts them. The order of the vertices stays, also
-/// under a mirroring transform, which so turns faces without vertex normals inside out, as in Mitsuba.
+/// Moves all vertices and normals to where `to_world` puts them. The order of the vertices stays,
+/// also under a mirroring transform, which so turns faces without vertex normals inside out, as in
+/// Mitsuba.
 void transform_mesh(TriangleMesh& mesh, const Matrix4& to_world);
 
 /// The cube with corners at ±1, with normals and texture coordinates per face.

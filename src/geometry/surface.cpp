@@ -83,18 +83,16 @@ Surface make_mesh_surface(const Shape& shape, const Hit& hit) {
 
 }  // namespace
 
-Surface make_surface(const Shape& shape, const Instance* instance, const Ray& ray,
-                     const Hit& hit) {
+Surface make_surface(const Shape& shape, const Instance* instance, const Ray& ray, const Hit& hit) {
   if (!instance)
     return shape.kind == ShapeKind::mesh ? make_mesh_surface(shape, hit)
                                          : make_analytic_surface(shape, ray, hit);
   const Transform& place = instance->to_world;
-  Surface s = shape.kind == ShapeKind::mesh
-                  ? make_mesh_surface(shape, hit)
-                  : make_analytic_surface(shape,
-                                          {place.inverse(ray.origin), place.inverse(ray.direction),
-                                           ray.tmax},
-                                          hit);
+  Surface s =
+      shape.kind == ShapeKind::mesh
+          ? make_mesh_surface(shape, hit)
+          : make_analytic_surface(
+                shape, {place.inverse(ray.origin), place.inverse(ray.direction), ray.tmax}, hit);
   const float local = s.offset;
   s.position = place(s.position);
   // The rounding errors of the copy, those of placing it, and those of bringing rays to it.
@@ -115,14 +113,25 @@ float triangle_area(const TriangleMesh& mesh, uint32_t primitive) {
   return 0.5f * length(Corners(mesh, mesh.triangles[primitive]).normal());
 }
 
-ShapePoint sample_triangle(const Shape& shape, uint32_t primitive, const Point2f& u) {
-  const TriangleMesh& m = *shape.mesh;
-  const Point2f b = square_to_triangle(u);
+ShapePoint point_on_triangle(const Shape& shape, uint32_t primitive, const Point2f& barycentric) {
   Hit hit;
   hit.primitive = primitive;
-  hit.u = b.x, hit.v = b.y;
+  hit.u = barycentric.x, hit.v = barycentric.y;
   const Surface s = make_mesh_surface(shape, hit);
-  return {s.position, s.ng, s.uv, s.offset, PdfA{1 / triangle_area(m, primitive)}};
+  ShapePoint p;
+  p.position = s.position;
+  p.ng = s.ng;
+  p.ns = s.shading.n;
+  p.uv = s.uv;
+  p.offset = s.offset;
+  p.pdf = PdfA{1 / triangle_area(*shape.mesh, primitive)};
+  p.barycentric = barycentric;
+  p.primitive = primitive;
+  return p;
+}
+
+ShapePoint sample_triangle(const Shape& shape, uint32_t primitive, const Point2f& u) {
+  return point_on_triangle(shape, primitive, square_to_triangle(u));
 }
 
 }  // namespace duet

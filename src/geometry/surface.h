@@ -15,9 +15,9 @@ struct Surface {
   /// hit the surface again: a few units in the last place of the largest coordinate involved.
   float offset;
   Frame shading;
-  Point2f uv;              ///< valid if the shape needs uv
-  Vector3f dp_du, dp_dv;   ///< valid if the shape needs tangents
-  Point2f barycentric;     ///< weights of the second and third vertex, on meshes
+  Point2f uv;             ///< valid if the shape needs uv
+  Vector3f dp_du, dp_dv;  ///< valid if the shape needs tangents
+  Point2f barycentric;    ///< weights of the second and third vertex, on meshes
   uint32_t primitive;
   const Shape* shape;
 };
