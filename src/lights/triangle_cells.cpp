@@ -9,9 +9,11 @@ namespace duet {
 namespace {
 
 constexpr double kMaxCells = 1 << 17;
+/// Bilinear interpolation has slopes within a texel.
+constexpr double kCellsPerTexel = 16;
 constexpr int kMinPoints = 4, kMaxPoints = 64;
 /// Share of the probability that is spread evenly over the area.
-constexpr double kEvenShare = 0.05;
+constexpr double kEvenShare = 0.02;
 
 /// Points of the unit square that fill it evenly.
 /// Source: Roberts, "The Unreasonable Effectiveness of Quasirandom Sequences", 2018.
@@ -80,7 +82,7 @@ void TriangleCells::choose_resolution(const ColorSlot& radiance) {
     texels = std::max(texels, 0.5 * std::abs(double(a.x) * b.y - double(a.y) * b.x) * r.x * r.y);
   }
   const double limit = kMaxCells / double(std::max<size_t>(mesh.triangles.size(), 1));
-  n_ = std::max(1, int(std::sqrt(std::min(texels, limit))));
+  n_ = std::max(1, int(std::sqrt(std::min(kCellsPerTexel * texels, limit))));
   points_ = std::clamp(int(2 * texels / (double(n_) * n_)), kMinPoints, kMaxPoints);
 }
 
