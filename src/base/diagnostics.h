@@ -1,4 +1,5 @@
-// Errors and warnings with their place in a file, gathered so that all of them are reported together.
+// Errors and warnings with their place in a file, gathered so that all of them are reported
+// together.
 #pragma once
 
 #include <fmt/format.h>
@@ -60,7 +61,8 @@ class ReadError : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// The entry of `known` closest to `name` by edit distance, or "" if none is close enough to be meant.
+/// The entry of `known` closest to `name` by edit distance, or "" if none is close enough to be
+/// meant.
 std::string nearest_name(const std::string& name, const std::vector<std::string>& known);
 /// " (did you mean "x"?)" or "".
 std::string did_you_mean(const std::string& name, const std::vector<std::string>& known);

@@ -51,7 +51,9 @@ void FilmTile::add(const FilmTile& other) {
   for (size_t i = 0; i < data_.size(); ++i) data_[i] += other.data_[i];
 }
 
-void FilmTile::clear() { std::fill(data_.begin(), data_.end(), 0.0); }
+void FilmTile::clear() {
+  std::fill(data_.begin(), data_.end(), 0.0);
+}
 
 Film::Film(Point2i full, const PixelBounds& crop, const FilterDescription& filter,
            std::vector<std::string> channels)

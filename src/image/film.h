@@ -20,7 +20,9 @@ struct PixelBounds {
   bool contains(int x, int y) const { return x >= x0 && x < x1 && y >= y0 && y < y1; }
   bool operator==(const PixelBounds&) const = default;
   PixelBounds intersect(const PixelBounds& o) const;
-  PixelBounds grow(int border) const { return {x0 - border, y0 - border, x1 + border, y1 + border}; }
+  PixelBounds grow(int border) const {
+    return {x0 - border, y0 - border, x1 + border, y1 + border};
+  }
 };
 
 /// The sums of the samples taken in one square of the film. A sample also counts for pixels beyond
@@ -53,14 +55,14 @@ class FilmTile {
   std::vector<double> data_;  ///< per pixel: sum of weights, then the weighted sum of each channel
 };
 
-/// A film is the set of its tiles. Their grid is anchored at the full image's origin, so that a crop
-/// window has the very samples, and the very sums, of the full image.
+/// A film is the set of its tiles. Their grid is anchored at the full image's origin, so that a
+/// crop window has the very samples, and the very sums, of the full image.
 class Film {
  public:
   static constexpr int kTileSize = 16;
 
-  /// `full` is the size of the whole image, `crop` the window to be developed within it. Samples are
-  /// taken in the window and within the filter's reach around it, but never outside the image.
+  /// `full` is the size of the whole image, `crop` the window to be developed within it. Samples
+  /// are taken in the window and within the filter's reach around it, but never outside the image.
   Film(Point2i full, const PixelBounds& crop, const FilterDescription& filter,
        std::vector<std::string> channels);
 

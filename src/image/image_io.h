@@ -27,8 +27,8 @@ struct ImageFile {
   std::vector<std::pair<std::string, std::string>> header;
 };
 
-/// Throws ReadError if the file is missing, truncated or of a kind that is not understood. EXR files
-/// with several parts or layers: channels keep their full names ("layer.R").
+/// Throws ReadError if the file is missing, truncated or of a kind that is not understood. EXR
+/// files with several parts or layers: channels keep their full names ("layer.R").
 ImageFile read_image(const std::string& path);
 
 using HeaderValue = std::variant<std::string, float, int, std::array<float, 16>>;

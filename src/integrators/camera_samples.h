@@ -15,8 +15,8 @@ inline constexpr uint32_t kLensDimension = 2;
 inline constexpr uint32_t kFirstVertexDimension = 4;
 inline constexpr int kMaxChannels = 96;
 
-/// Calls `sample(ray, sampler, values)` for each sample of each pixel of the tile; it fills one value
-/// per channel of the film. Samples with a value that is not finite count as black.
+/// Calls `sample(ray, sampler, values)` for each sample of each pixel of the tile; it fills one
+/// value per channel of the film. Samples with a value that is not finite count as black.
 template <class Sample>
 void for_each_camera_sample(const Scene& scene, const Film& film, FilmTile& tile,
                             const SampleRange& range, RenderCounters& counters, Sample&& sample) {

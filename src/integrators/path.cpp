@@ -28,14 +28,16 @@ struct PathState {
 /// Light that arrives straight from a light at a vertex, weighted against BSDF sampling.
 Spectrum sample_light(const PathState& p, const Surface& s, const Bsdf& bsdf) {
   const Point2f u = p.sampler.next_2d();
-  const LightPicker::Pick pick =
-      p.scene.picker.size() == 1 ? LightPicker::Pick{0, 1} : p.scene.picker.pick(p.sampler.next_1d());
+  const LightPicker::Pick pick = p.scene.picker.size() == 1
+                                     ? LightPicker::Pick{0, 1}
+                                     : p.scene.picker.pick(p.sampler.next_1d());
   const Light& chosen = *p.scene.lights[pick.light];
   const auto light = chosen.kind() == LightKind::area
                          ? static_cast<const AreaLight&>(chosen).sample_direct(s.position, u)
                          : chosen.sample_direct(s.position, u);
   if (!light) return {};
-  if (p.options.strict_normals && dot(s.ng, light->wi) * dot(s.shading.n, light->wi) <= 0) return {};
+  if (p.options.strict_normals && dot(s.ng, light->wi) * dot(s.shading.n, light->wi) <= 0)
+    return {};
   const BsdfEval f = bsdf.eval(light->wi, Transport::radiance);
   if (f.value.is_black()) return {};
   const Ray shadow = light->finite ? spawn_ray_to(s, light->target) : spawn_ray(s, light->wi);
@@ -51,8 +53,8 @@ Spectrum trace(const PathState& p, Ray ray, float& alpha) {
   const Scene& scene = p.scene;
   Spectrum radiance, throughput(1);
   PdfW bsdf_pdf;
-  bool delta = true;    // the last direction could not have been found by light sampling
-  bool passed = true;   // only null interfaces so far
+  bool delta = true;   // the last direction could not have been found by light sampling
+  bool passed = true;  // only null interfaces so far
   float eta = 1;
   Point3f from = ray.origin;
   for (int depth = 1;; ++depth) {
@@ -60,10 +62,9 @@ Spectrum trace(const PathState& p, Ray ray, float& alpha) {
     ++p.counters.closest_rays;
     if (!scene.accel->closest_hit(ray, hit)) {
       if (scene.environment && !(p.options.hide_emitters && passed)) {
-        const PdfW light_pdf =
-            delta ? PdfW{}
-                  : PdfW{scene.environment->pdf_direct(ray.direction).value *
-                         scene.picker.probability(scene.environment_index)};
+        const PdfW light_pdf = delta ? PdfW{}
+                                     : PdfW{scene.environment->pdf_direct(ray.direction).value *
+                                            scene.picker.probability(scene.environment_index)};
         const float w = delta ? 1.0f : mis_weight(bsdf_pdf, light_pdf);
         radiance += throughput * scene.environment->emitted(ray.direction) * w;
       }
@@ -91,13 +92,15 @@ Spectrum trace(const PathState& p, Ray ray, float& alpha) {
     p.sampler.start_dimension(kFirstVertexDimension + kDimensionsPerVertex * uint32_t(depth - 1));
     if (bsdf.has_smooth() && scene.picker.size() > 0)
       radiance += throughput * sample_light(p, s, bsdf);
-    p.sampler.start_dimension(kFirstVertexDimension + kDimensionsPerVertex * uint32_t(depth - 1) + 4);
+    p.sampler.start_dimension(kFirstVertexDimension + kDimensionsPerVertex * uint32_t(depth - 1) +
+                              4);
     const Point2f v = p.sampler.next_2d();
     const float u = bsdf.needs_choice() ? p.sampler.next_1d() : 0.5f;
     const auto sample = bsdf.sample(u, v, Transport::radiance);
     if (!sample || !sample->null) alpha = 1;
     if (!sample) break;
-    if (p.options.strict_normals && dot(s.ng, sample->wi) * dot(s.shading.n, sample->wi) <= 0) break;
+    if (p.options.strict_normals && dot(s.ng, sample->wi) * dot(s.shading.n, sample->wi) <= 0)
+      break;
     throughput *= sample->weight;
     eta *= sample->eta;
     bsdf_pdf = sample->pdf;

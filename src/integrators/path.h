@@ -13,8 +13,8 @@ struct PathOptions {
   bool strict_normals = false;
 };
 
-/// Unidirectional path tracing from the camera. Light is found by light samples and by BSDF samples,
-/// weighted by the power heuristic (Veach 1997, section 9.2.4).
+/// Unidirectional path tracing from the camera. Light is found by light samples and by BSDF
+/// samples, weighted by the power heuristic (Veach 1997, section 9.2.4).
 class PathIntegrator final : public Integrator {
  public:
   explicit PathIntegrator(const PathOptions& options) : options_(options) {}

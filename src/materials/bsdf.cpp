@@ -65,8 +65,8 @@ std::optional<BsdfSample> Bsdf::sample(float u, const Point2f& v, Transport tran
   if (!s) return std::nullopt;
   const Vector3f wi = from_model(pick, s->wi);
   if (!is_consistent(pick, wi, s->wi)) return std::nullopt;
-  BsdfSample out{frame_.to_world(wi), s->weight, PdfW{s->pdf * c.share},
-                 s->eta,              s->delta,  c.kind == ModelKind::null};
+  BsdfSample out{frame_.to_world(wi),      s->weight, PdfW{s->pdf * c.share}, s->eta, s->delta,
+                 c.kind == ModelKind::null};
   if (count_ == 1 || s->delta) return out;
   // The other components could have made the same direction.
   Spectrum value = s->weight * (s->pdf * c.share);

@@ -30,9 +30,9 @@ struct BsdfComponent {
   ModelUnion model;
 };
 
-/// A small closed value with plain numbers, bound to a shading frame and to the direction wo. To ask
-/// it again costs no texture lookup. Mixtures (blends, masks) are lists of components whose shares
-/// sum to at most one.
+/// A small closed value with plain numbers, bound to a shading frame and to the direction wo. To
+/// ask it again costs no texture lookup. Mixtures (blends, masks) are lists of components whose
+/// shares sum to at most one.
 class Bsdf {
  public:
   /// More components in one material are refused when the scene is built.
@@ -61,8 +61,8 @@ class Bsdf {
   /// From the shading frame into that of component i, and back.
   Vector3f to_model(int i, const Vector3f& w) const;
   Vector3f from_model(int i, const Vector3f& w) const;
-  /// A perturbed normal can put a direction on the other side than the surface does; such directions
-  /// carry nothing.
+  /// A perturbed normal can put a direction on the other side than the surface does; such
+  /// directions carry nothing.
   bool is_consistent(int i, const Vector3f& shading, const Vector3f& model) const;
   ModelEval eval_component(int i, const Vector3f& wi, Transport transport) const;
 
@@ -74,8 +74,8 @@ class Bsdf {
     BsdfComponent components_[kMaxComponents];
   };
   union {
-    /// Relative to the shading frame, of perturbed components. May be left-handed: mirroring is part
-    /// of it.
+    /// Relative to the shading frame, of perturbed components. May be left-handed: mirroring is
+    /// part of it.
     Frame frames_[kMaxComponents];
   };
 };

@@ -10,8 +10,8 @@
 
 namespace duet {
 
-/// What is carried along the path that a BSDF is asked about. Refraction scales radiance by the square
-/// of the relative index but leaves importance alone (Veach 1997, section 5.2).
+/// What is carried along the path that a BSDF is asked about. Refraction scales radiance by the
+/// square of the relative index but leaves importance alone (Veach 1997, section 5.2).
 enum class Transport : uint8_t { radiance, importance };
 
 /// Value f(wo, wi) |cos θ_i| of the smooth lobes and the density with which sample() makes wi.
@@ -29,8 +29,8 @@ struct ModelSample {
 };
 
 /// A model has its parameters as plain numbers, already looked up at the hit. Directions are unit
-/// vectors in the local frame and point away from the surface: wo to where the path comes from, wi to
-/// where it goes. All functions are const and know nothing of the frame. Each model provides
+/// vectors in the local frame and point away from the surface: wo to where the path comes from, wi
+/// to where it goes. All functions are const and know nothing of the frame. Each model provides
 ///
 ///   ModelEval eval(wo, wi, transport)            smooth lobes only; zero if there are none
 ///   std::optional<ModelSample> sample(wo, u, v, transport)

@@ -25,19 +25,19 @@ union ModelUnion {
 #undef DUET_MEMBER
 };
 
-#define DUET_CHECK(name, type)                         \
-  static_assert(ScatteringModel<type>);                \
-  static_assert(std::is_trivially_copyable_v<type>);   \
+#define DUET_CHECK(name, type)                       \
+  static_assert(ScatteringModel<type>);              \
+  static_assert(std::is_trivially_copyable_v<type>); \
   static_assert(std::is_trivially_destructible_v<type>);
 DUET_BSDF_MODELS(DUET_CHECK)
 #undef DUET_CHECK
 
 /// Stores `model` and its kind in anything with members `kind` and `model`.
-#define DUET_SET(name, type)                           \
-  template <class Component>                           \
-  void set_model(Component& c, const type& model) {    \
-    c.kind = ModelKind::name;                          \
-    c.model.name = model;                              \
+#define DUET_SET(name, type)                        \
+  template <class Component>                        \
+  void set_model(Component& c, const type& model) { \
+    c.kind = ModelKind::name;                       \
+    c.model.name = model;                           \
   }
 DUET_BSDF_MODELS(DUET_SET)
 #undef DUET_SET
@@ -47,7 +47,8 @@ template <class Component, class F>
 inline auto visit_model(const Component& c, F&& f) {
   switch (c.kind) {
 #define DUET_CASE(name, type) \
-  case ModelKind::name: return f(c.model.name);
+  case ModelKind::name:       \
+    return f(c.model.name);
     DUET_BSDF_MODELS(DUET_CASE)
 #undef DUET_CASE
   }

@@ -6,8 +6,8 @@
 namespace duet {
 
 /// Two unit vectors that complete `n` (unit length) to a right-handed basis.
-/// Source: Duff et al., "Building an Orthonormal Basis, Revisited", JCGT 6(1), 2017. Mitsuba uses the
-/// same construction where texture coordinates are degenerate, so anisotropic BSDFs agree.
+/// Source: Duff et al., "Building an Orthonormal Basis, Revisited", JCGT 6(1), 2017. Mitsuba uses
+/// the same construction where texture coordinates are degenerate, so anisotropic BSDFs agree.
 inline void coordinate_system(const Normal3f& n, Vector3f& s, Vector3f& t) {
   const float sign = std::copysign(1.0f, n.z);
   const float a = -1.0f / (sign + n.z);
@@ -39,13 +39,25 @@ struct Frame {
 };
 
 /// Trigonometry of a direction in its local frame, where the normal is the z axis.
-inline float cos_theta(const Vector3f& w) { return w.z; }
-inline float abs_cos_theta(const Vector3f& w) { return std::abs(w.z); }
-inline float sin2_theta(const Vector3f& w) { return std::max(0.0f, 1.0f - w.z * w.z); }
-inline bool same_hemisphere(const Vector3f& a, const Vector3f& b) { return a.z * b.z > 0; }
+inline float cos_theta(const Vector3f& w) {
+  return w.z;
+}
+inline float abs_cos_theta(const Vector3f& w) {
+  return std::abs(w.z);
+}
+inline float sin2_theta(const Vector3f& w) {
+  return std::max(0.0f, 1.0f - w.z * w.z);
+}
+inline bool same_hemisphere(const Vector3f& a, const Vector3f& b) {
+  return a.z * b.z > 0;
+}
 /// The mirror image of `w` about the normal.
-inline Vector3f reflect(const Vector3f& w) { return {-w.x, -w.y, w.z}; }
+inline Vector3f reflect(const Vector3f& w) {
+  return {-w.x, -w.y, w.z};
+}
 /// The mirror image of `w` about the unit direction `m`.
-inline Vector3f reflect(const Vector3f& w, const Vector3f& m) { return m * (2 * dot(w, m)) - w; }
+inline Vector3f reflect(const Vector3f& w, const Vector3f& m) {
+  return m * (2 * dot(w, m)) - w;
+}
 
 }  // namespace duet

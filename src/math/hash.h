@@ -24,7 +24,9 @@ constexpr uint64_t hash_combine(uint64_t a, uint64_t b) {
 }
 
 /// The upper 24 bits as a float in [0, 1).
-constexpr float to_unit_float(uint32_t x) { return static_cast<float>(x >> 8) * 0x1p-24f; }
+constexpr float to_unit_float(uint32_t x) {
+  return static_cast<float>(x >> 8) * 0x1p-24f;
+}
 
 constexpr uint32_t reverse_bits(uint32_t x) {
   x = __builtin_bswap32(x);

@@ -1,5 +1,5 @@
-// Random numbers by index: (seed, pixel, sample, dimension) → number, so that any sample of any pixel
-// can be made anywhere and at any time.
+// Random numbers by index: (seed, pixel, sample, dimension) → number, so that any sample of any
+// pixel can be made anywhere and at any time.
 #pragma once
 
 #include <cstdint>
@@ -40,8 +40,8 @@ class Sampler {
     row_ = sobol_row(index_);
   }
 
-  /// Continues at the given dimension: each vertex of a path has dimensions of its own, so that what
-  /// one vertex uses does not shift the numbers of the next.
+  /// Continues at the given dimension: each vertex of a path has dimensions of its own, so that
+  /// what one vertex uses does not shift the numbers of the next.
   void start_dimension(uint32_t d) {
     dimension_ = d;
     if (sequence_ == SampleSequence::sobol) select_block(d / kSobolDimensions);
@@ -73,8 +73,8 @@ class Sampler {
     return to_unit_float(owen_scramble_reversed(row_.value(d % kSobolDimensions), scramble));
   }
 
-  /// Dimensions come in blocks of kSobolDimensions; later blocks use the same points in another order
-  /// that is itself an Owen scramble, so each prefix of the sequence stays well distributed.
+  /// Dimensions come in blocks of kSobolDimensions; later blocks use the same points in another
+  /// order that is itself an Owen scramble, so each prefix of the sequence stays well distributed.
   /// Source: Burley, "Practical Hash-based Owen Scrambling", JCGT 9(4), 2020.
   void select_block(uint32_t block) {
     if (block == block_) return;

@@ -3,9 +3,9 @@
 namespace duet::sobol_detail {
 namespace {
 
-/// Degree, inner coefficients and initial numbers of the primitive polynomials of dimensions 2 … 16.
-/// Source: Joe & Kuo, "Constructing Sobol Sequences with Better Two-Dimensional Projections", SIAM
-/// J. Sci. Comput. 30(5), 2008, table "new-joe-kuo-6".
+/// Degree, inner coefficients and initial numbers of the primitive polynomials of dimensions 2
+/// … 16. Source: Joe & Kuo, "Constructing Sobol Sequences with Better Two-Dimensional Projections",
+/// SIAM J. Sci. Comput. 30(5), 2008, table "new-joe-kuo-6".
 struct Polynomial {
   int degree;
   uint32_t coefficients;

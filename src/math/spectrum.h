@@ -38,7 +38,9 @@ struct Spectrum {
 inline bool is_finite(const Spectrum& s) {
   return std::isfinite(s.r) && std::isfinite(s.g) && std::isfinite(s.b);
 }
-inline Spectrum sqrt(const Spectrum& s) { return {std::sqrt(s.r), std::sqrt(s.g), std::sqrt(s.b)}; }
+inline Spectrum sqrt(const Spectrum& s) {
+  return {std::sqrt(s.r), std::sqrt(s.g), std::sqrt(s.b)};
+}
 constexpr Spectrum lerp(const Spectrum& a, const Spectrum& b, float t) {
   return a * (1 - t) + b * t;
 }

@@ -19,7 +19,9 @@ bool Matrix4::is_finite() const {
   return true;
 }
 
-bool Matrix4::is_affine() const { return m[3] == std::array<double, 4>{0, 0, 0, 1}; }
+bool Matrix4::is_affine() const {
+  return m[3] == std::array<double, 4>{0, 0, 0, 1};
+}
 
 double Matrix4::determinant3() const {
   return m[0][0] * (m[1][1] * m[2][2] - m[1][2] * m[2][1]) -

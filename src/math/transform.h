@@ -8,11 +8,10 @@
 
 namespace duet {
 
-/// A 4×4 matrix in row-major order that acts on column vectors. Scene descriptions keep transforms in
-/// this form, so that two ways to write the same transform can be compared.
+/// A 4×4 matrix in row-major order that acts on column vectors. Scene descriptions keep transforms
+/// in this form, so that two ways to write the same transform can be compared.
 struct Matrix4 {
-  std::array<std::array<double, 4>, 4> m{
-      {{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}, {0, 0, 0, 1}}};
+  std::array<std::array<double, 4>, 4> m{{{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}, {0, 0, 0, 1}}};
 
   bool operator==(const Matrix4&) const = default;
   Matrix4 operator*(const Matrix4& o) const;

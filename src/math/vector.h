@@ -1,8 +1,8 @@
 // Vectors, points and normals of three (and two) single-precision components.
 //
-// The three kinds share their arithmetic but do not convert into one another silently: a point minus
-// a point is a vector, a point plus a vector is a point, and a normal becomes a vector only by an
-// explicit conversion, because the two transform differently.
+// The three kinds share their arithmetic but do not convert into one another silently: a point
+// minus a point is a vector, a point plus a vector is a point, and a normal becomes a vector only
+// by an explicit conversion, because the two transform differently.
 #pragma once
 
 #include <algorithm>
@@ -26,8 +26,7 @@ struct Tuple3 {
   constexpr Tuple3(float x_, float y_, float z_) : x(x_), y(y_), z(z_) {}
   explicit constexpr Tuple3(float v) : x(v), y(v), z(v) {}
   template <TupleKind J>
-    requires(J != K)
-  explicit constexpr Tuple3(const Tuple3<J>& o) : x(o.x), y(o.y), z(o.z) {}
+  requires(J != K) explicit constexpr Tuple3(const Tuple3<J>& o) : x(o.x), y(o.y), z(o.z) {}
 
   constexpr float operator[](int i) const { return i == 0 ? x : i == 1 ? y : z; }
   constexpr float& operator[](int i) { return i == 0 ? x : i == 1 ? y : z; }
@@ -60,7 +59,9 @@ constexpr Point3f operator-(const Point3f& a, const Vector3f& b) {
 constexpr Vector3f operator-(const Point3f& a, const Point3f& b) {
   return {a.x - b.x, a.y - b.y, a.z - b.z};
 }
-constexpr Vector3f& operator+=(Vector3f& a, const Vector3f& b) { return a = a + b; }
+constexpr Vector3f& operator+=(Vector3f& a, const Vector3f& b) {
+  return a = a + b;
+}
 
 template <TupleKind K, TupleKind J>
 constexpr float dot(const Tuple3<K>& a, const Tuple3<J>& b) {
@@ -90,7 +91,9 @@ template <TupleKind K>
 inline bool is_finite(const Tuple3<K>& a) {
   return std::isfinite(a.x) && std::isfinite(a.y) && std::isfinite(a.z);
 }
-inline float distance(const Point3f& a, const Point3f& b) { return length(b - a); }
+inline float distance(const Point3f& a, const Point3f& b) {
+  return length(b - a);
+}
 
 /// A pair of numbers: film positions, texture coordinates, uniform variates. `Point2f p;` is unset.
 struct Point2f {
@@ -106,9 +109,15 @@ struct Point2i {
   constexpr bool operator==(const Point2i&) const = default;
 };
 
-constexpr float sqr(float x) { return x * x; }
-inline float safe_sqrt(float x) { return std::sqrt(std::max(x, 0.0f)); }
-constexpr float lerp(float a, float b, float t) { return a * (1 - t) + b * t; }
+constexpr float sqr(float x) {
+  return x * x;
+}
+inline float safe_sqrt(float x) {
+  return std::sqrt(std::max(x, 0.0f));
+}
+constexpr float lerp(float a, float b, float t) {
+  return a * (1 - t) + b * t;
+}
 
 /// A ray segment from `origin` along `direction` (unit length unless said otherwise) up to `tmax`.
 struct Ray {

@@ -15,8 +15,8 @@ struct BuildOptions {
   int threads = 1;
 };
 
-/// Builds what the description says; null, with errors in `diagnostics`, if something in it cannot be
-/// built (a missing image, a transform that cannot be inverted, …). All such errors are reported
+/// Builds what the description says; null, with errors in `diagnostics`, if something in it cannot
+/// be built (a missing image, a transform that cannot be inverted, …). All such errors are reported
 /// together. The description's meshes move into the scene where nothing else holds them.
 std::unique_ptr<Scene> build_scene(SceneDescription description, const BuildOptions& options,
                                    Diagnostics& diagnostics);

@@ -31,15 +31,22 @@ double gamma_q(double a, double x) {
   return front * h;
 }
 
-double chi2_p_value(double statistic, int dof) { return gamma_q(0.5 * dof, 0.5 * statistic); }
-double normal_p_value(double z) { return std::erfc(std::abs(z) / std::sqrt(2.0)); }
-double sidak(double alpha, int n) { return 1 - std::pow(1 - alpha, 1.0 / n); }
+double chi2_p_value(double statistic, int dof) {
+  return gamma_q(0.5 * dof, 0.5 * statistic);
+}
+double normal_p_value(double z) {
+  return std::erfc(std::abs(z) / std::sqrt(2.0));
+}
+double sidak(double alpha, int n) {
+  return 1 - std::pow(1 - alpha, 1.0 / n);
+}
 
 Chi2Result chi2_test(const std::vector<double>& observed, const std::vector<double>& expected,
                      double level) {
   std::vector<size_t> order(expected.size());
   std::iota(order.begin(), order.end(), size_t(0));
-  std::sort(order.begin(), order.end(), [&](size_t a, size_t b) { return expected[a] < expected[b]; });
+  std::sort(order.begin(), order.end(),
+            [&](size_t a, size_t b) { return expected[a] < expected[b]; });
   Chi2Result r;
   double pooled_observed = 0, pooled_expected = 0;
   int cells = 0;
@@ -67,8 +74,8 @@ Chi2Result chi2_test(const std::vector<double>& observed, const std::vector<doub
   }
   r.p_value = chi2_p_value(r.statistic, r.dof);
   r.pass = r.p_value > level;
-  r.message = fmt::format("chi2 {:.1f}, {} degrees of freedom, p {:.3g}", r.statistic, r.dof,
-                          r.p_value);
+  r.message =
+      fmt::format("chi2 {:.1f}, {} degrees of freedom, p {:.3g}", r.statistic, r.dof, r.p_value);
   return r;
 }
 

@@ -33,8 +33,8 @@ Chi2Result chi2_test(const std::vector<double>& observed, const std::vector<doub
                      double level);
 
 /// Tests samples on the unit square against a density that integrates to `mass` ≤ 1 (the rest are
-/// failed samples). `sample` fills a position and returns false if it failed; `density` is integrated
-/// over each of nx × ny cells by the midpoint rule on sub × sub points.
+/// failed samples). `sample` fills a position and returns false if it failed; `density` is
+/// integrated over each of nx × ny cells by the midpoint rule on sub × sub points.
 struct SquareTest {
   int nx = 40, ny = 20, sub = 8;
   int samples = 400000;
@@ -42,7 +42,8 @@ struct SquareTest {
   uint64_t seed = 1;
 };
 Chi2Result chi2_square(const std::function<bool(Point2f u, Point2f& position)>& sample,
-                       const std::function<double(Point2f)>& density, const SquareTest& options = {});
+                       const std::function<double(Point2f)>& density,
+                       const SquareTest& options = {});
 
 /// The same for unit directions and a density per solid angle, over cells of (φ, cos θ).
 /// `sample` receives three uniform numbers.
