@@ -51,22 +51,20 @@ void FilmTile::add(const FilmTile& other) {
   for (size_t i = 0; i < data_.size(); ++i) data_[i] += other.data_[i];
 }
 
-void FilmTile::clear() {
-  std::fill(data_.begin(), data_.end(), 0.0);
-}
-
-Film::Film(Point2i full, const PixelBounds& crop, const FilterDescription& filter,
-           std::vector<std::string> channels)
-    : full_(full), crop_(crop), filter_(filter), channels_(std::move(channels)) {
-  const PixelBounds image{0, 0, full.x, full.y};
-  const PixelBounds sampled = crop.grow(filter_.border()).intersect(image);
+Film::Film(const FilmLayout& layout, std::vector<std::string> channels)
+    : full_(layout.full),
+      crop_(layout.crop),
+      filter_(layout.filter),
+      channels_(std::move(channels)) {
+  const PixelBounds image{0, 0, full_.x, full_.y};
+  const PixelBounds sampled = crop_.grow(filter_.border()).intersect(image);
   const int n = int(channels_.size());
   for (int ty = sampled.y0 / kTileSize; ty * kTileSize < sampled.y1; ++ty)
     for (int tx = sampled.x0 / kTileSize; tx * kTileSize < sampled.x1; ++tx) {
       const PixelBounds square{tx * kTileSize, ty * kTileSize, (tx + 1) * kTileSize,
                                (ty + 1) * kTileSize};
       const PixelBounds inside = square.intersect(sampled);
-      const PixelBounds stored = inside.grow(filter_.border()).intersect(crop);
+      const PixelBounds stored = inside.grow(filter_.border()).intersect(crop_);
       if (!stored.empty()) tiles_.emplace_back(inside, stored, n);
     }
 }
@@ -94,10 +92,6 @@ Image Film::develop() const {
 void Film::add(const Film& other) {
   assert(tiles_.size() == other.tiles_.size());
   for (size_t i = 0; i < tiles_.size(); ++i) tiles_[i].add(other.tiles_[i]);
-}
-
-void Film::clear() {
-  for (FilmTile& t : tiles_) t.clear();
 }
 
 }  // namespace duet

@@ -43,7 +43,8 @@ class FilmTile {
                   std::span<const float> values);
   /// Adds the sums of another tile of the same bounds.
   void add(const FilmTile& other);
-  void clear();
+  /// Per stored pixel the sum of weights, then the weighted sum of each channel.
+  std::span<const double> data() const { return data_; }
 
  private:
   friend class Film;
@@ -52,7 +53,14 @@ class FilmTile {
   }
   PixelBounds sampled_, stored_;
   int channels_;
-  std::vector<double> data_;  ///< per pixel: sum of weights, then the weighted sum of each channel
+  std::vector<double> data_;
+};
+
+/// What a film looks like before it has samples.
+struct FilmLayout {
+  Point2i full;      ///< size of the whole image
+  PixelBounds crop;  ///< the window to be developed within it
+  FilterDescription filter;
 };
 
 /// A film is the set of its tiles. Their grid is anchored at the full image's origin, so that a
@@ -61,22 +69,21 @@ class Film {
  public:
   static constexpr int kTileSize = 16;
 
-  /// `full` is the size of the whole image, `crop` the window to be developed within it. Samples
-  /// are taken in the window and within the filter's reach around it, but never outside the image.
-  Film(Point2i full, const PixelBounds& crop, const FilterDescription& filter,
-       std::vector<std::string> channels);
+  /// Samples are taken in the window and within the filter's reach around it, but never outside the
+  /// image.
+  Film(const FilmLayout& layout, std::vector<std::string> channels);
 
   const ReconstructionFilter& filter() const { return filter_; }
   const PixelBounds& crop() const { return crop_; }
   Point2i full_size() const { return full_; }
   const std::vector<std::string>& channels() const { return channels_; }
   std::vector<FilmTile>& tiles() { return tiles_; }
+  const std::vector<FilmTile>& tiles() const { return tiles_; }
 
   /// The weighted means of the window's pixels; a pixel that no sample reached is zero.
   Image develop() const;
   /// Adds the sums of another film of the same layout.
   void add(const Film& other);
-  void clear();
 
  private:
   Point2i full_;

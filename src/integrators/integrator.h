@@ -41,6 +41,9 @@ class Integrator {
   virtual ~Integrator() = default;
   /// Names of the film channels that render_tile() fills, in order.
   virtual std::vector<std::string> channels() const = 0;
+  /// Turns what the film has summed up into what its channels are called, once `spp` samples per
+  /// pixel are there.
+  virtual void finish(Image& image, int spp) const = 0;
   /// Adds samples to one tile. Called from many threads, never twice at a time for one tile.
   virtual void render_tile(const Scene& scene, const Film& film, FilmTile& tile,
                            const SampleRange& samples, RenderCounters& counters) const = 0;

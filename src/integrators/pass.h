@@ -9,19 +9,19 @@
 
 namespace duet {
 
-/// When to stop; the first limit that is reached wins. Without any, the scene's sample count.
+/// When to stop; the first limit that is reached wins. At least one must be set.
 struct RenderBudget {
   std::optional<int> spp;
   std::optional<double> seconds;
-  /// Estimated root mean square error relative to the image's mean.
+  /// Relative root mean square error, estimated from independent batches.
   std::optional<double> target_error;
 };
 
 struct RenderProgress {
-  double fraction = 0;  ///< of the budget
-  double seconds = 0;   ///< since rendering began
-  int spp = 0;          ///< completed samples per pixel
-  uint64_t paths = 0;
+  double fraction = 0;                  ///< of the budget, as far as it is known
+  double seconds = 0;                   ///< since rendering began
+  int spp = 0;                          ///< samples that every pixel has
+  double samples = 0;                   ///< samples taken in all pixels together
   std::optional<double> relative_rmse;  ///< estimate so far
 };
 
@@ -30,25 +30,28 @@ struct RenderRequest {
   uint64_t seed = 0;
   SampleSequence sequence = SampleSequence::sobol;
   int threads = 1;
-  /// Called between passes and a few times per second within them, from one thread at a time.
+  /// Called a few times per second, from one thread at a time.
   std::function<void(const RenderProgress&)> progress;
-  /// Set from outside to stop at the next tile boundary of a pass; the pass is then not used.
+  /// Set from outside to stop after the tiles that are under way. What they have is kept.
   const std::atomic<bool>* cancel = nullptr;
 };
 
 struct RenderResult {
   Image image;
   RenderCounters counters;
-  int spp = 0;
+  int spp = 0;  ///< samples that every pixel has
   double seconds = 0;
   bool interrupted = false;
-  /// Estimated relative RMSE of the image and whether it is an estimate from independent batches or
-  /// (for a single low-discrepancy sequence) an upper bound.
+  /// Estimate of the root mean square error over all pixels, relative to the mean of the image.
   std::optional<double> relative_rmse;
+  /// True if the estimate comes from parts of one low-discrepancy sequence: they are more alike in
+  /// what they leave out than independent batches, so the true error is smaller.
   bool rmse_is_upper_bound = false;
 };
 
-RenderResult render(const Scene& scene, const Integrator& integrator, Film& film,
+/// Renders until the budget is used up. The image depends on the scene, the integrator, the film,
+/// the seed, the sequence and the number of samples; never on the number of threads.
+RenderResult render(const Scene& scene, const Integrator& integrator, const FilmLayout& layout,
                     const RenderRequest& request);
 
 }  // namespace duet

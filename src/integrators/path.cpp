@@ -1,135 +1,75 @@
 #include "integrators/path.h"
 
-#include "integrators/camera_samples.h"
-#include "lights/area.h"
+#include "integrators/next_event.h"
 
 namespace duet {
 
 namespace {
 
-/// Random numbers that one vertex may use: choice and direction of the light, lobe and direction of
-/// the BSDF, roulette.
+/// Random numbers set aside for each vertex: direction to and choice of the light, direction and
+/// lobe of the BSDF, roulette.
 constexpr uint32_t kDimensionsPerVertex = 8;
+constexpr uint32_t kBsdfDimension = 4;
 
-/// Weight of a sample with density a against one with density b (power heuristic, exponent 2).
-float mis_weight(PdfW a, PdfW b) {
-  if (!(a.value > 0)) return 0;
-  const float ratio = b.value / a.value;
-  return 1 / (1 + ratio * ratio);
-}
+}  // namespace
 
-struct PathState {
-  const Scene& scene;
-  const PathOptions& options;
-  Sampler& sampler;
-  RenderCounters& counters;
-};
-
-/// Light that arrives straight from a light at a vertex, weighted against BSDF sampling.
-Spectrum sample_light(const PathState& p, const Surface& s, const Bsdf& bsdf) {
-  const Point2f u = p.sampler.next_2d();
-  const LightPicker::Pick pick = p.scene.picker.size() == 1
-                                     ? LightPicker::Pick{0, 1}
-                                     : p.scene.picker.pick(p.sampler.next_1d());
-  const Light& chosen = *p.scene.lights[pick.light];
-  const auto light = chosen.kind() == LightKind::area
-                         ? static_cast<const AreaLight&>(chosen).sample_direct(s.position, u)
-                         : chosen.sample_direct(s.position, u);
-  if (!light) return {};
-  if (p.options.strict_normals && dot(s.ng, light->wi) * dot(s.shading.n, light->wi) <= 0)
-    return {};
-  const BsdfEval f = bsdf.eval(light->wi, Transport::radiance);
-  if (f.value.is_black()) return {};
-  const Ray shadow = light->finite ? spawn_ray_to(s, light->target) : spawn_ray(s, light->wi);
-  ++p.counters.shadow_rays;
-  if (p.scene.accel->occluded(shadow)) return {};
-  const float weight =
-      light->delta ? 1.0f : mis_weight(PdfW{light->pdf.value * pick.probability}, f.pdf);
-  return f.value * light->weight * (weight / pick.probability);
-}
-
-/// Radiance along `ray` and the coverage of its pixel.
-Spectrum trace(const PathState& p, Ray ray, float& alpha) {
-  const Scene& scene = p.scene;
-  Spectrum radiance, throughput(1);
-  PdfW bsdf_pdf;
-  bool delta = true;   // the last direction could not have been found by light sampling
-  bool passed = true;  // only null interfaces so far
-  float eta = 1;
+Spectrum PathIntegrator::radiance(const Scene& scene, const Ray& camera_ray, Sampler& sampler,
+                                  RenderCounters& counters, float& alpha) const {
+  if (options_.max_depth == 0) return {};
+  const SampleShares shares;
+  Ray ray = options_.hide_emitters ? behind_emitters(scene, camera_ray, counters) : camera_ray;
+  Spectrum sum, throughput(1);
+  std::optional<PdfW> bsdf_pdf;  // of the last direction, if light samples compete with it
   Point3f from = ray.origin;
+  float eta = 1;  // relative index of refraction along the path
   for (int depth = 1;; ++depth) {
     Hit hit;
-    ++p.counters.closest_rays;
+    ++counters.closest_rays;
     if (!scene.accel->closest_hit(ray, hit)) {
-      if (scene.environment && !(p.options.hide_emitters && passed)) {
-        const PdfW light_pdf = delta ? PdfW{}
-                                     : PdfW{scene.environment->pdf_direct(ray.direction).value *
-                                            scene.picker.probability(scene.environment_index)};
-        const float w = delta ? 1.0f : mis_weight(bsdf_pdf, light_pdf);
-        radiance += throughput * scene.environment->emitted(ray.direction) * w;
-      }
+      if (depth == 1 && options_.hide_emitters) break;
+      sum += throughput * weighted_environment(scene, ray.direction, bsdf_pdf, shares);
+      if (scene.environment) alpha = 1;
       break;
     }
-    ++p.counters.path_vertices;
+    ++counters.path_vertices;
     const Surface s = scene.surface(ray, hit);
-    if (const SurfaceLight* light = scene.light_on(*s.shape);
-        light && !(p.options.hide_emitters && passed)) {
-      const Spectrum emitted = light->emitted(s, -ray.direction);
-      if (!emitted.is_black()) {
-        float w = 1;
-        if (!delta) {
-          const PdfW pdf = light->pdf_direct(from, s, ray.direction, hit.t * hit.t);
-          w = mis_weight(bsdf_pdf, PdfW{pdf.value * scene.picker.probability(s.shape->light)});
-        }
-        radiance += throughput * emitted * w;
-      }
-    }
-    if (p.options.max_depth >= 0 && depth >= p.options.max_depth) {
+    if (s.shape->light != kNone)
+      sum += throughput * weighted_emission(scene, s, from, ray.direction, hit.t, bsdf_pdf, shares);
+    if (depth == options_.max_depth) {
       alpha = 1;
       break;
     }
     const Bsdf bsdf = scene.materials[s.shape->material]->bind(s, -ray.direction);
-    p.sampler.start_dimension(kFirstVertexDimension + kDimensionsPerVertex * uint32_t(depth - 1));
-    if (bsdf.has_smooth() && scene.picker.size() > 0)
-      radiance += throughput * sample_light(p, s, bsdf);
-    p.sampler.start_dimension(kFirstVertexDimension + kDimensionsPerVertex * uint32_t(depth - 1) +
-                              4);
-    const Point2f v = p.sampler.next_2d();
-    const float u = bsdf.needs_choice() ? p.sampler.next_1d() : 0.5f;
+    const uint32_t dimension = kFirstVertexDimension + kDimensionsPerVertex * uint32_t(depth - 1);
+    if (bsdf.has_smooth() && scene.picker.size() > 0) {
+      sampler.start_dimension(dimension);
+      sum += throughput *
+             sample_light(scene, s, bsdf, options_.strict_normals, shares, sampler, counters);
+    }
+    sampler.start_dimension(dimension + kBsdfDimension);
+    const Point2f v = sampler.next_2d();
+    const float u = bsdf.needs_choice() ? sampler.next_1d() : 0.5f;
     const auto sample = bsdf.sample(u, v, Transport::radiance);
     if (!sample || !sample->null) alpha = 1;
-    if (!sample) break;
-    if (p.options.strict_normals && dot(s.ng, sample->wi) * dot(s.shading.n, sample->wi) <= 0)
-      break;
+    if (!sample || (options_.strict_normals && sides_differ(s, sample->wi))) break;
     throughput *= sample->weight;
+    const float importance = throughput.max();
+    if (!(importance > 0)) break;
     eta *= sample->eta;
-    bsdf_pdf = sample->pdf;
-    delta = sample->delta;
-    passed &= sample->null;
+    if (depth >= options_.rr_depth) {
+      // Where light is refracted into a denser medium its radiance grows without carrying more.
+      const float survival = std::min(importance * eta * eta, 0.95f);
+      if (!(sampler.next_1d() < survival)) break;
+      throughput *= 1 / survival;
+    }
+    if (sample->delta)
+      bsdf_pdf.reset();
+    else
+      bsdf_pdf = sample->pdf;
     from = s.position;
     ray = spawn_ray(s, sample->wi);
-    if (depth >= p.options.rr_depth) {
-      const float survive = std::min(throughput.max() * eta * eta, 0.95f);
-      if (!(p.sampler.next_1d() < survive)) break;
-      throughput *= 1 / survive;
-    } else if (!(throughput.max() > 0)) {
-      break;
-    }
   }
-  return radiance;
-}
-
-}  // namespace
-
-void PathIntegrator::render_tile(const Scene& scene, const Film& film, FilmTile& tile,
-                                 const SampleRange& samples, RenderCounters& counters) const {
-  for_each_camera_sample(scene, film, tile, samples, counters,
-                         [&](const Ray& ray, Sampler& sampler, std::span<float> values) {
-                           if (options_.max_depth == 0) return;
-                           const PathState state{scene, options_, sampler, counters};
-                           const Spectrum l = trace(state, ray, values[3]);
-                           values[0] = l.r, values[1] = l.g, values[2] = l.b;
-                         });
+  return sum;
 }
 
 }  // namespace duet

@@ -1,7 +1,7 @@
 // Path tracing with next event estimation.
 #pragma once
 
-#include "integrators/integrator.h"
+#include "integrators/camera_integrator.h"
 
 namespace duet {
 
@@ -15,12 +15,14 @@ struct PathOptions {
 
 /// Unidirectional path tracing from the camera. Light is found by light samples and by BSDF
 /// samples, weighted by the power heuristic (Veach 1997, section 9.2.4).
-class PathIntegrator final : public Integrator {
+class PathIntegrator final : public CameraIntegrator {
  public:
-  explicit PathIntegrator(const PathOptions& options) : options_(options) {}
-  std::vector<std::string> channels() const override { return {"R", "G", "B", "A"}; }
-  void render_tile(const Scene& scene, const Film& film, FilmTile& tile, const SampleRange& samples,
-                   RenderCounters& counters) const override;
+  PathIntegrator(const PathOptions& options, const CameraOutput& output)
+      : CameraIntegrator(output), options_(options) {}
+
+ protected:
+  Spectrum radiance(const Scene& scene, const Ray& ray, Sampler& sampler, RenderCounters& counters,
+                    float& alpha) const override;
 
  private:
   PathOptions options_;

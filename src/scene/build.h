@@ -13,6 +13,8 @@ struct BuildOptions {
   /// Which of the description's sensors to look through.
   size_t sensor = 0;
   int threads = 1;
+  /// What the image's layers ask of all surfaces, on top of what the materials need.
+  SurfaceNeeds layer_needs;
 };
 
 /// Builds what the description says; null, with errors in `diagnostics`, if something in it cannot

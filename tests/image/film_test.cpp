@@ -51,13 +51,13 @@ std::array<float, 2> pattern(const Point2f& p) {
 TEST_CASE("a crop window has the very pixels of the full image") {
   const Point2i size{50, 37};
   for (const FilterKind kind : kKinds) {
-    Film full(size, {0, 0, size.x, size.y}, describe(kind), {"a", "b"});
+    Film full({size, {0, 0, size.x, size.y}, describe(kind)}, {"a", "b"});
     fill(full, 3, pattern);
     const Image image = full.develop();
     for (const PixelBounds crop :
          {PixelBounds{10, 4, 41, 33}, PixelBounds{0, 0, 1, 1}, PixelBounds{49, 36, 50, 37},
           PixelBounds{15, 15, 18, 17}, PixelBounds{0, 16, 50, 32}}) {
-      Film part(size, crop, describe(kind), {"a", "b"});
+      Film part({size, crop, describe(kind)}, {"a", "b"});
       fill(part, 3, pattern);
       const Image cut = part.develop();
       REQUIRE(cut.width == crop.width());
@@ -75,7 +75,7 @@ TEST_CASE("a crop window has the very pixels of the full image") {
 
 TEST_CASE("a constant stays constant under every filter, also at the border") {
   for (const FilterKind kind : kKinds) {
-    Film film({21, 19}, {0, 0, 21, 19}, describe(kind), {"a", "b"});
+    Film film({{21, 19}, {0, 0, 21, 19}, describe(kind)}, {"a", "b"});
     // Enough that the negative lobes cannot cancel a pixel's weight.
     fill(film, 16, [](const Point2f&) { return std::array<float, 2>{0.7f, -3}; });
     const Image image = film.develop();
@@ -89,7 +89,7 @@ TEST_CASE("a constant stays constant under every filter, also at the border") {
 TEST_CASE("pixels are means weighted by the filter at the distance of the sample") {
   for (const FilterKind kind : kKinds) {
     const FilterDescription description = describe(kind);
-    Film film({40, 40}, {0, 0, 40, 40}, description, {"a"});
+    Film film({{40, 40}, {0, 0, 40, 40}, description}, {"a"});
     // Two samples in tiles apart: the pixels between see both.
     const Point2f p{15.8f, 7.3f}, q{16.4f, 6.9f};
     const std::array<float, 1> a{1}, b{5};
@@ -123,12 +123,10 @@ TEST_CASE("pixels are means weighted by the filter at the distance of the sample
 TEST_CASE("films of the same layout add up") {
   const PixelBounds crop{3, 2, 30, 20};
   const FilterDescription filter = describe(FilterKind::gaussian);
-  Film one({33, 21}, crop, filter, {"a", "b"}), two({33, 21}, crop, filter, {"a", "b"});
+  Film one({{33, 21}, crop, filter}, {"a", "b"}), two({{33, 21}, crop, filter}, {"a", "b"});
   fill(one, 2, pattern);
   fill(two, 2, pattern);
   const Image before = one.develop();
   one.add(two);
   CHECK(one.develop().data == before.data);
-  one.clear();
-  for (const float v : one.develop().data) CHECK(v == 0);
 }

@@ -1,0 +1,159 @@
+#!/usr/bin/env python3
+"""Makes the images and meshes that the scenes under scenes/ use, from formulas.
+
+    make_assets.py [SCENES_DIR]
+
+Everything is deterministic and made here, so the assets carry no licence but the project's. Needs
+numpy, and mitsuba for the one EXR file.
+"""
+import struct
+import sys
+import zlib
+from pathlib import Path
+
+import numpy as np
+
+SCENES = Path(sys.argv[1]) if len(sys.argv) > 1 else Path(__file__).resolve().parent.parent / 'scenes'
+
+
+def write_png(path, image):
+    """Writes an array (height, width[, 3 or 4]) of bytes."""
+    image = np.asarray(image, np.uint8)
+    height, width = image.shape[:2]
+    colour = {2: 0, 3: {3: 2, 4: 6}.get(image.shape[-1], 0)}[image.ndim]
+    rows = b''.join(b'\0' + row.tobytes() for row in image)
+
+    def chunk(tag, data):
+        body = tag + data
+        return struct.pack('>I', len(data)) + body + struct.pack('>I', zlib.crc32(body))
+
+    path.write_bytes(b'\x89PNG\r\n\x1a\n' +
+                     chunk(b'IHDR', struct.pack('>IIBBBBB', width, height, 8, colour, 0, 0, 0)) +
+                     chunk(b'IDAT', zlib.compress(rows, 9)) + chunk(b'IEND', b''))
+
+
+def to_bytes(values):
+    return np.clip(np.round(255 * np.asarray(values)), 0, 255)
+
+
+def grid(width, height):
+    """Coordinates of texel centres in [0, 1), from the top left."""
+    return np.meshgrid((np.arange(width) + 0.5) / width, (np.arange(height) + 0.5) / height)
+
+
+def colour_texture():
+    """Rings, bands and a bright corner: no symmetry, so that flips show."""
+    u, v = grid(64, 48)
+    rings = 0.5 + 0.5 * np.sin(40 * np.hypot(u - 0.3, v - 0.4))
+    bands = (np.floor(6 * u + 3 * v) % 2)
+    corner = np.exp(-8 * (u ** 2 + v ** 2))
+    return to_bytes(np.stack([0.15 + 0.7 * rings * (1 - 0.5 * v), 0.2 + 0.5 * bands * u + 0.3 * corner,
+                              0.1 + 0.8 * v * (1 - rings * 0.6)], axis=-1))
+
+
+def height_field():
+    u, v = grid(64, 64)
+    tau = 2 * np.pi
+    return 0.5 + 0.2 * np.sin(3 * tau * u) * np.cos(2 * tau * v) + 0.2 * np.cos(tau * (u + 2 * v))
+
+
+def bump_texture():
+    return to_bytes(height_field())
+
+
+def normal_texture():
+    h = height_field()
+    du = (np.roll(h, -1, 1) - np.roll(h, 1, 1)) * 32 * 0.06
+    dv = (np.roll(h, -1, 0) - np.roll(h, 1, 0)) * 32 * 0.06
+    n = np.stack([-du, dv, np.ones_like(h)], axis=-1)
+    n /= np.linalg.norm(n, axis=-1, keepdims=True)
+    return to_bytes(0.5 * n + 0.5)
+
+
+def mask_texture():
+    u, v = grid(32, 32)
+    return to_bytes(np.hypot((4 * u) % 1 - 0.5, (4 * v) % 1 - 0.5) < 0.35)
+
+
+def sky():
+    """A bright spot, a gradient and a dark ground as (32, 64, 3) floats."""
+    u, v = grid(64, 32)
+    phi, theta = 2 * np.pi * u, np.pi * v
+    d = np.stack([np.sin(theta) * np.sin(phi), np.cos(theta), -np.sin(theta) * np.cos(phi)], axis=-1)
+    sun = np.array([0.5, 0.6, -0.62])
+    glow = np.exp(40 * (d @ (sun / np.linalg.norm(sun)) - 1))
+    above = np.clip(d[..., 1:2], 0, 1)
+    base = np.where(d[..., 1:2] > 0, np.array([0.5, 0.7, 1.0]) * (0.3 + 0.5 * above),
+                    np.array([0.15, 0.1, 0.07]))
+    return (base + glow[..., None] * np.array([30.0, 25.0, 18.0])).astype(np.float32)
+
+
+def lumpy_sphere(n):
+    """Vertices and triangles of a sphere with lumps: n × 2n quads, poles shared."""
+    theta, phi = np.pi * np.arange(n + 1) / n, 2 * np.pi * np.arange(2 * n) / (2 * n)
+    t, p = np.meshgrid(theta, phi, indexing='ij')
+    direction = np.stack([np.sin(t) * np.cos(p), np.sin(t) * np.sin(p), np.cos(t)], axis=-1)
+    lumps = (np.sin(9 * direction[..., 0]) * np.sin(8 * direction[..., 1] + 1) +
+             0.5 * np.sin(17 * direction[..., 2] + 3 * direction[..., 0]))
+    points = (direction * (1 + 0.08 * lumps)[..., None]).reshape(-1, 3)
+    i, j = np.meshgrid(np.arange(n), np.arange(2 * n), indexing='ij')
+    a, b = i * 2 * n + j, i * 2 * n + (j + 1) % (2 * n)
+    c, d = a + 2 * n, b + 2 * n
+    upper = np.stack([a, c, b], axis=-1)[1:].reshape(-1, 3)   # the first ring has no upper triangles
+    lower = np.stack([b, c, d], axis=-1)[:-1].reshape(-1, 3)
+    triangles = np.concatenate([upper, lower])
+    # The rings at the poles are single points.
+    triangles[triangles < 2 * n] = 0
+    triangles[triangles >= n * 2 * n] = n * 2 * n
+    used = np.unique(triangles)
+    remap = np.zeros(len(points), np.int64)
+    remap[used] = np.arange(len(used))
+    return points[used].astype('<f4'), remap[triangles].astype('<u4')
+
+
+def write_serialized(path, points, triangles):
+    """Mitsuba's .serialized format, version 4: one mesh without normals."""
+    flags = 0x1000  # single precision
+    body = struct.pack('<I', flags) + b'lumpy sphere\0' + struct.pack('<QQ', len(points), len(triangles))
+    body += points.tobytes() + triangles.tobytes()
+    mesh = struct.pack('<HH', 0x041C, 4) + zlib.compress(body, 9)
+    path.write_bytes(mesh + struct.pack('<QI', 0, 1))
+
+
+def write_attribute_ply(path):
+    """A disc of triangles with a colour per vertex and another per face, as ASCII PLY."""
+    n = 24
+    angle = 2 * np.pi * np.arange(n) / n
+    rim = np.stack([np.cos(angle), np.sin(angle), np.zeros(n)], axis=-1)
+    points = np.vstack([[0, 0, 0], rim])
+    colours = np.vstack([[0.9, 0.9, 0.9], 0.5 + 0.4 * np.stack(
+        [np.cos(angle), np.cos(angle - 2.1), np.cos(angle + 2.1)], axis=-1)])
+    lines = ['ply', 'format ascii 1.0', f'element vertex {n + 1}']
+    lines += [f'property float {name}' for name in ('x', 'y', 'z', 'r', 'g', 'b')]
+    lines += [f'element face {n}', 'property list uchar int vertex_indices',
+              'property float tint_r', 'property float tint_g', 'property float tint_b', 'end_header']
+    lines += [' '.join(f'{x:.6g}' for x in [*p, *c]) for p, c in zip(points, colours)]
+    lines += [f'3 0 {i + 1} {(i + 1) % n + 1} {0.2 + 0.3 * (i % 3):.3g} 0.5 {0.9 - 0.1 * (i % 5):.3g}'
+              for i in range(n)]
+    path.write_text('\n'.join(lines) + '\n')
+
+
+def main():
+    for scene in ('textures', 'two-versions', 'lights-area', 'lights-delta', 'bsdf-wrappers', 'bsdf-plastics'):
+        write_png(SCENES / scene / 'colours.png', colour_texture())
+    for scene in ('bsdf-wrappers',):
+        write_png(SCENES / scene / 'bumps.png', bump_texture())
+        write_png(SCENES / scene / 'normals.png', normal_texture())
+        write_png(SCENES / scene / 'holes.png', mask_texture())
+    write_attribute_ply(SCENES / 'textures' / 'attributes.ply')
+    write_serialized(SCENES / 'mesh-lumpy' / 'lumpy.serialized', *lumpy_sphere(120))
+
+    import mitsuba as mi
+    mi.set_variant('scalar_rgb')
+    for scene in ('environment-map', 'bsdf-dielectrics', 'bsdf-conductors'):
+        bitmap = mi.Bitmap(sky()).convert(mi.Bitmap.PixelFormat.RGB, mi.Struct.Type.Float16, False)
+        bitmap.write(str(SCENES / scene / 'sky.exr'))
+
+
+if __name__ == '__main__':
+    main()

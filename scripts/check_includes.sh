@@ -1,0 +1,38 @@
+#!/usr/bin/env bash
+# Fails if an #include goes against the arrows of the house:
+#   app -> {integrators, parsers}; integrators -> transport -> scene
+#       -> {materials, lights, media, cameras} -> textures -> {geometry, image} -> math -> base
+#   parsers -> scene/description.h, geometry/mesh.h, math, base and parsers
+# A room may include itself and every room further right; rooms in braces do not see each other.
+set -euo pipefail
+cd "$(dirname "$0")/.."
+
+find src parsers -name '*.h' -o -name '*.cpp' | sort | xargs awk '
+  BEGIN {
+    n = split("app:9 parsers:8 integrators:8 transport:7 scene:6 materials:5 lights:5 media:5 " \
+              "cameras:5 textures:4 geometry:3 image:3 math:2 base:1", entries, " ")
+    for (i = 1; i <= n; ++i) { split(entries[i], e, ":"); level[e[1]] = e[2] }
+  }
+  FNR == 1 {
+    split(FILENAME, part, "/")
+    room = part[1] == "parsers" ? "parsers" : part[2]
+  }
+  /^#include "/ {
+    split($0, quoted, "\"")
+    target = quoted[2]
+    split(target, path, "/")
+    to = path[1]
+    if (to == "mitsuba" || to == "mesh") to = "parsers"
+    if (!(to in level)) { print FILENAME ":" FNR ": include of unknown room: " target; bad = 1; next }
+    ok = to == room || level[to] < level[room]
+    if (room == "parsers" && to != "parsers")
+      ok = to == "math" || to == "base" || target == "scene/description.h" || target == "geometry/mesh.h"
+    if (!ok) { print FILENAME ":" FNR ": " room " must not include " target; bad = 1 }
+  }
+  /^#include <embree/ && FILENAME !~ /accel_embree.cpp$/ {
+    print FILENAME ":" FNR ": only geometry/accel_embree.cpp may include Embree"; bad = 1
+  }
+  /^#include <(OpenEXR|Imf|OpenImageIO)/ && FILENAME !~ /^src\/image\// {
+    print FILENAME ":" FNR ": only src/image may include image libraries"; bad = 1
+  }
+  END { exit bad }'

@@ -1,0 +1,45 @@
+#!/usr/bin/env bash
+# Installs what Duet is built with, if it is missing. Sourced by run.sh and test.sh.
+set -euo pipefail
+
+duet_packages=(cmake ninja-build g++ libembree-dev libopenexr-dev libopenimageio-dev libpugixml-dev
+  libtinyobjloader-dev libtbb-dev libcli11-dev libfmt-dev libspdlog-dev nlohmann-json3-dev
+  zlib1g-dev doctest-dev)
+
+# Prints the packages that are not installed.
+duet_missing_packages() {
+  local package
+  for package in "$@"; do
+    dpkg-query -W -f '${db:Status-Status}' "$package" 2>/dev/null | grep -q '^installed$' ||
+      echo "$package"
+  done
+}
+
+duet_install() {
+  if ! command -v dpkg-query >/dev/null || ! command -v apt-get >/dev/null; then
+    # Not Debian or Ubuntu: cmake will say what it misses, in terms of these.
+    if [ ! -d build ]; then
+      echo "This system has no apt-get. Duet needs: a C++20 compiler, CMake 3.25, Ninja, Embree 3.13 or 4," >&2
+      echo "OpenEXR 3, OpenImageIO 2.4, pugixml, tinyobjloader 2, oneTBB, CLI11, fmt, spdlog," >&2
+      echo "nlohmann-json, zlib and doctest." >&2
+    fi
+    return 0
+  fi
+  local missing
+  mapfile -t missing < <(duet_missing_packages "$@")
+  [ "${#missing[@]}" -gt 0 ] || return 0
+  local sudo=()
+  if [ "$(id -u)" -ne 0 ]; then
+    if ! command -v sudo >/dev/null; then
+      echo "Please install, as root: apt-get install --no-install-recommends ${missing[*]}" >&2
+      return 1
+    fi
+    sudo=(sudo)
+  fi
+  echo "Installing ${missing[*]}" >&2
+  "${sudo[@]}" apt-get update -qq
+  "${sudo[@]}" env DEBIAN_FRONTEND=noninteractive apt-get install -y -qq --no-install-recommends \
+    "${missing[@]}" >/dev/null
+}
+
+duet_install "${duet_packages[@]}"

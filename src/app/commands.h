@@ -1,0 +1,36 @@
+// The subcommands of the program, one file each.
+#pragma once
+
+#include <CLI/CLI.hpp>
+
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+namespace duet {
+
+/// Exit codes of the program.
+enum ExitCode : int {
+  kSuccess = 0,
+  kSceneFailed = 1,
+  kWrongUsage = 2,
+  kThresholdMissed = 3,
+  kInterrupted = 130,
+  kTerminated = 143,
+};
+
+/// The command line asks for something that does not exist: exit code 2.
+class UsageError : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+/// The command line as it was typed, for the header of images.
+extern std::string command_line;
+
+/// Each adds a subcommand to `app`; when it is used, its callback stores the exit code.
+void add_render_command(CLI::App& app, int& exit_code);
+void add_info_command(CLI::App& app, int& exit_code);
+void add_compare_command(CLI::App& app, int& exit_code);
+
+}  // namespace duet

@@ -1,0 +1,81 @@
+#include "app/header.h"
+
+#include <cmath>
+#include <fstream>
+
+#include "app/commands.h"
+#include "math/hash.h"
+
+namespace duet {
+
+namespace {
+
+/// For row vectors, as OpenEXR stores matrices: the transpose.
+std::array<float, 16> exr_matrix(const Matrix4& m) {
+  std::array<float, 16> out;
+  for (int i = 0; i < 4; ++i)
+    for (int j = 0; j < 4; ++j) out[size_t(4 * i + j)] = float(m[j][i]);
+  return out;
+}
+
+/// From camera space (x to the right) to normalised device coordinates: the image is the unit
+/// square, with y upwards, after division by w.
+Matrix4 camera_to_ndc(const SensorDescription& view, Point2i size) {
+  const double aspect = double(size.x) / size.y;
+  Matrix4 m;
+  if (view.kind == SensorKind::orthographic) {
+    // The film is two units wide.
+    m[0] = {0.5, 0, 0, 0.5};
+    m[1] = {0, 0.5 * aspect, 0, 0.5};
+    return m;
+  }
+  const double fov = horizontal_fov(view.fov, view.fov_axis, aspect);
+  const double t = std::tan(0.5 * fov * 3.14159265358979323846 / 180);
+  m[0] = {0.5 / t, 0, 0.5 + view.principal_point_offset_x, 0};
+  m[1] = {0, 0.5 * aspect / t, 0.5 - view.principal_point_offset_y, 0};
+  m[2] = {0, 0, 1, 0};
+  m[3] = {0, 0, 1, 0};
+  return m;
+}
+
+}  // namespace
+
+uint64_t hash_file(const std::string& path) {
+  std::ifstream in(path, std::ios::binary);
+  uint64_t hash = 0;
+  for (char c; in.get(c);) hash = hash_combine(hash, uint8_t(c));
+  return hash;
+}
+
+std::vector<std::pair<std::string, HeaderValue>> image_header(const RenderRecord& record,
+                                                              const RenderResult& result,
+                                                              const SensorDescription& view,
+                                                              Point2i full_size) {
+  std::vector<std::pair<std::string, HeaderValue>> fields{
+      {"program", "Duet"},
+      {"version", DUET_VERSION},
+      {"commandLine", command_line},
+      {"scene", record.scene_file},
+      {"sceneHash", fmt::format("{:016x}", record.scene_hash)},
+      {"integrator", record.integrator},
+      {"integratorParameters", record.integrator_parameters},
+      {"sampler", record.sampler},
+      {"spp", result.spp},
+      {"lightSubpaths", 0},
+      {"seed", fmt::to_string(record.seed)},
+      {"threads", record.threads},
+      {"renderSeconds", float(result.seconds)},
+  };
+  if (result.relative_rmse) {
+    fields.emplace_back("relativeRmseEstimate", float(*result.relative_rmse));
+    fields.emplace_back("relativeRmseIsUpperBound", int(result.rmse_is_upper_bound));
+  }
+  if (const auto world_to_camera = view.to_world.inverse()) {
+    const Matrix4 camera = Matrix4::scale(-1, 1, 1) * *world_to_camera;
+    fields.emplace_back("worldToCamera", exr_matrix(camera));
+    fields.emplace_back("worldToNDC", exr_matrix(camera_to_ndc(view, full_size) * camera));
+  }
+  return fields;
+}
+
+}  // namespace duet

@@ -1,0 +1,34 @@
+// What an image file says about how it was made.
+#pragma once
+
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "image/image_io.h"
+#include "integrators/pass.h"
+#include "scene/description.h"
+
+namespace duet {
+
+/// All facts about one finished render.
+struct RenderRecord {
+  std::string scene_file;
+  uint64_t scene_hash = 0;
+  std::string integrator, integrator_parameters;
+  std::string sampler;
+  uint64_t seed = 0;
+  int threads = 1;
+};
+
+/// Fields of the EXR header. `view` gives the matrices from the world to the camera and to the
+/// image, in OpenEXR's convention (row vectors; x to the right, y up, z into the scene).
+std::vector<std::pair<std::string, HeaderValue>> image_header(const RenderRecord& record,
+                                                              const RenderResult& result,
+                                                              const SensorDescription& view,
+                                                              Point2i full_size);
+
+/// A 64-bit fingerprint of a file's bytes; 0 if it cannot be read.
+uint64_t hash_file(const std::string& path);
+
+}  // namespace duet

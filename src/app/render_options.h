@@ -1,0 +1,54 @@
+// The options of `duet render`.
+#pragma once
+
+#include <CLI/CLI.hpp>
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "app/progress.h"
+#include "app/scene_file.h"
+#include "integrators/make_integrator.h"
+
+namespace duet {
+
+/// The widest and highest image there may be: a guard against slips of the pen.
+inline constexpr int kMaxImageSide = 65536;
+
+struct RenderOptions {
+  std::vector<std::string> scenes;
+  ReadOptions read;
+  std::vector<std::string> outputs;
+  double exposure = 0;
+  bool skip_existing = false, keep_going = true;
+
+  IntegratorOverride integrator;
+  RenderBudget budget;
+  std::optional<Point2i> size;
+  std::optional<PixelBounds> crop;
+  size_t sensor = 0;
+  std::optional<uint64_t> seed;
+  int threads = 0;
+  bool strict_sampler = false;
+
+  std::string stats_file, log_file;
+  bool quiet = false, verbose = false;
+  ProgressStyle progress = ProgressStyle::automatic;
+};
+
+/// Adds the options to a command; `finish` is to be called once they are parsed and throws
+/// UsageError for values that make no sense.
+class RenderOptionParser {
+ public:
+  explicit RenderOptionParser(CLI::App& command);
+  RenderOptions finish();
+
+ private:
+  RenderOptions options_;
+  std::string time_, target_, size_, crop_, progress_ = "auto";
+  std::vector<std::string> integrator_parameters_, layers_;
+  std::optional<int> spp_;
+};
+
+}  // namespace duet

@@ -1,0 +1,34 @@
+// Reads the scenes that are named on the command line.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "scene/description.h"
+
+namespace duet {
+
+/// What the command line says about reading scenes.
+struct ReadOptions {
+  std::vector<std::string> defines;  ///< NAME=VALUE
+  std::vector<std::string> search_paths;
+  bool strict = false;  ///< warnings are errors
+};
+
+struct LoadedScene {
+  SceneDescription description;
+  /// The scene's `$name` parameters and the values they got.
+  std::vector<std::pair<std::string, std::string>> parameters;
+};
+
+/// Prints the messages that have not been printed yet; returns whether there is an error among all
+/// of them (or, if strict, a warning).
+bool report(const Diagnostics& diagnostics, bool strict, size_t& printed);
+
+/// Reads one scene file and prints what is wrong with it. Empty if it cannot be used. Throws
+/// UsageError for defines that are not NAME=VALUE.
+std::optional<LoadedScene> load_scene(const std::string& file, const ReadOptions& options);
+
+}  // namespace duet

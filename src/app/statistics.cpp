@@ -1,0 +1,59 @@
+#include "app/statistics.h"
+
+#include <sys/resource.h>
+
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <stdexcept>
+
+namespace duet {
+
+namespace {
+
+uint64_t memory_peak_bytes() {
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  return uint64_t(usage.ru_maxrss) * 1024;
+}
+
+}  // namespace
+
+void StatisticsFile::add(const RenderRecord& record, const RenderResult& result,
+                         const PhaseSeconds& seconds, const SceneCounts& counts) {
+  const RenderCounters& c = result.counters;
+  nlohmann::ordered_json j;
+  j["scene"] = record.scene_file;
+  j["integrator"] = record.integrator;
+  j["spp"] = result.spp;
+  j["seed"] = record.seed;
+  j["threads"] = record.threads;
+  j["seconds"] = {{"parse", seconds.parse},
+                  {"build", seconds.build},
+                  {"render", seconds.render},
+                  {"write", seconds.write}};
+  j["memory_peak_bytes"] = memory_peak_bytes();
+  j["rays"] = {{"closest", c.closest_rays}, {"shadow", c.shadow_rays}};
+  j["paths"] = {{"camera", c.camera_paths}, {"light", c.light_paths}};
+  j["mean_path_length"] =
+      c.camera_paths > 0 ? double(c.path_vertices) / double(c.camera_paths) : 0.0;
+  j["nonfinite_samples"] = c.nonfinite_samples;
+  j["error"]["relative_rmse_estimate"] =
+      result.relative_rmse ? nlohmann::ordered_json(*result.relative_rmse) : nullptr;
+  j["error"]["is_upper_bound"] = result.rmse_is_upper_bound;
+  j["emitters"] = counts.emitters;
+  j["triangles"] = counts.triangles;
+  j["instances"] = counts.instances;
+  j["interrupted"] = result.interrupted;
+  entries_.push_back(j.dump(2));
+}
+
+void StatisticsFile::write(bool several) const {
+  std::ofstream out(path_);
+  if (several) out << "[\n";
+  for (size_t i = 0; i < entries_.size(); ++i) out << (i > 0 ? ",\n" : "") << entries_[i];
+  out << (several ? "\n]\n" : "\n");
+  out.close();
+  if (!out) throw std::runtime_error(fmt::format("cannot write {}", path_));
+}
+
+}  // namespace duet

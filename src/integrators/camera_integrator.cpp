@@ -1,0 +1,98 @@
+#include "integrators/camera_integrator.h"
+
+#include <cmath>
+
+namespace duet {
+
+namespace {
+
+bool is_statistic(LayerKind kind) {
+  return kind == LayerKind::moments || kind == LayerKind::variance || kind == LayerKind::samples;
+}
+
+}  // namespace
+
+CameraIntegrator::CameraIntegrator(const CameraOutput& output) : image_(output.image) {
+  if (image_) channels_ = {"R", "G", "B", "A"};
+  for (const Layer& layer : output.layers) {
+    layers_.push_back({layer.kind, channels_.size()});
+    for (std::string& name : layer_channels(layer)) channels_.push_back(std::move(name));
+    looks_at_first_hit_ |= !is_statistic(layer.kind);
+  }
+}
+
+void CameraIntegrator::sample(const Scene& scene, const Ray& ray, Sampler& sampler,
+                              RenderCounters& counters, std::span<float> values) const {
+  Spectrum l;
+  if (image_) {
+    l = radiance(scene, ray, sampler, counters, values[3]);
+    values[0] = l.r, values[1] = l.g, values[2] = l.b;
+  }
+  if (layers_.empty()) return;
+  Hit hit;
+  const bool found = looks_at_first_hit_ && scene.accel->closest_hit(ray, hit);
+  counters.closest_rays += looks_at_first_hit_;
+  Surface surface;
+  if (found) surface = scene.surface(ray, hit);
+  for (const PlacedLayer& layer : layers_) {
+    const std::span<float> out = values.subspan(layer.first);
+    if (layer.kind == LayerKind::moments || layer.kind == LayerKind::variance)
+      out[0] = l.r * l.r, out[1] = l.g * l.g, out[2] = l.b * l.b;
+    else if (found)
+      evaluate_layer(layer.kind, scene, surface, hit, out);
+  }
+}
+
+void CameraIntegrator::render_tile(const Scene& scene, const Film& film, FilmTile& tile,
+                                   const SampleRange& range, RenderCounters& counters) const {
+  const Camera& camera = *scene.camera;
+  const bool has_lens = camera.has_lens();
+  const bool unit_box = film.filter().is_unit_box();
+  std::vector<float> values(channels_.size()), sums(channels_.size());
+  const PixelBounds& b = tile.sampled();
+  for (int y = b.y0; y < b.y1; ++y)
+    for (int x = b.x0; x < b.x1; ++x) {
+      const uint64_t pixel = uint64_t(y) * uint64_t(film.full_size().x) + uint64_t(x);
+      Sampler sampler(range.sequence, range.seed, range.scramble, pixel);
+      std::fill(sums.begin(), sums.end(), 0.0f);
+      for (uint32_t i = 0; i < range.count; ++i) {
+        sampler.start_sample(range.first + i);
+        const Point2f u = sampler.next_2d();
+        const Point2f position{float(x) + u.x, float(y) + u.y};
+        Point2f lens{};
+        if (has_lens) {
+          sampler.start_dimension(kLensDimension);
+          lens = sampler.next_2d();
+        }
+        std::fill(values.begin(), values.end(), 0.0f);
+        sample(scene, camera.sample_ray(position, lens), sampler, counters, values);
+        bool finite = true;
+        for (const float v : values) finite &= std::isfinite(v);
+        if (!finite) {
+          ++counters.nonfinite_samples;
+          std::fill(values.begin(), values.end(), 0.0f);
+        }
+        if (unit_box)
+          for (size_t c = 0; c < values.size(); ++c) sums[c] += values[c];
+        else
+          tile.add_sample(film.filter(), position, values);
+      }
+      counters.camera_paths += range.count;
+      if (unit_box) tile.add_to_pixel(x, y, sums, float(range.count));
+    }
+}
+
+void CameraIntegrator::finish(Image& image, int spp) const {
+  const size_t stride = channels_.size();
+  for (const PlacedLayer& layer : layers_)
+    for (size_t i = 0; i < image.data.size(); i += stride) {
+      const float* colour = &image.data[i];
+      float* out = &image.data[i + layer.first];
+      if (layer.kind == LayerKind::samples) out[0] = float(spp);
+      if (layer.kind == LayerKind::variance)
+        for (int c = 0; c < 3; ++c)
+          out[c] = std::max(0.0f, out[c] - colour[c] * colour[c]) / float(std::max(1, spp));
+    }
+}
+
+}  // namespace duet

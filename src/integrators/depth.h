@@ -1,0 +1,24 @@
+// The distance to the first surface.
+#pragma once
+
+#include "integrators/camera_integrator.h"
+
+namespace duet {
+
+/// Distance along the camera's ray, the same in all three channels; zero where nothing is seen.
+class DepthIntegrator final : public CameraIntegrator {
+ public:
+  explicit DepthIntegrator(const CameraOutput& output) : CameraIntegrator(output) {}
+
+ protected:
+  Spectrum radiance(const Scene& scene, const Ray& ray, Sampler&, RenderCounters& counters,
+                    float& alpha) const override {
+    Hit hit;
+    ++counters.closest_rays;
+    if (!scene.accel->closest_hit(ray, hit)) return {};
+    alpha = 1;
+    return Spectrum(hit.t);
+  }
+};
+
+}  // namespace duet

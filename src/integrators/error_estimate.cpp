@@ -1,0 +1,88 @@
+#include "integrators/error_estimate.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace duet {
+
+namespace {
+
+/// The first channels of a film are its colours, unless only layers were asked for.
+int color_channels(const Film& film) {
+  return film.channels().size() >= 3 && film.channels()[0] == "R" ? 3 : 0;
+}
+
+}  // namespace
+
+std::optional<double> batch_relative_rmse(const std::vector<Film>& films) {
+  const int channels = color_channels(films[0]);
+  if (channels == 0) return std::nullopt;
+  std::vector<Image> images;
+  for (const Film& f : films) images.push_back(f.develop());
+  const size_t pixels = size_t(images[0].width) * images[0].height;
+  const double n = double(images.size());
+  double variance = 0, total = 0;
+  for (size_t i = 0; i < pixels; ++i)
+    for (int c = 0; c < channels; ++c) {
+      const size_t at = i * images[0].channels.size() + c;
+      double sum = 0, squares = 0;
+      for (const Image& image : images) sum += image.data[at];
+      for (const Image& image : images) squares += std::pow(image.data[at] - sum / n, 2);
+      variance += squares / (n - 1) / n;
+      total += sum / n;
+    }
+  if (!(total > 0)) return std::nullopt;
+  const double values = double(pixels) * channels;
+  return std::sqrt(variance / values) / (total / values);
+}
+
+PartialMeans::PartialMeans(const Film& film) : channels_(color_channels(film)) {
+  for (const FilmTile& t : film.tiles()) {
+    before_.emplace_back(t.data().size());
+    last_.emplace_back(size_t(t.stored().intersect(t.sampled()).width()) *
+                       std::max(0, t.stored().intersect(t.sampled()).height()));
+  }
+}
+
+void PartialMeans::add_part(const Film& film) {
+  const size_t stride = film.channels().size() + 1;
+  total_ = weight_ = pixels_ = 0;
+  for (size_t k = 0; k < film.tiles().size(); ++k) {
+    const FilmTile& tile = film.tiles()[k];
+    const PixelBounds own = tile.stored().intersect(tile.sampled());
+    size_t i = 0;
+    for (int y = own.y0; y < own.y1; ++y)
+      for (int x = own.x0; x < own.x1; ++x, ++i) {
+        const size_t at =
+            (size_t(y - tile.stored().y0) * tile.stored().width() + size_t(x - tile.stored().x0)) *
+            stride;
+        const double* now = &tile.data()[at];
+        const double* then = &before_[k][at];
+        weight_ += now[0];
+        pixels_ += 1;
+        Pixel& last = last_[k][i];
+        const double w = now[0] - then[0];
+        for (int c = 0; c < channels_; ++c) {
+          total_ += now[c + 1];
+          const double mean = w > 0 ? (now[c + 1] - then[c + 1]) / w : 0;
+          if (parts_ > 0 && w > 0 && last.weight > 0) {
+            squares_ += std::pow(mean - last.mean[c], 2) / (1 / w + 1 / double(last.weight));
+            count_ += 1;
+          }
+          last.mean[c] = float(mean);
+        }
+        last.weight = float(w);
+      }
+    before_[k].assign(tile.data().begin(), tile.data().end());
+  }
+  ++parts_;
+}
+
+std::optional<double> PartialMeans::relative_rmse() const {
+  if (!(count_ > 0) || !(total_ > 0) || !(weight_ > 0)) return std::nullopt;
+  const double per_sample = squares_ / count_;
+  const double mean = total_ / (channels_ * weight_);
+  return std::sqrt(per_sample / (weight_ / pixels_)) / mean;
+}
+
+}  // namespace duet

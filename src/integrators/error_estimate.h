@@ -1,0 +1,40 @@
+// How far a rendered image may be from its limit, judged from the spread of its parts.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "image/film.h"
+
+namespace duet {
+
+/// The standard error of the mean of several independent films (of equally many samples each), as a
+/// root mean square over all pixels of the channels R, G and B, relative to the mean of the image.
+/// Empty if the image is black or has no colours.
+std::optional<double> batch_relative_rmse(const std::vector<Film>& films);
+
+/// The same from the consecutive parts of one film. Two parts in succession differ by the noise of
+/// both, so the mean square of their differences estimates the variance of a sample. If the parts
+/// belong to one low-discrepancy sequence the result is an upper bound.
+class PartialMeans {
+ public:
+  explicit PartialMeans(const Film& film);
+  /// Takes note of what has been added to the film since the last call.
+  void add_part(const Film& film);
+  std::optional<double> relative_rmse() const;
+
+ private:
+  struct Pixel {
+    float mean[3];
+    float weight;  ///< of the samples in the part
+  };
+  std::vector<std::vector<double>> before_;  ///< the sums of each tile at the last call
+  std::vector<std::vector<Pixel>> last_;     ///< the last part's means, of each tile's own pixels
+  int parts_ = 0;
+  int channels_ = 0;
+  double squares_ = 0;  ///< sum of the estimates of the variance of one sample
+  double count_ = 0;    ///< number of them
+  double total_ = 0, weight_ = 0, pixels_ = 0;  ///< for the mean of the image and of its samples
+};
+
+}  // namespace duet

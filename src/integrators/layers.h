@@ -1,0 +1,48 @@
+// Layers of the image other than its colours: what is seen at the first hit, and statistics.
+#pragma once
+
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "scene/scene.h"
+
+namespace duet {
+
+enum class LayerKind {
+  albedo,
+  depth,  ///< distance from the camera
+  position,
+  uv,
+  normal,  ///< of shading
+  geo_normal,
+  dp_du,
+  dp_dv,
+  prim_index,
+  shape_index,
+  moments,   ///< mean of the squares of the samples' colours
+  variance,  ///< of the pixel's colours, as if samples were independent
+  samples,   ///< number of samples of the pixel
+};
+
+struct Layer {
+  LayerKind kind;
+  std::string name;  ///< prefix of its channels
+};
+
+/// The kind with this name: those of Mitsuba's `aov` plugin (sh_normal, …) and of the command line
+/// (normal, shape, …).
+std::optional<LayerKind> find_layer(const std::string& name);
+/// The names that find_layer() knows.
+const std::vector<std::string>& layer_names();
+/// The channels of a layer, "name.X" and so on.
+std::vector<std::string> layer_channels(const Layer& layer);
+/// What a layer asks of surfaces.
+SurfaceNeeds layer_needs(LayerKind kind);
+
+/// Writes the layer's value at a hit; nothing for statistics. A miss leaves zeros.
+void evaluate_layer(LayerKind kind, const Scene& scene, const Surface& surface, const Hit& hit,
+                    std::span<float> out);
+
+}  // namespace duet

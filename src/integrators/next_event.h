@@ -1,0 +1,94 @@
+// Light that reaches a surface point straight from a light: by choosing a point of the light, or by
+// a ray that happens to find it.
+#pragma once
+
+#include "integrators/integrator.h"
+#include "lights/area.h"
+
+namespace duet {
+
+/// How many samples of each kind the heuristic weighs against one another, in any common unit.
+struct SampleShares {
+  float light = 1, bsdf = 1;
+};
+
+/// Weight of a sample with density a where b could have made it too.
+/// Source: Veach 1997, section 9.2.4, the power heuristic with exponent 2.
+inline float power_heuristic(float a, float b) {
+  if (!(a > 0)) return 0;
+  const float ratio = b / a;
+  return 1 / (1 + ratio * ratio);
+}
+
+/// Whether the shading and the geometric normal see a direction on different sides.
+inline bool sides_differ(const Surface& s, const Vector3f& w) {
+  return dot(s.ng, w) * dot(s.shading.n, w) <= 0;
+}
+
+/// The camera's ray continued behind all emitting surfaces that it meets first: what
+/// `hide_emitters` means in Mitsuba 3. The environment is hidden by whoever traces the ray.
+inline Ray behind_emitters(const Scene& scene, Ray ray, RenderCounters& counters) {
+  for (;;) {
+    Hit hit;
+    ++counters.closest_rays;
+    if (!scene.accel->closest_hit(ray, hit) || scene.shapes[hit.shape].light == kNone) return ray;
+    const float left = ray.tmax - hit.t;
+    ray = spawn_ray(scene.surface(ray, hit), ray.direction);
+    ray.tmax = left;
+  }
+}
+
+/// Next event estimation at a surface point: radiance towards the Bsdf's wo that comes straight
+/// from one chosen light, weighted against BSDF sampling. Uses up to three dimensions of the
+/// sampler. The scene must have a light.
+inline Spectrum sample_light(const Scene& scene, const Surface& s, const Bsdf& bsdf,
+                             bool strict_normals, const SampleShares& shares, Sampler& sampler,
+                             RenderCounters& counters) {
+  const Point2f u = sampler.next_2d();
+  const LightPicker::Pick pick =
+      scene.picker.size() == 1 ? LightPicker::Pick{0, 1} : scene.picker.pick(sampler.next_1d());
+  const Light& chosen = *scene.lights[pick.light];
+  // The common kind is called directly, so that the compiler can look into it.
+  const auto light = chosen.kind() == LightKind::area
+                         ? static_cast<const AreaLight&>(chosen).sample_direct(s.position, u)
+                         : chosen.sample_direct(s.position, u);
+  if (!light || (strict_normals && sides_differ(s, light->wi))) return {};
+  const BsdfEval f = bsdf.eval(light->wi, Transport::radiance);
+  if (f.value.is_black()) return {};
+  const Ray shadow = light->finite ? spawn_ray_to(s, light->target) : spawn_ray(s, light->wi);
+  ++counters.shadow_rays;
+  if (scene.accel->occluded(shadow)) return {};
+  const float weight = light->delta
+                           ? 1.0f
+                           : power_heuristic(light->pdf.value * pick.probability * shares.light,
+                                             f.pdf.value * shares.bsdf);
+  return f.value * light->weight * (weight / pick.probability);
+}
+
+/// Emission of the surface that a ray with direction `w` from `from` has met at distance `t`,
+/// weighted against next event estimation. `bsdf_pdf` made the direction; nothing if it was a delta
+/// lobe or the camera, which light samples cannot compete with.
+inline Spectrum weighted_emission(const Scene& scene, const Surface& s, const Point3f& from,
+                                  const Vector3f& w, float t, std::optional<PdfW> bsdf_pdf,
+                                  const SampleShares& shares) {
+  const SurfaceLight* light = scene.light_on(*s.shape);
+  if (!light) return {};
+  const Spectrum emitted = light->emitted(s, -w);
+  if (!bsdf_pdf || emitted.is_black()) return emitted;
+  const float pdf =
+      light->pdf_direct(from, s, w, t * t).value * scene.picker.probability(s.shape->light);
+  return emitted * power_heuristic(bsdf_pdf->value * shares.bsdf, pdf * shares.light);
+}
+
+/// The same for a ray that has left the scene.
+inline Spectrum weighted_environment(const Scene& scene, const Vector3f& w,
+                                     std::optional<PdfW> bsdf_pdf, const SampleShares& shares) {
+  if (!scene.environment) return {};
+  const Spectrum emitted = scene.environment->emitted(w);
+  if (!bsdf_pdf) return emitted;
+  const float pdf =
+      scene.environment->pdf_direct(w).value * scene.picker.probability(scene.environment_index);
+  return emitted * power_heuristic(bsdf_pdf->value * shares.bsdf, pdf * shares.light);
+}
+
+}  // namespace duet

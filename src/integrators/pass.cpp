@@ -1,0 +1,187 @@
+#include "integrators/pass.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <limits>
+#include <mutex>
+
+#include "base/parallel.h"
+#include "integrators/error_estimate.h"
+
+namespace duet {
+
+namespace {
+
+/// Independent sequences from which the error is estimated when it decides when to stop.
+constexpr int kBatches = 8;
+/// Parts into which a known number of samples is divided, for progress and the error bound.
+constexpr int kParts = 8;
+
+class Renderer {
+ public:
+  Renderer(const Scene& scene, const Integrator& integrator, const FilmLayout& layout,
+           const RenderRequest& request)
+      : scene_(scene), integrator_(integrator), request_(request) {
+    const int films = request.budget.target_error ? kBatches : 1;
+    for (int i = 0; i < films; ++i) films_.emplace_back(layout, integrator.channels());
+    start_ = std::chrono::steady_clock::now();
+  }
+
+  RenderResult run() {
+    if (request_.budget.target_error)
+      run_batches();
+    else
+      run_sequence();
+    return finish();
+  }
+
+ private:
+  double seconds() const {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
+  }
+  bool cancelled() const { return request_.cancel && request_.cancel->load(); }
+  bool out_of_time() const {
+    return request_.budget.seconds && seconds() >= *request_.budget.seconds;
+  }
+
+  /// One pass: `count` further samples of every pixel, into one film.
+  void pass(Film& film, uint32_t scramble, int first, int count) {
+    std::vector<FilmTile>& tiles = film.tiles();
+    std::vector<RenderCounters> counters(tiles.size());
+    std::atomic<size_t> done{0};
+    parallel_for(tiles.size(), request_.threads, [&](size_t i) {
+      if (cancelled()) return;
+      const SampleRange range{request_.sequence, request_.seed, scramble, uint32_t(first),
+                              uint32_t(count)};
+      integrator_.render_tile(scene_, film, tiles[i], range, counters[i]);
+      report(double(++done) / double(tiles.size()), count);
+    });
+    for (const RenderCounters& c : counters) counters_.add(c);
+  }
+
+  /// All samples of a pixel come from one low-discrepancy sequence.
+  void run_sequence() {
+    Film& film = films_[0];
+    PartialMeans parts(film);
+    const bool timed = request_.budget.seconds.has_value();
+    const int total = request_.budget.spp.value_or(std::numeric_limits<int>::max());
+    int part = std::max(1, total / kParts);
+    if (timed) part = 1;
+    while (spp_ < total && !cancelled() && !out_of_time()) {
+      const double before = seconds();
+      const int count = std::min(part, total - spp_);
+      pass(film, 0, spp_, count);
+      if (cancelled()) break;
+      spp_ += count;
+      parts.add_part(film);
+      if (const auto e = parts.relative_rmse()) relative_rmse_ = e;
+      if (timed) part = next_part(count, seconds() - before, total);
+    }
+    is_upper_bound_ = request_.sequence != SampleSequence::independent;
+  }
+
+  /// Several sequences that know nothing of each other, all of the same length: their spread is the
+  /// error. Lengths double until the target is met.
+  void run_batches() {
+    const double target = *request_.budget.target_error;
+    const int total = request_.budget.spp.value_or(std::numeric_limits<int>::max() / 2);
+    int length = 0, part = 1;
+    // The budget may not divide evenly among the batches: the first ones get what remains.
+    const auto limit = [&](int batch) { return total / kBatches + (batch < total % kBatches); };
+    while (spp_ < total && !cancelled() && !out_of_time()) {
+      for (int b = 0; b < kBatches && !cancelled(); ++b) {
+        const int count = std::min(part, limit(b) - length);
+        if (count <= 0) continue;
+        pass(films_[b], uint32_t(b), length, count);
+        if (!cancelled()) spp_ += count;
+      }
+      if (cancelled()) break;
+      length += part;
+      relative_rmse_ = batch_relative_rmse(films_);
+      if (relative_rmse_ && *relative_rmse_ <= target) break;
+      part = next_batch_part(length, target);
+    }
+  }
+
+  /// By how much to lengthen the batches: towards the length that should meet the target, but at
+  /// most doubling, and within the time that is left.
+  int next_batch_part(int length, double target) const {
+    double needed = double(length);
+    if (relative_rmse_) needed *= std::pow(*relative_rmse_ / target, 2) - 1;
+    int part = int(std::clamp(needed, 1.0, double(length)));
+    if (request_.budget.seconds) {
+      const double left = *request_.budget.seconds - seconds();
+      const double per_sample = seconds() / (double(length) * kBatches);
+      part = int(std::clamp(left / (per_sample * kBatches), 1.0, double(part)));
+    }
+    return part;
+  }
+
+  /// Parts of a timed render grow until they last about a sixteenth of the budget, and end within
+  /// it.
+  int next_part(int count, double took, int total) const {
+    const double budget = *request_.budget.seconds, left = budget - seconds();
+    const double per_sample = std::max(took / count, 1e-9);
+    const double wanted =
+        std::min({double(2 * count), budget / 16 / per_sample, left / per_sample});
+    return int(std::clamp(wanted, 1.0, double(total)));
+  }
+
+  void report(double pass_fraction, int count) {
+    if (!request_.progress) return;
+    const std::unique_lock lock(report_mutex_, std::try_to_lock);
+    if (!lock) return;
+    const double now = seconds();
+    if (now - last_report_ < 0.1) return;
+    last_report_ = now;
+    RenderProgress p;
+    p.seconds = now;
+    p.spp = spp_;
+    const double samples = spp_ + count * pass_fraction;
+    const Point2i size = {films_[0].crop().width(), films_[0].crop().height()};
+    p.samples = samples * size.x * size.y;
+    p.relative_rmse = relative_rmse_;
+    if (request_.budget.spp) p.fraction = samples / *request_.budget.spp;
+    if (request_.budget.seconds) p.fraction = std::max(p.fraction, now / *request_.budget.seconds);
+    if (request_.budget.target_error && relative_rmse_)
+      p.fraction = std::max(
+          p.fraction, std::min(1.0, std::pow(*request_.budget.target_error / *relative_rmse_, 2)));
+    request_.progress(p);
+  }
+
+  RenderResult finish() {
+    for (size_t i = 1; i < films_.size(); ++i) films_[0].add(films_[i]);
+    RenderResult r;
+    r.image = films_[0].develop();
+    integrator_.finish(r.image, spp_);
+    r.counters = counters_;
+    r.spp = spp_;
+    r.seconds = seconds();
+    r.interrupted = cancelled();
+    r.relative_rmse = relative_rmse_;
+    r.rmse_is_upper_bound = is_upper_bound_;
+    return r;
+  }
+
+  const Scene& scene_;
+  const Integrator& integrator_;
+  const RenderRequest& request_;
+  std::vector<Film> films_;
+  RenderCounters counters_;
+  std::chrono::steady_clock::time_point start_;
+  int spp_ = 0;
+  std::optional<double> relative_rmse_;
+  bool is_upper_bound_ = false;
+  std::mutex report_mutex_;
+  double last_report_ = -1;
+};
+
+}  // namespace
+
+RenderResult render(const Scene& scene, const Integrator& integrator, const FilmLayout& layout,
+                    const RenderRequest& request) {
+  return Renderer(scene, integrator, layout, request).run();
+}
+
+}  // namespace duet

@@ -1,0 +1,112 @@
+#include "image/metrics.h"
+
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+
+#include "math/sampler.h"
+
+using namespace duet;
+
+namespace {
+
+Image constant(int width, int height, float value) {
+  Image image(width, height, {"R", "G", "B"});
+  for (float& v : image.data) v = value;
+  return image;
+}
+
+/// Sum of twelve uniform numbers minus six: normal enough.
+float normal(Sampler& s) {
+  float sum = -6;
+  for (int i = 0; i < 12; ++i) sum += s.next_1d();
+  return sum;
+}
+
+Image with_noise(const Image& image, float sigma, uint64_t seed) {
+  Image out = image;
+  Sampler s(SampleSequence::independent, seed, 0, 0);
+  s.start_sample(0);
+  for (float& v : out.data) v += sigma * normal(s);
+  return out;
+}
+
+}  // namespace
+
+TEST_CASE("metrics of two images whose difference is known") {
+  const Image b = constant(10, 10, 0.5f);
+  Image a = b;
+  a.data[0] += 0.3f;  // one value of 300
+  const ImageMetrics m = compare_images(a, b, std::nullopt);
+  CHECK(m.rmse == doctest::Approx(std::sqrt(0.09 / 300)).epsilon(1e-5));
+  CHECK(m.relative_rmse == doctest::Approx(m.rmse / 0.5));
+  CHECK(m.mae == doctest::Approx(0.001).epsilon(1e-5));
+  CHECK(m.relmse == doctest::Approx(0.09 / 0.26 / 300).epsilon(1e-5));
+  CHECK(m.mean_ratio[0] == doctest::Approx(1 + 0.3 / 50).epsilon(1e-6));
+  CHECK(m.mean_ratio[1] == doctest::Approx(1));
+  CHECK(!m.bias);
+  CHECK(!m.z_share);
+}
+
+TEST_CASE("the trimmed error leaves out the worst thousandth of the pixels") {
+  const Image b = constant(100, 20, 1);
+  Image a = b;
+  for (int i = 0; i < 3; ++i) a.data[i] = 100;  // one pixel
+  for (int i = 3; i < 6; ++i) a.data[i] = 50;   // another
+  CHECK(compare_images(a, b, std::nullopt).relmse_trimmed == 0);
+  for (int i = 6; i < 9; ++i) a.data[i] = 2;  // 2000 pixels: only two may be left out
+  CHECK(compare_images(a, b, std::nullopt).relmse_trimmed > 0);
+}
+
+TEST_CASE("noise of the stated variance passes the z-test, a shift does not") {
+  const Image b = constant(64, 64, 0.5f), variance = constant(64, 64, 0.04f);
+  const NoiseModel noise{&variance, 16, 1e9};  // standard error 0.05
+  const Image a = with_noise(b, 0.05f, 1);
+  ImageMetrics m = compare_images(a, b, noise);
+  CHECK(*m.z_share > 0.9999);
+  CHECK(*m.z_rms == doctest::Approx(1).epsilon(0.03));
+  CHECK(std::abs(*m.bias) < 4);
+  // A bias too small for any single pixel, but not for the mean of all.
+  Image shifted = a;
+  for (float& v : shifted.data) v += 0.01f;
+  m = compare_images(shifted, b, noise);
+  CHECK(*m.z_share > 0.9975);
+  CHECK(*m.bias > 4);
+  // Twice the noise that the samples explain.
+  m = compare_images(with_noise(b, 0.15f, 2), b, noise);
+  CHECK(*m.z_share < kRequiredZShare);
+}
+
+TEST_CASE("values that are not numbers are counted and left out") {
+  const Image b = constant(4, 4, 1);
+  Image a = b;
+  a.data[0] = std::numeric_limits<float>::quiet_NaN();
+  a.data[3] = std::numeric_limits<float>::infinity();
+  a.data[6] = -1;
+  const ImageMetrics m = compare_images(a, b, std::nullopt);
+  CHECK(m.nan_pixels == 1);
+  CHECK(m.infinite_pixels == 1);
+  CHECK(m.negative_pixels == 1);
+  CHECK(std::isfinite(m.rmse));
+  const Image variance = constant(4, 4, 1);
+  const ImageMetrics z = compare_images(a, b, NoiseModel{&variance, 1, 1});
+  CHECK(*z.z_share < 1);  // never good
+}
+
+TEST_CASE("images that cannot be compared are refused") {
+  CHECK_THROWS_AS(compare_images(constant(2, 2, 1), constant(2, 3, 1), std::nullopt),
+                  std::invalid_argument);
+  CHECK_THROWS_AS(compare_images(Image(2, 2, {"U", "V"}), constant(2, 2, 1), std::nullopt),
+                  std::invalid_argument);
+}
+
+TEST_CASE("the difference image is red where brighter and blue where darker") {
+  const Image b = constant(3, 1, 0.5f);
+  Image a = b;
+  for (int c = 0; c < 3; ++c) a.pixel(0, 0)[c] = 1, a.pixel(1, 0)[c] = 0;
+  const auto bytes = difference_image(a, b, 0.5);
+  CHECK(std::vector<int>(bytes.begin(), bytes.end()) ==
+        std::vector<int>{255, 0, 0, 0, 0, 255, 255, 255, 255});
+}

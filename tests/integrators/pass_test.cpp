@@ -1,0 +1,175 @@
+#include "integrators/pass.h"
+
+#include <doctest/doctest.h>
+
+#include <chrono>
+#include <cmath>
+#include <thread>
+
+#include "integrators/camera_integrator.h"
+
+using namespace duet;
+
+namespace {
+
+/// Looks at nothing: each sample is a function of its position and of random numbers, so that the
+/// machinery around it can be tested without a scene.
+class FakeIntegrator final : public Integrator {
+ public:
+  explicit FakeIntegrator(int milliseconds = 0) : milliseconds_(milliseconds) {}
+  std::vector<std::string> channels() const override { return {"R", "G", "B"}; }
+  void finish(Image&, int) const override {}
+  void render_tile(const Scene&, const Film& film, FilmTile& tile, const SampleRange& range,
+                   RenderCounters& counters) const override {
+    if (milliseconds_ > 0) std::this_thread::sleep_for(std::chrono::milliseconds(milliseconds_));
+    const PixelBounds& b = tile.sampled();
+    for (int y = b.y0; y < b.y1; ++y)
+      for (int x = b.x0; x < b.x1; ++x) {
+        Sampler s(range.sequence, range.seed, range.scramble,
+                  uint64_t(y) * uint64_t(film.full_size().x) + uint64_t(x));
+        for (uint32_t i = 0; i < range.count; ++i) {
+          s.start_sample(range.first + i);
+          const Point2f u = s.next_2d();
+          const float v = 1 + float(x % 3) + 2 * (s.next_1d() - 0.5f);
+          const float values[3] = {v, v * u.x, 1};
+          tile.add_sample(film.filter(), {float(x) + u.x, float(y) + u.y}, values);
+        }
+      }
+    counters.camera_paths += uint64_t(b.width()) * b.height() * range.count;
+  }
+
+ private:
+  int milliseconds_;
+};
+
+FilmLayout layout(FilterKind kind, PixelBounds crop = {0, 0, 40, 50}) {
+  FilterDescription filter;
+  filter.kind = kind;
+  return {{40, 50}, crop, filter};
+}
+
+RenderRequest request(int spp, int threads = 1) {
+  RenderRequest r;
+  r.budget.spp = spp;
+  r.threads = threads;
+  r.seed = 9;
+  return r;
+}
+
+const Scene& no_scene() {
+  static const Scene scene;
+  return scene;
+}
+
+}  // namespace
+
+TEST_CASE("the image does not depend on the number of threads") {
+  for (const FilterKind kind : {FilterKind::box, FilterKind::gaussian, FilterKind::lanczos}) {
+    const Image one = render(no_scene(), FakeIntegrator(), layout(kind), request(20, 1)).image;
+    for (const int threads : {2, 7})
+      CHECK(render(no_scene(), FakeIntegrator(), layout(kind), request(20, threads)).image.data ==
+            one.data);
+    RenderRequest other = request(20, 1);
+    other.seed = 10;
+    CHECK(render(no_scene(), FakeIntegrator(), layout(kind), other).image.data != one.data);
+  }
+}
+
+TEST_CASE("a crop window is cut out of the full image bit for bit") {
+  for (const FilterKind kind : {FilterKind::box, FilterKind::tent, FilterKind::mitchell}) {
+    const Image full = render(no_scene(), FakeIntegrator(), layout(kind), request(12)).image;
+    for (const PixelBounds crop : {PixelBounds{5, 7, 29, 33}, {0, 0, 1, 1}, {39, 49, 40, 50}}) {
+      const Image cut = render(no_scene(), FakeIntegrator(), layout(kind, crop), request(12)).image;
+      REQUIRE(cut.width == crop.width());
+      bool equal = true;
+      for (int y = 0; y < cut.height; ++y)
+        for (int x = 0; x < cut.width; ++x)
+          for (int c = 0; c < 3; ++c)
+            equal &= cut.pixel(x, y)[c] == full.pixel(x + crop.x0, y + crop.y0)[c];
+      CHECK(equal);
+    }
+  }
+}
+
+TEST_CASE("every pixel gets the samples it was promised") {
+  for (const int spp : {1, 7, 8, 100}) {
+    const RenderResult r =
+        render(no_scene(), FakeIntegrator(), layout(FilterKind::box), request(spp));
+    CHECK(r.spp == spp);
+    CHECK(r.counters.camera_paths == uint64_t(40 * 50 * spp));
+    CHECK(r.image.pixel(3, 3)[2] == 1);
+    RenderRequest batches = request(spp);
+    batches.budget.target_error = 1e-9;
+    const RenderResult b = render(no_scene(), FakeIntegrator(), layout(FilterKind::box), batches);
+    CHECK(b.spp == spp);
+    CHECK(b.counters.camera_paths == uint64_t(40 * 50 * spp));
+  }
+}
+
+TEST_CASE("the error estimate matches the error that is really made") {
+  // Independent samples of standard deviation 2/√12 in R; in G it is about 0.7; B has none.
+  for (const FilterKind kind : {FilterKind::box, FilterKind::gaussian}) {
+    RenderRequest exact_request = request(6000, 2);
+    exact_request.seed = 1;
+    const Image exact = render(no_scene(), FakeIntegrator(), layout(kind), exact_request).image;
+    RenderRequest r = request(64);
+    r.sequence = SampleSequence::independent;
+    const auto error = [&](const Image& image) {
+      double squares = 0, sum = 0;
+      for (size_t i = 0; i < image.data.size(); ++i) {
+        squares += std::pow(image.data[i] - exact.data[i], 2);
+        sum += exact.data[i];
+      }
+      return std::sqrt(squares / double(image.data.size())) / (sum / double(image.data.size()));
+    };
+    const RenderResult sequence = render(no_scene(), FakeIntegrator(), layout(kind), r);
+    REQUIRE(sequence.relative_rmse);
+    CHECK(!sequence.rmse_is_upper_bound);
+    CHECK(*sequence.relative_rmse == doctest::Approx(error(sequence.image)).epsilon(0.1));
+    r.budget.target_error = 1e-9;
+    const RenderResult batches = render(no_scene(), FakeIntegrator(), layout(kind), r);
+    REQUIRE(batches.relative_rmse);
+    CHECK(*batches.relative_rmse == doctest::Approx(error(batches.image)).epsilon(0.1));
+    // One low-discrepancy sequence is better than its parts let on.
+    r.budget.target_error.reset();
+    r.sequence = SampleSequence::sobol;
+    const RenderResult sobol = render(no_scene(), FakeIntegrator(), layout(kind), r);
+    CHECK(sobol.rmse_is_upper_bound);
+    CHECK(*sobol.relative_rmse > error(sobol.image));
+  }
+}
+
+TEST_CASE("a target error stops the render about where it is reached") {
+  RenderRequest r = request(100000);
+  r.sequence = SampleSequence::independent;
+  r.budget.target_error = 0.02;
+  const RenderResult result = render(no_scene(), FakeIntegrator(), layout(FilterKind::box), r);
+  CHECK(*result.relative_rmse <= 0.02);
+  CHECK(*result.relative_rmse > 0.015);
+  CHECK(result.spp < 10000);
+}
+
+TEST_CASE("a time budget is kept, to within one pass") {
+  RenderRequest r;
+  r.budget.seconds = 0.3;
+  const RenderResult result = render(no_scene(), FakeIntegrator(1), layout(FilterKind::box), r);
+  CHECK(result.seconds >= 0.25);
+  CHECK(result.seconds < 0.9);
+  CHECK(result.spp > 0);
+  CHECK(result.image.pixel(39, 49)[2] == 1);
+}
+
+TEST_CASE("cancelling keeps what there is") {
+  std::atomic<bool> cancel{false};
+  RenderRequest r = request(1000000);
+  r.cancel = &cancel;
+  int reports = 0;
+  r.progress = [&](const RenderProgress& p) {
+    CHECK(p.fraction <= 1);
+    if (++reports == 3) cancel = true;
+  };
+  const RenderResult result = render(no_scene(), FakeIntegrator(5), layout(FilterKind::box), r);
+  CHECK(result.interrupted);
+  CHECK(reports == 3);
+  CHECK(result.image.pixel(0, 0)[2] == 1);
+}
