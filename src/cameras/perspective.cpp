@@ -9,8 +9,8 @@ PerspectiveCamera::PerspectiveCamera(const PerspectiveView& view)
   const double half_width = std::tan(0.5 * view.horizontal_fov * 3.14159265358979323846 / 180);
   // Camera space has +x on the left of the image, film space on the right.
   scale_ = float(-2 * half_width / view.film.x);
-  center_x_ = float(view.film.x * (0.5 + view.offset_x));
-  center_y_ = float(view.film.y * (0.5 + view.offset_y));
+  center_x_ = float(view.film.x * (0.5 - view.offset_x));
+  center_y_ = float(view.film.y * (0.5 - view.offset_y));
 }
 
 Vector3f PerspectiveCamera::film_direction(const Point2f& film) const {

@@ -10,7 +10,7 @@ struct PerspectiveView {
   Transform to_world;
   Point2i film;                ///< size of the full image in pixels
   double horizontal_fov = 45;  ///< degrees
-  /// Shift of the image in units of its width and height.
+  /// Where the optical axis meets the film, left of and above its centre, in widths and heights.
   double offset_x = 0, offset_y = 0;
   double near_clip = 1e-2, far_clip = 1e4;
 };

@@ -151,27 +151,29 @@ PdfA pdf_analytic(const Shape& shape, const Normal3f& local_normal) {
   return {1 / (local_area(shape.kind) * area_stretch(shape, local_normal))};
 }
 
+Point2f analytic_uv(ShapeKind kind, const Point3f& p) {
+  const float phi = std::atan2(p.y, p.x);
+  const float around = (phi < 0 ? phi + 2 * kPi : phi) * (0.5f * kInvPi);
+  switch (kind) {
+    case ShapeKind::sphere:
+      return {around, std::acos(std::clamp(p.z, -1.0f, 1.0f)) * kInvPi};
+    case ShapeKind::disk:
+      return {std::sqrt(p.x * p.x + p.y * p.y), around};
+    default:
+      return {around, p.z};
+  }
+}
+
 ShapePoint sample_analytic(const Shape& shape, const Point2f& u) {
   Point3f p;
   Normal3f n;
   unit_point(shape.kind, u, p, n);
   ShapePoint s;
   s.position = shape.to_world(p);
-  s.ng = world_normal(shape, n);
+  s.ng = s.ns = world_normal(shape, n);
   s.pdf = pdf_analytic(shape, n);
   s.offset = rounding_offset(shape, s.position);
-  const float phi = std::atan2(p.y, p.x);
-  const float around = (phi < 0 ? phi + 2 * kPi : phi) * (0.5f * kInvPi);
-  switch (shape.kind) {
-    case ShapeKind::sphere:
-      s.uv = {around, std::acos(std::clamp(p.z, -1.0f, 1.0f)) * kInvPi};
-      break;
-    case ShapeKind::disk:
-      s.uv = {std::sqrt(p.x * p.x + p.y * p.y), around};
-      break;
-    default:
-      s.uv = {around, p.z};
-  }
+  s.uv = analytic_uv(shape.kind, p);
   return s;
 }
 
@@ -227,25 +229,21 @@ Surface make_analytic_surface(const Shape& shape, const Ray& ray, const Hit& hit
     s.shading = Frame(s.ng);
     return s;
   }
+  s.uv = analytic_uv(shape.kind, p);
   const float r = std::sqrt(p.x * p.x + p.y * p.y);
   const float cos_phi = r > 0 ? p.x / r : 1.0f, sin_phi = r > 0 ? p.y / r : 0.0f;
-  const float phi = std::atan2(p.y, p.x);
-  const float around = (phi < 0 ? phi + 2 * kPi : phi) * (0.5f * kInvPi);
   const Vector3f tangent(-2 * kPi * p.y, 2 * kPi * p.x, 0);
   Vector3f du, dv;
   switch (shape.kind) {
     case ShapeKind::sphere:
-      s.uv = {around, std::acos(std::clamp(p.z, -1.0f, 1.0f)) * kInvPi};
       du = tangent;
       dv = Vector3f(p.z * cos_phi, p.z * sin_phi, -r) * kPi;
       break;
     case ShapeKind::disk:
-      s.uv = {r, around};
       du = {cos_phi, sin_phi, 0};
       dv = r > 0 ? tangent : Vector3f(0, 1, 0);
       break;
     default:
-      s.uv = {around, p.z};
       du = tangent;
       dv = {0, 0, 1};
   }

@@ -38,9 +38,9 @@ struct TriangleMesh {
 /// Normals from Polygonal Facets", 1998.
 void compute_vertex_normals(TriangleMesh& mesh);
 
-/// Moves all vertices and normals to where `to_world` puts them. A mirroring transform also turns
-/// the triangles around, so that the front stays the side from which the vertices run
-/// counter-clockwise.
+/// Moves all vertices and normals to where `to_world` puts them. The order of the vertices stays,
+/// also under a mirroring transform, which so turns faces without vertex normals inside out, as in
+/// Mitsuba.
 void transform_mesh(TriangleMesh& mesh, const Matrix4& to_world);
 
 /// The cube with corners at ±1, with normals and texture coordinates per face.

@@ -86,17 +86,26 @@ Bounds analytic_bounds(const Shape& shape);
 /// A point of a shape, chosen or parametrised by a uniform pair of numbers.
 struct ShapePoint {
   Point3f position;
-  /// Unit geometric normal on the side that emits: that of the shading normal.
+  /// Unit geometric normal, turned to the side of the shading normal.
   Normal3f ng;
-  Point2f uv;
+  /// Unit shading normal: light leaves on its side.
+  Normal3f ns;
+  Point2f uv;        ///< if the shape needs uv
   float offset = 0;  ///< as in Surface
   PdfA pdf;
+  Point2f barycentric;     ///< as in Surface, on meshes
+  uint32_t primitive = 0;  ///< on meshes
 };
 
-/// A point of triangle `primitive`, uniform over its area. `pdf` is one over the triangle's area.
+/// The point of triangle `primitive` with these weights of its second and third vertex. `pdf` is
+/// one over the triangle's area.
+ShapePoint point_on_triangle(const Shape& shape, uint32_t primitive, const Point2f& barycentric);
+/// A point of triangle `primitive`, uniform over its area, with its `pdf`.
 ShapePoint sample_triangle(const Shape& shape, uint32_t primitive, const Point2f& u);
 /// A point of an analytic shape; `pdf` is exact also where a stretched shape makes it uneven.
 ShapePoint sample_analytic(const Shape& shape, const Point2f& u);
+/// Texture coordinates of a point of the unit shape.
+Point2f analytic_uv(ShapeKind kind, const Point3f& local);
 /// The density with which sample_analytic makes the point whose normal in the shape's own space is
 /// `local_normal` (unit length).
 PdfA pdf_analytic(const Shape& shape, const Normal3f& local_normal);

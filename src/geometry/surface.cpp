@@ -30,10 +30,13 @@ struct Corners {
   Normal3f normal() const { return Normal3f(cross(e1, e2)); }
 };
 
-/// Derivatives of the position by the texture coordinates; false if they do not exist.
+/// Derivatives of the position by the texture coordinates (without any, by the barycentric ones);
+/// false if they do not exist.
 bool tangents(const TriangleMesh& m, const std::array<uint32_t, 3>& t, const Corners& c,
               Surface& s) {
-  if (m.uvs.empty()) return false;
+  s.dp_du = c.e1;
+  s.dp_dv = c.e2;
+  if (m.uvs.empty()) return true;
   const Point2f a = m.uvs[t[1]] - m.uvs[t[0]], b = m.uvs[t[2]] - m.uvs[t[0]];
   const float det = a.x * b.y - a.y * b.x;
   const float inv = 1 / det;
@@ -110,14 +113,25 @@ float triangle_area(const TriangleMesh& mesh, uint32_t primitive) {
   return 0.5f * length(Corners(mesh, mesh.triangles[primitive]).normal());
 }
 
-ShapePoint sample_triangle(const Shape& shape, uint32_t primitive, const Point2f& u) {
-  const TriangleMesh& m = *shape.mesh;
-  const Point2f b = square_to_triangle(u);
+ShapePoint point_on_triangle(const Shape& shape, uint32_t primitive, const Point2f& barycentric) {
   Hit hit;
   hit.primitive = primitive;
-  hit.u = b.x, hit.v = b.y;
+  hit.u = barycentric.x, hit.v = barycentric.y;
   const Surface s = make_mesh_surface(shape, hit);
-  return {s.position, s.ng, s.uv, s.offset, PdfA{1 / triangle_area(m, primitive)}};
+  ShapePoint p;
+  p.position = s.position;
+  p.ng = s.ng;
+  p.ns = s.shading.n;
+  p.uv = s.uv;
+  p.offset = s.offset;
+  p.pdf = PdfA{1 / triangle_area(*shape.mesh, primitive)};
+  p.barycentric = barycentric;
+  p.primitive = primitive;
+  return p;
+}
+
+ShapePoint sample_triangle(const Shape& shape, uint32_t primitive, const Point2f& u) {
+  return point_on_triangle(shape, primitive, square_to_triangle(u));
 }
 
 }  // namespace duet

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "lights/light.h"
-#include "math/distribution.h"
+#include "lights/triangle_cells.h"
 #include "textures/texture.h"
 
 namespace duet {
@@ -10,27 +10,28 @@ namespace duet {
 /// Emits the same radiance into all directions on the side of the shading normal.
 class AreaLight final : public SurfaceLight {
  public:
-  /// `shape` must outlive the light and stay where it is.
+  /// `shape` must outlive the light and stay where it is; its area must not be zero.
   AreaLight(const Shape& shape, const ColorSlot& radiance);
 
   std::optional<LightSample> sample_direct(const Point3f& from, const Point2f& u) const override;
   Spectrum emitted(const Surface& surface, const Vector3f& w) const override;
   PdfW pdf_direct(const Point3f& from, const Surface& surface, const Vector3f& wi,
                   float d2) const override;
-  float power() const override { return power_; }
+  double power(double scene_radius) const override;
   /// Total area of the surface.
   double area() const { return area_; }
 
  private:
   /// How points are chosen.
   enum class Strategy {
-    triangles,      ///< a triangle by area, then a point of it
+    cells,          ///< a triangle by the light it emits, then a point of it
     parallelogram,  ///< two triangles that are one, taken as a whole to keep strata together
     cone,           ///< a sphere: a direction within the cone that it fills
     surface,        ///< an analytic shape by its parameters
   };
 
-  ShapePoint sample_point(const Point2f& u) const;
+  bool choose_cone();
+  bool choose_parallelogram();
   LightSample toward(const ShapePoint& p, PdfW pdf, const Vector3f& wi) const;
   std::optional<LightSample> sample_parallelogram(const Point3f& from, const Point2f& u) const;
   std::optional<LightSample> sample_cone(const Point3f& from, const Point2f& u) const;
@@ -38,9 +39,8 @@ class AreaLight final : public SurfaceLight {
   const Shape& shape_;
   ColorSlot radiance_;
   Strategy strategy_;
-  DiscreteDistribution triangles_;
   double area_;
-  float power_;
+  std::optional<TriangleCells> cells_;
   Point3f corner_;  ///< of the parallelogram, just off its surface
   Vector3f edge_u_, edge_v_;
   Normal3f normal_;

@@ -20,12 +20,20 @@ struct LightSample {
   bool delta = false;
 };
 
-/// Where light comes from when a ray finds it.
+/// Where light comes from when a ray finds it, or why no ray does.
 enum class LightKind : uint8_t {
   area,         ///< a surface: found by hits
   environment,  ///< all around the scene: found by rays that leave it
-  delta,        ///< a point or a single direction: found by no ray
+  position,     ///< a single point: found by no ray
+  direction,    ///< a single direction, infinitely far away: found by no ray
 };
+
+constexpr bool is_delta(LightKind k) {
+  return k == LightKind::position || k == LightKind::direction;
+}
+constexpr bool is_infinite(LightKind k) {
+  return k == LightKind::environment || k == LightKind::direction;
+}
 
 class Light {
  public:
@@ -38,9 +46,10 @@ class Light {
   /// `from` must be at a distance from the light that its own rounding error does not swallow.
   virtual std::optional<LightSample> sample_direct(const Point3f& from, const Point2f& u) const = 0;
 
-  /// Emitted power over all wavelengths, W, or an estimate of it: the share of this light when one
-  /// of many is chosen.
-  virtual float power() const = 0;
+  /// Luminance of the emitted power, or an estimate of it: what the choice among lights goes by.
+  /// Lights that are infinitely far away count with what enters a sphere of `scene_radius` that
+  /// holds the scene.
+  virtual double power(double scene_radius) const = 0;
 
  private:
   LightKind kind_;

@@ -1,13 +1,24 @@
 // Which light, with what probability: one answer for everyone.
 #pragma once
 
+#include <memory>
 #include <span>
 
+#include "lights/light.h"
 #include "math/distribution.h"
 
 namespace duet {
 
-/// Chooses among the lights in proportion to given weights (their power).
+/// The weights with which lights are to be chosen: in proportion to their power, with three
+/// precautions. The power of lights that are infinitely far away grows with the scene's size and
+/// says little about how much of it counts, so if there are both kinds, neither gets less than a
+/// quarter. Among its kind, every light that shines at all gets a tenth of an equal share, because
+/// power says nothing about distance. And `factors` (one per light) multiply the result.
+std::vector<float> selection_weights(std::span<const std::unique_ptr<Light>> lights,
+                                     std::span<const double> factors, double scene_radius);
+
+/// Chooses among the lights in proportion to given weights. A light alone is chosen always, even if
+/// its weight is zero.
 class LightPicker {
  public:
   LightPicker() = default;
@@ -24,9 +35,7 @@ class LightPicker {
     const auto p = distribution_.sample(u);
     return {p.index, p.probability};
   }
-  float probability(uint32_t light) const {
-    return distribution_.size() == 1 ? 1.0f : distribution_.probability(light);
-  }
+  float probability(uint32_t light) const { return distribution_.probability(light); }
   size_t size() const { return distribution_.size(); }
 
  private:

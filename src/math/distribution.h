@@ -9,6 +9,19 @@
 
 namespace duet {
 
+/// The interval of a cumulative sum in which `u` (in [0, 1)) lies. `cdf` has n + 1 entries from 0
+/// to 1; entry i of `guide` is the interval in which i/n lies, from where the search takes a step
+/// or two on average, whatever the weights. Source: Chen & Asau, "On Generating Random Variates
+/// from an Empirical Distribution", 1974.
+template <class Index>
+inline uint32_t find_interval(const float* cdf, const Index* guide, uint32_t n, float u) {
+  const uint32_t k = uint32_t(u * float(n));
+  uint32_t i = guide[k < n ? k : n - 1];
+  while (cdf[i + 1] <= u) ++i;
+  while (cdf[i] > u) --i;  // the product above may have been rounded up
+  return i;
+}
+
 /// Picks an index with probability proportional to its weight, by inversion of the cumulative sum,
 /// so that well distributed variates stay well distributed.
 class DiscreteDistribution {
@@ -22,49 +35,104 @@ class DiscreteDistribution {
     float probability;
     float remapped;  ///< uniform in [0, 1) again, independent of the index
   };
-  Pick sample(float u) const;
+  Pick sample(float u) const {
+    const uint32_t i = find_interval(cdf_.data(), guide_.data(), uint32_t(guide_.size()), u);
+    const float p = cdf_[i + 1] - cdf_[i];
+    return {i, p, std::min((u - cdf_[i]) / p, 0x1.fffffep-1f)};
+  }
   float probability(uint32_t index) const { return cdf_[index + 1] - cdf_[index]; }
-  size_t size() const { return cdf_.empty() ? 0 : cdf_.size() - 1; }
+  size_t size() const { return guide_.size(); }
   /// Sum of the weights as they were given.
   double sum() const { return sum_; }
 
  private:
   std::vector<float> cdf_;
+  std::vector<uint32_t> guide_;
   double sum_ = 0;
 };
 
-/// A density on the unit square that is bilinear within the cells of a grid of node values.
-/// Rows are picked by their marginal, cells by the conditional, and the position in the cell by
+/// Inverts the cumulative distribution of the linear density on [0, 1] with end values a and b.
+inline float sample_linear(float u, float a, float b) {
+  const float sum = a + b;
+  if (!(sum > 0)) return u;
+  // Stable for a → b: the root of (b − a) x² / 2 + a x = u (a + b) / 2.
+  const float root = safe_sqrt(a * a + u * (b * b - a * a));
+  return std::min(u * sum / (a + root), 0x1.fffffep-1f);
+}
+
+/// A density on the unit square that is bilinear within the cells of a grid of node values: width ×
+/// height nodes sit at the corners of (width − 1) × (height − 1) cells that tile the square. Rows
+/// are picked by their marginal, cells by the conditional, and the position in the cell by
 /// inverting the bilinear interpolant, so the density is continuous and follows the interpolated
 /// function exactly.
+///
+/// The nodes stay with the caller, who often has them in another form: every function that needs
+/// them takes a `node(x, y)` that yields a finite value ≥ 0, always the same one.
 class BilinearDistribution {
  public:
+  /// The guides of rows have 16 bits.
+  static constexpr int kMaxWidth = 1 << 16;
+
   BilinearDistribution() = default;
-  /// `nodes` holds width × height values (row-major, finite, not negative); they sit at the corners
-  /// of (width − 1) × (height − 1) cells that tile the unit square.
-  BilinearDistribution(std::vector<float> nodes, int width, int height);
+  template <class Node>
+  BilinearDistribution(int width, int height, const Node& node)
+      : BilinearDistribution(width, height) {
+    std::vector<float> weights(size_t(width) - 1);
+    for (int y = 0; y + 1 < height; ++y) {
+      for (int x = 0; x + 1 < width; ++x)
+        weights[size_t(x)] =
+            0.25f * ((node(x, y) + node(x + 1, y)) + (node(x, y + 1) + node(x + 1, y + 1)));
+      add_row(y, weights);
+    }
+    finish();
+  }
 
   struct Sample {
-    Point2f position;
+    int x, y;       ///< the cell
+    float dx, dy;   ///< position in it, from 0 to 1
     float density;  ///< per unit area of the square
   };
-  Sample sample(Point2f u) const;
-  float density(const Point2f& position) const;
+  template <class Node>
+  Sample sample(const Point2f& u, const Node& node) const {
+    const auto row = rows_.sample(u.y);
+    const uint32_t n = uint32_t(width_) - 1;
+    const float* cdf = &conditional_[size_t(row.index) * uint32_t(width_)];
+    const uint32_t i = find_interval(cdf, &guides_[size_t(row.index) * n], n, u.x);
+    const float ux = std::min((u.x - cdf[i]) / (cdf[i + 1] - cdf[i]), 0x1.fffffep-1f);
+    const int x = int(i), y = int(row.index);
+    const float f00 = node(x, y), f10 = node(x + 1, y), f01 = node(x, y + 1),
+                f11 = node(x + 1, y + 1);
+    // First along y by the sums of the edges, then along x by the interpolated edge.
+    const float dy = sample_linear(row.remapped, f00 + f10, f01 + f11);
+    const float left = lerp(f00, f01, dy), right = lerp(f10, f11, dy);
+    const float dx = sample_linear(ux, left, right);
+    return {x, y, dx, dy, uniform_ ? 1.0f : lerp(left, right, dx) * inv_integral_};
+  }
+  /// The density at (dx, dy) within the cell (x, y).
+  template <class Node>
+  float density(int x, int y, float dx, float dy, const Node& node) const {
+    if (uniform_) return 1;
+    return lerp(lerp(node(x, y), node(x + 1, y), dx), lerp(node(x, y + 1), node(x + 1, y + 1), dx),
+                dy) *
+           inv_integral_;
+  }
   /// Integral of the interpolant over the unit square.
   double integral() const { return integral_; }
 
  private:
-  float node(int x, int y) const { return nodes_[size_t(y) * width_ + x]; }
+  BilinearDistribution(int width, int height);
+  void add_row(int y, std::span<const float> weights);
+  void finish();
 
-  std::vector<float> nodes_;
   int width_ = 0, height_ = 0;
   DiscreteDistribution rows_;
-  /// One cumulative sum per row of cells, each of width_ entries from 0 to 1.
+  std::vector<float> marginal_;  ///< only while building
+  /// One cumulative sum per row of cells, each of width_ entries from 0 to 1, and its guide.
   std::vector<float> conditional_;
+  std::vector<uint16_t> guides_;
   double integral_ = 0;
+  float inv_integral_ = 0;
+  bool uniform_ = false;  ///< all nodes are zero
 };
-
-/// Inverts the cumulative distribution of the linear density on [0, 1] with end values a and b.
-float sample_linear(float u, float a, float b);
 
 }  // namespace duet

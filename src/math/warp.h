@@ -1,18 +1,9 @@
 // Maps from the unit square to other domains, each with its density beside it.
 #pragma once
 
-#include "math/vector.h"
+#include "math/trig.h"
 
 namespace duet {
-
-/// Sine and cosine of angles between −π/4 and π/4, to about one unit in the last place.
-inline void small_sincos(float x, float& sine, float& cosine) {
-  const float x2 = x * x;
-  sine = x * (1 + x2 * (-1.6666654611e-1f + x2 * (8.3321608736e-3f - 1.9515295891e-4f * x2)));
-  cosine = 1 - 0.5f * x2 +
-           x2 * x2 *
-               (4.166664568298827e-2f + x2 * (-1.388731625493765e-3f + 2.443315711809948e-5f * x2));
-}
 
 /// Uniform on the unit disk; keeps neighbouring points together.
 /// Source: Shirley & Chiu, "A Low Distortion Map Between Disk and Square", 1997.
@@ -35,16 +26,20 @@ inline Vector3f square_to_cosine_hemisphere(const Point2f& u) {
 
 /// Density 1 / 4π on the unit sphere.
 inline Vector3f square_to_sphere(const Point2f& u) {
-  const float z = 1 - 2 * u.y, r = safe_sqrt(1 - z * z), phi = 2 * kPi * u.x;
-  return {r * std::cos(phi), r * std::sin(phi), z};
+  const float z = 1 - 2 * u.y, r = safe_sqrt(1 - z * z);
+  float sine, cosine;
+  sincos_turns(u.x, sine, cosine);
+  return {r * cosine, r * sine, z};
 }
 
 /// Uniform in the cone around +z whose half angle has 1 − cosine = `one_minus_cos`
 /// (given so, because cos θ of a narrow cone loses all its digits).
 inline Vector3f square_to_cone(const Point2f& u, float one_minus_cos) {
   const float h = u.x * one_minus_cos;  // 1 − cos θ
-  const float sin_theta = safe_sqrt(h * (2 - h)), phi = 2 * kPi * u.y;
-  return {sin_theta * std::cos(phi), sin_theta * std::sin(phi), 1 - h};
+  const float sin_theta = safe_sqrt(h * (2 - h));
+  float sine, cosine;
+  sincos_turns(u.y, sine, cosine);
+  return {sin_theta * cosine, sin_theta * sine, 1 - h};
 }
 
 /// Barycentric coordinates (b1, b2), uniform on a triangle.

@@ -54,6 +54,9 @@ struct BitmapTexture {
 
 struct CheckerboardTexture {
   ColorInput color0 = Spectrum(0.4f), color1 = Spectrum(0.2f);
+  /// Where a number is asked for (a roughness, an opacity), Mitsuba 3 exchanges the two colours;
+  /// 0.x does not.
+  bool swap_values = false;
   UvTransform to_uv;
   bool operator==(const CheckerboardTexture&) const = default;
 };

@@ -21,6 +21,9 @@ class Texture {
   virtual bool needs_uv() const { return true; }
   /// Upper bound of any channel of color().
   virtual float maximum() const = 0;
+  /// How finely the texture varies over the unit square of texture coordinates: texels along u and
+  /// v.
+  virtual Point2i resolution() const { return {1, 1}; }
 };
 
 /// A colour parameter. The constant costs no call.
@@ -41,7 +44,7 @@ struct FloatSlot {
   const Texture* texture = nullptr;
 
   float operator()(const Surface& s) const { return texture ? texture->value(s) : constant; }
-  float average() const { return texture ? texture->average().mean() : constant; }
+  float average() const { return texture ? texture->average().luminance() : constant; }
   bool is_constant() const { return !texture; }
   bool needs_uv() const { return texture && texture->needs_uv(); }
 };

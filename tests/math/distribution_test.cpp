@@ -3,6 +3,7 @@
 #include <doctest/doctest.h>
 
 #include <array>
+#include <cmath>
 
 #include "support/statistics.h"
 
@@ -36,26 +37,53 @@ TEST_CASE("weights that are all zero mean equal chances") {
   for (uint32_t i = 0; i < 4; ++i) CHECK(d.probability(i) == doctest::Approx(0.25));
 }
 
+TEST_CASE("the guide finds the interval of every variate, however uneven the weights") {
+  std::vector<float> weights;
+  for (int i = 0; i < 1000; ++i)
+    weights.push_back(i % 3 == 0 ? 0.0f : i == 500 ? 1e6f : std::exp(float(i % 17)));
+  const DiscreteDistribution d(weights);
+  std::vector<float> cdf(1, 0.0f);
+  for (uint32_t i = 0; i < 1000; ++i) cdf.push_back(cdf.back() + d.probability(i));
+  for (uint32_t i = 0; i < (1u << 24); i += 97) {
+    const float u = float(i) * 0x1p-24f;
+    const auto pick = d.sample(u);
+    REQUIRE(pick.probability > 0);
+    REQUIRE(weights[pick.index] > 0);
+    REQUIRE(cdf[pick.index] <= u + 1e-5f);
+    REQUIRE(u <= cdf[pick.index + 1] + 1e-5f);
+  }
+}
+
 TEST_CASE("the bilinear distribution samples its own density") {
-  std::vector<float> nodes;
-  for (int y = 0; y < 5; ++y)
-    for (int x = 0; x < 7; ++x)
-      nodes.push_back(float((x * 7 + y * 3) % 5) * (y == 2 ? 0.0f : 1.0f));
-  const BilinearDistribution d(nodes, 7, 5);
+  const auto node = [](int x, int y) {
+    return float((x * 7 + y * 3) % 5) * (y == 2 ? 0.0f : 1.0f);
+  };
+  const BilinearDistribution d(7, 5, node);
+  const auto density = [&](Point2f p) {
+    const float x = std::min(p.x * 6, 5.99999f), y = std::min(p.y * 4, 3.99999f);
+    return double(d.density(int(x), int(y), x - float(int(x)), y - float(int(y)), node));
+  };
   const auto result = test::chi2_square(
       [&](Point2f u, Point2f& p) {
-        const auto s = d.sample(u);
-        CHECK(s.density == doctest::Approx(d.density(s.position)).epsilon(1e-3));
-        p = s.position;
+        const auto s = d.sample(u, node);
+        p = {(float(s.x) + s.dx) / 6, (float(s.y) + s.dy) / 4};
+        CHECK(s.density == doctest::Approx(d.density(s.x, s.y, s.dx, s.dy, node)).epsilon(1e-5));
         return true;
       },
-      [&](Point2f p) { return double(d.density(p)); }, {.nx = 42, .ny = 20});
+      density, {.nx = 42, .ny = 20});
   CHECK_MESSAGE(result.pass, result.message);
 }
 
-TEST_CASE("the bilinear distribution of constant nodes is uniform") {
-  const BilinearDistribution d(std::vector<float>(6, 3.0f), 3, 2);
-  CHECK(d.integral() == doctest::Approx(3));
-  CHECK(d.density({0.3f, 0.9f}) == doctest::Approx(1));
-  CHECK(d.sample({0.25f, 0.75f}).position.x == doctest::Approx(0.25));
+TEST_CASE("the bilinear distribution of equal nodes is uniform, even of zeros") {
+  for (const float value : {3.0f, 0.0f}) {
+    const auto node = [&](int, int) { return value; };
+    const BilinearDistribution d(3, 2, node);
+    CHECK(d.integral() == doctest::Approx(value));
+    CHECK(d.density(1, 0, 0.3f, 0.9f, node) == doctest::Approx(1));
+    const auto s = d.sample({0.125f, 0.75f}, node);
+    CHECK(s.x == 0);
+    CHECK(s.dx == doctest::Approx(0.25));
+    CHECK(s.dy == doctest::Approx(0.75));
+    CHECK(s.density == doctest::Approx(1));
+  }
 }

@@ -1,0 +1,21 @@
+#include "cameras/orthographic.h"
+
+namespace duet {
+
+OrthographicCamera::OrthographicCamera(const OrthographicView& view)
+    // Mitsuba scales where the rays start, but not how long they are.
+    : length_(float(view.far_clip - view.near_clip)) {
+  const float pixel = 2.0f / float(view.film.x);
+  const float half_height = 0.5f * pixel * float(view.film.y);
+  // Camera space has +x on the left of the image and +y at its top.
+  corner_ = view.to_world(Point3f(1, half_height, float(view.near_clip)));
+  right_ = view.to_world(Vector3f(-pixel, 0, 0));
+  down_ = view.to_world(Vector3f(0, -pixel, 0));
+  direction_ = normalize(view.to_world(Vector3f(0, 0, 1)));
+}
+
+Ray OrthographicCamera::sample_ray(const Point2f& film, const Point2f&) const {
+  return {corner_ + (right_ * film.x + down_ * film.y), direction_, length_};
+}
+
+}  // namespace duet

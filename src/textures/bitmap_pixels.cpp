@@ -1,0 +1,125 @@
+#include "textures/bitmap_pixels.h"
+
+#include <cassert>
+#include <cmath>
+
+#include "base/diagnostics.h"
+
+namespace duet {
+
+float decode_gamma(float value, double gamma) {
+  if (gamma == 1) return value;
+  if (gamma == -1) return srgb_to_linear(value);
+  return value > 0 ? std::pow(value, float(gamma)) : 0.0f;
+}
+
+double transfer_curve(const ImageFile& file, const std::optional<double>& gamma) {
+  return gamma ? *gamma : file.display_encoded ? -1.0 : 1.0;
+}
+
+size_t remove_nonfinite(std::vector<float>& values) {
+  constexpr float kLargestHalf = 65504;
+  size_t count = 0;
+  for (float& v : values)
+    if (!std::isfinite(v)) {
+      v = std::isnan(v) ? 0.0f : std::copysign(kLargestHalf, v);
+      ++count;
+    }
+  return count;
+}
+
+BitmapPixels::BitmapPixels(int width, int height, int channels, std::vector<float> values)
+    : width_(width), height_(height), channels_(channels), floats_(std::move(values)) {
+  assert(width > 0 && height > 0 && (channels == 1 || channels == 3));
+  assert(floats_.size() == size_t(width) * size_t(height) * size_t(channels));
+  measure();
+}
+
+BitmapPixels::BitmapPixels(int width, int height, int channels, const std::vector<uint8_t>& bytes,
+                           const std::array<float, 256>& table)
+    : width_(width), height_(height), channels_(channels), table_(table) {
+  assert(width > 0 && height > 0 && (channels == 1 || channels == 3));
+  assert(bytes.size() == size_t(width) * size_t(height) * size_t(channels));
+  if (channels == 1) {
+    bytes_ = bytes;
+  } else {
+    bytes_.resize(size_t(width) * size_t(height) * kColorStride);
+    for (size_t i = 0; i < bytes.size(); ++i) bytes_[i / 3 * kColorStride + i % 3] = bytes[i];
+  }
+  measure();
+}
+
+void BitmapPixels::measure() {
+  double sum[3] = {0, 0, 0};
+  maximum_ = -INFINITY;
+  for (int y = 0; y < height_; ++y)
+    for (int x = 0; x < width_; ++x) {
+      const Spectrum c = color(x, y);
+      for (int k = 0; k < 3; ++k) sum[k] += c[k];
+      maximum_ = std::max(maximum_, c.max());
+    }
+  const double n = double(width_) * height_;
+  average_ = {float(sum[0] / n), float(sum[1] / n), float(sum[2] / n)};
+}
+
+namespace {
+
+/// Which of the file's channels make the texture's one or three.
+std::vector<int> choose_channels(const Image& image, TextureChannel channel) {
+  const int r = image.find_channel("R"), g = image.find_channel("G"), b = image.find_channel("B"),
+            a = image.find_channel("A");
+  const bool colored = r >= 0 && g >= 0 && b >= 0;
+  int grey = image.find_channel("Y");
+  if (grey < 0 && (image.channel_count() == 1 || (image.channel_count() == 2 && a == 1))) grey = 0;
+  if (channel == TextureChannel::alpha) {
+    if (a < 0) throw ReadError("the image has no alpha channel");
+    return {a};
+  }
+  if (!colored && grey < 0) {
+    std::string names;
+    for (const std::string& name : image.channels) names += (names.empty() ? "" : ", ") + name;
+    throw ReadError("the image has neither R, G and B nor a single channel, but " + names);
+  }
+  if (!colored) return {grey};
+  switch (channel) {
+    case TextureChannel::red:
+      return {r};
+    case TextureChannel::green:
+      return {g};
+    case TextureChannel::blue:
+      return {b};
+    default:
+      return {r, g, b};
+  }
+}
+
+}  // namespace
+
+BitmapPixels BitmapPixels::from_file(const ImageFile& file, const BitmapDecoding& decoding) {
+  const Image& image = file.image;
+  const std::vector<int> chosen = choose_channels(image, decoding.channel);
+  // Opacity is a share, not a colour.
+  const bool data = decoding.raw || decoding.channel == TextureChannel::alpha;
+  const double gamma = data ? 1.0 : transfer_curve(file, decoding.gamma);
+  const size_t texels = size_t(image.width) * size_t(image.height), n = chosen.size(),
+               stride = image.channels.size();
+  const auto gather = [&](const auto& from, auto& to) {
+    to.resize(texels * n);
+    for (size_t i = 0; i < texels; ++i)
+      for (size_t c = 0; c < n; ++c) to[i * n + c] = from[i * stride + size_t(chosen[c])];
+  };
+  if (!file.bytes.empty()) {
+    std::array<float, 256> table;
+    for (int i = 0; i < 256; ++i) table[size_t(i)] = decode_gamma(float(i) / 255.0f, gamma);
+    std::vector<uint8_t> bytes;
+    gather(file.bytes, bytes);
+    return {image.width, image.height, int(n), bytes, table};
+  }
+  std::vector<float> values;
+  gather(image.data, values);
+  if (gamma != 1)
+    for (float& v : values) v = decode_gamma(v, gamma);
+  return {image.width, image.height, int(n), std::move(values)};
+}
+
+}  // namespace duet

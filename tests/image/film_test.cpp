@@ -1,0 +1,132 @@
+#include "image/film.h"
+
+#include <doctest/doctest.h>
+
+#include <array>
+#include <cmath>
+#include <stdexcept>
+
+#include "math/sampler.h"
+
+using namespace duet;
+
+namespace {
+
+constexpr std::array kKinds{FilterKind::box,      FilterKind::tent,       FilterKind::gaussian,
+                            FilterKind::mitchell, FilterKind::catmullrom, FilterKind::lanczos};
+
+FilterDescription describe(FilterKind kind) {
+  FilterDescription d;
+  d.kind = kind;
+  if (kind == FilterKind::tent) d.radius = 1;
+  return d;
+}
+
+/// Fills the film with samples that depend on the pixel only, as a renderer does.
+template <class Value>
+void fill(Film& film, int spp, const Value& value) {
+  for (FilmTile& tile : film.tiles())
+    for (int y = tile.sampled().y0; y < tile.sampled().y1; ++y)
+      for (int x = tile.sampled().x0; x < tile.sampled().x1; ++x) {
+        Sampler sampler(SampleSequence::independent, 3, 0, uint64_t(y) * 1000 + uint64_t(x));
+        for (int i = 0; i < spp; ++i) {
+          sampler.start_sample(uint32_t(i));
+          const Point2f u = sampler.next_2d();
+          const Point2f p{float(x) + u.x, float(y) + u.y};
+          const std::array<float, 2> v = value(p);
+          if (film.filter().is_unit_box())
+            tile.add_to_pixel(x, y, v, 1);
+          else
+            tile.add_sample(film.filter(), p, v);
+        }
+      }
+}
+
+std::array<float, 2> pattern(const Point2f& p) {
+  return {std::sin(p.x * 0.7f) + 2, p.x * p.y * 0.01f};
+}
+
+}  // namespace
+
+TEST_CASE("a crop window has the very pixels of the full image") {
+  const Point2i size{50, 37};
+  for (const FilterKind kind : kKinds) {
+    Film full({size, {0, 0, size.x, size.y}, describe(kind)}, {"a", "b"});
+    fill(full, 3, pattern);
+    const Image image = full.develop();
+    for (const PixelBounds crop :
+         {PixelBounds{10, 4, 41, 33}, PixelBounds{0, 0, 1, 1}, PixelBounds{49, 36, 50, 37},
+          PixelBounds{15, 15, 18, 17}, PixelBounds{0, 16, 50, 32}}) {
+      Film part({size, crop, describe(kind)}, {"a", "b"});
+      fill(part, 3, pattern);
+      const Image cut = part.develop();
+      REQUIRE(cut.width == crop.width());
+      REQUIRE(cut.height == crop.height());
+      int different = 0;
+      for (int y = 0; y < cut.height; ++y)
+        for (int x = 0; x < cut.width; ++x)
+          for (int c = 0; c < 2; ++c)
+            different += cut.pixel(x, y)[c] != image.pixel(x + crop.x0, y + crop.y0)[c];
+      INFO("filter " << int(kind) << " crop from " << crop.x0 << ", " << crop.y0);
+      CHECK(different == 0);
+    }
+  }
+}
+
+TEST_CASE("a constant stays constant under every filter, also at the border") {
+  for (const FilterKind kind : kKinds) {
+    Film film({{21, 19}, {0, 0, 21, 19}, describe(kind)}, {"a", "b"});
+    // Enough that the negative lobes cannot cancel a pixel's weight.
+    fill(film, 16, [](const Point2f&) { return std::array<float, 2>{0.7f, -3}; });
+    const Image image = film.develop();
+    for (size_t i = 0; i < image.data.size(); i += 2) {
+      CHECK(image.data[i] == doctest::Approx(0.7f).epsilon(1e-6));
+      CHECK(image.data[i + 1] == doctest::Approx(-3).epsilon(1e-6));
+    }
+  }
+}
+
+TEST_CASE("pixels are means weighted by the filter at the distance of the sample") {
+  for (const FilterKind kind : kKinds) {
+    const FilterDescription description = describe(kind);
+    Film film({{40, 40}, {0, 0, 40, 40}, description}, {"a"});
+    // Two samples in tiles apart: the pixels between see both.
+    const Point2f p{15.8f, 7.3f}, q{16.4f, 6.9f};
+    const std::array<float, 1> a{1}, b{5};
+    const auto tile_of = [&](const Point2f& s) -> FilmTile& {
+      for (FilmTile& t : film.tiles())
+        if (t.sampled().contains(int(s.x), int(s.y))) return t;
+      throw std::runtime_error("no tile");
+    };
+    if (kind == FilterKind::box) {
+      tile_of(p).add_to_pixel(15, 7, a, 1);
+      tile_of(q).add_to_pixel(16, 6, b, 1);
+    } else {
+      tile_of(p).add_sample(film.filter(), p, a);
+      tile_of(q).add_sample(film.filter(), q, b);
+    }
+    const Image image = film.develop();
+    for (int y = 0; y < 40; ++y)
+      for (int x = 0; x < 40; ++x) {
+        const auto weight = [&](const Point2f& s) {
+          return evaluate_filter(description, x + 0.5 - double(s.x)) *
+                 evaluate_filter(description, y + 0.5 - double(s.y));
+        };
+        const double wp = weight(p), wq = weight(q), sum = wp + wq;
+        if (std::abs(sum) < 1e-3 && sum != 0) continue;  // badly conditioned
+        const double expected = sum == 0 ? 0 : (wp + 5 * wq) / sum;
+        CHECK(image.pixel(x, y)[0] == doctest::Approx(expected).epsilon(2e-2));
+      }
+  }
+}
+
+TEST_CASE("films of the same layout add up") {
+  const PixelBounds crop{3, 2, 30, 20};
+  const FilterDescription filter = describe(FilterKind::gaussian);
+  Film one({{33, 21}, crop, filter}, {"a", "b"}), two({{33, 21}, crop, filter}, {"a", "b"});
+  fill(one, 2, pattern);
+  fill(two, 2, pattern);
+  const Image before = one.develop();
+  one.add(two);
+  CHECK(one.develop().data == before.data);
+}
