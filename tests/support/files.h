@@ -32,6 +32,8 @@ class TemporaryDirectory {
   std::string path(const std::string& name) const { return (path_ / name).string(); }
   /// Writes a file and returns its path.
   std::string write(const std::string& name, std::string_view contents) const {
+    // Some file systems wait for the disk when an old file is emptied.
+    std::filesystem::remove(path(name));
     std::ofstream(path(name), std::ios::binary) << contents;
     return path(name);
   }
