@@ -8,30 +8,14 @@ const MeshAttribute* TriangleMesh::find_attribute(const std::string& name) const
   return nullptr;
 }
 
-void compute_vertex_normals(TriangleMesh& mesh) {
-  mesh.normals.assign(mesh.positions.size(), Normal3f{});
-  for (const auto& t : mesh.triangles) {
-    const Point3f p[3] = {mesh.positions[t[0]], mesh.positions[t[1]], mesh.positions[t[2]]};
-    const Vector3f n = cross(p[1] - p[0], p[2] - p[0]);
-    const float l = length(n);
-    if (!(l > 0)) continue;
-    const Normal3f face(n / l);
-    for (int i = 0; i < 3; ++i) {
-      const Vector3f a = p[(i + 1) % 3] - p[i], b = p[(i + 2) % 3] - p[i];
-      const float angle = std::atan2(length(cross(a, b)), dot(a, b));
-      mesh.normals[t[i]] = mesh.normals[t[i]] + face * angle;
-    }
-  }
-  for (Normal3f& n : mesh.normals) {
-    const float l = length(n);
-    n = l > 0 ? n / l : Normal3f{};
-  }
-}
-
 void transform_mesh(TriangleMesh& mesh, const Matrix4& to_world) {
   if (to_world == Matrix4{}) return;
   const Transform transform(to_world);
   for (Point3f& p : mesh.positions) p = transform(p);
+  if (mesh.computed_normals) {
+    compute_vertex_normals(mesh);
+    return;
+  }
   for (Normal3f& n : mesh.normals) {
     const Normal3f m = transform(n);
     const float l = length(m);

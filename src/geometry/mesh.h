@@ -28,19 +28,32 @@ struct TriangleMesh {
   std::vector<Point2f> uvs;
   std::vector<std::array<uint32_t, 3>> triangles;
   std::vector<MeshAttribute> attributes;
+  /// The normals were made from the faces: transform_mesh makes them again, because neither angles
+  /// nor the side that a winding shows survive every transform.
+  bool computed_normals = false;
 
   bool operator==(const TriangleMesh&) const = default;
   const MeshAttribute* find_attribute(const std::string& name) const;
 };
 
 /// Replaces the normals by the angle-weighted means of the faces around each vertex; a vertex
-/// without a proper face gets a normal of zero. Source: Thürmer & Wüthrich, "Computing Vertex
-/// Normals from Polygonal Facets", 1998.
+/// without a proper face gets a normal of zero. Sets `computed_normals`. Source: Thürmer &
+/// Wüthrich, "Computing Vertex Normals from Polygonal Facets", 1998.
 void compute_vertex_normals(TriangleMesh& mesh);
 
-/// Moves all vertices and normals to where `to_world` puts them. The order of the vertices stays,
-/// also under a mirroring transform, which so turns faces without vertex normals inside out, as in
-/// Mitsuba.
+/// Makes one vertex of those that are equal in every array, and leaves out what no triangle uses.
+void merge_equal_vertices(TriangleMesh& mesh);
+
+/// Replaces the normals by smooth ones with creases: triangles that meet in a vertex share a normal
+/// there only if their planes differ by less than `max_angle` degrees (compared with the first
+/// triangle of each cluster, in file order). Vertices are merged and split as that needs; vertices
+/// with different texture coordinates or attributes stay apart. This is Mitsuba 0.x's
+/// `maxSmoothAngle`.
+void compute_creased_normals(TriangleMesh& mesh, double max_angle);
+
+/// Moves all vertices and normals to where `to_world` puts them. Triangles keep the order of their
+/// vertices: after a mirroring transform these run counter-clockwise as seen from what was the
+/// back, as in Mitsuba.
 void transform_mesh(TriangleMesh& mesh, const Matrix4& to_world);
 
 /// The cube with corners at ±1, with normals and texture coordinates per face.

@@ -2,19 +2,22 @@
 #pragma once
 
 #include <array>
-#include <optional>
+#include <cstdint>
 #include <string>
 #include <utility>
 #include <variant>
 #include <vector>
 
-#include "image/film.h"
+#include "base/diagnostics.h"
 #include "image/image.h"
+#include "math/vector.h"
 
 namespace duet {
 
-/// A file's pixels as stored: nothing is decoded. 8- and 16-bit integers are scaled to [0, 1].
+/// A file's pixels as stored: nothing is decoded, alpha is not multiplied in.
 struct ImageFile {
+  /// Channels are R, G, B, then A, or Y (and A) for grey; in EXR files they keep their names, each
+  /// layer in that order. 16-bit integers are scaled to [0, 1].
   Image image;
   /// 8-bit integers as they are in the file, if it has them; then image.data is empty.
   std::vector<uint8_t> bytes;
@@ -23,29 +26,37 @@ struct ImageFile {
   /// Position of the pixels within the display window, for crops.
   Point2i origin{0, 0};
   Point2i display_size{0, 0};
-  /// Header fields that are text or numbers, as text.
+  /// Header fields of EXR files that are text or numbers, as text.
   std::vector<std::pair<std::string, std::string>> header;
 };
 
-/// Throws ReadError if the file is missing, truncated or of a kind that is not understood. EXR
-/// files with several parts or layers: channels keep their full names ("layer.R").
+/// Reads OpenEXR, PNG, JPEG, BMP, TGA, Radiance HDR, TIFF, PFM and PNM files, told apart by their
+/// contents (TGA, which has no mark, by its extension). Throws ReadError if the file is missing,
+/// damaged or of a kind that is not understood: deep and subsampled EXR files are not. Of EXR files
+/// with several parts, the channels of the first keep their names and those of the others are
+/// "part.R".
 ImageFile read_image(const std::string& path);
 
+/// Text, numbers, or a 4×4 matrix for row vectors.
 using HeaderValue = std::variant<std::string, float, int, std::array<float, 16>>;
 
 struct ExrOptions {
+  /// 16-bit floats: values beyond ±65504 are stored as that, unless they are infinite.
   bool half = true;
-  /// Where the image lies within the full one.
+  /// Where the image lies within the full one; a size of zero means the image is the full one.
   Point2i origin{0, 0};
   Point2i full_size{0, 0};
   float pixel_aspect = 1;
   std::vector<std::pair<std::string, HeaderValue>> header;
 };
 
-/// Writes under a temporary name in the same directory and renames: there is never half a file.
-/// Throws std::runtime_error with the reason if the file cannot be written.
+/// ZIP-compressed scan lines. Equal images and options give equal bytes. The file is replaced as a
+/// whole (see base/atomic_file.h). Throws std::runtime_error with the reason if it cannot be
+/// written.
 void write_exr(const std::string& path, const Image& image, const ExrOptions& options);
-/// PNG or JPEG, by the extension. `bytes` has width × height × channels display values.
+/// PNG or JPEG (quality 95, all chroma samples), by the extension, replaced as a whole. `bytes` has
+/// width × height × channels sRGB values; 1 channel is grey, 3 are colours, and PNG takes an alpha
+/// that is not multiplied in as channel 2 or 4. Throws std::runtime_error.
 void write_display_image(const std::string& path, int width, int height, int channels,
                          const std::vector<uint8_t>& bytes);
 

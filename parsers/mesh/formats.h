@@ -1,0 +1,17 @@
+// What lies behind mesh_file.h: readers of an opened file, and what they have in common.
+#pragma once
+
+#include "mesh/byte_reader.h"
+#include "mesh/mesh_file.h"
+
+namespace duet {
+
+std::vector<ObjPart> parse_obj(ByteReader& in, const MeshOptions& options, bool divide);
+TriangleMesh parse_ply(ByteReader& in, const MeshOptions& options);
+TriangleMesh parse_serialized(ByteReader& in, const MeshOptions& options);
+
+/// What all formats end with: checks indices and numbers, turns v upside down, normalises or makes
+/// normals.
+void finish_mesh(const ByteReader& in, const MeshOptions& options, TriangleMesh& mesh);
+
+}  // namespace duet

@@ -1,0 +1,119 @@
+#include "image/codecs.h"
+
+#include <dlfcn.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <filesystem>
+#include <memory>
+#include <stdexcept>
+
+#include "image/codec_module.h"
+
+namespace duet {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+constexpr const char* kModule = "duet_oiio.so";
+constexpr const char* kVariable = "DUET_IMAGE_MODULE";
+
+/// Where the module may be: where the user says; beside the program or library that this code is
+/// in; where an installation puts it.
+std::vector<fs::path> candidates() {
+  if (const char* chosen = std::getenv(kVariable)) return {chosen};
+  std::vector<fs::path> directories;
+  const auto add = [&](const fs::path& directory) {
+    if (std::find(directories.begin(), directories.end(), directory) == directories.end())
+      directories.push_back(directory);
+  };
+  std::error_code error;
+  Dl_info self;
+  if (dladdr(reinterpret_cast<const void*>(&decode_with_module), &self) && self.dli_fname)
+    if (const fs::path p = fs::canonical(self.dli_fname, error); !error) add(p.parent_path());
+  // The name of the program itself may be relative to a directory that has been left since.
+  if (const fs::path p = fs::read_symlink("/proc/self/exe", error); !error) {
+    add(p.parent_path());
+    add(p.parent_path().parent_path() / "lib" / "duet");
+  }
+  add(DUET_MODULE_DIR);
+  for (fs::path& directory : directories) directory /= kModule;
+  return directories;
+}
+
+const DuetCodecs* load() {
+  std::string tried;
+  for (const fs::path& path : candidates()) {
+    std::error_code error;
+    if (!fs::exists(path, error)) {
+      tried += "\n  " + path.string();
+      continue;
+    }
+    void* library = dlopen(path.c_str(), RTLD_NOW | RTLD_LOCAL);
+    if (!library)
+      throw std::runtime_error(
+          fmt::format("the library for image formats cannot be loaded: {}", dlerror()));
+    const auto get = reinterpret_cast<const DuetCodecs* (*)()>(dlsym(library, DUET_CODEC_SYMBOL));
+    if (!get || get()->version != DUET_CODEC_VERSION)
+      throw std::runtime_error(
+          fmt::format("the library for image formats, {}, is of another version", path.string()));
+    return get();
+  }
+  throw std::runtime_error(fmt::format(
+      "this image format needs the library {}, which was not found (set {} to its path); tried{}",
+      kModule, kVariable, tried));
+}
+
+const DuetCodecs& codecs() {
+  // Tried again if it failed.
+  static const DuetCodecs* const loaded = load();
+  return *loaded;
+}
+
+struct Release {
+  void operator()(void* p) const { codecs().release(p); }
+};
+
+}  // namespace
+
+ImageFile decode_with_module(const char* kind, const std::vector<uint8_t>& bytes) {
+  DuetDecodedImage decoded{};
+  char error[1024] = "";
+  if (!codecs().decode(kind, bytes.data(), bytes.size(), &decoded, error, sizeof(error)))
+    throw std::runtime_error(error);
+  const std::unique_ptr<void, Release> pixels(decoded.pixels);
+
+  ImageFile file;
+  file.display_encoded = decoded.is_integer;
+  file.display_size = {decoded.width, decoded.height};
+  file.image.width = decoded.width;
+  file.image.height = decoded.height;
+  static const std::vector<std::string> kNames[] = {{}, {"Y"}, {"Y", "A"}, {"R", "G", "B"}};
+  file.image.channels = decoded.channels < 4 ? kNames[decoded.channels]
+                                             : std::vector<std::string>{"R", "G", "B", "A"};
+  for (int c = 4; c < decoded.channels; ++c)
+    file.image.channels.push_back(fmt::format("channel{}", c));
+  const size_t count = size_t(decoded.width) * size_t(decoded.height) * size_t(decoded.channels);
+  if (decoded.is_float) {
+    const float* p = static_cast<const float*>(pixels.get());
+    file.image.data.assign(p, p + count);
+  } else {
+    const uint8_t* p = static_cast<const uint8_t*>(pixels.get());
+    file.bytes.assign(p, p + count);
+  }
+  return file;
+}
+
+std::vector<uint8_t> encode_with_module(const char* kind, int width, int height, int channels,
+                                        const std::vector<uint8_t>& pixels) {
+  DuetEncodedImage encoded{};
+  char error[1024] = "";
+  if (!codecs().encode(kind, width, height, channels, pixels.data(), &encoded, error,
+                       sizeof(error)))
+    throw std::runtime_error(error);
+  const std::unique_ptr<void, Release> memory(encoded.bytes);
+  return {encoded.bytes, encoded.bytes + encoded.size};
+}
+
+}  // namespace duet

@@ -1,0 +1,18 @@
+// Image formats other than OpenEXR, through a library that is loaded when the first such file
+// comes.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "image/image_io.h"
+
+namespace duet {
+
+/// `kind` as in codec_module.h. Throws std::runtime_error, also if the library is not found.
+ImageFile decode_with_module(const char* kind, const std::vector<uint8_t>& bytes);
+std::vector<uint8_t> encode_with_module(const char* kind, int width, int height, int channels,
+                                        const std::vector<uint8_t>& pixels);
+
+}  // namespace duet

@@ -1,0 +1,254 @@
+#include "image/exr_io.h"
+
+#include <ImathBox.h>
+#include <ImathMatrix.h>
+#include <OpenEXR/ImfChannelList.h>
+#include <OpenEXR/ImfDoubleAttribute.h>
+#include <OpenEXR/ImfFloatAttribute.h>
+#include <OpenEXR/ImfFrameBuffer.h>
+#include <OpenEXR/ImfHeader.h>
+#include <OpenEXR/ImfIO.h>
+#include <OpenEXR/ImfInputPart.h>
+#include <OpenEXR/ImfIntAttribute.h>
+#include <OpenEXR/ImfMatrixAttribute.h>
+#include <OpenEXR/ImfMultiPartInputFile.h>
+#include <OpenEXR/ImfOutputFile.h>
+#include <OpenEXR/ImfPartType.h>
+#include <OpenEXR/ImfStringAttribute.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <stdexcept>
+
+#include "image/image_limits.h"
+
+namespace duet {
+
+namespace {
+
+class MemoryInput : public Imf::IStream {
+ public:
+  MemoryInput(const std::string& name, const std::vector<uint8_t>& bytes)
+      : IStream(name.c_str()), bytes_(bytes) {}
+  bool read(char target[], int count) override {
+    if (count < 0 || position_ > bytes_.size() || bytes_.size() - position_ < uint64_t(count))
+      throw std::runtime_error("the file ends too early");
+    std::memcpy(target, bytes_.data() + position_, size_t(count));
+    position_ += uint64_t(count);
+    return position_ < bytes_.size();
+  }
+  uint64_t tellg() override { return position_; }
+  void seekg(uint64_t position) override { position_ = position; }
+
+ private:
+  const std::vector<uint8_t>& bytes_;
+  uint64_t position_ = 0;
+};
+
+class MemoryOutput : public Imf::OStream {
+ public:
+  MemoryOutput() : OStream("memory") {}
+  void write(const char source[], int count) override {
+    if (position_ + uint64_t(count) > bytes.size()) bytes.resize(position_ + uint64_t(count));
+    std::memcpy(bytes.data() + position_, source, size_t(count));
+    position_ += uint64_t(count);
+  }
+  uint64_t tellp() override { return position_; }
+  void seekp(uint64_t position) override { position_ = position; }
+
+  std::vector<uint8_t> bytes;
+
+ private:
+  uint64_t position_ = 0;
+};
+
+// ---- Reading ----------------------------------------------------------------------------------
+
+/// "layer.R" → ("layer.", R's place among R, G, B, A and others).
+std::pair<std::string, int> channel_order(const std::string& name) {
+  const size_t dot = name.rfind('.');
+  const std::string layer = dot == name.npos ? "" : name.substr(0, dot + 1);
+  const std::string_view last = std::string_view(name).substr(layer.size());
+  const size_t place = last.size() == 1 ? std::string_view("RGBXYZUV").find(last) : 0;
+  return {layer, last == "A" ? 99 : last.size() == 1 && place != last.npos ? int(place) : 50};
+}
+
+/// The channels of a part in the order in which they are handed out, with their names in the file.
+std::vector<std::string> ordered_channels(const Imf::Header& header) {
+  std::vector<std::string> names;
+  for (auto c = header.channels().begin(); c != header.channels().end(); ++c)
+    names.push_back(c.name());
+  std::stable_sort(names.begin(), names.end(), [](const std::string& a, const std::string& b) {
+    return channel_order(a) < channel_order(b);
+  });
+  return names;
+}
+
+void read_attributes(const Imf::Header& header, ImageFile& file) {
+  for (auto a = header.begin(); a != header.end(); ++a) {
+    const Imf::Attribute& value = a.attribute();
+    std::string text;
+    if (const auto* s = dynamic_cast<const Imf::StringAttribute*>(&value)) {
+      text = s->value();
+    } else if (const auto* f = dynamic_cast<const Imf::FloatAttribute*>(&value)) {
+      text = fmt::format("{}", f->value());
+    } else if (const auto* d = dynamic_cast<const Imf::DoubleAttribute*>(&value)) {
+      text = fmt::format("{}", d->value());
+    } else if (const auto* i = dynamic_cast<const Imf::IntAttribute*>(&value)) {
+      text = fmt::format("{}", i->value());
+    } else if (const auto* m = dynamic_cast<const Imf::M44fAttribute*>(&value)) {
+      for (int k = 0; k < 16; ++k)
+        text += fmt::format("{}{}", k ? " " : "", m->value()[k / 4][k % 4]);
+    } else {
+      continue;
+    }
+    file.header.emplace_back(a.name(), text);
+  }
+}
+
+/// Checks what is said of a part before memory is made for it; returns the size of its pixels.
+uint64_t check_part(const Imf::Header& header) {
+  if (header.hasType() && Imf::isDeepData(header.type()))
+    throw std::runtime_error("deep images cannot be read");
+  const Imath::Box2i& window = header.dataWindow();
+  const int64_t width = int64_t(window.max.x) - window.min.x + 1,
+                height = int64_t(window.max.y) - window.min.y + 1;
+  if (width <= 0 || height <= 0 || width > kGreatestImageSize || height > kGreatestImageSize)
+    throw std::runtime_error(fmt::format("an image of {} x {} cannot be read", width, height));
+  uint64_t channels = 0;
+  for (auto c = header.channels().begin(); c != header.channels().end(); ++c, ++channels)
+    if (c.channel().xSampling != 1 || c.channel().ySampling != 1)
+      throw std::runtime_error(fmt::format("channel {} is subsampled", c.name()));
+  if (channels == 0) throw std::runtime_error("the image has no channels");
+  return uint64_t(width) * uint64_t(height) * channels * sizeof(float);
+}
+
+}  // namespace
+
+bool is_exr(const std::vector<uint8_t>& bytes) {
+  constexpr uint8_t kMagic[4] = {0x76, 0x2f, 0x31, 0x01};
+  return bytes.size() >= 4 && std::equal(kMagic, kMagic + 4, bytes.begin());
+}
+
+ImageFile decode_exr(const std::string& path, const std::vector<uint8_t>& bytes) {
+  try {
+    Imf::Header::setMaxImageSize(kGreatestImageSize, kGreatestImageSize);
+    Imf::Header::setMaxTileSize(1 << 13, 1 << 13);
+    MemoryInput stream(path, bytes);
+    Imf::MultiPartInputFile input(stream, 0, false);
+    const Imf::Header& first = input.header(0);
+    const Imath::Box2i window = first.dataWindow(), display = first.displayWindow();
+
+    uint64_t image_bytes = 0;
+    std::vector<std::string> names;
+    for (int p = 0; p < input.parts(); ++p) {
+      const Imf::Header& header = input.header(p);
+      image_bytes += check_part(header);
+      if (header.dataWindow() != window)
+        throw std::runtime_error("parts of different size cannot be read");
+      const std::string prefix = p == 0 ? "" : header.name() + ".";
+      for (const std::string& name : ordered_channels(header)) names.push_back(prefix + name);
+    }
+    if (!is_plausible_size(image_bytes, bytes.size()))
+      throw std::runtime_error(fmt::format(
+          "the file is too short for an image of {} x {} with {} channels",
+          window.max.x - window.min.x + 1, window.max.y - window.min.y + 1, names.size()));
+
+    ImageFile file;
+    read_attributes(first, file);
+    const int width = window.max.x - window.min.x + 1, height = window.max.y - window.min.y + 1;
+    file.image = Image(width, height, names);
+    file.origin = {window.min.x - display.min.x, window.min.y - display.min.y};
+    file.display_size = {display.max.x - display.min.x + 1, display.max.y - display.min.y + 1};
+    const size_t pixel = names.size() * sizeof(float);
+    size_t channel = 0;
+    for (int p = 0; p < input.parts(); ++p) {
+      Imf::FrameBuffer buffer;
+      for (const std::string& name : ordered_channels(input.header(p)))
+        buffer.insert(name, Imf::Slice::Make(Imf::FLOAT, &file.image.data[channel++], window.min,
+                                             width, height, pixel, pixel * size_t(width)));
+      Imf::InputPart part(input, p);
+      part.setFrameBuffer(buffer);
+      part.readPixels(window.min.y, window.max.y);
+    }
+    return file;
+  } catch (const std::bad_alloc&) {
+    throw ReadError(path + ": is too large for the memory");
+  } catch (const std::exception& e) {
+    throw ReadError(fmt::format("{}: {}", path, e.what()));
+  }
+}
+
+// ---- Writing ----------------------------------------------------------------------------------
+
+namespace {
+
+struct InsertAttribute {
+  Imf::Header& header;
+  const std::string& name;
+  void operator()(const std::string& v) const { header.insert(name, Imf::StringAttribute(v)); }
+  void operator()(float v) const { header.insert(name, Imf::FloatAttribute(v)); }
+  void operator()(int v) const { header.insert(name, Imf::IntAttribute(v)); }
+  void operator()(const std::array<float, 16>& v) const {
+    Imath::M44f m;
+    for (size_t i = 0; i < 16; ++i) m[int(i / 4)][int(i % 4)] = v[i];
+    header.insert(name, Imf::M44fAttribute(m));
+  }
+};
+
+half to_half(float x) {
+  if (std::isfinite(x)) x = std::clamp(x, -float(HALF_MAX), float(HALF_MAX));
+  return half(x);
+}
+
+}  // namespace
+
+std::vector<uint8_t> encode_exr(const Image& image, const ExrOptions& options) {
+  const size_t channels = image.channels.size();
+  if (image.width <= 0 || image.height <= 0 || channels == 0)
+    throw std::runtime_error("the image is empty");
+  const Point2i full = options.full_size == Point2i{0, 0} ? Point2i{options.origin.x + image.width,
+                                                                    options.origin.y + image.height}
+                                                          : options.full_size;
+  const Imath::Box2i window(
+      {options.origin.x, options.origin.y},
+      {options.origin.x + image.width - 1, options.origin.y + image.height - 1});
+  Imf::Header header({{0, 0}, {full.x - 1, full.y - 1}}, window, options.pixel_aspect, {0, 0}, 1,
+                     Imf::INCREASING_Y, Imf::ZIP_COMPRESSION);
+  const Imf::PixelType type = options.half ? Imf::HALF : Imf::FLOAT;
+  for (const std::string& name : image.channels) {
+    if (header.channels().findChannel(name))
+      throw std::runtime_error(fmt::format("there are two channels \"{}\"", name));
+    header.channels().insert(name, Imf::Channel(type));
+  }
+  for (const auto& [name, value] : options.header) std::visit(InsertAttribute{header, name}, value);
+
+  MemoryOutput stream;
+  {
+    Imf::OutputFile output(stream, header, 0);
+    // Converted and written by blocks of lines: no second image.
+    constexpr int kLines = 16;
+    const size_t row = size_t(image.width) * channels;
+    const size_t sample = options.half ? sizeof(half) : sizeof(float);
+    std::vector<half> halves(options.half ? kLines * row : 0);
+    for (int y = 0; y < image.height; y += kLines) {
+      const int lines = std::min(kLines, image.height - y);
+      const float* source = image.pixel(0, y);
+      if (options.half)
+        std::transform(source, source + size_t(lines) * row, halves.data(), to_half);
+      const void* base = options.half ? static_cast<const void*>(halves.data()) : source;
+      Imf::FrameBuffer buffer;
+      for (size_t c = 0; c < channels; ++c)
+        buffer.insert(image.channels[c],
+                      Imf::Slice::Make(type, static_cast<const char*>(base) + c * sample,
+                                       {window.min.x, window.min.y + y}, image.width, lines,
+                                       channels * sample, row * sample));
+      output.setFrameBuffer(buffer);
+      output.writePixels(lines);
+    }
+  }
+  return std::move(stream.bytes);
+}
+
+}  // namespace duet

@@ -1,0 +1,155 @@
+#include "image/image_io.h"
+
+#include <sys/stat.h>
+
+#include <algorithm>
+#include <cctype>
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
+#include <filesystem>
+#include <memory>
+#include <stdexcept>
+#include <string_view>
+
+#include "base/atomic_file.h"
+#include "image/codecs.h"
+#include "image/exr_io.h"
+
+namespace duet {
+
+namespace {
+
+std::vector<uint8_t> read_bytes(const std::string& path) {
+  const auto fail = [&](const std::string& reason) { throw ReadError(path + ": " + reason); };
+  const auto close = [](std::FILE* f) { std::fclose(f); };
+  const std::unique_ptr<std::FILE, decltype(close)> file(std::fopen(path.c_str(), "rb"), close);
+  if (!file) fail(fmt::format("cannot be opened: {}", std::strerror(errno)));
+  struct stat status;
+  if (fstat(fileno(file.get()), &status) != 0 || !S_ISREG(status.st_mode)) fail("is not a file");
+  try {
+    std::vector<uint8_t> bytes(size_t(status.st_size));
+    if (std::fread(bytes.data(), 1, bytes.size(), file.get()) != bytes.size())
+      fail("cannot be read");
+    return bytes;
+  } catch (const std::bad_alloc&) {
+    throw ReadError(path + ": is too large for the memory");
+  }
+}
+
+std::string extension_of(const std::string& path) {
+  std::string e = std::filesystem::path(path).extension().string();
+  std::transform(e.begin(), e.end(), e.begin(), [](unsigned char c) { return std::tolower(c); });
+  return e;
+}
+
+/// The kind of file by its first bytes, as codec_module.h names it; null if unknown.
+const char* kind_of(const std::vector<uint8_t>& bytes, const std::string& path) {
+  struct Mark {
+    std::string_view bytes;
+    const char* kind;
+  };
+  static constexpr Mark kMarks[] = {
+      {"\x89PNG\r\n\x1a\n", "png"},
+      {"\xff\xd8\xff", "jpeg"},
+      {"BM", "bmp"},
+      {"#?", "hdr"},
+      {{"II*\0", 4}, "tiff"},
+      {{"MM\0*", 4}, "tiff"},
+      {{"II+\0", 4}, "tiff"},
+      {{"MM\0+", 4}, "tiff"},
+      {"P1", "pnm"},
+      {"P2", "pnm"},
+      {"P3", "pnm"},
+      {"P4", "pnm"},
+      {"P5", "pnm"},
+      {"P6", "pnm"},
+      {"Pf", "pnm"},
+      {"PF", "pnm"},
+  };
+  const std::string_view begin(reinterpret_cast<const char*>(bytes.data()),
+                               std::min<size_t>(bytes.size(), 16));
+  for (const Mark& mark : kMarks)
+    if (begin.substr(0, mark.bytes.size()) == mark.bytes) return mark.kind;
+  return extension_of(path) == ".tga" ? "targa" : nullptr;
+}
+
+/// True if the scan data of a JPEG file go on to its end marker. libjpeg fills what is missing with
+/// grey and reports nothing.
+bool is_complete_jpeg(const std::vector<uint8_t>& bytes) {
+  constexpr uint8_t kStart = 0xd8, kEnd = 0xd9, kScan = 0xda, kRestart0 = 0xd0, kRestart7 = 0xd7;
+  size_t i = 2;
+  while (i + 4 <= bytes.size()) {
+    if (bytes[i] != 0xff) {
+      ++i;  // between segments anything may stand
+      continue;
+    }
+    const uint8_t marker = bytes[i + 1];
+    if (marker == kEnd) return true;
+    if (marker == 0xff || marker == 0 || marker == kStart ||
+        (marker >= kRestart0 && marker <= kRestart7)) {
+      i += marker == 0xff ? 1 : 2;
+      continue;
+    }
+    i += 2 + (size_t(bytes[i + 2]) << 8 | bytes[i + 3]);
+    if (marker != kScan) continue;
+    // Within the scan, 0xff stands before a zero, a restart marker, or the next segment.
+    while (i + 1 < bytes.size() && (bytes[i] != 0xff || bytes[i + 1] == 0 ||
+                                    (bytes[i + 1] >= kRestart0 && bytes[i + 1] <= kRestart7)))
+      ++i;
+  }
+  return i + 2 <= bytes.size() && bytes[i] == 0xff && bytes[i + 1] == kEnd;
+}
+
+/// What `encode` returns; what it throws becomes a runtime_error that names the file.
+template <class Encode>
+std::vector<uint8_t> encoded(const std::string& path, Encode encode) {
+  try {
+    return encode();
+  } catch (const std::exception& e) {
+    throw std::runtime_error(fmt::format("{} cannot be written: {}", path, e.what()));
+  }
+}
+
+}  // namespace
+
+ImageFile read_image(const std::string& path) {
+  const std::vector<uint8_t> bytes = read_bytes(path);
+  if (bytes.empty()) throw ReadError(path + ": is empty");
+  if (is_exr(bytes)) return decode_exr(path, bytes);
+  const char* kind = kind_of(bytes, path);
+  if (!kind)
+    throw ReadError(
+        path + ": is not an image of a known kind (EXR, PNG, JPEG, BMP, TGA, HDR, TIFF, PFM, PNM)");
+  if (kind == std::string_view("jpeg") && !is_complete_jpeg(bytes))
+    throw ReadError(path + ": the file ends in the middle of the image");
+  try {
+    return decode_with_module(kind, bytes);
+  } catch (const std::bad_alloc&) {
+    throw ReadError(path + ": is too large for the memory");
+  } catch (const std::exception& e) {
+    throw ReadError(fmt::format("{}: {}", path, e.what()));
+  }
+}
+
+void write_exr(const std::string& path, const Image& image, const ExrOptions& options) {
+  write_file_atomically(path, encoded(path, [&] { return encode_exr(image, options); }));
+}
+
+void write_display_image(const std::string& path, int width, int height, int channels,
+                         const std::vector<uint8_t>& bytes) {
+  const std::string extension = extension_of(path);
+  const bool png = extension == ".png", jpeg = extension == ".jpg" || extension == ".jpeg";
+  if (!png && !jpeg)
+    throw std::runtime_error(
+        fmt::format("{} cannot be written: only .png and .jpg are display images", path));
+  if (width <= 0 || height <= 0 || channels < 1 || channels > 4 ||
+      bytes.size() != size_t(width) * size_t(height) * size_t(channels))
+    throw std::invalid_argument("write_display_image: size and data do not match");
+  if (jpeg && (channels == 2 || channels == 4))
+    throw std::runtime_error(fmt::format("{} cannot be written: JPEG has no alpha", path));
+  write_file_atomically(path,
+                        encode_with_module(png ? "png" : "jpeg", width, height, channels, bytes));
+}
+
+}  // namespace duet

@@ -1,0 +1,142 @@
+// The separate library that is loaded when a file needs OpenImageIO.
+#include <OpenImageIO/filesystem.h>
+#include <OpenImageIO/imageio.h>
+
+#include <cstdlib>
+#include <cstring>
+#include <exception>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "image/codec_module.h"
+#include "image/image_limits.h"
+
+namespace {
+
+/// The reason of a failure of an ImageInput or ImageOutput; of the library if that is null.
+template <class File>
+[[noreturn]] void fail(const File& file) {
+  std::string reason;
+  if (file)
+    reason = file->geterror();
+  else
+    reason = OIIO::geterror();
+  if (reason.empty()) reason = "the file is damaged";
+  throw std::runtime_error(reason);
+}
+
+/// Runs `work`; what it throws becomes the error text, as no exception may leave the module.
+template <class Work>
+int guarded(char* error, size_t error_size, Work work) {
+  std::string reason;
+  try {
+    work();
+    return 1;
+  } catch (const std::bad_alloc&) {
+    reason = "is too large for the memory";
+  } catch (const std::exception& e) {
+    reason = e.what();
+  }
+  reason.resize(std::min(reason.size(), error_size - 1));
+  std::memcpy(error, reason.c_str(), reason.size() + 1);
+  return 0;
+}
+
+struct Free {
+  void operator()(void* p) const { std::free(p); }
+};
+std::unique_ptr<void, Free> allocate(size_t size) {
+  std::unique_ptr<void, Free> memory(std::malloc(size));
+  if (!memory) throw std::bad_alloc();
+  return memory;
+}
+
+/// Knows whether it was asked for bytes beyond the end of the file. libtiff fills what is missing
+/// with zeros and reports nothing.
+class WatchedReader : public OIIO::Filesystem::IOMemReader {
+ public:
+  using IOMemReader::IOMemReader;
+  size_t read(void* target, size_t size) override {
+    return watch(IOMemReader::read(target, size), size);
+  }
+  size_t pread(void* target, size_t size, int64_t offset) override {
+    return watch(IOMemReader::pread(target, size, offset), size);
+  }
+  bool overrun() const { return overrun_; }
+
+ private:
+  size_t watch(size_t got, size_t wanted) {
+    overrun_ = overrun_ || got < wanted;
+    return got;
+  }
+  bool overrun_ = false;
+};
+
+int decode(const char* kind, const uint8_t* bytes, size_t size, DuetDecodedImage* image,
+           char* error, size_t error_size) {
+  return guarded(error, error_size, [&] {
+    WatchedReader source(bytes, size);
+    auto input = OIIO::ImageInput::create(kind);
+    if (!input || !input->set_ioproxy(&source)) fail(input);
+    OIIO::ImageSpec config, spec;
+    config.attribute("oiio:UnassociatedAlpha", 1);
+    if (!input->open(kind, spec, config)) fail(input);
+    if (spec.width <= 0 || spec.height <= 0 || spec.depth > 1 || spec.nchannels <= 0 ||
+        spec.width > duet::kGreatestImageSize || spec.height > duet::kGreatestImageSize)
+      throw std::runtime_error("an image of " + std::to_string(spec.width) + " x " +
+                               std::to_string(spec.height) + " cannot be read");
+    const bool is_byte = spec.format == OIIO::TypeDesc::UINT8;
+    const size_t count = size_t(spec.width) * size_t(spec.height) * size_t(spec.nchannels);
+    const size_t image_bytes = count * (is_byte ? 1 : sizeof(float));
+    if (!duet::is_plausible_size(image_bytes, size))
+      throw std::runtime_error("the file is too short for an image of " +
+                               std::to_string(spec.width) + " x " + std::to_string(spec.height));
+    auto pixels = allocate(image_bytes);
+    if (!input->read_image(0, 0, 0, spec.nchannels,
+                           is_byte ? OIIO::TypeDesc::UINT8 : OIIO::TypeDesc::FLOAT, pixels.get()))
+      fail(input);
+    if (std::string_view(kind) == "tiff" && source.overrun())
+      throw std::runtime_error("the file ends in the middle of the image");
+    *image = {spec.width,
+              spec.height,
+              spec.nchannels,
+              is_byte ? 0 : 1,
+              spec.format.is_floating_point() ? 0 : 1,
+              pixels.release()};
+  });
+}
+
+int encode(const char* kind, int width, int height, int channels, const uint8_t* pixels,
+           DuetEncodedImage* image, char* error, size_t error_size) {
+  return guarded(error, error_size, [&] {
+    std::vector<unsigned char> buffer;
+    OIIO::Filesystem::IOVecOutput target(buffer);
+    auto output = OIIO::ImageOutput::create(kind);
+    if (!output || !output->set_ioproxy(&target)) fail(output);
+    OIIO::ImageSpec spec(width, height, channels, OIIO::TypeDesc::UINT8);
+    spec.alpha_channel = channels == 2 || channels == 4 ? channels - 1 : -1;
+    spec.attribute("oiio:UnassociatedAlpha", 1);
+    spec.attribute("oiio:ColorSpace", "sRGB");
+    spec.attribute("compression", std::string(kind) == "jpeg" ? "jpeg:95" : "zip");
+    spec.attribute("jpeg:subsampling", "4:4:4");
+    if (!output->open(std::string("memory.") + kind, spec) ||
+        !output->write_image(OIIO::TypeDesc::UINT8, pixels) || !output->close())
+      fail(output);
+    auto bytes = allocate(buffer.size());
+    std::memcpy(bytes.get(), buffer.data(), buffer.size());
+    *image = {buffer.size(), static_cast<uint8_t*>(bytes.release())};
+  });
+}
+
+void release(void* memory) {
+  std::free(memory);
+}
+
+}  // namespace
+
+extern "C" __attribute__((visibility("default"))) const DuetCodecs* duet_codecs() {
+  static const DuetCodecs codecs{DUET_CODEC_VERSION, decode, encode, release};
+  return &codecs;
+}

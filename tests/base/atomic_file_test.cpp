@@ -1,0 +1,59 @@
+#include "base/atomic_file.h"
+
+#include <doctest/doctest.h>
+#include <sys/resource.h>
+
+#include <csignal>
+
+#include "support/files.h"
+
+using namespace duet;
+using namespace duet::test;
+
+TEST_CASE("a file is replaced as a whole, and a symbolic link stays one") {
+  TemporaryDirectory directory;
+  const std::string path = directory.write("a", "old");
+  write_file_atomically(path, bytes_of("new contents"));
+  CHECK(read_file(path) == "new contents");
+  std::filesystem::create_symlink(path, directory.path("link"));
+  write_file_atomically(directory.path("link"), bytes_of("through the link"));
+  CHECK(std::filesystem::is_symlink(directory.path("link")));
+  CHECK(read_file(path) == "through the link");
+  CHECK(directory.count() == 2);
+}
+
+TEST_CASE("what cannot be written leaves nothing behind") {
+  TemporaryDirectory directory;
+  CHECK_THROWS_WITH_AS(write_file_atomically(directory.path("no/such"), bytes_of("x")),
+                       doctest::Contains("No such file or directory"), std::runtime_error);
+  const std::string file = directory.write("file", "x");
+  CHECK_THROWS_WITH_AS(write_file_atomically(file + "/below", bytes_of("x")),
+                       doctest::Contains("cannot be written"), std::runtime_error);
+  CHECK_THROWS_WITH_AS(write_file_atomically(directory.path("."), bytes_of("x")),
+                       doctest::Contains("not a regular file"), std::runtime_error);
+  CHECK_THROWS_WITH_AS(write_file_atomically("/dev/full", bytes_of("x")),
+                       doctest::Contains("not a regular file"), std::runtime_error);
+  CHECK(directory.count() == 1);
+}
+
+TEST_CASE("a disk that fills up keeps the old file and no new one") {
+  // A limit on the size of files stands in for the full disk: the write stops halfway.
+  TemporaryDirectory directory;
+  const std::string path = directory.write("image.exr", "old");
+  rlimit before;
+  getrlimit(RLIMIT_FSIZE, &before);
+  const auto handler = std::signal(SIGXFSZ, SIG_IGN);
+  const rlimit small{1000, before.rlim_max};
+  setrlimit(RLIMIT_FSIZE, &small);
+  std::string message;
+  try {
+    write_file_atomically(path, bytes_of(std::string(5000, 'x')));
+  } catch (const std::runtime_error& e) {
+    message = e.what();
+  }
+  setrlimit(RLIMIT_FSIZE, &before);
+  std::signal(SIGXFSZ, handler);
+  CHECK(message == path + " cannot be written: File too large");
+  CHECK(read_file(path) == "old");
+  CHECK(directory.count() == 1);
+}
