@@ -44,8 +44,8 @@ struct BitmapTexture {
   WrapMode wrap_u = WrapMode::repeat, wrap_v = WrapMode::repeat;
   /// Values are data, not colours: nothing is decoded.
   bool raw = false;
-  /// Overrides the file's transfer curve: 1 is linear, −1 sRGB, another number a power. Absent: sRGB
-  /// for 8-bit files, linear for floating-point files.
+  /// Overrides the file's transfer curve: 1 is linear, −1 sRGB, another number a power. Absent:
+  /// sRGB for 8-bit files, linear for floating-point files.
   std::optional<double> gamma;
   TextureChannel channel = TextureChannel::all;
   UvTransform to_uv;
@@ -189,9 +189,9 @@ struct MaterialDescription {
 
 /// Where a mesh came from, so that a description can be written out again.
 struct MeshSource {
-  std::string file;       ///< resolved path, or "" for a mesh made by the program
-  std::string plugin;     ///< obj, ply, serialized
-  int shape_index = 0;    ///< of a serialized file
+  std::string file;     ///< resolved path, or "" for a mesh made by the program
+  std::string plugin;   ///< obj, ply, serialized
+  int shape_index = 0;  ///< of a serialized file
   bool face_normals = false;
   bool flip_tex_coords = true;
   std::optional<double> max_smooth_angle;
@@ -231,6 +231,7 @@ struct InstanceShape {
 struct AreaEmission {
   SourceLocation where;
   ColorInput radiance = Spectrum(1.0f);
+  double sampling_weight = 1;  ///< as in LightDescription
   bool operator==(const AreaEmission&) const = default;
 };
 
@@ -301,7 +302,7 @@ struct LightDescription {
                EnvironmentMapLight>
       model;
   Matrix4 to_world;
-  /// 0.6's `samplingWeight`: multiplies the light's share in the choice of a light.
+  /// Multiplies the light's share in the choice of a light (`sampling_weight`).
   double sampling_weight = 1;
   bool operator==(const LightDescription&) const = default;
 };
@@ -321,8 +322,8 @@ struct CropWindow {
 /// How 0.6's ldrfilm turns radiance into display values. Used for PNG and JPEG output only.
 struct ToneMapping {
   bool reinhard = false;
-  double gamma = -1;  ///< −1 is the sRGB curve
-  double exposure = 0;  ///< in stops
+  double gamma = -1;            ///< −1 is the sRGB curve
+  double exposure = 0;          ///< in stops
   double key = 0.18, burn = 0;  ///< Reinhard's operator
   bool operator==(const ToneMapping&) const = default;
 };
