@@ -161,7 +161,7 @@ std::string SceneReader::file(Properties& p, std::string_view name) {
     p.wrong_type(name, *property);
     return "";
   }
-  if (auto path = find_file(*text, *p.node().folders, access_)) return *path;
+  if (const auto path = find_file(*text, *p.node().folders, access_)) return absolute_path(*path);
   p.error(name, "{}", not_found(*text, *p.node().folders));
   return "";
 }

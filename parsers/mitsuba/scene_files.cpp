@@ -72,6 +72,12 @@ std::optional<std::string> find_file(const std::string& name,
   return find(slashes);
 }
 
+std::string absolute_path(const std::string& path) {
+  std::error_code error;
+  const fs::path full = fs::absolute(path, error);
+  return error ? path : full.lexically_normal().string();
+}
+
 std::string not_found(const std::string& name, const std::vector<std::string>& folders) {
   std::string looked;
   constexpr size_t most = 4;

@@ -21,6 +21,9 @@ std::optional<std::string> find_file(const std::string& name,
                                      const std::vector<std::string>& folders,
                                      const FileAccess& access);
 
+/// The path with the current folder before it, if it is relative.
+std::string absolute_path(const std::string& path);
+
 /// `file "x" not found (looked in …)`
 std::string not_found(const std::string& name, const std::vector<std::string>& folders);
 
