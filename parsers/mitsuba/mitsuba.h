@@ -1,21 +1,37 @@
 // Reads Mitsuba scene files, versions 0.4 to 3.x.
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "base/diagnostics.h"
+#include "mesh/mesh_file.h"
 #include "scene/description.h"
 
 namespace duet {
+
+/// How the reader gets at files. What is left empty is done on the disk; tests put their own things
+/// here.
+struct FileAccess {
+  /// Whether there is a file or folder of that name.
+  std::function<bool(const std::string& path)> exists;
+  /// The whole text of a file; nothing if it cannot be read.
+  std::function<std::optional<std::string>(const std::string& path)> read;
+  /// Reads the mesh file of an obj, ply or serialized shape; throws ReadError.
+  std::function<TriangleMesh(const std::string& plugin, const std::string& path,
+                             const MeshOptions& options)>
+      read_mesh;
+};
 
 struct MitsubaOptions {
   /// Values of `$name` parameters; they win over the scene's own defaults.
   std::vector<std::pair<std::string, std::string>> defines;
   /// Further directories to look for files, after the scene's own.
   std::vector<std::string> search_paths;
+  FileAccess files;
 };
 
 struct MitsubaScene {

@@ -234,6 +234,7 @@ struct InstanceShape {
 struct AreaEmission {
   SourceLocation where;
   ColorInput radiance = Spectrum(1.0f);
+  double sampling_weight = 1;  ///< as in LightDescription
   bool operator==(const AreaEmission&) const = default;
 };
 
@@ -304,7 +305,7 @@ struct LightDescription {
                EnvironmentMapLight>
       model;
   Matrix4 to_world;
-  /// 0.6's `samplingWeight`: multiplies the light's share in the choice of a light.
+  /// Multiplies the light's share in the choice of a light (`sampling_weight`).
   double sampling_weight = 1;
   bool operator==(const LightDescription&) const = default;
 };

@@ -1,0 +1,287 @@
+#include "mitsuba/properties.h"
+
+#include <cassert>
+
+#include "mitsuba/text.h"
+
+namespace duet {
+
+namespace {
+
+/// `an integer`, `a colour`: what a property is, in words.
+std::string_view kind_of_value(const PropertyValue& value) {
+  constexpr std::string_view names[] = {
+      "nothing",           "a boolean", "an integer", "a float",    "a string",
+      "a point or vector", "a colour",  "a spectrum", "a spectrum", "a blackbody",
+      "a transform",       "a plugin",  "null"};
+  static_assert(std::size(names) == std::variant_size_v<PropertyValue>);
+  return names[value.index()];
+}
+
+/// Children that are not parameters have a meaning by their kind alone, except textures.
+bool is_parameter_kind(const Property& p) {
+  const Node* const* node = std::get_if<const Node*>(&p.value);
+  return !node || (*node)->kind == PluginKind::texture;
+}
+
+}  // namespace
+
+Properties::Properties(const Node& node, Report& report) : node_(node), report_(report) {
+  entries_.reserve(node.properties.size());
+  for (const Property& p : node.properties) {
+    const Parameter* parameter =
+        p.name.empty() ? nullptr : find_parameter(node.kind, *node.plugin, p.name);
+    if (parameter && !is_parameter_kind(p)) parameter = nullptr;
+    const Entry* first = nullptr;
+    if (parameter)
+      for (const Entry& e : entries_)
+        if (e.parameter == parameter) first = &e;
+    if (first) {
+      report_.error(p.where, "the parameter {} is given twice, first in line {}",
+                    in_quotes(p.written), first->property->where.line);
+      continue;
+    }
+    entries_.push_back({&p, parameter});
+  }
+}
+
+const Parameter& Properties::parameter(std::string_view name) const {
+  const Parameter* p = find_parameter(node_.kind, *node_.plugin, name);
+  assert(p && "the vocabulary has no such parameter");
+  return *p;
+}
+
+const Properties::Entry* Properties::entry(std::string_view name) const {
+  for (const Entry& e : entries_)
+    if (e.parameter && e.parameter->name == name) return &e;
+  return nullptr;
+}
+
+bool Properties::has(std::string_view name) const {
+  return entry(name) != nullptr;
+}
+
+const Property* Properties::find(std::string_view name) {
+  const Parameter& p = parameter(name);
+  for (Entry& e : entries_)
+    if (e.parameter == &p) {
+      e.used = true;
+      return e.property;
+    }
+  if (p.required)
+    report_.error(node_.where, "{} needs the parameter \"{}\"", describe(node_),
+                  is_0x() ? camel_case(name) : std::string(name));
+  return nullptr;
+}
+
+std::string_view Properties::preset(std::string_view name) const {
+  const Parameter& p = parameter(name);
+  return is_0x() && !p.preset_0x.empty() ? p.preset_0x : p.preset;
+}
+
+const SourceLocation& Properties::where(std::string_view name) const {
+  const Entry* e = entry(name);
+  return e ? e->property->value_where : node_.where;
+}
+
+std::string Properties::expected(const Parameter& p) const {
+  return fmt::format("the parameter \"{}\" of {}",
+                     is_0x() ? camel_case(p.name) : std::string(p.name), describe(node_));
+}
+
+void Properties::wrong_type(std::string_view name, const Property& property) {
+  if (std::holds_alternative<Broken>(property.value)) return;
+  const Parameter& p = parameter(name);
+  report_.error(property.value_where, "{} is of type {}, not {}", expected(p), type_name(p.type),
+                kind_of_value(property.value));
+}
+
+bool Properties::in_range(std::string_view name, double value) {
+  const Parameter& p = parameter(name);
+  const auto fail = [&](std::string_view rule) {
+    error(name, "{} must be {}, not {}", expected(p), rule, value);
+    return false;
+  };
+  switch (p.range) {
+    case NumberRange::any:
+      return true;
+    case NumberRange::positive:
+      return value > 0 || fail("positive");
+    case NumberRange::not_negative:
+      return value >= 0 || fail("at least 0");
+    case NumberRange::size:
+      return (value >= 1 && value <= 65536) || fail("from 1 to 65536");
+    case NumberRange::depth:
+      return value >= -1 || fail("-1 or more");
+    case NumberRange::degrees:
+      return (value > 0 && value < 180) || fail("between 0 and 180");
+  }
+  return true;
+}
+
+bool Properties::boolean(std::string_view name) {
+  if (const Property* p = find(name)) {
+    if (const bool* value = std::get_if<bool>(&p->value)) return *value;
+    wrong_type(name, *p);
+  }
+  return preset(name) == "true";
+}
+
+int Properties::integer(std::string_view name) {
+  constexpr int64_t largest = 1 << 30;
+  const int otherwise = int(parse_integer(preset(name)).value_or(0));
+  const Property* p = find(name);
+  if (!p) return otherwise;
+  const int64_t* value = std::get_if<int64_t>(&p->value);
+  // Mitsuba's manuals themselves write <float> for some counts.
+  const double* real = std::get_if<double>(&p->value);
+  if (!value && !(real && *real == double(int64_t(*real)) && std::abs(*real) < double(largest))) {
+    wrong_type(name, *p);
+    return otherwise;
+  }
+  const int64_t number = value ? *value : int64_t(*real);
+  if (!in_range(name, double(number))) return otherwise;
+  // Sentinels like 2³² − 1 stand for "no limit" in counts.
+  return int(std::min(number, largest));
+}
+
+std::optional<double> Properties::optional_number(std::string_view name) {
+  const Property* p = find(name);
+  if (!p) return std::nullopt;
+  std::optional<double> value;
+  if (const double* real = std::get_if<double>(&p->value)) value = *real;
+  if (const int64_t* whole = std::get_if<int64_t>(&p->value)) value = double(*whole);
+  if (!value) {
+    wrong_type(name, *p);
+    return std::nullopt;
+  }
+  return in_range(name, *value) ? value : std::nullopt;
+}
+
+double Properties::number(std::string_view name) {
+  return optional_number(name).value_or(parse_number(preset(name)).value_or(0));
+}
+
+std::string Properties::string(std::string_view name) {
+  if (const Property* p = find(name)) {
+    if (const std::string* value = std::get_if<std::string>(&p->value)) return *value;
+    wrong_type(name, *p);
+  }
+  return std::string(preset(name));
+}
+
+Triple Properties::triple(std::string_view name) {
+  if (const Property* p = find(name)) {
+    if (const Triple* value = std::get_if<Triple>(&p->value)) return *value;
+    wrong_type(name, *p);
+  }
+  const auto numbers = parse_numbers(preset(name));
+  return numbers && numbers->size() == 3 ? Triple{(*numbers)[0], (*numbers)[1], (*numbers)[2]}
+                                         : Triple{};
+}
+
+Matrix4 Properties::transform(std::string_view name) {
+  if (const Property* p = find(name)) {
+    if (const Matrix4* value = std::get_if<Matrix4>(&p->value)) return *value;
+    wrong_type(name, *p);
+  }
+  return {};
+}
+
+std::string Properties::simplified(std::string_view word) {
+  std::string s = to_lower(trim(word));
+  std::erase(s, '_');
+  return s;
+}
+
+void Properties::bad_choice(std::string_view name, const std::string& value,
+                            const std::vector<std::string>& choices) {
+  std::string list;
+  for (const std::string& c : choices) list += (list.empty() ? "" : ", ") + c;
+  error(name, "{} cannot be {}{}; it is one of {}", expected(parameter(name)), in_quotes(value),
+        did_you_mean(value, choices), list);
+}
+
+std::vector<Properties::Child> Properties::children(PluginKind kind) {
+  std::vector<Child> result;
+  for (Entry& e : entries_)
+    if (const Node* const* node = std::get_if<const Node*>(&e.property->value))
+      if (!e.parameter && (*node)->kind == kind) {
+        e.used = true;
+        result.push_back({*node, e.property});
+      }
+  return result;
+}
+
+const Node* Properties::child(PluginKind kind) {
+  const std::vector<Child> all = children(kind);
+  for (size_t i = 1; i < all.size(); ++i)
+    report_.error(all[i].property->where, "{} can have only one {}", describe(node_), tag_of(kind));
+  return all.empty() ? nullptr : all[0].node;
+}
+
+void Properties::finish() {
+  for (const Entry& e : entries_)
+    if (!e.used) report_unused(e);
+}
+
+void Properties::report_unused(const Entry& e) {
+  const Property& p = *e.property;
+  if (const Node* const* node = std::get_if<const Node*>(&p.value)) {
+    if (!may_contain(node_.kind, (*node)->kind)) {
+      report_.error(p.where, "{} cannot stand in a <{}>", describe(**node), tag_of(node_.kind));
+      return;
+    }
+    if (!(*node)->plugin) return;  // it has its own error
+    if ((*node)->kind != PluginKind::texture && (*node)->kind != PluginKind::bsdf) {
+      report_.error(p.where, "{} cannot be used by {}", describe(**node), describe(node_));
+      return;
+    }
+  }
+  if (e.parameter) {
+    const Parameter& known = *e.parameter;
+    if (known.support == Support::inert || std::holds_alternative<Broken>(p.value)) return;
+    if (known.support == Support::planned) {
+      const bool* flag = std::get_if<bool>(&p.value);
+      if (flag && known.preset == (*flag ? "true" : "false")) return;
+      report_.error(p.where, "{} is not supported yet", expected(known));
+      return;
+    }
+    // Asking for what happens anyway needs no remark.
+    const std::string value = std::visit(
+        [](const auto& v) -> std::string {
+          using V = std::decay_t<decltype(v)>;
+          if constexpr (std::is_same_v<V, bool>)
+            return v ? "true" : "false";
+          else if constexpr (std::is_same_v<V, std::string>)
+            return v;
+          else if constexpr (std::is_arithmetic_v<V>)
+            return fmt::format("{}", v);
+          else
+            return "?";
+        },
+        p.value);
+    if (known.support == Support::ignored && value == known.preset) return;
+    report_.warning(p.where, "{} has no effect{}", expected(known),
+                    known.support == Support::ignored ? " on the linear image" : " here");
+    return;
+  }
+  if (p.name.empty() && std::holds_alternative<NullReference>(p.value)) return;
+  if (p.written.starts_with("metadata[") || p.written.starts_with("label[")) {
+    report_.warning(p.where, "annotations have no effect on the linear image");
+    return;
+  }
+  if (p.name.empty()) {
+    report_.warning(p.where, "{} is not used by {}", kind_of_value(p.value), describe(node_));
+    return;
+  }
+  std::vector<std::string> names;
+  if (!report_.is_full()) names = parameter_names(node_.kind, *node_.plugin);
+  std::string near = nearest_name(p.name, names);
+  if (!near.empty())
+    near = fmt::format(" (did you mean \"{}\"?)", is_0x() ? camel_case(near) : near);
+  report_.warning(p.where, "unused parameter {} of {}{}", in_quotes(p.written), describe(node_),
+                  near);
+}
+
+}  // namespace duet

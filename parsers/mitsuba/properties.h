@@ -1,0 +1,101 @@
+// The properties of one plugin, asked for by name: checked, with the presets of the vocabulary.
+#pragma once
+
+#include <initializer_list>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "mitsuba/node.h"
+#include "mitsuba/report.h"
+
+namespace duet {
+
+/// Names are those of the vocabulary; asking for one that the plugin does not have is a mistake in
+/// the program. What is asked for counts as used. After an error the preset is returned.
+class Properties {
+ public:
+  /// The node's plugin must be known.
+  Properties(const Node& node, Report& report);
+
+  const Node& node() const { return node_; }
+  bool is_0x() const { return node_.version.is_0x(); }
+  Report& report() { return report_; }
+
+  /// Whether the file gives the parameter a value, be it a wrong one.
+  bool has(std::string_view name) const;
+  /// The property, or null (after an error if it is required).
+  const Property* find(std::string_view name);
+  /// The value that holds where the file gives none.
+  std::string_view preset(std::string_view name) const;
+  /// Where the value stands, or the plugin if there is none.
+  const SourceLocation& where(std::string_view name) const;
+
+  bool boolean(std::string_view name);
+  int integer(std::string_view name);
+  double number(std::string_view name);
+  std::string string(std::string_view name);
+  Triple triple(std::string_view name);
+  Matrix4 transform(std::string_view name);
+  /// The number of a parameter that may be missing.
+  std::optional<double> optional_number(std::string_view name);
+  /// One of several words, in any case and with or without underscores.
+  template <class E>
+  E choice(std::string_view name, std::initializer_list<std::pair<std::string_view, E>> choices);
+
+  /// A check that needs more than one value failed.
+  template <class... Args>
+  void error(std::string_view name, fmt::format_string<Args...> text, Args&&... args) {
+    report_.error(where(name), text, std::forward<Args>(args)...);
+  }
+  /// Reports that the value has a type that the parameter cannot have.
+  void wrong_type(std::string_view name, const Property& property);
+  /// Checks a number from a property against the range of its parameter.
+  bool in_range(std::string_view name, double value);
+
+  struct Child {
+    const Node* node;
+    const Property* property;
+  };
+  /// The plugins of a kind that are no parameters; nested or by reference.
+  std::vector<Child> children(PluginKind kind);
+  /// At most one such plugin; more are an error.
+  const Node* child(PluginKind kind);
+
+  /// Reports what was not asked for: unknown parameters, wrong nesting.
+  void finish();
+
+ private:
+  struct Entry {
+    const Property* property;
+    const Parameter* parameter;  ///< null if the plugin has none of that name
+    bool used = false;
+  };
+  const Parameter& parameter(std::string_view name) const;
+  const Entry* entry(std::string_view name) const;
+  std::string expected(const Parameter& p) const;
+  void report_unused(const Entry& e);
+  void bad_choice(std::string_view name, const std::string& value,
+                  const std::vector<std::string>& choices);
+  static std::string simplified(std::string_view word);
+
+  const Node& node_;
+  Report& report_;
+  std::vector<Entry> entries_;
+};
+
+template <class E>
+E Properties::choice(std::string_view name,
+                     std::initializer_list<std::pair<std::string_view, E>> choices) {
+  const std::string value = string(name);
+  std::vector<std::string> words;
+  for (const auto& [word, meaning] : choices) {
+    if (simplified(word) == simplified(value)) return meaning;
+    words.emplace_back(word);
+  }
+  bad_choice(name, value, words);
+  return choices.begin()->second;
+}
+
+}  // namespace duet

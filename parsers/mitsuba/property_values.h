@@ -1,0 +1,36 @@
+// Elements that hold a value: <float>, <rgb>, <transform> …
+#pragma once
+
+#include <string_view>
+
+#include "mitsuba/attributes.h"
+#include "mitsuba/node.h"
+#include "mitsuba/scene_files.h"
+
+namespace duet {
+
+/// What is needed to understand the elements of one file.
+struct ElementContext {
+  const XmlDocument& xml;
+  FileVersion version;
+  Substitution& substitution;
+  const FileAccess& access;
+  const std::vector<std::string>& folders;
+  Report& report;
+};
+
+/// Whether the element holds a value (and not a plugin).
+bool is_value_element(std::string_view tag);
+const std::vector<std::string>& value_elements();
+
+/// The value of such an element; Broken, with an error, if it has none.
+PropertyValue read_value(const ElementContext& context, pugi::xml_node element,
+                         const Attributes& attributes);
+
+/// The product of the steps in a <transform>; Broken, with errors, if one of them is wrong.
+PropertyValue read_transform(const ElementContext& context, pugi::xml_node element);
+
+/// A unit vector orthogonal to the unit vector `d`, as the file's version chooses it.
+Triple orthogonal_vector(const Triple& d, FileVersion version);
+
+}  // namespace duet

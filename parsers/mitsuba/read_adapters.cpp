@@ -1,0 +1,132 @@
+// Materials made of other materials.
+#include <algorithm>
+
+#include "mitsuba/readers.h"
+#include "mitsuba/scene_reader.h"
+
+namespace duet {
+
+namespace {
+
+/// The nested materials; nothing, after an error, unless there are from `least` to `most` of them.
+std::vector<MaterialId> nested(SceneReader& s, Properties& p, size_t least, size_t most) {
+  const auto children = p.children(PluginKind::bsdf);
+  if (children.size() < least || children.size() > most) {
+    s.report().error(p.node().where, "{} needs {}{} nested BSDF{}, not {}", describe(p.node()),
+                     least, least == most ? "" : " or " + std::to_string(most),
+                     most == 1 ? "" : "s", children.size());
+    return {};
+  }
+  std::vector<MaterialId> ids;
+  for (const Properties::Child& child : children)
+    if (const auto id = s.material(*child.node)) ids.push_back(*id);
+  return ids.size() == children.size() ? ids : std::vector<MaterialId>();
+}
+
+bool is_zero(const FloatInput& input) {
+  const double* value = std::get_if<double>(&input);
+  return value && *value == 0;
+}
+
+/// Whether light passes through the material.
+bool transmits(const SceneDescription& d, MaterialId id) {
+  return std::visit(
+      [&](const auto& m) -> bool {
+        using M = std::decay_t<decltype(m)>;
+        if constexpr (std::is_same_v<M, DielectricMaterial> ||
+                      std::is_same_v<M, ThinDielectricMaterial> ||
+                      std::is_same_v<M, MaskMaterial> || std::is_same_v<M, NullMaterial> ||
+                      std::is_same_v<M, PrincipledThinMaterial>)
+          return true;
+        else if constexpr (std::is_same_v<M, PrincipledMaterial>)
+          return !is_zero(m.spec_trans);
+        else if constexpr (std::is_same_v<M, BlendMaterial>)
+          return transmits(d, m.first) || transmits(d, m.second);
+        else if constexpr (std::is_same_v<M, BumpMapMaterial> ||
+                           std::is_same_v<M, NormalMapMaterial>)
+          return transmits(d, m.nested);
+        else
+          return false;
+      },
+      d.materials[size_t(id)].model);
+}
+
+/// The one texture of an adapter: a parameter, or nested without a name that matters.
+std::optional<TextureId> only_texture(SceneReader& s, Properties& p, std::string_view name) {
+  const auto children = p.children(PluginKind::texture);
+  const bool named = !name.empty() && p.has(name);
+  if (children.size() + (named ? 1 : 0) != 1) {
+    s.report().error(p.node().where, "{} needs one texture, not {}", describe(p.node()),
+                     children.size() + (named ? 1 : 0));
+    return std::nullopt;
+  }
+  return named ? s.texture(p, name) : s.texture(*children[0].node);
+}
+
+}  // namespace
+
+void read_twosided(SceneReader& s, Properties& p, MaterialDescription& out) {
+  const auto ids = nested(s, p, 1, 2);
+  if (ids.empty()) return;
+  for (MaterialId id : ids)
+    if (transmits(s.description(), id)) {
+      s.report().error(p.node().where, "{} cannot hold a BSDF that lets light through",
+                       describe(p.node()));
+      break;
+    }
+  out.model = TwoSidedMaterial{ids.front(), ids.back()};
+}
+
+void read_mask(SceneReader& s, Properties& p, MaterialDescription& out) {
+  const FloatInput opacity = s.number_or_texture(p, "opacity");
+  if (const auto ids = nested(s, p, 1, 1); !ids.empty()) out.model = MaskMaterial{opacity, ids[0]};
+}
+
+void read_blendbsdf(SceneReader& s, Properties& p, MaterialDescription& out) {
+  const FloatInput weight = s.number_or_texture(p, "weight");
+  if (const auto ids = nested(s, p, 2, 2); !ids.empty())
+    out.model = BlendMaterial{weight, ids[0], ids[1]};
+}
+
+void read_bumpmap(SceneReader& s, Properties& p, MaterialDescription& out) {
+  BumpMapMaterial m;
+  m.scale = p.number("scale");
+  m.flip_invalid_normals = p.boolean("flip_invalid_normals");
+  m.use_shadowing_function = p.boolean("use_shadowing_function");
+  std::optional<TextureId> height;
+  // In 0.x the height is scaled by a texture around the texture.
+  const auto children = p.children(PluginKind::texture);
+  const Node* wrapper = children.size() == 1 ? children[0].node : nullptr;
+  if (wrapper && wrapper->plugin && wrapper->plugin->name == "scale") {
+    Properties scale(*wrapper, s.report());
+    const Node* inner = scale.child(PluginKind::texture);
+    const Spectrum factor = s.constant_color(scale, "scale");
+    m.scale *= double(factor.r == factor.g && factor.g == factor.b ? factor.r : factor.luminance());
+    scale.finish();
+    if (inner)
+      height = s.texture(*inner);
+    else
+      s.report().error(wrapper->where, "{} needs a texture", describe(*wrapper));
+  } else {
+    height = only_texture(s, p, "");
+  }
+  const auto ids = nested(s, p, 1, 1);
+  if (!height || ids.empty()) return;
+  m.height = *height;
+  m.nested = ids[0];
+  out.model = m;
+}
+
+void read_normalmap(SceneReader& s, Properties& p, MaterialDescription& out) {
+  NormalMapMaterial m;
+  m.flip_invalid_normals = p.boolean("flip_invalid_normals");
+  m.use_shadowing_function = p.boolean("use_shadowing_function");
+  const auto normals = only_texture(s, p, "normalmap");
+  const auto ids = nested(s, p, 1, 1);
+  if (!normals || ids.empty()) return;
+  m.normals = *normals;
+  m.nested = ids[0];
+  out.model = m;
+}
+
+}  // namespace duet

@@ -1,0 +1,92 @@
+// Integrators: methods, and wrappers around them.
+#include "mitsuba/readers.h"
+#include "mitsuba/scene_reader.h"
+#include "mitsuba/text.h"
+
+namespace duet {
+
+namespace {
+
+const std::vector<std::string>& layer_kinds() {
+  static const std::vector<std::string> kinds{
+      "albedo", "depth", "position", "uv",     "geo_normal", "sh_normal",
+      "dp_du",  "dp_dv", "duv_dx",   "duv_dy", "prim_index", "shape_index"};
+  return kinds;
+}
+
+void read_layers(Properties& p, AovDescription& out) {
+  if (!p.find("aovs")) return;
+  const std::string text = p.string("aovs");
+  for (std::string_view part : split_list(text)) {
+    const size_t colon = part.find(':');
+    const std::string name(part.substr(0, colon));
+    const std::string kind(colon == part.npos ? "" : part.substr(colon + 1));
+    const auto& kinds = layer_kinds();
+    if (name.empty() || kind.empty())
+      p.error("aovs", "{} is not of the form name:kind", in_quotes(part));
+    else if (std::find(kinds.begin(), kinds.end(), kind) == kinds.end())
+      p.error("aovs", "unknown kind of layer {}{}", in_quotes(kind), did_you_mean(kind, kinds));
+    else
+      out.layers.push_back({kind, name});
+  }
+}
+
+}  // namespace
+
+void read_path(SceneReader&, Properties& p, IntegratorDescription& out) {
+  PathIntegratorDescription path;
+  path.max_depth = p.integer("max_depth");
+  path.rr_depth = p.integer("rr_depth");
+  path.hide_emitters = p.boolean("hide_emitters");
+  path.strict_normals = p.boolean("strict_normals");
+  out.method = path;
+}
+
+void read_direct(SceneReader&, Properties& p, IntegratorDescription& out) {
+  DirectIntegratorDescription direct;
+  if (p.has("shading_samples")) {
+    if (!p.is_0x() && (p.has("emitter_samples") || p.has("bsdf_samples")))
+      p.error(
+          "shading_samples",
+          "either \"shading_samples\" or \"emitter_samples\" and \"bsdf_samples\" can be given");
+    direct.emitter_samples = direct.bsdf_samples = p.integer("shading_samples");
+  }
+  if (p.has("emitter_samples")) direct.emitter_samples = p.integer("emitter_samples");
+  if (p.has("bsdf_samples")) direct.bsdf_samples = p.integer("bsdf_samples");
+  constexpr int most = 1 << 16;
+  if (direct.emitter_samples + direct.bsdf_samples == 0)
+    p.error("bsdf_samples", "at least one sample must be taken of emitters or of BSDFs");
+  if (std::max(direct.emitter_samples, direct.bsdf_samples) > most)
+    p.error(direct.emitter_samples > most && p.has("emitter_samples") ? "emitter_samples"
+            : p.has("bsdf_samples")                                   ? "bsdf_samples"
+                                                                      : "shading_samples",
+            "more than {} samples at each hit are too many", most);
+  direct.hide_emitters = p.boolean("hide_emitters");
+  direct.strict_normals = p.boolean("strict_normals");
+  out.method = direct;
+}
+
+void read_depth(SceneReader&, Properties&, IntegratorDescription& out) {
+  out.method = DepthIntegratorDescription{};
+}
+
+void read_aov(SceneReader& s, Properties& p, IntegratorDescription& out) {
+  const Node* nested = p.child(PluginKind::integrator);
+  if (nested)
+    s.read_into(*nested, out);
+  else
+    out.image = false;
+  read_layers(p, out.aovs);
+}
+
+void read_moment(SceneReader& s, Properties& p, IntegratorDescription& out) {
+  const Node* nested = p.child(PluginKind::integrator);
+  if (!nested) {
+    s.report().error(p.node().where, "{} needs an integrator", describe(p.node()));
+    return;
+  }
+  s.read_into(*nested, out);
+  out.moments = true;
+}
+
+}  // namespace duet

@@ -1,0 +1,183 @@
+// Sensors with their films, filters and samplers.
+#include <cmath>
+
+#include "mitsuba/focal_length.h"
+#include "mitsuba/readers.h"
+#include "mitsuba/scene_reader.h"
+#include "mitsuba/text.h"
+
+namespace duet {
+
+namespace {
+
+/// Cameras have no size: their transform may turn, mirror and move, not stretch.
+void check_rigid(Properties& p, const Matrix4& m) {
+  for (int i = 0; i < 3; ++i)
+    for (int j = i; j < 3; ++j) {
+      const double product = m[i][0] * m[j][0] + m[i][1] * m[j][1] + m[i][2] * m[j][2];
+      if (std::abs(product - (i == j ? 1 : 0)) > 1e-3) {
+        p.error("to_world", "the transform of {} must not scale", describe(p.node()));
+        return;
+      }
+    }
+}
+
+/// What all sensors have.
+void read_common(SceneReader& s, Properties& p, SensorDescription& out) {
+  out.where = p.node().where;
+  out.label = {p.node().id};
+  out.to_world = p.transform("to_world");
+  out.near_clip = p.number("near_clip");
+  out.far_clip = p.number("far_clip");
+  if (out.near_clip >= out.far_clip)
+    p.error(p.has("far_clip") ? "far_clip" : "near_clip",
+            "the near clip distance {} is not smaller than the far one {}", out.near_clip,
+            out.far_clip);
+  out.film.where = p.node().where;
+  if (const Node* film = p.child(PluginKind::film)) {
+    out.film.where = film->where;
+    s.read_into(*film, out.film);
+  }
+  if (const Node* sampler = p.child(PluginKind::sampler)) s.read_into(*sampler, out.sampler);
+}
+
+void read_size(SceneReader& s, Properties& p, FilmDescription& out) {
+  constexpr int64_t most = int64_t(1) << 28;
+  out.width = p.integer("width");
+  out.height = p.integer("height");
+  if (int64_t(out.width) * out.height > most)
+    p.error("width", "an image of {} × {} pixels is too large", out.width, out.height);
+  CropWindow crop{p.integer("crop_offset_x"), p.integer("crop_offset_y"), out.width, out.height};
+  if (p.has("crop_width")) crop.width = p.integer("crop_width");
+  if (p.has("crop_height")) crop.height = p.integer("crop_height");
+  if (int64_t(crop.x) + crop.width > out.width || int64_t(crop.y) + crop.height > out.height) {
+    const char* name = "width";
+    for (const char* n : {"crop_offset_x", "crop_offset_y", "crop_height", "crop_width"})
+      if (p.has(n)) name = n;
+    p.error(name, "the crop window {} × {} at ({}, {}) does not lie in the image of {} × {}",
+            crop.width, crop.height, crop.x, crop.y, out.width, out.height);
+  }
+  if (crop != CropWindow{0, 0, out.width, out.height}) out.crop = crop;
+
+  if (const Node* filter = p.child(PluginKind::rfilter)) s.read_into(*filter, out.filter);
+}
+
+}  // namespace
+
+double diagonal_fov(double focal_length) {
+  const double diagonal = std::sqrt(36.0 * 36 + 24 * 24);
+  return 2 * std::atan(diagonal / (2 * focal_length)) * (180 / 3.14159265358979323846);
+}
+
+std::pair<double, FovAxis> read_fov(Properties& p) {
+  if (p.has("fov")) {
+    if (p.has("focal_length"))
+      p.error("focal_length", "either \"fov\" or \"focal_length\" can be given");
+    const FovAxis axis = p.choice<FovAxis>("fov_axis", {{"x", FovAxis::x},
+                                                        {"y", FovAxis::y},
+                                                        {"diagonal", FovAxis::diagonal},
+                                                        {"smaller", FovAxis::smaller},
+                                                        {"larger", FovAxis::larger}});
+    return {p.optional_number("fov").value_or(45), axis};
+  }
+  const std::string text = p.string("focal_length");
+  std::string_view number = trim(text);
+  if (number.ends_with("mm")) number.remove_suffix(2);
+  const auto length = parse_number(number);
+  if (!length || !(*length > 0))
+    p.error("focal_length", "{} is not a focal length of the form \"50mm\"", in_quotes(text));
+  return {diagonal_fov(length && *length > 0 ? *length : 50), FovAxis::diagonal};
+}
+
+void read_perspective(SceneReader& s, Properties& p, SensorDescription& out) {
+  out.kind = SensorKind::perspective;
+  read_common(s, p, out);
+  check_rigid(p, out.to_world);
+  std::tie(out.fov, out.fov_axis) = read_fov(p);
+  out.principal_point_offset_x = p.number("principal_point_offset_x");
+  out.principal_point_offset_y = p.number("principal_point_offset_y");
+}
+
+void read_thinlens(SceneReader& s, Properties& p, SensorDescription& out) {
+  out.kind = SensorKind::thinlens;
+  read_common(s, p, out);
+  check_rigid(p, out.to_world);
+  std::tie(out.fov, out.fov_axis) = read_fov(p);
+  out.aperture_radius = p.number("aperture_radius");
+  out.focus_distance = p.optional_number("focus_distance").value_or(out.far_clip);
+}
+
+void read_orthographic(SceneReader& s, Properties& p, SensorDescription& out) {
+  out.kind = SensorKind::orthographic;
+  read_common(s, p, out);
+}
+
+void read_hdrfilm(SceneReader& s, Properties& p, FilmDescription& out) {
+  read_size(s, p, out);
+  out.pixel_format =
+      p.choice<PixelFormat>("pixel_format", {{"luminance", PixelFormat::luminance},
+                                             {"luminance_alpha", PixelFormat::luminance_alpha},
+                                             {"rgb", PixelFormat::rgb},
+                                             {"rgba", PixelFormat::rgba},
+                                             {"xyz", PixelFormat::xyz},
+                                             {"xyza", PixelFormat::xyza}});
+  out.component_format = p.choice<ComponentFormat>(
+      "component_format",
+      {{"float16", ComponentFormat::half}, {"float32", ComponentFormat::single}});
+}
+
+void read_ldrfilm(SceneReader& s, Properties& p, FilmDescription& out) {
+  read_size(s, p, out);
+  out.pixel_format =
+      p.choice<PixelFormat>("pixel_format", {{"luminance", PixelFormat::luminance},
+                                             {"luminance_alpha", PixelFormat::luminance_alpha},
+                                             {"rgb", PixelFormat::rgb},
+                                             {"rgba", PixelFormat::rgba}});
+  ToneMapping tone;
+  tone.reinhard = p.choice<bool>("tonemap_method", {{"gamma", false}, {"reinhard", true}});
+  tone.gamma = p.number("gamma");
+  if (tone.gamma != -1 && !(tone.gamma > 0))
+    p.error("gamma", "a gamma is positive, or -1 for sRGB, not {}", tone.gamma);
+  tone.exposure = p.number("exposure");
+  tone.key = p.number("key");
+  tone.burn = p.number("burn");
+  out.tone_mapping = tone;
+}
+
+void read_filter(SceneReader&, Properties& p, FilterDescription& out) {
+  const std::string& type = p.node().type;
+  out = {};
+  if (type == "box") {
+    out.kind = FilterKind::box;
+    out.radius = p.number("radius");
+  } else if (type == "tent") {
+    out.kind = FilterKind::tent;
+    out.radius = p.number("radius");
+  } else if (type == "gaussian") {
+    out.kind = FilterKind::gaussian;
+    out.stddev = p.number("stddev");
+  } else if (type == "mitchell") {
+    out.kind = FilterKind::mitchell;
+    out.b = p.optional_number("B").value_or(out.b);
+    out.c = p.optional_number("C").value_or(out.c);
+  } else if (type == "catmullrom") {
+    out.kind = FilterKind::catmullrom;
+  } else {
+    out.kind = FilterKind::lanczos;
+    out.lobes = p.integer("lobes");
+  }
+  // Larger filters would only be slow.
+  constexpr double widest = 100;
+  for (const char* name : {"radius", "stddev", "lobes"})
+    if (find_parameter(PluginKind::rfilter, *p.node().plugin, name) && p.has(name))
+      if (std::max({out.radius, out.stddev, double(out.lobes)}) > widest)
+        p.error(name, "a reconstruction filter of more than {} pixels is too wide", widest);
+}
+
+void read_sampler(SceneReader&, Properties& p, SamplerDescription& out) {
+  out.name = p.node().type;
+  out.sample_count = p.integer("sample_count");
+  out.seed = uint64_t(p.integer("seed"));
+}
+
+}  // namespace duet

@@ -1,0 +1,155 @@
+// Shapes, with the materials and lights on them.
+#include <cmath>
+
+#include "mitsuba/obj_materials.h"
+#include "mitsuba/property_values.h"
+#include "mitsuba/readers.h"
+#include "mitsuba/scene_reader.h"
+#include "mitsuba/text.h"
+
+namespace duet {
+
+namespace {
+
+/// The nested material; nothing if there is none or it has an error.
+std::optional<MaterialId> attached_material(SceneReader& s, Properties& p) {
+  const Node* node = p.child(PluginKind::bsdf);
+  return node ? s.material(*node) : std::nullopt;
+}
+
+/// What all surfaces have: transform, orientation, light and material.
+void attach(SceneReader& s, Properties& p, ShapeDescription& out) {
+  out.to_world = p.transform("to_world") * out.to_world;
+  out.flip_normals = p.boolean("flip_normals");
+  const Node* light = p.child(PluginKind::emitter);
+  const auto material = attached_material(s, p);
+  if (light) out.emission = s.emission(*light);
+  out.material = material ? *material : s.grey_material(light ? 0.0f : 0.5f, p.node().where);
+}
+
+/// Mitsuba 0.x can give the parts of an OBJ file different materials. That is understood as far as
+/// one material goes.
+void check_obj_materials(SceneReader& s, Properties& p, const std::string& file) {
+  const auto children = p.children(PluginKind::bsdf);
+  bool named = false;
+  for (const Properties::Child& c : children) named |= !c.property->name.empty();
+  if (!children.empty() && !named) return;
+  if (children.empty() && !p.boolean("load_materials")) return;
+  const auto text = s.files().read(file);
+  if (!text) return;
+  const ObjMaterials materials = find_obj_materials(*text);
+  if (named && materials.used.size() > 1)
+    s.report().error(children[0].property->where,
+                     "materials for the {} parts of an OBJ file are not supported yet",
+                     materials.used.size());
+  if (children.empty() && materials.has_library && !materials.used.empty())
+    s.approximate_loudly(p.node().where, "the materials of OBJ files (mtllib) are not read");
+}
+
+}  // namespace
+
+void SceneReader::shape(const Node& node, std::vector<ShapeDescription>& shapes, bool in_group) {
+  if (!node.plugin) return;
+  const bool is_group =
+      std::holds_alternative<ReadInto<ShapeGroupDescription>>(node.plugin->reader);
+  if (in_group && (is_group || node.plugin->name == "instance")) {
+    report_.error(node.where, "{} cannot stand in a shape group", describe(node));
+  } else if (is_group) {
+    shape_group(node);
+  } else if (ShapeDescription shape;
+             shape.where = node.where, shape.label = {node.id}, read_into(node, shape)) {
+    if (in_group && shape.emission)
+      report_.error(shape.emission->where, "a shape in a shape group cannot emit light");
+    shapes.push_back(std::move(shape));
+  }
+}
+
+void read_mesh(SceneReader& s, Properties& p, ShapeDescription& out) {
+  MeshShape shape;
+  shape.source.file = s.file(p, "filename");
+  shape.source.plugin = p.node().plugin->name;
+  shape.source.face_normals = p.boolean("face_normals");
+  MeshOptions options;
+  options.face_normals = shape.source.face_normals;
+  const bool serialized = shape.source.plugin == "serialized";
+  options.flip_tex_coords = !serialized && p.boolean("flip_tex_coords");
+  shape.source.flip_tex_coords = options.flip_tex_coords;
+  if (serialized) options.shape_index = shape.source.shape_index = p.integer("shape_index");
+  options.max_smooth_angle = shape.source.max_smooth_angle = p.optional_number("max_smooth_angle");
+  if (options.face_normals && options.max_smooth_angle)
+    p.error("max_smooth_angle", "both \"face_normals\" and \"max_smooth_angle\" are given");
+  if (!shape.source.file.empty()) {
+    shape.mesh = s.mesh(shape.source.plugin, shape.source.file, options, p.where("filename"));
+    if (p.is_0x() && shape.source.plugin == "obj") check_obj_materials(s, p, shape.source.file);
+  }
+  out.geometry = std::move(shape);
+  attach(s, p, out);
+}
+
+void read_rectangle(SceneReader& s, Properties& p, ShapeDescription& out) {
+  out.geometry = RectangleShape{};
+  attach(s, p, out);
+}
+
+void read_cube(SceneReader& s, Properties& p, ShapeDescription& out) {
+  out.geometry = CubeShape{};
+  attach(s, p, out);
+}
+
+void read_disk(SceneReader& s, Properties& p, ShapeDescription& out) {
+  out.geometry = DiskShape{};
+  attach(s, p, out);
+}
+
+void read_sphere(SceneReader& s, Properties& p, ShapeDescription& out) {
+  out.geometry = SphereShape{};
+  const Triple c = p.triple("center");
+  const double r = p.number("radius");
+  out.to_world = Matrix4::translate(c[0], c[1], c[2]) * Matrix4::scale(r, r, r);
+  attach(s, p, out);
+}
+
+void read_cylinder(SceneReader& s, Properties& p, ShapeDescription& out) {
+  out.geometry = CylinderShape{};
+  const Triple p0 = p.triple("p0"), p1 = p.triple("p1");
+  const double radius = p.number("radius");
+  Triple d{p1[0] - p0[0], p1[1] - p0[1], p1[2] - p0[2]};
+  const double length = std::sqrt(d[0] * d[0] + d[1] * d[1] + d[2] * d[2]);
+  if (!(length > 0)) {
+    p.error("p1", "the ends \"p0\" and \"p1\" of the cylinder are the same point");
+    return;
+  }
+  for (double& v : d) v /= length;
+  // The seam of the surface lies where Mitsuba puts it.
+  const Triple u = orthogonal_vector(d, p.node().version);
+  Matrix4 frame;
+  for (int i = 0; i < 3; ++i) {
+    const int j = (i + 1) % 3, k = (i + 2) % 3;
+    frame[i] = {u[i] * radius, (d[j] * u[k] - d[k] * u[j]) * radius, d[i] * length, p0[i]};
+  }
+  out.to_world = frame;
+  attach(s, p, out);
+}
+
+void read_instance(SceneReader& s, Properties& p, ShapeDescription& out) {
+  out.to_world = p.transform("to_world");
+  const Node* node = p.child(PluginKind::shape);
+  if (!node) {
+    s.report().error(p.node().where, "{} needs a reference to a shape group", describe(p.node()));
+    return;
+  }
+  if (!node->plugin) return;
+  if (!std::holds_alternative<ReadInto<ShapeGroupDescription>>(node->plugin->reader)) {
+    s.report().error(p.node().where, "{} needs a shape group, not {}", describe(p.node()),
+                     describe(*node));
+    return;
+  }
+  if (const auto group = s.shape_group(*node)) out.geometry = InstanceShape{*group};
+}
+
+void read_shapegroup(SceneReader& s, Properties& p, ShapeGroupDescription& out) {
+  for (const Properties::Child& child : p.children(PluginKind::shape))
+    s.shape(*child.node, out.shapes, true);
+}
+
+}  // namespace duet

@@ -1,0 +1,74 @@
+// The functions that the vocabulary names: each turns one plugin into a part of the description.
+#pragma once
+
+#include "mitsuba/vocabulary.h"
+
+namespace duet {
+
+// read_materials.cpp
+void read_diffuse(SceneReader&, Properties&, MaterialDescription&);
+void read_conductor(SceneReader&, Properties&, MaterialDescription&);
+void read_dielectric(SceneReader&, Properties&, MaterialDescription&);
+void read_thindielectric(SceneReader&, Properties&, MaterialDescription&);
+void read_plastic(SceneReader&, Properties&, MaterialDescription&);
+void read_principled(SceneReader&, Properties&, MaterialDescription&);
+void read_principledthin(SceneReader&, Properties&, MaterialDescription&);
+void read_null(SceneReader&, Properties&, MaterialDescription&);
+
+// read_adapters.cpp: materials made of others
+void read_twosided(SceneReader&, Properties&, MaterialDescription&);
+void read_mask(SceneReader&, Properties&, MaterialDescription&);
+void read_blendbsdf(SceneReader&, Properties&, MaterialDescription&);
+void read_bumpmap(SceneReader&, Properties&, MaterialDescription&);
+void read_normalmap(SceneReader&, Properties&, MaterialDescription&);
+
+// read_textures.cpp
+void read_bitmap(SceneReader&, Properties&, TextureDescription&);
+void read_checkerboard(SceneReader&, Properties&, TextureDescription&);
+void read_mesh_attribute(SceneReader&, Properties&, TextureDescription&);
+void read_vertexcolors(SceneReader&, Properties&, TextureDescription&);
+void read_scale(SceneReader&, Properties&, TextureDescription&);
+void read_uniform(SceneReader&, Properties&, MeantColor&);
+void read_srgb(SceneReader&, Properties&, MeantColor&);
+void read_d65(SceneReader&, Properties&, MeantColor&);
+void read_rawconstant(SceneReader&, Properties&, MeantColor&);
+void read_irregular(SceneReader&, Properties&, MeantColor&);
+void read_regular(SceneReader&, Properties&, MeantColor&);
+void read_blackbody(SceneReader&, Properties&, MeantColor&);
+
+// read_shapes.cpp
+void read_mesh(SceneReader&, Properties&, ShapeDescription&);
+void read_rectangle(SceneReader&, Properties&, ShapeDescription&);
+void read_cube(SceneReader&, Properties&, ShapeDescription&);
+void read_sphere(SceneReader&, Properties&, ShapeDescription&);
+void read_disk(SceneReader&, Properties&, ShapeDescription&);
+void read_cylinder(SceneReader&, Properties&, ShapeDescription&);
+void read_instance(SceneReader&, Properties&, ShapeDescription&);
+void read_shapegroup(SceneReader&, Properties&, ShapeGroupDescription&);
+
+// read_lights.cpp
+void read_area(SceneReader&, Properties&, AreaEmission&);
+void read_point(SceneReader&, Properties&, LightDescription&);
+void read_spot(SceneReader&, Properties&, LightDescription&);
+void read_projector(SceneReader&, Properties&, LightDescription&);
+void read_directional(SceneReader&, Properties&, LightDescription&);
+void read_constant(SceneReader&, Properties&, LightDescription&);
+void read_envmap(SceneReader&, Properties&, LightDescription&);
+
+// read_sensors.cpp
+void read_perspective(SceneReader&, Properties&, SensorDescription&);
+void read_thinlens(SceneReader&, Properties&, SensorDescription&);
+void read_orthographic(SceneReader&, Properties&, SensorDescription&);
+void read_hdrfilm(SceneReader&, Properties&, FilmDescription&);
+void read_ldrfilm(SceneReader&, Properties&, FilmDescription&);
+void read_filter(SceneReader&, Properties&, FilterDescription&);
+void read_sampler(SceneReader&, Properties&, SamplerDescription&);
+
+// read_integrators.cpp
+void read_path(SceneReader&, Properties&, IntegratorDescription&);
+void read_direct(SceneReader&, Properties&, IntegratorDescription&);
+void read_depth(SceneReader&, Properties&, IntegratorDescription&);
+void read_aov(SceneReader&, Properties&, IntegratorDescription&);
+void read_moment(SceneReader&, Properties&, IntegratorDescription&);
+
+}  // namespace duet

@@ -1,0 +1,196 @@
+#include "mitsuba/scene_reader.h"
+
+#include <algorithm>
+
+namespace duet {
+
+namespace {
+
+/// References lead no deeper than this into one another.
+constexpr int kDeepest = 100;
+
+}  // namespace
+
+bool SceneReader::may_enter(const Node& node) {
+  if (std::find(active_.begin(), active_.end(), &node) != active_.end())
+    report_.error(node.where, "{} contains itself", describe(node));
+  else if (active_.size() >= kDeepest)
+    report_.error(node.where, "plugins refer to one another more than {} deep", kDeepest);
+  else
+    return true;
+  return false;
+}
+
+template <class Read>
+std::optional<uint32_t> SceneReader::once(const Node& node, Read read) {
+  if (const auto known = ids_.find(&node); known != ids_.end()) return known->second;
+  const std::optional<uint32_t> id = read();
+  ids_[&node] = id;
+  return id;
+}
+
+std::optional<TextureId> SceneReader::texture(const Node& node) {
+  const auto id = once(node, [&]() -> std::optional<uint32_t> {
+    TextureDescription texture{node.where, {node.id}, BitmapTexture{}};
+    if (!read_into(node, texture)) return std::nullopt;
+    description_.textures.push_back(std::move(texture));
+    return uint32_t(description_.textures.size() - 1);
+  });
+  return id ? std::optional(TextureId{*id}) : std::nullopt;
+}
+
+std::optional<MaterialId> SceneReader::material(const Node& node) {
+  const auto id = once(node, [&]() -> std::optional<uint32_t> {
+    MaterialDescription material{node.where, {node.id}, DiffuseMaterial{}};
+    if (!read_into(node, material)) return std::nullopt;
+    description_.materials.push_back(std::move(material));
+    return uint32_t(description_.materials.size() - 1);
+  });
+  return id ? std::optional(MaterialId{*id}) : std::nullopt;
+}
+
+std::optional<uint32_t> SceneReader::shape_group(const Node& node) {
+  return once(node, [&]() -> std::optional<uint32_t> {
+    ShapeGroupDescription group{node.where, {node.id}, {}};
+    if (!read_into(node, group)) return std::nullopt;
+    description_.groups.push_back(std::move(group));
+    return uint32_t(description_.groups.size() - 1);
+  });
+}
+
+MaterialId SceneReader::grey_material(float reflectance, const SourceLocation& where) {
+  const auto [entry, is_new] = greys_.try_emplace(reflectance);
+  if (is_new) {
+    entry->second = MaterialId{uint32_t(description_.materials.size())};
+    description_.materials.push_back({where, {}, DiffuseMaterial{Spectrum(reflectance)}});
+  }
+  return entry->second;
+}
+
+std::shared_ptr<const TriangleMesh> SceneReader::mesh(const std::string& plugin,
+                                                      const std::string& file,
+                                                      const MeshOptions& options,
+                                                      const SourceLocation& where) {
+  const std::string key =
+      fmt::format("{} {} {} {} {}\n{}", plugin, options.face_normals, options.flip_tex_coords,
+                  options.max_smooth_angle.value_or(-1), options.shape_index, file);
+  const auto [entry, is_new] = meshes_.try_emplace(key);
+  if (is_new) try {
+      entry->second = std::make_shared<TriangleMesh>(access_.read_mesh(plugin, file, options));
+    } catch (const ReadError& error) {
+      report_.error(where, "{}: {}", file, error.what());
+    }
+  return entry->second;
+}
+
+void SceneReader::approximate(const SourceLocation& where, std::string what) {
+  for (const Diagnostic& d : description_.approximations)
+    if (d.message == what) return;
+  description_.approximations.push_back({Severity::warning, where, std::move(what)});
+}
+
+void SceneReader::approximate_loudly(const SourceLocation& where, std::string what) {
+  report_.warning(where, "{}", what);
+  approximate(where, std::move(what));
+}
+
+SceneDescription SceneReader::read(const NodeTree& tree, const std::string& file) {
+  description_.file = file;
+  top_level(tree.nodes.front());
+  return std::move(description_);
+}
+
+void SceneReader::top_level(const Node& scene) {
+  Properties p(scene, report_);
+  // Everything is read in the order of the file, also what nobody refers to: Mitsuba does it, too.
+  const Node* integrator = p.child(PluginKind::integrator);
+  for (PluginKind kind : {PluginKind::texture, PluginKind::bsdf, PluginKind::shape,
+                          PluginKind::emitter, PluginKind::sensor})
+    p.children(kind);
+  for (const Property& property : scene.properties) {
+    const Node* const* child = std::get_if<const Node*>(&property.value);
+    if (!child || !(*child)->plugin) continue;
+    const Node& node = **child;
+    switch (node.kind) {
+      case PluginKind::texture:
+        if (MeantColor constant{ColorMeaning::unbounded, {}};
+            std::holds_alternative<ReadInto<MeantColor>>(node.plugin->reader))
+          read_into(node, constant);
+        else
+          texture(node);
+        break;
+      case PluginKind::bsdf:
+        material(node);
+        break;
+      case PluginKind::shape:
+        shape(node, description_.shapes, false);
+        break;
+      case PluginKind::emitter:
+        // One that belongs to a surface may stand here to be referred to.
+        if (std::holds_alternative<ReadInto<AreaEmission>>(node.plugin->reader))
+          surface_lights_.try_emplace(&node, false);
+        else if (LightDescription light{node.where, {node.id}, PointLight{}, {}, 1};
+                 read_into(node, light))
+          description_.lights.push_back(std::move(light));
+        break;
+      case PluginKind::sensor:
+        if (SensorDescription sensor; read_into(node, sensor))
+          description_.sensors.push_back(std::move(sensor));
+        break;
+      default:
+        break;
+    }
+  }
+  p.finish();
+  for (const auto& [node, used] : surface_lights_)
+    if (!used)
+      report_.warning(node->where, "{} belongs to no shape and gives no light", describe(*node));
+  if (integrator) {
+    description_.integrator.where = integrator->where;
+    read_into(*integrator, description_.integrator);
+  }
+  check_scene(scene, integrator != nullptr);
+}
+
+std::optional<AreaEmission> SceneReader::emission(const Node& node) {
+  if (const auto known = surface_lights_.find(&node); known != surface_lights_.end())
+    known->second = true;
+  AreaEmission emission;
+  emission.where = node.where;
+  return read_into(node, emission) ? std::optional(emission) : std::nullopt;
+}
+
+void SceneReader::check_scene(const Node& scene, bool have_integrator) {
+  if (report_.has_errors()) return;
+  const bool old = scene.version.is_0x();
+  if (description_.sensors.empty()) report_.error(scene.where, "the scene has no sensor");
+  // Mitsuba 0.x renders the last sensor, Mitsuba 3 the first one.
+  auto& sensors = description_.sensors;
+  if (old && sensors.size() > 1) std::rotate(sensors.begin(), sensors.end() - 1, sensors.end());
+
+  if (!have_integrator) {
+    description_.integrator.where = scene.where;
+    approximate_loudly(scene.where,
+                       old ? "the scene has no integrator: \"path\" is used (Mitsuba 0.6 would use "
+                             "\"direct\")"
+                           : "the scene has no integrator: \"path\" is used");
+  }
+  const LightDescription* environment = nullptr;
+  for (const LightDescription& light : description_.lights) {
+    if (!std::holds_alternative<ConstantLight>(light.model) &&
+        !std::holds_alternative<EnvironmentMapLight>(light.model))
+      continue;
+    if (environment)
+      report_.error(light.where, "a scene can have one environment only; another is at {}",
+                    environment->where.to_string());
+    environment = &light;
+  }
+  const bool dark = description_.lights.empty() &&
+                    std::none_of(description_.shapes.begin(), description_.shapes.end(),
+                                 [](const ShapeDescription& s) { return s.emission.has_value(); });
+  if (dark && old)
+    approximate_loudly(scene.where,
+                       "the scene has no light and stays dark (Mitsuba 0.6 would add sun and sky)");
+}
+
+}  // namespace duet

@@ -1,0 +1,105 @@
+// Turns a tree of plugins into a scene description.
+#pragma once
+
+#include <map>
+#include <optional>
+#include <string>
+#include <unordered_map>
+
+#include "mitsuba/mitsuba.h"
+#include "mitsuba/properties.h"
+
+namespace duet {
+
+/// What the readers of the plugins share: the description that grows, and the ways to read a
+/// parameter that may be another plugin.
+class SceneReader {
+ public:
+  SceneReader(const FileAccess& access, Report& report) : access_(access), report_(report) {}
+
+  SceneDescription read(const NodeTree& tree, const std::string& file);
+
+  SceneDescription& description() { return description_; }
+  const FileAccess& files() const { return access_; }
+  Report& report() { return report_; }
+
+  // ---- Parameters (read_values.cpp) ----
+  /// A colour or texture; how a spectrum is converted follows from the parameter's type.
+  ColorInput color(Properties& p, std::string_view name);
+  /// A colour where a texture is not possible.
+  Spectrum constant_color(Properties& p, std::string_view name);
+  FloatInput number_or_texture(Properties& p, std::string_view name);
+  std::optional<TextureId> texture(Properties& p, std::string_view name);
+  /// An index of refraction by number or name.
+  double index_of_refraction(Properties& p, std::string_view name);
+  /// The path of a file that exists; "" after an error.
+  std::string file(Properties& p, std::string_view name);
+
+  // ---- Plugins ----
+  std::optional<TextureId> texture(const Node& node);
+  std::optional<MaterialId> material(const Node& node);
+  /// A diffuse grey; all that ask for the same share it.
+  MaterialId grey_material(float reflectance, const SourceLocation& where);
+  std::optional<uint32_t> shape_group(const Node& node);
+  std::shared_ptr<const TriangleMesh> mesh(const std::string& plugin, const std::string& file,
+                                           const MeshOptions& options, const SourceLocation& where);
+  /// Appends the shape; a shape group goes where the groups are.
+  void shape(const Node& node, std::vector<ShapeDescription>& shapes, bool in_group);
+  /// What emits on a shape; nothing after an error.
+  std::optional<AreaEmission> emission(const Node& node);
+  /// Reads `node` with its plugin's function if that makes a T; false after an error.
+  template <class T>
+  bool read_into(const Node& node, T& result);
+
+  /// Records what is rendered differently from what the file says, once.
+  void approximate(const SourceLocation& where, std::string what);
+  /// The same, with a warning.
+  void approximate_loudly(const SourceLocation& where, std::string what);
+
+ private:
+  void top_level(const Node& scene);
+  void check_scene(const Node& scene, bool have_integrator);
+  /// The colour of a property, or the texture it names; nothing after an error.
+  std::optional<ColorInput> color_of(Properties& p, std::string_view name, const Property& property,
+                                     ColorMeaning meaning);
+  /// RGB from the file, if it is one that the parameter can have. `limited` colours are errors
+  /// above 1 in Mitsuba 3.
+  Spectrum checked(Properties& p, std::string_view name, const Triple& rgb, ColorMeaning meaning,
+                   bool limited);
+
+  const FileAccess& access_;
+  Report& report_;
+  SceneDescription description_;
+  /// Indices of the textures, materials and groups that have been read.
+  std::unordered_map<const Node*, std::optional<uint32_t>> ids_;
+  /// The plugins that are being read, outermost first.
+  std::vector<const Node*> active_;
+  /// Lights at the top of the scene that belong to surfaces, and whether a shape refers to them.
+  std::unordered_map<const Node*, bool> surface_lights_;
+  std::map<float, MaterialId> greys_;
+  std::map<std::string, std::shared_ptr<const TriangleMesh>> meshes_;
+
+  template <class Read>
+  std::optional<uint32_t> once(const Node& node, Read read);
+  /// Whether the plugin may be read now: it contains neither itself nor too many others.
+  bool may_enter(const Node& node);
+};
+
+template <class T>
+bool SceneReader::read_into(const Node& node, T& result) {
+  if (!node.plugin) return false;
+  const ReadInto<T>* read = std::get_if<ReadInto<T>>(&node.plugin->reader);
+  if (!read) {
+    report_.error(node.where, "{} cannot be used in this place", describe(node));
+    return false;
+  }
+  if (!may_enter(node)) return false;
+  active_.push_back(&node);
+  Properties properties(node, report_);
+  (*read)(*this, properties, result);
+  properties.finish();
+  active_.pop_back();
+  return true;
+}
+
+}  // namespace duet

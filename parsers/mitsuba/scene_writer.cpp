@@ -1,0 +1,249 @@
+#include "mitsuba/scene_writer.h"
+
+#include <algorithm>
+
+#include "mitsuba/writer.h"
+
+namespace duet {
+
+namespace {
+
+/// "--" must not occur in a comment.
+std::string commented(std::string text) {
+  for (size_t at = text.find("--"); at != text.npos; at = text.find("--"))
+    text.replace(at, 2, "- ");
+  return "  " + text + "\n";
+}
+
+}  // namespace
+
+void SceneWriter::lose(std::string what) {
+  if (std::find(losses_.begin(), losses_.end(), what) == losses_.end())
+    losses_.push_back(std::move(what));
+}
+
+std::string SceneWriter::unique_id(const std::string& wanted, const std::string& otherwise) {
+  const bool usable = !wanted.empty() && wanted.find_first_of("$\\") == wanted.npos;
+  if (usable && ids_.insert(wanted).second) return wanted;
+  std::string id = otherwise;
+  for (int i = 1; !ids_.insert(id).second; ++i) id = fmt::format("{}_{}", otherwise, i);
+  return id;
+}
+
+void SceneWriter::name_things() {
+  const auto name = [&](const auto& things, std::vector<std::string>& ids, std::string_view kind) {
+    for (const auto& thing : things)
+      ids.push_back(unique_id(thing.label.text, fmt::format("{}{}", kind, ids.size())));
+  };
+  name(d_.textures, texture_ids_, "texture");
+  name(d_.materials, material_ids_, "material");
+  name(d_.groups, group_ids_, "group");
+}
+
+void SceneWriter::write() {
+  name_things();
+  integrator(d_.integrator);
+  for (const SensorDescription& s : d_.sensors) sensor(s);
+  for (size_t i = 0; i < d_.textures.size(); ++i) texture(d_.textures[i], texture_ids_[i]);
+  for (size_t i = 0; i < d_.materials.size(); ++i) material(d_.materials[i], material_ids_[i]);
+  for (size_t i = 0; i < d_.groups.size(); ++i) {
+    out_.open("shape", "shapegroup", {}, group_ids_[i]);
+    for (const ShapeDescription& s : d_.groups[i].shapes) shape(s, "");
+    out_.close();
+  }
+  for (const ShapeDescription& s : d_.shapes)
+    shape(s, s.label.text.empty() ? "" : unique_id(s.label.text, s.label.text));
+  for (const LightDescription& l : d_.lights) light(l);
+}
+
+void SceneWriter::integrator(const IntegratorDescription& i) {
+  if (!i.aovs.layers.empty() || !i.image) {
+    std::string layers;
+    for (const AovDescription::Layer& l : i.aovs.layers)
+      layers += fmt::format("{}{}:{}", layers.empty() ? "" : ", ", l.name, l.kind);
+    out_.open("integrator", "aov");
+    out_.string("aovs", layers);
+  }
+  if (i.moments) out_.open("integrator", "moment");
+  if (const auto* path = std::get_if<PathIntegratorDescription>(&i.method); path && i.image) {
+    out_.open("integrator", "path");
+    out_.integer("max_depth", path->max_depth);
+    out_.integer("rr_depth", path->rr_depth);
+    out_.boolean("hide_emitters", path->hide_emitters);
+    if (path->strict_normals) lose("\"strict_normals\" does not exist in Mitsuba 3");
+    out_.close();
+  } else if (const auto* direct = std::get_if<DirectIntegratorDescription>(&i.method);
+             direct && i.image) {
+    out_.open("integrator", "direct");
+    out_.integer("emitter_samples", direct->emitter_samples);
+    out_.integer("bsdf_samples", direct->bsdf_samples);
+    out_.boolean("hide_emitters", direct->hide_emitters);
+    if (direct->strict_normals) lose("\"strict_normals\" does not exist in Mitsuba 3");
+    out_.close();
+  } else if (i.image) {
+    out_.open("integrator", "depth");
+    out_.close();
+  }
+  if (i.moments) out_.close();
+  if (!i.aovs.layers.empty() || !i.image) out_.close();
+}
+
+void SceneWriter::fov(double degrees, FovAxis axis) {
+  constexpr std::string_view axes[] = {"x", "y", "diagonal", "smaller", "larger"};
+  out_.number("fov", degrees);
+  out_.string("fov_axis", axes[size_t(axis)]);
+}
+
+void SceneWriter::sensor(const SensorDescription& s) {
+  constexpr std::string_view kinds[] = {"perspective", "thinlens", "orthographic"};
+  out_.open("sensor", kinds[size_t(s.kind)]);
+  out_.transform("to_world", s.to_world);
+  out_.number("near_clip", s.near_clip);
+  out_.number("far_clip", s.far_clip);
+  if (s.kind != SensorKind::orthographic) fov(s.fov, s.fov_axis);
+  if (s.kind == SensorKind::perspective) {
+    out_.number("principal_point_offset_x", s.principal_point_offset_x);
+    out_.number("principal_point_offset_y", s.principal_point_offset_y);
+  }
+  if (s.kind == SensorKind::thinlens) {
+    out_.number("aperture_radius", s.aperture_radius);
+    out_.number("focus_distance", s.focus_distance);
+  }
+  film(s.film);
+  const bool known = s.sampler.name == "independent" || s.sampler.name == "stratified" ||
+                     s.sampler.name == "multijitter" || s.sampler.name == "orthogonal" ||
+                     s.sampler.name == "ldsampler";
+  if (!known) lose(fmt::format("the sampler \"{}\" is \"ldsampler\" instead", s.sampler.name));
+  out_.open("sampler", known ? s.sampler.name : "ldsampler");
+  out_.integer("sample_count", s.sampler.sample_count);
+  out_.integer("seed", int64_t(s.sampler.seed));
+  out_.close();
+  out_.close();
+}
+
+void SceneWriter::film(const FilmDescription& f) {
+  constexpr std::string_view pixels[] = {"luminance", "luminance_alpha", "rgb", "rgba", "xyz",
+                                         "xyza"};
+  out_.open("film", "hdrfilm");
+  out_.integer("width", f.width);
+  out_.integer("height", f.height);
+  if (f.crop) {
+    out_.integer("crop_offset_x", f.crop->x);
+    out_.integer("crop_offset_y", f.crop->y);
+    out_.integer("crop_width", f.crop->width);
+    out_.integer("crop_height", f.crop->height);
+  }
+  out_.string("pixel_format", pixels[size_t(f.pixel_format)]);
+  out_.string("component_format",
+              f.component_format == ComponentFormat::half ? "float16" : "float32");
+  if (f.tone_mapping) lose("the tone mapping of \"ldrfilm\" is missing");
+
+  constexpr std::string_view filters[] = {"box",      "tent",       "gaussian",
+                                          "mitchell", "catmullrom", "lanczos"};
+  out_.open("rfilter", filters[size_t(f.filter.kind)]);
+  switch (f.filter.kind) {
+    case FilterKind::box:
+      if (f.filter.radius != 0.5) lose("the radius of a box filter is missing");
+      break;
+    case FilterKind::tent:
+      out_.number("radius", f.filter.radius);
+      break;
+    case FilterKind::gaussian:
+      out_.number("stddev", f.filter.stddev);
+      break;
+    case FilterKind::mitchell:
+      out_.number("B", f.filter.b);
+      out_.number("C", f.filter.c);
+      break;
+    case FilterKind::catmullrom:
+      break;
+    case FilterKind::lanczos:
+      out_.integer("lobes", f.filter.lobes);
+      break;
+  }
+  out_.close();
+  out_.close();
+}
+
+void SceneWriter::mesh(const MeshShape& m) {
+  out_.string("filename", m.source.file);
+  if (m.source.file.empty()) lose("a mesh that does not come from a file is missing");
+  if (m.source.face_normals) out_.boolean("face_normals", true);
+  if (m.source.plugin != "serialized") out_.boolean("flip_tex_coords", m.source.flip_tex_coords);
+  if (m.source.plugin == "serialized") out_.integer("shape_index", m.source.shape_index);
+  if (m.source.max_smooth_angle)
+    lose("\"max_smooth_angle\" does not exist in Mitsuba 3: normals are those of the file");
+}
+
+void SceneWriter::shape(const ShapeDescription& s, const std::string& id) {
+  constexpr std::string_view types[] = {"",     "rectangle", "cube",    "sphere",
+                                        "disk", "cylinder",  "instance"};
+  static_assert(std::size(types) == std::variant_size_v<decltype(s.geometry)>);
+  const MeshShape* m = std::get_if<MeshShape>(&s.geometry);
+  out_.open("shape", m ? std::string_view(m->source.plugin) : types[s.geometry.index()], {}, id);
+  if (m) mesh(*m);
+  out_.transform("to_world", s.to_world);
+  if (const auto* instance = std::get_if<InstanceShape>(&s.geometry)) {
+    out_.reference({}, group_ids_[instance->group]);
+    out_.close();
+    return;
+  }
+  if (s.flip_normals) out_.boolean("flip_normals", true);
+  out_.reference({}, material_id(s.material));
+  if (s.emission) {
+    out_.open("emitter", "area");
+    color("radiance", s.emission->radiance);
+    sampling_weight(s.emission->sampling_weight);
+    out_.close();
+  }
+  out_.close();
+}
+
+void SceneWriter::sampling_weight(double weight) {
+  if (weight != 1) out_.number("sampling_weight", weight);
+}
+
+void SceneWriter::light(const LightDescription& l) {
+  constexpr std::string_view types[] = {"point",       "spot",     "projector",
+                                        "directional", "constant", "envmap"};
+  static_assert(std::size(types) == std::variant_size_v<decltype(l.model)>);
+  out_.open("emitter", types[l.model.index()]);
+  if (const auto* point = std::get_if<PointLight>(&l.model)) {
+    color("intensity", point->intensity);
+  } else if (const auto* spot = std::get_if<SpotLight>(&l.model)) {
+    color("intensity", spot->intensity);
+    out_.number("cutoff_angle", spot->cutoff_angle);
+    out_.number("beam_width", spot->beam_width);
+    if (spot->texture) out_.reference("texture", texture_id(*spot->texture));
+  } else if (const auto* projector = std::get_if<ProjectorLight>(&l.model)) {
+    color("irradiance", projector->irradiance);
+    out_.number("scale", projector->scale);
+    fov(projector->fov, projector->fov_axis);
+  } else if (const auto* directional = std::get_if<DirectionalLight>(&l.model)) {
+    color("irradiance", directional->irradiance);
+  } else if (const auto* constant = std::get_if<ConstantLight>(&l.model)) {
+    color("radiance", constant->radiance);
+  } else if (const auto* map = std::get_if<EnvironmentMapLight>(&l.model)) {
+    out_.string("filename", map->file);
+    out_.number("scale", map->scale);
+    if (map->gamma) lose("the gamma value of an environment map is missing");
+  }
+  if (!std::holds_alternative<ConstantLight>(l.model)) out_.transform("to_world", l.to_world);
+  sampling_weight(l.sampling_weight);
+  out_.close();
+}
+
+MitsubaXml write_mitsuba_xml(const SceneDescription& description) {
+  SceneWriter writer(description);
+  writer.write();
+  std::string comments;
+  for (const std::string& loss : writer.losses())
+    comments += commented("Not in Mitsuba 3: " + loss);
+  for (const Diagnostic& a : description.approximations)
+    comments += commented("Approximated: " + a.message);
+  std::string text = "<scene version=\"3.0.0\">\n";
+  if (!comments.empty()) text += "  <!--\n" + comments + "  -->\n";
+  return {text + writer.text() + "</scene>\n", writer.losses()};
+}
+
+}  // namespace duet

@@ -1,0 +1,70 @@
+// The parts of writing a description; use writer.h.
+#pragma once
+
+#include <set>
+#include <string>
+#include <vector>
+
+#include "mitsuba/xml_printer.h"
+#include "scene/description.h"
+
+namespace duet {
+
+/// Collects text and losses. Textures, materials and groups come before what refers to them.
+class SceneWriter {
+ public:
+  explicit SceneWriter(const SceneDescription& description) : d_(description) {}
+  void write();
+  const std::string& text() const { return out_.text(); }
+  const std::vector<std::string>& losses() const { return losses_; }
+
+ private:
+  void name_things();
+  std::string unique_id(const std::string& wanted, const std::string& otherwise);
+  void lose(std::string what);
+
+  // write_materials.cpp
+  void color(std::string_view name, const ColorInput& input);
+  void number(std::string_view name, const FloatInput& input);
+  void roughness(const std::optional<Roughness>& r, bool isotropic);
+  void uv_transform(const UvTransform& uv);
+  void texture(const TextureDescription& t, const std::string& id);
+  void material(const MaterialDescription& m, const std::string& id);
+  void write_model(const BitmapTexture& t);
+  void write_model(const CheckerboardTexture& t);
+  void write_model(const MeshAttributeTexture& t);
+  void write_model(const DiffuseMaterial& m);
+  void write_model(const ConductorMaterial& m);
+  void write_model(const DielectricMaterial& m);
+  void write_model(const ThinDielectricMaterial& m);
+  void write_model(const PlasticMaterial& m);
+  void write_model(const PrincipledMaterial& m);
+  void write_model(const PrincipledThinMaterial& m);
+  void write_model(const TwoSidedMaterial& m);
+  void write_model(const MaskMaterial& m);
+  void write_model(const BlendMaterial& m);
+  void write_model(const BumpMapMaterial& m);
+  void write_model(const NormalMapMaterial& m);
+  void write_model(const NullMaterial&) {}
+
+  // scene_writer.cpp
+  void integrator(const IntegratorDescription& i);
+  void sensor(const SensorDescription& s);
+  void film(const FilmDescription& f);
+  void fov(double degrees, FovAxis axis);
+  void shape(const ShapeDescription& s, const std::string& id);
+  void mesh(const MeshShape& m);
+  void light(const LightDescription& l);
+  void sampling_weight(double weight);
+
+  const std::string& texture_id(TextureId id) const { return texture_ids_[size_t(id)]; }
+  const std::string& material_id(MaterialId id) const { return material_ids_[size_t(id)]; }
+
+  const SceneDescription& d_;
+  XmlPrinter out_;
+  std::vector<std::string> losses_;
+  std::set<std::string> ids_;
+  std::vector<std::string> texture_ids_, material_ids_, group_ids_;
+};
+
+}  // namespace duet

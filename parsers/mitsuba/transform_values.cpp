@@ -1,0 +1,193 @@
+#include <cmath>
+
+#include "mitsuba/property_values.h"
+#include "mitsuba/text.h"
+
+namespace duet {
+
+namespace {
+
+/// One step of a <transform>: its matrix, or nothing after an error.
+class StepReader {
+ public:
+  StepReader(const ElementContext& context, pugi::xml_node element)
+      : c_(context), tag_(element.name()), a_(c_.xml, element, c_.substitution, c_.report) {}
+
+  std::optional<Matrix4> read() {
+    if (tag_ == "translate") return translate();
+    if (tag_ == "scale") return scale();
+    if (tag_ == "rotate") return rotate();
+    if (tag_ == "lookat" || tag_ == "lookAt") return look_at();
+    if (tag_ == "matrix") return matrix();
+    c_.report.error(a_.where(), "<{}> cannot stand in a <transform>{}", tag_,
+                    did_you_mean(tag_, {"translate", "scale", "rotate", "lookat", "matrix"}));
+    return std::nullopt;
+  }
+
+ private:
+  std::optional<double> number(std::string_view name, double preset) {
+    if (!a_.has(name)) return preset;
+    const auto value = parse_number(a_[name]);
+    if (!value) c_.report.error(a_.where(name), "{} is not a finite number", in_quotes(a_[name]));
+    return value;
+  }
+
+  /// From x= y= z= or from value= with one number (for all) or three.
+  std::optional<Triple> components(double preset) {
+    if (a_.has("value")) {
+      if (a_.has("x") || a_.has("y") || a_.has("z")) {
+        c_.report.error(a_.where("value"), "<{}> has both \"value\" and \"x\", \"y\", \"z\"", tag_);
+        return std::nullopt;
+      }
+      return list("value", true);
+    }
+    const auto x = number("x", preset), y = number("y", preset), z = number("z", preset);
+    if (!x || !y || !z) return std::nullopt;
+    return Triple{*x, *y, *z};
+  }
+
+  std::optional<Triple> list(std::string_view name, bool one_for_all) {
+    const auto n = parse_numbers(a_[name]);
+    if (n && n->size() == 3) return Triple{(*n)[0], (*n)[1], (*n)[2]};
+    if (n && n->size() == 1 && one_for_all) return Triple{(*n)[0], (*n)[0], (*n)[0]};
+    c_.report.error(a_.where(name), "{} is not a list of three numbers", in_quotes(a_[name]));
+    return std::nullopt;
+  }
+
+  std::optional<Matrix4> translate() {
+    if (!a_.check({"x", "y", "z", "value"})) return std::nullopt;
+    const auto v = components(0);
+    if (!v) return std::nullopt;
+    return Matrix4::translate((*v)[0], (*v)[1], (*v)[2]);
+  }
+
+  std::optional<Matrix4> scale() {
+    if (!a_.check({"x", "y", "z", "value"})) return std::nullopt;
+    const auto v = components(1);
+    if (!v) return std::nullopt;
+    if ((*v)[0] == 0 || (*v)[1] == 0 || (*v)[2] == 0) {
+      c_.report.error(a_.where(), "a scale of zero cannot be inverted");
+      return std::nullopt;
+    }
+    return Matrix4::scale((*v)[0], (*v)[1], (*v)[2]);
+  }
+
+  std::optional<Matrix4> rotate() {
+    if (!a_.check({"!angle", "x", "y", "z", "value"})) return std::nullopt;
+    const auto axis = components(0);
+    const auto angle = number("angle", 0);
+    if (!axis || !angle) return std::nullopt;
+    const auto [x, y, z] = *axis;
+    const double length = std::sqrt(x * x + y * y + z * z);
+    if (!(length > 0)) {
+      c_.report.error(a_.where(), "the axis of a rotation cannot be zero");
+      return std::nullopt;
+    }
+    Matrix4 m = Matrix4::rotate(*angle, x, y, z);
+    if (c_.version.is_0x() || std::abs(length - 1) < 1e-5) return m;
+    // Mitsuba 2 and 3 put the axis into Rodrigues' formula as it is.
+    c_.report.warning(a_.where(),
+                      "Mitsuba 3 does not normalise the axis of a rotation: one of length {} also "
+                      "stretches",
+                      length);
+    const double s = std::sin(*angle * (3.14159265358979323846 / 180));
+    const double d = 1 - std::cos(*angle * (3.14159265358979323846 / 180));
+    const double c = 1 - d;
+    m[0] = {c + x * x * d, x * y * d - z * s, x * z * d + y * s, 0};
+    m[1] = {x * y * d + z * s, c + y * y * d, y * z * d - x * s, 0};
+    m[2] = {x * z * d - y * s, y * z * d + x * s, c + z * z * d, 0};
+    return m;
+  }
+
+  std::optional<Matrix4> look_at() {
+    if (!a_.check({"!origin", "!target", "up"})) return std::nullopt;
+    const auto origin = list("origin", false), target = list("target", false);
+    auto up = trim(a_["up"]).empty() ? std::optional<Triple>(Triple{}) : list("up", false);
+    if (!origin || !target || !up) return std::nullopt;
+    if (*up == Triple{}) {
+      Triple d{};
+      double length = 0;
+      for (int i = 0; i < 3; ++i) d[i] = (*target)[i] - (*origin)[i], length += d[i] * d[i];
+      for (double& v : d) v /= std::sqrt(length);
+      if (length > 0) up = orthogonal_vector(d, c_.version);
+    }
+    auto m = Matrix4::look_at(*origin, *target, *up);
+    if (!m)
+      c_.report.error(
+          a_.where(), "<{}> has no direction: {}", tag_,
+          *origin == *target ? "origin and target are the same" : "\"up\" is parallel to the view");
+    return m;
+  }
+
+  std::optional<Matrix4> matrix() {
+    if (!a_.check({"!value"})) return std::nullopt;
+    const auto n = parse_numbers(a_["value"]);
+    if (!n || (n->size() != 9 && n->size() != 16)) {
+      c_.report.error(a_.where("value"), "{}",
+                      n ? fmt::format("a matrix has 9 or 16 numbers, not {}", n->size())
+                        : in_quotes(a_["value"]) + " is not a list of finite numbers");
+      return std::nullopt;
+    }
+    const size_t size = n->size() == 9 ? 3 : 4;
+    Matrix4 m;
+    for (size_t i = 0; i < n->size(); ++i) m[int(i / size)][i % size] = (*n)[i];
+    return m;
+  }
+
+  const ElementContext& c_;
+  std::string tag_;
+  Attributes a_;
+};
+
+}  // namespace
+
+PropertyValue read_transform(const ElementContext& c, pugi::xml_node element) {
+  Matrix4 product;
+  bool good = true;
+  for (pugi::xml_node child : element.children()) {
+    if (child.type() != pugi::node_element) continue;
+    if (const auto step = StepReader(c, child).read())
+      product = *step * product;
+    else
+      good = false;
+  }
+  if (!good) return Broken{};
+  const SourceLocation where = c.xml.where(element);
+  // Numbers are printed with few digits; the last row is exactly affine or not meant to be so.
+  const auto& last = product[3];
+  if (std::abs(last[0]) + std::abs(last[1]) + std::abs(last[2]) + std::abs(last[3] - 1) > 1e-6) {
+    c.report.error(where, "the transform is not affine: its last row is {} {} {} {}, not 0 0 0 1",
+                   last[0], last[1], last[2], last[3]);
+    return Broken{};
+  }
+  product[3] = {0, 0, 0, 1};
+  const auto inverse = product.is_finite() ? product.inverse() : std::nullopt;
+  if (!inverse) {
+    c.report.error(where, "the transform cannot be inverted");
+    return Broken{};
+  }
+  // Single precision must hold it as well.
+  for (int i = 0; i < 3; ++i)
+    for (int j = 0; j < 4; ++j)
+      if (!std::isfinite(float(product[i][j])) || !std::isfinite(float((*inverse)[i][j]))) {
+        c.report.error(where, "the transform or its inverse has numbers that are too large");
+        return Broken{};
+      }
+  return product;
+}
+
+Triple orthogonal_vector(const Triple& d, FileVersion version) {
+  const auto [x, y, z] = d;
+  if (!version.is_0x()) {
+    // Duff et al., "Building an Orthonormal Basis, Revisited", 2017.
+    const double sign = std::copysign(1.0, z), a = -1 / (sign + z);
+    return {sign * x * x * a + 1, sign * x * y * a, -sign * x};
+  }
+  // The other coordinate axis: orthogonal to d in the plane of its two larger components.
+  const bool flat = std::abs(x) > std::abs(y);
+  const double length = flat ? std::hypot(x, z) : std::hypot(y, z);
+  const Triple t = flat ? Triple{z / length, 0, -x / length} : Triple{0, z / length, -y / length};
+  return {t[1] * z - t[2] * y, t[2] * x - t[0] * z, t[0] * y - t[1] * x};
+}
+
+}  // namespace duet

@@ -1,0 +1,224 @@
+#include "mitsuba/vocabulary.h"
+
+#include <array>
+
+#include "mitsuba/vocabulary_tables.h"
+
+namespace duet {
+
+namespace {
+
+using namespace vocabulary;
+
+constexpr std::array<std::string_view, kPluginKinds> kTags{
+    "scene", "integrator", "sensor",  "film",   "rfilter", "sampler", "shape",
+    "bsdf",  "texture",    "emitter", "medium", "phase",   "volume",  "subsurface"};
+
+constexpr Parameter kBsdfCommon[] = {{.name = "ensure_energy_conservation",
+                                      .type = boolean,
+                                      .preset = "true",
+                                      .note = "scales reflectances above 1 down",
+                                      .versions = v0}};
+constexpr Parameter kShapeCommon[] = {
+    {"to_world", transform},
+    {.name = "silhouette_sampling_weight", .type = number, .versions = v3, .support = inert}};
+constexpr Parameter kEmitterCommon[] = {
+    {"sampling_weight", number, "1", "share in the choice of a light", not_negative}};
+constexpr Parameter kSensorCommon[] = {
+    {"to_world", transform},
+    {"near_clip", number, "0.01", "", positive},
+    {"far_clip", number, "10000", "", positive},
+    {.name = "shutter_open", .type = number, .note = "nothing moves", .support = inert},
+    {.name = "shutter_close", .type = number, .note = "nothing moves", .support = inert}};
+constexpr Parameter kFilmCommon[] = {
+    {"width", integer, "768", "in pixels", size},
+    {"height", integer, "576", "in pixels", size},
+    {"crop_offset_x", integer, "0", "", not_negative},
+    {"crop_offset_y", integer, "0", "", not_negative},
+    {"crop_width", integer, "(width)", "", size},
+    {"crop_height", integer, "(height)", "", size},
+    {.name = "banner", .type = boolean, .preset = "false", .support = ignored},
+    {.name = "high_quality_edges", .type = boolean, .preset = "false", .support = ignored},
+    {.name = "sample_border",
+     .type = boolean,
+     .preset = "false",
+     .versions = v3,
+     .support = ignored},
+    {.name = "attach_log", .type = boolean, .preset = "false", .versions = v0, .support = ignored},
+    {.name = "compensate", .type = boolean, .versions = v3, .support = inert}};
+constexpr Parameter kSamplerCommon[] = {
+    {"sample_count", integer, "4", "per pixel", positive},
+    {"seed", integer, "0", "", not_negative},
+    {.name = "jitter", .type = boolean, .preset = "true", .versions = v3, .support = ignored},
+    {.name = "dimension", .type = integer, .versions = v0, .support = inert},
+    {.name = "scramble", .type = integer, .versions = v0, .support = ignored}};
+constexpr Parameter kIntegratorCommon[] = {
+    {.name = "timeout", .type = number, .preset = "-1", .versions = v3, .support = ignored},
+    {.name = "block_size", .type = integer, .versions = v3, .support = inert},
+    {.name = "samples_per_pass", .type = integer, .versions = v3, .support = inert}};
+
+/// Whether `name` is one of the words of `words`.
+bool has_word(std::string_view words, std::string_view name) {
+  while (!words.empty()) {
+    const size_t end = words.find(' ');
+    if (words.substr(0, end) == name) return true;
+    words = end == std::string_view::npos ? std::string_view() : words.substr(end + 1);
+  }
+  return false;
+}
+
+}  // namespace
+
+std::string_view tag_of(PluginKind kind) {
+  return kTags[size_t(kind)];
+}
+
+std::optional<PluginKind> kind_of_tag(std::string_view tag) {
+  for (size_t i = 0; i < kTags.size(); ++i)
+    if (kTags[i] == tag) return PluginKind(i);
+  return std::nullopt;
+}
+
+bool may_contain(PluginKind outer, PluginKind inner) {
+  using enum PluginKind;
+  switch (outer) {
+    case PluginKind::scene:
+      return inner != film && inner != rfilter && inner != sampler && inner != PluginKind::scene;
+    case integrator:
+      return inner == integrator || inner == PluginKind::texture;
+    case sensor:
+      return inner == film || inner == sampler || inner == medium || inner == PluginKind::texture;
+    case film:
+      return inner == rfilter || inner == PluginKind::texture;
+    case shape:
+      return inner == shape || inner == bsdf || inner == PluginKind::texture || inner == emitter ||
+             inner == sensor || inner == medium || inner == subsurface;
+    case bsdf:
+      return inner == bsdf || inner == PluginKind::texture;
+    case PluginKind::texture:
+      return inner == PluginKind::texture || inner == volume;
+    case emitter:
+      return inner == PluginKind::texture || inner == medium || inner == volume;
+    case medium:
+      return inner == volume || inner == phase || inner == PluginKind::texture || inner == emitter;
+    case phase:
+      return inner == phase || inner == volume || inner == PluginKind::texture;
+    case volume:
+      return inner == volume || inner == PluginKind::texture;
+    default:
+      return false;
+  }
+}
+
+std::string_view type_name(ParameterType type) {
+  switch (type) {
+    case ParameterType::boolean:
+      return "boolean";
+    case ParameterType::integer:
+      return "integer";
+    case ParameterType::number:
+      return "float";
+    case ParameterType::string:
+      return "string";
+    case ParameterType::point:
+      return "point or vector";
+    case ParameterType::transform:
+      return "transform";
+    case ParameterType::file:
+      return "file name";
+    case ParameterType::ior:
+      return "float or name of a material";
+    case ParameterType::texture:
+      return "texture";
+    case ParameterType::number_or_texture:
+      return "float or texture";
+    case ParameterType::reflectance:
+    case ParameterType::unbounded:
+    case ParameterType::emission:
+      return "colour or texture";
+  }
+  return "";
+}
+
+std::span<const Plugin> plugins(PluginKind kind) {
+  switch (kind) {
+    case PluginKind::scene:
+      return scenes();
+    case PluginKind::integrator:
+      return integrators();
+    case PluginKind::sensor:
+      return sensors();
+    case PluginKind::film:
+      return films();
+    case PluginKind::rfilter:
+      return rfilters();
+    case PluginKind::sampler:
+      return samplers();
+    case PluginKind::shape:
+      return shapes();
+    case PluginKind::bsdf:
+      return bsdfs();
+    case PluginKind::texture:
+      return textures();
+    case PluginKind::emitter:
+      return emitters();
+    case PluginKind::medium:
+      return media();
+    case PluginKind::phase:
+      return phases();
+    case PluginKind::volume:
+      return volumes();
+    case PluginKind::subsurface:
+      return subsurfaces();
+  }
+  return {};
+}
+
+std::span<const Parameter> common_parameters(PluginKind kind) {
+  switch (kind) {
+    case PluginKind::bsdf:
+      return kBsdfCommon;
+    case PluginKind::shape:
+      return kShapeCommon;
+    case PluginKind::emitter:
+      return kEmitterCommon;
+    case PluginKind::sensor:
+      return kSensorCommon;
+    case PluginKind::film:
+      return kFilmCommon;
+    case PluginKind::sampler:
+      return kSamplerCommon;
+    case PluginKind::integrator:
+      return kIntegratorCommon;
+    default:
+      return {};
+  }
+}
+
+const Plugin* find_plugin(PluginKind kind, std::string_view name) {
+  for (const Plugin& p : plugins(kind))
+    if (p.name == name || has_word(p.aliases, name)) return &p;
+  return nullptr;
+}
+
+std::vector<std::string> plugin_names(PluginKind kind) {
+  std::vector<std::string> names;
+  for (const Plugin& p : plugins(kind)) names.emplace_back(p.name);
+  return names;
+}
+
+const Parameter* find_parameter(PluginKind kind, const Plugin& plugin, std::string_view name) {
+  for (const std::span<const Parameter> list : {plugin.parameters, common_parameters(kind)})
+    for (const Parameter& p : list)
+      if (p.name == name || has_word(p.aliases, name)) return &p;
+  return nullptr;
+}
+
+std::vector<std::string> parameter_names(PluginKind kind, const Plugin& plugin) {
+  std::vector<std::string> names;
+  for (const std::span<const Parameter> list : {plugin.parameters, common_parameters(kind)})
+    for (const Parameter& p : list) names.emplace_back(p.name);
+  return names;
+}
+
+}  // namespace duet

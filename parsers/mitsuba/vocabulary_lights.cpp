@@ -1,0 +1,75 @@
+#include "mitsuba/readers.h"
+#include "mitsuba/vocabulary_tables.h"
+
+namespace duet::vocabulary {
+
+namespace {
+
+constexpr Parameter kToWorld{"to_world", transform};
+constexpr Parameter kScale{"scale", number, "1", "multiplies the light", not_negative};
+constexpr Parameter kIntensity{"intensity", emission, "1", "radiant intensity, W/sr"};
+constexpr Parameter kRadiance{
+    .name = "radiance", .type = emission, .preset = "1", .aliases = "intensity"};
+
+constexpr Parameter kArea[] = {kRadiance};
+constexpr Parameter kPoint[] = {
+    kIntensity, {"position", point, "0 0 0", "either this or to_world"}, kToWorld};
+constexpr Parameter kSpot[] = {
+    kIntensity,
+    {"cutoff_angle", number, "20", "no light beyond this angle from the axis", degrees},
+    {"beam_width", number, "(3/4 cutoff_angle)", "full intensity within this angle", not_negative},
+    {"texture", texture, "", "multiplies the intensity"},
+    kToWorld};
+constexpr Parameter kProjector[] = {
+    {"irradiance", emission, "1"},
+    kScale,
+    {"fov", number, "", "either this or focal_length", degrees},
+    {"fov_axis", string, "x", "x, y, diagonal, smaller or larger"},
+    {"focal_length", string, "50mm", "of a lens before 36 mm × 24 mm film"},
+    kToWorld};
+constexpr Parameter kDirectional[] = {
+    {"irradiance", emission, "1"},
+    {"direction", point, "", "either this or to_world, whose +z it is"},
+    kToWorld};
+constexpr Parameter kConstant[] = {kRadiance,
+                                   {.name = "to_world", .type = transform, .support = inert}};
+constexpr Parameter kEnvmap[] = {
+    {.name = "filename", .type = file, .required = true},
+    {.name = "scale",
+     .type = number,
+     .preset = "1",
+     .range = not_negative,
+     .aliases = "intensity_scale"},
+    kToWorld,
+    {.name = "gamma",
+     .type = number,
+     .preset = "(of the file)",
+     .note = "1: linear, -1: sRGB",
+     .versions = v0},
+    {.name = "cache", .type = boolean, .versions = v0, .support = inert},
+    {.name = "mis_compensation", .type = boolean, .versions = v3, .support = inert}};
+
+constexpr Plugin kEmitters[] = {
+    {"area", both, kArea, &read_area, "stands in a shape"},
+    {"point", both, kPoint, &read_point},
+    {"spot", both, kSpot, &read_spot},
+    {"projector", v3, kProjector, &read_projector},
+    {"directional", both, kDirectional, &read_directional},
+    {"constant", both, kConstant, &read_constant},
+    {"envmap", both, kEnvmap, &read_envmap},
+    {.name = "collimated", .versions = v0, .support = planned},
+    {.name = "directionalarea", .versions = v3, .support = planned},
+    {.name = "sky", .versions = v0, .support = planned},
+    {.name = "sun", .versions = v0, .support = planned},
+    {.name = "sunsky", .support = planned},
+    {.name = "timed_sunsky", .versions = v3, .support = planned},
+    {.name = "volumelight", .versions = v3, .support = planned},
+};
+
+}  // namespace
+
+std::span<const Plugin> emitters() {
+  return kEmitters;
+}
+
+}  // namespace duet::vocabulary

@@ -1,0 +1,88 @@
+#include "mitsuba/readers.h"
+#include "mitsuba/vocabulary_tables.h"
+
+namespace duet::vocabulary {
+
+namespace {
+
+constexpr Parameter kFile{.name = "filename", .type = file, .required = true};
+constexpr Parameter kFlipNormals{"flip_normals", boolean, "false", "turns the surface inside out"};
+constexpr Parameter kFaceNormals{"face_normals", boolean, "false",
+                                 "faceted, without smooth normals"};
+/// These surfaces are flat anyway.
+constexpr Parameter kFlatAnyway{.name = "face_normals", .type = boolean, .support = inert};
+constexpr Parameter kSmoothAngle{.name = "max_smooth_angle",
+                                 .type = number,
+                                 .note = "edges sharper than this (in degrees) stay sharp",
+                                 .range = not_negative,
+                                 .versions = v0};
+
+constexpr Parameter kObj[] = {
+    kFile,
+    kFaceNormals,
+    kFlipNormals,
+    {"flip_tex_coords", boolean, "true", "turns v upside down"},
+    kSmoothAngle,
+    {.name = "load_materials",
+     .type = boolean,
+     .preset = "true",
+     .note = "the file's own materials are not used",
+     .versions = v0,
+     .support = approximated},
+    {.name = "collapse", .type = boolean, .versions = v0, .support = inert},
+    {.name = "shape_index", .type = integer, .versions = v0, .support = planned},
+    {.name = "recenter", .type = boolean, .preset = "false", .versions = v0, .support = planned},
+};
+constexpr Parameter kPly[] = {
+    kFile,
+    kFaceNormals,
+    kFlipNormals,
+    {"flip_tex_coords", boolean, "false", "turns v upside down"},
+    kSmoothAngle,
+    {.name = "srgb", .type = boolean, .preset = "true", .versions = v0, .support = ignored},
+};
+constexpr Parameter kSerialized[] = {
+    kFile,        {"shape_index", integer, "0", "which mesh of the file", not_negative},
+    kFaceNormals, kFlipNormals,
+    kSmoothAngle,
+};
+constexpr Parameter kFlat[] = {kFlipNormals, kFlatAnyway};
+constexpr Parameter kDisk[] = {kFlipNormals};
+constexpr Parameter kSphere[] = {
+    {"center", point, "0 0 0"}, {"radius", number, "1", "", positive}, kFlipNormals};
+constexpr Parameter kCylinder[] = {{"p0", point, "0 0 0"},
+                                   {"p1", point, "0 0 1"},
+                                   {"radius", number, "1", "", positive},
+                                   kFlipNormals};
+
+constexpr Plugin kShapes[] = {
+    {"obj", both, kObj, &read_mesh},
+    {"ply", both, kPly, &read_mesh},
+    {"serialized", both, kSerialized, &read_mesh},
+    {"rectangle", both, kFlat, &read_rectangle},
+    {"cube", both, kFlat, &read_cube},
+    {"sphere", both, kSphere, &read_sphere},
+    {"disk", both, kDisk, &read_disk},
+    {"cylinder", both, kCylinder, &read_cylinder},
+    {"shapegroup", both, {}, &read_shapegroup, "holds shapes"},
+    {"instance", both, {}, &read_instance, "refers to a shapegroup"},
+    {.name = "animatedinstance", .versions = v0, .support = planned},
+    {.name = "blender", .versions = v3, .support = planned},
+    {.name = "bsplinecurve", .versions = v3, .support = planned},
+    {.name = "deformable", .versions = v0, .support = planned},
+    {.name = "ellipsoids", .versions = v3, .support = planned},
+    {.name = "ellipsoidsmesh", .versions = v3, .support = planned},
+    {.name = "hair", .versions = v0, .support = planned},
+    {.name = "heightfield", .versions = v0, .support = planned},
+    {.name = "linearcurve", .versions = v3, .support = planned},
+    {.name = "merge", .versions = v3, .support = planned},
+    {.name = "sdfgrid", .versions = v3, .support = planned},
+};
+
+}  // namespace
+
+std::span<const Plugin> shapes() {
+  return kShapes;
+}
+
+}  // namespace duet::vocabulary

@@ -1,0 +1,35 @@
+// The parts of the vocabulary, one table for each kind of plugin; use vocabulary.h.
+#pragma once
+
+#include "mitsuba/vocabulary.h"
+
+namespace duet::vocabulary {
+
+using enum ParameterType;
+using enum NumberRange;
+using enum Support;
+inline constexpr FileVersions v0 = FileVersions::v0, v3 = FileVersions::v3,
+                              both = FileVersions::all;
+
+// vocabulary_materials.cpp, vocabulary_textures.cpp
+std::span<const Plugin> bsdfs();
+std::span<const Plugin> textures();
+// vocabulary_shapes.cpp
+std::span<const Plugin> shapes();
+// vocabulary_lights.cpp
+std::span<const Plugin> emitters();
+// vocabulary_sensors.cpp
+std::span<const Plugin> sensors();
+std::span<const Plugin> films();
+std::span<const Plugin> rfilters();
+std::span<const Plugin> samplers();
+// vocabulary_integrators.cpp
+std::span<const Plugin> integrators();
+std::span<const Plugin> scenes();
+// vocabulary_media.cpp
+std::span<const Plugin> media();
+std::span<const Plugin> phases();
+std::span<const Plugin> volumes();
+std::span<const Plugin> subsurfaces();
+
+}  // namespace duet::vocabulary

@@ -1,0 +1,52 @@
+#include "support/memory_scene.h"
+
+namespace duet::test {
+
+FileAccess MemoryFiles::access() const {
+  FileAccess access;
+  const auto texts_copy = texts;
+  access.exists = [texts_copy](const std::string& path) {
+    const auto at = texts_copy.lower_bound(path);
+    return at != texts_copy.end() && (at->first == path || at->first.starts_with(path + "/"));
+  };
+  access.read = [texts_copy](const std::string& path) -> std::optional<std::string> {
+    const auto at = texts_copy.find(path);
+    return at == texts_copy.end() ? std::nullopt : std::optional(at->second);
+  };
+  access.read_mesh = [texts_copy](const std::string&, const std::string& path,
+                                  const MeshOptions& options) {
+    if (texts_copy.at(path) == "broken") throw ReadError("line 7: not a face");
+    TriangleMesh mesh = make_rectangle();
+    if (options.face_normals) mesh.normals.clear();
+    return mesh;
+  };
+  return access;
+}
+
+std::string ReadResult::messages() const {
+  std::string all;
+  for (const Diagnostic& d : diagnostics.all()) all += d.to_string() + "\n";
+  return all;
+}
+
+ReadResult read_text(const std::string& text, MemoryFiles files,
+                     std::vector<std::pair<std::string, std::string>> defines) {
+  files.texts["/scene/scene.xml"] = text;
+  ReadResult result;
+  MitsubaOptions options;
+  options.defines = std::move(defines);
+  options.files = files.access();
+  result.scene = read_mitsuba("/scene/scene.xml", options, result.diagnostics);
+  return result;
+}
+
+std::string scene_text(const std::string& version, const std::string& content) {
+  return "<scene version='" + version +
+         "'><integrator type='path'/><sensor type='perspective'/>\n" + content + "\n</scene>\n";
+}
+
+ReadResult read_scene(const std::string& version, const std::string& content, MemoryFiles files) {
+  return read_text(scene_text(version, content), std::move(files));
+}
+
+}  // namespace duet::test
