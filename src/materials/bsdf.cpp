@@ -104,9 +104,7 @@ std::optional<ModelSample> sample_component(const BsdfComponent& c, const Tilt* 
                                             Transport transport) {
   if (c.tilt >= 0) [[unlikely]]
     return sample_tilted(c, tilts[c.tilt], wo, u, v, transport);
-  auto s = sample_model(c, mirrored(wo, c.side), u, v, transport);
-  if (s) s->wi.z *= c.side;
-  return s;
+  return sample_model(c, mirrored(wo, c.side), u, v, transport);
 }
 
 }  // namespace
@@ -156,25 +154,32 @@ PdfW Bsdf::reverse_pdf(const Vector3f& wi_world, Transport transport) const {
 
 [[gnu::noinline]] std::optional<BsdfSample> Bsdf::sample_all(float u, const Point2f& v,
                                                              Transport transport) const {
+  std::optional<BsdfSample> out;
   int pick = 0;
   while (pick < count_ && u >= components_[pick].share) u -= components_[pick++].share;
-  if (pick == count_) return std::nullopt;
+  if (pick == count_) return out;
   const BsdfComponent& c = components_[pick];
   u = std::min(u / c.share, kBelowOne);
   const auto s = sample_component(c, tilts_, wo_, u, v, transport);
-  if (!s) return std::nullopt;
-  BsdfSample out{
-      frame_.to_world(s->wi), s->weight, PdfW{s->pdf * c.share}, s->eta, s->delta, s->null};
+  if (!s) return out;
+  const Vector3f wi = c.tilt >= 0 ? s->wi : mirrored(s->wi, c.side);
+  out.emplace();
+  out->wi = frame_.to_world(wi);
+  out->weight = s->weight;
+  out->pdf.value = s->pdf * c.share;
+  out->eta = s->eta;
+  out->delta = s->delta;
+  out->null = s->null;
   if (count_ == 1 || s->delta) return out;
   // The other components could have made the same direction.
-  Spectrum value = s->weight * out.pdf.value;
+  Spectrum value = s->weight * out->pdf.value;
   for (int i = 0; i < count_; ++i) {
     if (i == pick) continue;
-    const ModelEval e = eval_component(components_[i], tilts_, wo_, s->wi, transport);
+    const ModelEval e = eval_component(components_[i], tilts_, wo_, wi, transport);
     value += e.value * components_[i].share;
-    out.pdf.value += e.pdf * components_[i].share;
+    out->pdf.value += e.pdf * components_[i].share;
   }
-  out.weight = value / out.pdf.value;
+  out->weight = value / out->pdf.value;
   return out;
 }
 

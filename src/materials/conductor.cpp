@@ -14,9 +14,8 @@ std::optional<ModelSample> ConductorModel::sample(const Vector3f& wo, float, con
 
 ModelEval RoughConductorModel::eval(const Vector3f& wo, const Vector3f& wi, Transport) const {
   if (!(wo.z > kMinCosine && wi.z > kMinCosine)) return {};
-  const Vector3f h = normalize(wo + wi);
-  const Microfacet::Core core = microfacet.core(wo, wi, h);
-  return {reflectance(dot(wo, h)) * (0.25f * core.value), 0.25f * core.density};
+  const Microfacet::Reflection r = microfacet.reflection(wo, wi);
+  return {reflectance(r.cosine) * r.value, r.density};
 }
 
 std::optional<ModelSample> RoughConductorModel::sample(const Vector3f& wo, float, const Point2f& v,

@@ -19,13 +19,14 @@ struct DielectricFresnel {
 /// reflected.
 inline DielectricFresnel fresnel_dielectric(float cos_i, float eta) {
   if (eta == 1) return {0, cos_i};
-  const float sin2_t = (1 - cos_i * cos_i) / (eta * eta);
-  if (!(sin2_t < 1) || !(cos_i > 0)) return {1, safe_sqrt(1 - sin2_t)};
-  const float cos_t = std::sqrt(1 - sin2_t);
+  const float eta2 = eta * eta;
+  const float g2 = eta2 - (1 - cos_i * cos_i);
+  if (!(g2 > 0 && cos_i > 0)) return {1, safe_sqrt(g2) / eta};
+  const float g = std::sqrt(g2);  // η cos θ_t
   // Amplitudes a/b across and c/d in the plane of incidence, with one division for both.
-  const float a = cos_i - eta * cos_t, b = cos_i + eta * cos_t;
-  const float c = eta * cos_i - cos_t, d = eta * cos_i + cos_t;
-  return {std::min(0.5f * (sqr(a * d) + sqr(b * c)) / sqr(b * d), 1.0f), cos_t};
+  const float a = cos_i - g, b = cos_i + g;
+  const float c = eta2 * cos_i - g, d = eta2 * cos_i + g;
+  return {std::min(0.5f * (sqr(a * d) + sqr(b * c)) / sqr(b * d), 1.0f), g / eta};
 }
 
 /// Unpolarised reflection at a conductor with the complex index eta + i k (relative to the

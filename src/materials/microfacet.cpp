@@ -59,8 +59,8 @@ float inverse_erf(float above, float below) {
 
 }  // namespace
 
-Microfacet::Core Microfacet::beckmann_core(float d, const Vector3f& o, const Vector3f& i,
-                                           float across) const {
+Microfacet::Core Microfacet::beckmann_core(float d, const Vector3f& o, const Vector3f& i) const {
+  const float across = std::sqrt(sqr(alpha_u_ * o.x) + sqr(alpha_v_ * o.y));
   const float a = o.z / across;
   // The density needs the exact masking function, or it would not integrate to one.
   const float exact = a < 3 ? masking_over_a(a) / across : 1 / o.z;

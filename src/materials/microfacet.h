@@ -14,7 +14,7 @@ namespace duet {
 
 /// Directions that are closer to the horizon scatter nothing: their half vectors have lost all
 /// digits.
-inline constexpr float kMinCosine = 1e-10f;
+inline constexpr float kMinCosine = 1e-6f;
 
 /// Gaussian (Beckmann) or Trowbridge-Reitz (GGX) facets with roughness alpha along x and y.
 class Microfacet {
@@ -62,13 +62,33 @@ class Microfacet {
   Core core(const Vector3f& o, const Vector3f& i, const Vector3f& h) const {
     const float d = density(h);
     if (!visible_) return {d * masking(o) * masking(i) / o.z, d * h.z / dot(o, h)};
-    // The same as D G₁(o) / o.z, without dividing by a vanishing cosine.
-    const float across2 = sqr(alpha_u_ * o.x) + sqr(alpha_v_ * o.y);
     if (ggx_) {
-      const float seen = 2 * d / (o.z + std::sqrt(o.z * o.z + across2));
+      // The same as D G₁(o) / o.z, without dividing by a vanishing cosine.
+      const float seen = 2 * d / (o.z + stretched_length(o));
       return {seen * masking(i), seen};
     }
-    return beckmann_core(d, o, i, std::sqrt(across2));
+    return beckmann_core(d, o, i);
+  }
+
+  /// Reflection from o to i: value = D G₁ G₁ / (4 o.z) and density, both per solid angle of i, and
+  /// the cosine o·h.
+  struct Reflection {
+    float value, density, cosine;
+  };
+  Reflection reflection(const Vector3f& o, const Vector3f& i) const {
+    const Vector3f sum = o + i;
+    const float length2 = length_squared(sum), length = std::sqrt(length2);
+    if (!(ggx_ && visible_)) {
+      const Core c = core(o, i, sum * (1 / length));
+      return {0.25f * c.value, 0.25f * c.density, 0.5f * length};
+    }
+    // The same with two divisions made one.
+    const float x = sum.x * inv_u_, y = sum.y * inv_v_;
+    const float far = sqr(x * x + y * y + sum.z * sum.z) * (o.z + stretched_length(o));
+    const float near = i.z + stretched_length(i);
+    const float inverse = 1 / (far * near);
+    const float density = 0.5f * kInvPi * inv_u_ * inv_v_ * sqr(length2) * near * inverse;
+    return {density * (2 * i.z * far * inverse), density, 0.5f * length};
   }
 
   /// A facet normal seen from o. Visible normals have the density G₁(o) D(m) (o·m)⁺ / o.z, others
@@ -88,7 +108,10 @@ class Microfacet {
   }
 
  private:
-  Core beckmann_core(float d, const Vector3f& o, const Vector3f& i, float across) const;
+  float stretched_length(const Vector3f& v) const {
+    return std::sqrt(sqr(alpha_u_ * v.x) + sqr(alpha_v_ * v.y) + v.z * v.z);
+  }
+  Core beckmann_core(float d, const Vector3f& o, const Vector3f& i) const;
   Vector3f sample_all(const Point2f& u) const;
   Vector3f sample_visible_ggx(const Vector3f& o, const Point2f& u) const;
   Vector3f sample_visible_beckmann(const Vector3f& o, const Point2f& u) const;
@@ -97,15 +120,17 @@ class Microfacet {
   bool ggx_, visible_;
 };
 
-/// Source: Dupuy & Benyoub, "Sampling Visible GGX Normals with Spherical Caps", 2023. The
-/// reflections about the facets of a (stretched) hemisphere fill a spherical cap evenly.
+/// Source: Dupuy & Benyoub, "Sampling Visible GGX Normals with Spherical Caps", 2023. The reflections
+/// about the facets of a (stretched) hemisphere fill a spherical cap evenly. Here the sphere has the
+/// radius to which o is stretched, which saves to normalise it.
 inline Vector3f Microfacet::sample_visible_ggx(const Vector3f& o, const Point2f& u) const {
-  const Vector3f w = normalize(Vector3f(alpha_u_ * o.x, alpha_v_ * o.y, o.z));
+  const float radius = stretched_length(o);
   // r² of a point on the disk is uniform and gives the height on the cap.
   const Point2f p = square_to_disk(u);
-  const float up = 1 + w.z, h = std::max(1 - p.x * p.x - p.y * p.y, 0.0f) * up;
-  const float scale = std::sqrt(up * (1 + h - w.z));
-  return normalize(Vector3f(alpha_u_ * (p.x * scale + w.x), alpha_v_ * (p.y * scale + w.y), h));
+  const float up = radius + o.z, h = std::max(1 - p.x * p.x - p.y * p.y, 0.0f) * up;
+  const float scale = std::sqrt(up * (radius + h - o.z));
+  return normalize(Vector3f(alpha_u_ * (p.x * scale + alpha_u_ * o.x),
+                            alpha_v_ * (p.y * scale + alpha_v_ * o.y), h));
 }
 
 }  // namespace duet

@@ -52,14 +52,13 @@ float RoughPlasticModel::specular_probability(float transmitted) const {
 
 ModelEval RoughPlasticModel::eval(const Vector3f& wo, const Vector3f& wi, Transport) const {
   if (!(wo.z > kMinCosine && wi.z > kMinCosine)) return {};
-  const Vector3f h = normalize(wo + wi);
-  const Microfacet::Core core = microfacet.core(wo, wi, h);
-  const float f = fresnel_dielectric(dot(wo, h), eta).reflectance;
+  const Microfacet::Reflection r = microfacet.reflection(wo, wi);
+  const float f = fresnel_dielectric(r.cosine, eta).reflectance;
   const float to = transmittance(wo.z), ti = transmittance(wi.z);
   const float p = specular_probability(to);
   const float cosine = wi.z * kInvPi;
-  return {specular_reflectance * (0.25f * f * core.value) + coated_base * (cosine * to * ti),
-          p * 0.25f * core.density + (1 - p) * cosine};
+  return {specular_reflectance * (f * r.value) + coated_base * (cosine * to * ti),
+          p * r.density + (1 - p) * cosine};
 }
 
 std::optional<ModelSample> RoughPlasticModel::sample(const Vector3f& wo, float u, const Point2f& v,
