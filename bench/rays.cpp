@@ -3,8 +3,8 @@
 //   rays SCENE.xml [WIDTHxHEIGHT] [SPP] [ROUNDS] [NAME=VALUE...]
 //
 // Renders on one thread and records every ray on its way to Embree, by standing between the program
-// and the library; then asks Embree for the same rays in a bare loop. Both are timed in turn, round by
-// round, and the median of the ratios is printed.
+// and the library; then asks Embree for the same rays in a bare loop. Both are timed in turn, round
+// by round, and the median of the ratios is printed.
 #if __has_include(<embree4/rtcore.h>)
 #include <embree4/rtcore.h>
 #else
@@ -49,8 +49,7 @@ extern "C" RTC_API void rtcOccluded1(RTCScene scene, RTCRay* ray, RTCOccludedArg
   real(scene, ray, args);
 }
 #else
-extern "C" RTC_API void rtcIntersect1(RTCScene scene, RTCIntersectContext* context,
-                                      RTCRayHit* rh) {
+extern "C" RTC_API void rtcIntersect1(RTCScene scene, RTCIntersectContext* context, RTCRayHit* rh) {
   static auto* const real = next<decltype(rtcIntersect1)>("rtcIntersect1");
   if (recording) recorded_scene = scene, closest_rays.push_back(rh->ray);
   real(scene, context, rh);
@@ -157,4 +156,6 @@ int run(int argc, char** argv) {
 
 }  // namespace
 
-int main(int argc, char** argv) { return run(argc, argv); }
+int main(int argc, char** argv) {
+  return run(argc, argv);
+}

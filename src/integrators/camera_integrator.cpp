@@ -39,7 +39,7 @@ void CameraIntegrator::sample(const Scene& scene, const Ray& ray, Sampler& sampl
     if (layer.kind == LayerKind::moments || layer.kind == LayerKind::variance)
       out[0] = l.r * l.r, out[1] = l.g * l.g, out[2] = l.b * l.b;
     else if (found)
-      evaluate_layer(layer.kind, scene, surface, hit, out);
+      evaluate_layer(layer.kind, scene, surface, -ray.direction, hit, out);
   }
 }
 

@@ -77,11 +77,11 @@ SurfaceNeeds layer_needs(LayerKind kind) {
   return {kind == LayerKind::uv, tangents};
 }
 
-void evaluate_layer(LayerKind kind, const Scene& scene, const Surface& s, const Hit& hit,
-                    std::span<float> out) {
+void evaluate_layer(LayerKind kind, const Scene& scene, const Surface& s, const Vector3f& wo,
+                    const Hit& hit, std::span<float> out) {
   switch (kind) {
     case LayerKind::albedo: {
-      const Spectrum a = scene.materials[s.shape->material]->albedo(s);
+      const Spectrum a = scene.materials[s.shape->material]->albedo(s, wo);
       out[0] = a.r, out[1] = a.g, out[2] = a.b;
       break;
     }

@@ -41,8 +41,9 @@ std::vector<std::string> layer_channels(const Layer& layer);
 /// What a layer asks of surfaces.
 SurfaceNeeds layer_needs(LayerKind kind);
 
-/// Writes the layer's value at a hit; nothing for statistics. A miss leaves zeros.
-void evaluate_layer(LayerKind kind, const Scene& scene, const Surface& surface, const Hit& hit,
-                    std::span<float> out);
+/// Writes the layer's value at a hit seen from the unit direction `wo`; nothing for statistics. A
+/// miss leaves zeros.
+void evaluate_layer(LayerKind kind, const Scene& scene, const Surface& surface, const Vector3f& wo,
+                    const Hit& hit, std::span<float> out);
 
 }  // namespace duet

@@ -2,81 +2,184 @@
 
 namespace duet {
 
-void BsdfBuilder::flip() {
-  side_ = -side_;
-  wo_.z = -wo_.z;
-  if (perturbed_) frame_.n = -frame_.n;
+namespace {
+
+constexpr float kBelowOne = 0x1.fffffep-1f;
+
+Transport opposite(Transport t) {
+  return t == Transport::radiance ? Transport::importance : Transport::radiance;
 }
 
-void BsdfBuilder::perturb(const Frame& frame) {
-  if (!perturbed_) {
-    // The frame so far is the shading frame, mirrored or not.
-    frame_ = Frame({1, 0, 0}, {0, 1, 0}, {0, 0, side_});
-    perturbed_ = true;
+Vector3f mirrored(const Vector3f& w, float side) {
+  return {w.x, w.y, w.z * side};
+}
+
+ModelEval eval_model(const BsdfComponent& c, const Vector3f& wo, const Vector3f& wi,
+                     Transport transport) {
+  return visit_model(c, [&](const auto& model) { return model.eval(wo, wi, transport); });
+}
+
+std::optional<ModelSample> sample_model(const BsdfComponent& c, const Vector3f& wo, float u,
+                                        const Point2f& v, Transport transport) {
+  return visit_model(c, [&](const auto& model) { return model.sample(wo, u, v, transport); });
+}
+
+/// The factor by which the value of importance sent from `light` to `eye` changes when the cosines
+/// of a tilted frame are exchanged for those of the surface's own: see Bsdf.
+float cosine_exchange(const Vector3f& light, const Vector3f& local_light, const Vector3f& eye,
+                      const Vector3f& local_eye) {
+  const float from = std::abs(light.z * local_eye.z);
+  return from > 0 ? std::abs(local_light.z * eye.z) / from : 0.0f;
+}
+
+ModelEval eval_tilted(const BsdfComponent& c, const Tilt& tilt, const Vector3f& wo,
+                      const Vector3f& wi, Transport transport) {
+  const bool to_light = transport == Transport::radiance;
+  const Vector3f& eye = to_light ? wo : wi;
+  const Vector3f& light = to_light ? wi : wo;
+  const bool turned = tilt.turned_for(eye);
+  const Vector3f o = tilt.to_local(wo, turned), i = tilt.to_local(wi, turned);
+  if (!tilt.agrees(light, to_light ? i : o)) return {};
+  ModelEval e = eval_model(c, mirrored(o, c.side), mirrored(i, c.side), transport);
+  e.value *= tilt.shadowing(light);
+  if (to_light) return e;
+  e.value *= cosine_exchange(light, o, eye, i);
+  // The sampler had to guess for which eye the normal is turned.
+  const float p = tilt.turned_probability();
+  if (p > 0) {
+    const Vector3f o2 = tilt.to_local(wo, !turned), i2 = tilt.to_local(wi, !turned);
+    const float other = eval_model(c, mirrored(o2, c.side), mirrored(i2, c.side), transport).pdf;
+    const float q = turned ? p : 1 - p;
+    e.pdf = q * e.pdf + (1 - q) * other;
   }
-  wo_ = frame.to_local(wo_);
-  const Frame outer = frame_;
-  frame_.s = outer.to_world(frame.s);
-  frame_.t = outer.to_world(frame.t);
-  frame_.n = Normal3f(outer.to_world(Vector3f(frame.n)));
+  return e;
 }
 
-Vector3f Bsdf::to_model(int i, const Vector3f& w) const {
-  if (components_[i].perturbed) [[unlikely]]
-    return frames_[i].to_local(w);
-  return {w.x, w.y, w.z * components_[i].side};
+std::optional<ModelSample> sample_tilted(const BsdfComponent& c, const Tilt& tilt,
+                                         const Vector3f& wo, float u, const Point2f& v,
+                                         Transport transport) {
+  const bool to_light = transport == Transport::radiance;
+  bool turned = false;
+  float probability = 1;
+  if (to_light) {
+    turned = tilt.turned_for(wo);
+  } else if (const float p = tilt.turned_probability(); p > 0) {
+    turned = u < p;
+    probability = turned ? p : 1 - p;
+    u = std::min((turned ? u : u - p) / probability, kBelowOne);
+  }
+  const Vector3f o = tilt.to_local(wo, turned);
+  auto s = sample_model(c, mirrored(o, c.side), u, v, transport);
+  if (!s) return std::nullopt;
+  const Vector3f i = mirrored(s->wi, c.side);
+  s->wi = tilt.from_local(i, turned);
+  const Vector3f& eye = to_light ? wo : s->wi;
+  const Vector3f& light = to_light ? s->wi : wo;
+  if (to_light || s->delta) {
+    if (tilt.turned_for(eye) != turned || !tilt.agrees(light, to_light ? i : o))
+      return std::nullopt;
+    s->weight *= tilt.shadowing(light);
+    if (to_light) return s;
+    s->weight *= cosine_exchange(light, o, eye, i) / probability;
+    s->pdf *= probability;
+    return s;
+  }
+  const ModelEval e = eval_tilted(c, tilt, wo, s->wi, transport);
+  if (!(e.pdf > 0)) return std::nullopt;
+  s->weight = e.value / e.pdf;
+  s->pdf = e.pdf;
+  return s;
 }
 
-Vector3f Bsdf::from_model(int i, const Vector3f& w) const {
-  if (components_[i].perturbed) [[unlikely]]
-    return frames_[i].to_world(w);
-  return {w.x, w.y, w.z * components_[i].side};
+/// Directions in the shading frame.
+ModelEval eval_component(const BsdfComponent& c, const Tilt* tilts, const Vector3f& wo,
+                         const Vector3f& wi, Transport transport) {
+  if (c.tilt >= 0) [[unlikely]]
+    return eval_tilted(c, tilts[c.tilt], wo, wi, transport);
+  return eval_model(c, mirrored(wo, c.side), mirrored(wi, c.side), transport);
 }
 
-bool Bsdf::is_consistent(int i, const Vector3f& shading, const Vector3f& model) const {
-  return !components_[i].perturbed || shading.z * components_[i].side * model.z > 0;
+std::optional<ModelSample> sample_component(const BsdfComponent& c, const Tilt* tilts,
+                                            const Vector3f& wo, float u, const Point2f& v,
+                                            Transport transport) {
+  if (c.tilt >= 0) [[unlikely]]
+    return sample_tilted(c, tilts[c.tilt], wo, u, v, transport);
+  return sample_model(c, mirrored(wo, c.side), u, v, transport);
 }
 
-ModelEval Bsdf::eval_component(int i, const Vector3f& wi, Transport transport) const {
-  const Vector3f o = to_model(i, wo_), m = to_model(i, wi);
-  if (!is_consistent(i, wi, m)) return {};
-  return visit_model(components_[i], [&](const auto& x) { return x.eval(o, m, transport); });
-}
+}  // namespace
+
+// What most vertices need is kept apart from the rest, so that it does not pay for the registers
+// and the stack of all models.
 
 BsdfEval Bsdf::eval(const Vector3f& wi_world, Transport transport) const {
   const Vector3f wi = frame_.to_local(wi_world);
+  if (is_plain_diffuse()) [[likely]] {
+    const BsdfComponent& c = components_[0];
+    const ModelEval e =
+        c.model.diffuse.eval(mirrored(wo_, c.side), mirrored(wi, c.side), transport);
+    return {e.value * c.share, PdfW{e.pdf * c.share}};
+  }
+  return eval_all(wi, transport);
+}
+
+std::optional<BsdfSample> Bsdf::sample(float u, const Point2f& v, Transport transport) const {
+  if (is_plain_diffuse() && components_[0].share == 1) [[likely]] {
+    const BsdfComponent& c = components_[0];
+    const auto s = c.model.diffuse.sample(mirrored(wo_, c.side), u, v, transport);
+    if (!s) return std::nullopt;
+    return BsdfSample{frame_.to_world(mirrored(s->wi, c.side)), s->weight, PdfW{s->pdf}};
+  }
+  return sample_all(u, v, transport);
+}
+
+[[gnu::noinline]] BsdfEval Bsdf::eval_all(const Vector3f& wi, Transport transport) const {
   BsdfEval sum{};
   for (int i = 0; i < count_; ++i) {
-    const ModelEval e = eval_component(i, wi, transport);
+    const ModelEval e = eval_component(components_[i], tilts_, wo_, wi, transport);
     sum.value += e.value * components_[i].share;
     sum.pdf.value += e.pdf * components_[i].share;
   }
   return sum;
 }
 
-std::optional<BsdfSample> Bsdf::sample(float u, const Point2f& v, Transport transport) const {
+PdfW Bsdf::reverse_pdf(const Vector3f& wi_world, Transport transport) const {
+  const Vector3f wi = frame_.to_local(wi_world);
+  PdfW sum;
+  for (int i = 0; i < count_; ++i)
+    sum.value += eval_component(components_[i], tilts_, wi, wo_, opposite(transport)).pdf *
+                 components_[i].share;
+  return sum;
+}
+
+[[gnu::noinline]] std::optional<BsdfSample> Bsdf::sample_all(float u, const Point2f& v,
+                                                             Transport transport) const {
+  std::optional<BsdfSample> out;
   int pick = 0;
   while (pick < count_ && u >= components_[pick].share) u -= components_[pick++].share;
-  if (pick == count_) return std::nullopt;
+  if (pick == count_) return out;
   const BsdfComponent& c = components_[pick];
-  u = std::min(u / c.share, 0x1.fffffep-1f);
-  const Vector3f wo = to_model(pick, wo_);
-  const auto s = visit_model(c, [&](const auto& x) { return x.sample(wo, u, v, transport); });
-  if (!s) return std::nullopt;
-  const Vector3f wi = from_model(pick, s->wi);
-  if (!is_consistent(pick, wi, s->wi)) return std::nullopt;
-  BsdfSample out{frame_.to_world(wi),      s->weight, PdfW{s->pdf * c.share}, s->eta, s->delta,
-                 c.kind == ModelKind::null};
+  u = std::min(u / c.share, kBelowOne);
+  const auto s = sample_component(c, tilts_, wo_, u, v, transport);
+  if (!s) return out;
+  const Vector3f wi = c.tilt >= 0 ? s->wi : mirrored(s->wi, c.side);
+  out.emplace();
+  out->wi = frame_.to_world(wi);
+  out->weight = s->weight;
+  out->pdf.value = s->pdf * c.share;
+  out->eta = s->eta;
+  out->delta = s->delta;
+  out->null = s->null;
   if (count_ == 1 || s->delta) return out;
   // The other components could have made the same direction.
-  Spectrum value = s->weight * (s->pdf * c.share);
+  Spectrum value = s->weight * out->pdf.value;
   for (int i = 0; i < count_; ++i) {
     if (i == pick) continue;
-    const ModelEval e = eval_component(i, wi, transport);
+    const ModelEval e = eval_component(components_[i], tilts_, wo_, wi, transport);
     value += e.value * components_[i].share;
-    out.pdf.value += e.pdf * components_[i].share;
+    out->pdf.value += e.pdf * components_[i].share;
   }
-  out.weight = value / out.pdf.value;
+  out->weight = value / out->pdf.value;
   return out;
 }
 

@@ -3,6 +3,7 @@
 
 #include "geometry/surface.h"
 #include "materials/models.h"
+#include "materials/tilt.h"
 
 namespace duet {
 
@@ -23,8 +24,10 @@ struct BsdfSample {
 /// One scattering model within a Bsdf.
 struct BsdfComponent {
   ModelKind kind;
-  bool perturbed;  ///< has a frame of its own (bump and normal maps)
-  /// −1 if a two-sided material is seen from its back: the z axis is then mirrored.
+  /// Which of the Bsdf's tilts its frame has (bump and normal maps), or −1.
+  int8_t tilt;
+  /// −1 if a two-sided material is seen from its back: the z axis is then mirrored (after the
+  /// tilt).
   float side;
   float share;  ///< weight within the mixture and probability of being picked
   ModelUnion model;
@@ -33,6 +36,10 @@ struct BsdfComponent {
 /// A small closed value with plain numbers, bound to a shading frame and to the direction wo. To
 /// ask it again costs no texture lookup. Mixtures (blends, masks) are lists of components whose
 /// shares sum to at most one.
+///
+/// With respect to the shading normal n the two transports describe the same surface: apart from
+/// the squared index of refraction, the value from l to v for importance over |v·n| is that from v
+/// to l for radiance over |l·n|, also under bump maps.
 class Bsdf {
  public:
   /// More components in one material are refused when the scene is built.
@@ -42,6 +49,9 @@ class Bsdf {
 
   /// Value and density for the unit world direction wi.
   BsdfEval eval(const Vector3f& wi, Transport transport) const;
+  /// Density with which a path that arrives from wi and carries the opposite of `transport` would
+  /// be sent to wo. Delta lobes are left out; each has the same probability from both ends.
+  PdfW reverse_pdf(const Vector3f& wi, Transport transport) const;
   /// `u` picks the component and the lobe, `v` the direction.
   std::optional<BsdfSample> sample(float u, const Point2f& v, Transport transport) const;
   /// Whether any lobe can be met by a connection or a light sample.
@@ -58,26 +68,29 @@ class Bsdf {
   friend class BsdfBuilder;
   friend class Material;
 
-  /// From the shading frame into that of component i, and back.
-  Vector3f to_model(int i, const Vector3f& w) const;
-  Vector3f from_model(int i, const Vector3f& w) const;
-  /// A perturbed normal can put a direction on the other side than the surface does; such
-  /// directions carry nothing.
-  bool is_consistent(int i, const Vector3f& shading, const Vector3f& model) const;
-  ModelEval eval_component(int i, const Vector3f& wi, Transport transport) const;
+  bool is_plain_diffuse() const {
+    return count_ == 1 && components_[0].kind == ModelKind::diffuse && components_[0].tilt < 0;
+  }
+  BsdfEval eval_all(const Vector3f& wi, Transport transport) const;
+  std::optional<BsdfSample> sample_all(float u, const Point2f& v, Transport transport) const;
 
   Frame frame_;
   Vector3f wo_;  ///< in the shading frame
-  int count_ = 0;
+  int count_ = 0, tilt_count_ = 0;
   bool has_smooth_ = false, has_delta_ = false, needs_choice_ = false;
   union {  // keeps unused components untouched
     BsdfComponent components_[kMaxComponents];
   };
   union {
-    /// Relative to the shading frame, of perturbed components. May be left-handed: mirroring is
-    /// part of it.
-    Frame frames_[kMaxComponents];
+    Tilt tilts_[kMaxComponents];
   };
+};
+
+/// A material that is the same everywhere and has one component: bound once, when it is made.
+struct ConstantMaterial {
+  BsdfComponent component;
+  bool has_smooth, has_delta, needs_choice;
+  bool two_sided;  ///< the back looks like the front
 };
 
 /// What a material's bind() adds its components to. Wrappers change the context in which their
@@ -92,15 +105,16 @@ class BsdfBuilder {
 
   template <ScatteringModel M>
   void add(const M& model) {
-    if (perturbed_) bsdf_.frames_[bsdf_.count_] = frame_;
     BsdfComponent& c = bsdf_.components_[bsdf_.count_++];
     set_model(c, model);
-    c.perturbed = perturbed_;
-    c.side = side_;
-    c.share = share_;
-    bsdf_.has_smooth_ |= model.has_smooth();
-    bsdf_.has_delta_ |= model.has_delta();
-    bsdf_.needs_choice_ |= model.needs_choice() || bsdf_.count_ > 1 || share_ < 1;
+    complete(c, model.has_smooth(), model.has_delta(), model.needs_choice());
+  }
+  void add(const ConstantMaterial& constant) {
+    BsdfComponent& c = bsdf_.components_[bsdf_.count_++];
+    c = constant.component;
+    const float side = constant.two_sided && wo_.z < 0 ? -1.0f : 1.0f;
+    complete(c, constant.has_smooth, constant.has_delta, constant.needs_choice);
+    c.side *= side;
   }
 
   /// Runs `bind_nested` with the share multiplied by `factor`.
@@ -115,32 +129,51 @@ class BsdfBuilder {
   template <class F>
   void flipped(F&& bind_nested) {
     BsdfBuilder inner(*this);
-    inner.flip();
+    inner.side_ = -side_;
+    inner.wo_.z = -wo_.z;
     bind_nested(inner);
   }
-  /// Runs `bind_nested` with a frame given relative to the current one.
+  /// Runs `bind_nested` in a frame around the unit normal `n`, given in the current frame; see
+  /// Tilt. Not to be nested.
   template <class F>
-  void in_frame(const Frame& frame, F&& bind_nested) {
+  void tilted(const Normal3f& n, bool faces_eye, bool shadows, F&& bind_nested) {
     BsdfBuilder inner(*this);
-    inner.perturb(frame);
+    inner.tilt(Tilt(n, faces_eye, shadows, side_));
     bind_nested(inner);
   }
 
  private:
-  void flip();
-  void perturb(const Frame& frame);
+  void complete(BsdfComponent& c, bool has_smooth, bool has_delta, bool needs_choice) {
+    c.tilt = tilt_;
+    c.side = side_;
+    c.share = share_;
+    bsdf_.has_smooth_ |= has_smooth;
+    bsdf_.has_delta_ |= has_delta;
+    // A tilt is chosen too, where the direction towards the eye is not yet known.
+    bsdf_.needs_choice_ |= needs_choice || bsdf_.count_ > 1 || share_ < 1 || tilt_ >= 0;
+  }
+  void tilt(const Tilt& tilt) {
+    tilt_ = int8_t(bsdf_.tilt_count_);
+    bsdf_.tilts_[bsdf_.tilt_count_++] = tilt;
+    // wo_ is mirrored already, which is part of the tilt.
+    const Vector3f shading(wo_.x, wo_.y, wo_.z * side_);
+    wo_ = tilt.to_local(shading, tilt.turned_for(shading));
+    side_ = 1;
+  }
 
   Bsdf& bsdf_;
   Vector3f wo_;
-  Frame frame_;  ///< relative to the shading frame
   float share_ = 1;
   float side_ = 1;
-  bool perturbed_ = false;
+  int8_t tilt_ = -1;
 };
 
 /// A material of the scene: textures and parameters, immutable while rendering.
 class Material {
  public:
+  Material() = default;
+  Material(const Material&) = delete;
+  Material& operator=(const Material&) = delete;
   virtual ~Material() = default;
 
   /// The material at a surface point, seen from the unit world direction `wo`.
@@ -153,40 +186,51 @@ class Material {
       bsdf.has_smooth_ = constant_->has_smooth;
       bsdf.has_delta_ = constant_->has_delta;
       bsdf.needs_choice_ = constant_->needs_choice;
-      bsdf.components_[0] = constant_->component;
+      copy_component(bsdf.components_[0], constant_->component);
       if (constant_->two_sided && bsdf.wo_.z < 0) bsdf.components_[0].side = -1;
     } else {
       BsdfBuilder builder(bsdf, bsdf.wo_);
-      bind(surface, builder);
+      add_components(surface, builder);
     }
     return bsdf;
   }
+  /// Binds within another material: adds this material's components.
+  void bind(const Surface& surface, BsdfBuilder& builder) const {
+    if (constant_) {
+      builder.add(*constant_);
+    } else {
+      add_components(surface, builder);
+    }
+  }
 
-  /// Adds this material's components at a surface point. May read what needs() asks for.
-  virtual void bind(const Surface& surface, BsdfBuilder& builder) const = 0;
+  /// What bind() and albedo() read of a surface.
   virtual SurfaceNeeds needs() const = 0;
   /// Upper bound of the number of components that bind() adds.
   virtual int component_count() const = 0;
-  /// Reflectance of the diffuse lobes, for the albedo layer.
-  virtual Spectrum albedo(const Surface& surface) const = 0;
   /// Whether light can pass to the other side.
   virtual bool transmits() const = 0;
+  /// Whether there is a bump or normal map in it: these cannot be nested in one another.
+  virtual bool perturbs() const { return false; }
+  /// Reflectance for the albedo layer, seen from the unit world direction `wo`; as in Mitsuba 3
+  /// that of the diffuse base, or π f for light along the normal where a model has none.
+  Spectrum albedo(const Surface& surface, const Vector3f& wo) const {
+    return local_albedo(surface, surface.shading.to_local(wo));
+  }
+  /// The same for `wo` in the shading frame.
+  virtual Spectrum local_albedo(const Surface& surface, const Vector3f& wo) const = 0;
 
-  /// A material that is the same everywhere and has one component is bound once, when it is made.
-  struct Constant {
-    BsdfComponent component;
-    bool has_smooth, has_delta, needs_choice;
-    bool two_sided;  ///< the back looks like the front
-  };
-  const Constant* constant() const { return constant_ ? &*constant_ : nullptr; }
+  const ConstantMaterial* constant() const { return constant_ ? &*constant_ : nullptr; }
 
  protected:
+  /// Adds this material's components at a surface point.
+  virtual void add_components(const Surface& surface, BsdfBuilder& builder) const = 0;
+
   /// To be called by the constructors of materials that are constant.
   template <ScatteringModel M>
   void set_constant(const M& model) {
-    Constant c;
+    ConstantMaterial c;
     set_model(c.component, model);
-    c.component.perturbed = false;
+    c.component.tilt = -1;
     c.component.side = 1;
     c.component.share = 1;
     c.has_smooth = model.has_smooth();
@@ -195,13 +239,44 @@ class Material {
     c.two_sided = false;
     constant_ = c;
   }
-  void set_constant_two_sided(const Constant& front) {
+  void set_constant_two_sided(const ConstantMaterial& front) {
     constant_ = front;
     constant_->two_sided = true;
   }
 
  private:
-  std::optional<Constant> constant_;
+  /// The most frequent model is small; to copy room for any other would cost more than to bind it.
+  static void copy_component(BsdfComponent& to, const BsdfComponent& from) {
+    if (from.kind != ModelKind::diffuse) {
+      to = from;
+      return;
+    }
+    set_model(to, from.model.diffuse);
+    to.tilt = -1;
+    to.side = to.share = 1;
+  }
+
+  std::optional<ConstantMaterial> constant_;
+};
+
+/// A material with one model, which `Derived` makes by
+///   M model(const Surface&) const;
+/// If nothing depends on the surface, its constructor calls set_constant().
+template <class Derived>
+class SingleModelMaterial : public Material {
+ public:
+  int component_count() const override { return 1; }
+  Spectrum local_albedo(const Surface& surface, const Vector3f& wo) const override {
+    return derived().model(surface).eval(wo, {0, 0, 1}, Transport::radiance).value * kPi;
+  }
+
+ protected:
+  void add_components(const Surface& surface, BsdfBuilder& builder) const override {
+    builder.add(derived().model(surface));
+  }
+
+ private:
+  const Derived& derived() const { return static_cast<const Derived&>(*this); }
 };
 
 }  // namespace duet

@@ -10,7 +10,7 @@ namespace duet {
 struct DiffuseModel {
   Spectrum reflectance;
 
-  bool has_smooth() const { return true; }
+  bool has_smooth() const { return !reflectance.is_black(); }
   bool has_delta() const { return false; }
   bool needs_choice() const { return false; }
 

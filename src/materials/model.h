@@ -26,6 +26,7 @@ struct ModelSample {
   float pdf = 0;    ///< per solid angle; for a delta lobe its probability
   float eta = 1;    ///< index on wi's side over that on wo's side (1 for reflection)
   bool delta = false;
+  bool null = false;  ///< passed straight through, as if there were no surface
 };
 
 /// A model has its parameters as plain numbers, already looked up at the hit. Directions are unit
@@ -40,8 +41,8 @@ struct ModelSample {
 ///   bool needs_choice()                          whether sample() looks at u
 ///
 /// eval and sample must agree: over many samples, mean(weight · g(wi)) = ∫ f |cos| g dwi plus the
-/// delta terms. Reciprocity lets bidirectional methods ask for the density of the reverse direction
-/// by exchanging wo and wi.
+/// delta terms. The density of the reverse direction is had by exchanging wo and wi and taking the
+/// other transport; a delta lobe is picked with the same probability from either end.
 template <class M>
 concept ScatteringModel = requires(const M& m, const Vector3f& w, float u, const Point2f& v) {
   { m.eval(w, w, Transport::radiance) } -> std::same_as<ModelEval>;

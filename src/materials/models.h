@@ -3,13 +3,28 @@
 
 #include <type_traits>
 
+#include "materials/conductor.h"
+#include "materials/dielectric.h"
 #include "materials/diffuse.h"
 #include "materials/null.h"
+#include "materials/plastic.h"
+#include "materials/principled.h"
+#include "materials/principledthin.h"
+#include "materials/thindielectric.h"
 
 /// X(enumerator, type) for each model.
-#define DUET_BSDF_MODELS(X) \
-  X(diffuse, DiffuseModel)  \
-  X(null, NullModel)
+#define DUET_BSDF_MODELS(X)                 \
+  X(diffuse, DiffuseModel)                  \
+  X(null, NullModel)                        \
+  X(conductor, ConductorModel)              \
+  X(rough_conductor, RoughConductorModel)   \
+  X(dielectric, DielectricModel)            \
+  X(rough_dielectric, RoughDielectricModel) \
+  X(thin_dielectric, ThinDielectricModel)   \
+  X(plastic, PlasticModel)                  \
+  X(rough_plastic, RoughPlasticModel)       \
+  X(principled, PrincipledModel)            \
+  X(principled_thin, PrincipledThinModel)
 
 namespace duet {
 
@@ -25,10 +40,11 @@ union ModelUnion {
 #undef DUET_MEMBER
 };
 
-#define DUET_CHECK(name, type)                       \
-  static_assert(ScatteringModel<type>);              \
-  static_assert(std::is_trivially_copyable_v<type>); \
-  static_assert(std::is_trivially_destructible_v<type>);
+#define DUET_CHECK(name, type)                           \
+  static_assert(ScatteringModel<type>);                  \
+  static_assert(std::is_trivially_copyable_v<type>);     \
+  static_assert(std::is_trivially_destructible_v<type>); \
+  static_assert(sizeof(type) <= 144);
 DUET_BSDF_MODELS(DUET_CHECK)
 #undef DUET_CHECK
 

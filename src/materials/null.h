@@ -12,7 +12,7 @@ struct NullModel {
   bool needs_choice() const { return false; }
   ModelEval eval(const Vector3f&, const Vector3f&, Transport) const { return {}; }
   std::optional<ModelSample> sample(const Vector3f& wo, float, const Point2f&, Transport) const {
-    return ModelSample{-wo, Spectrum(1), 1, 1, true};
+    return ModelSample{.wi = -wo, .weight = Spectrum(1), .pdf = 1, .delta = true, .null = true};
   }
 };
 

@@ -1,0 +1,45 @@
+// Metals: mirrors and rough reflectors with the Fresnel equations of a complex index.
+#pragma once
+
+#include "materials/fresnel.h"
+#include "materials/microfacet.h"
+#include "materials/model.h"
+
+namespace duet {
+
+/// A smooth metal: one delta lobe, on the upper side only.
+struct ConductorModel {
+  Spectrum eta, k;
+  Spectrum specular_reflectance;
+
+  bool has_smooth() const { return false; }
+  bool has_delta() const { return true; }
+  bool needs_choice() const { return false; }
+
+  ModelEval eval(const Vector3f&, const Vector3f&, Transport) const { return {}; }
+  std::optional<ModelSample> sample(const Vector3f& wo, float, const Point2f&, Transport) const;
+};
+
+/// Rough metal: single reflection off microfacets, on the upper side only.
+/// Source: Walter et al., "Microfacet Models for Refraction through Rough Surfaces", 2007, eq. 20.
+struct RoughConductorModel {
+  Microfacet microfacet;
+  Spectrum eta, k;
+  Spectrum specular_reflectance;
+  bool perfect = false;  ///< eta = 0: reflects all light
+
+  bool has_smooth() const { return !specular_reflectance.is_black(); }
+  bool has_delta() const { return false; }
+  bool needs_choice() const { return false; }
+
+  ModelEval eval(const Vector3f& wo, const Vector3f& wi, Transport) const;
+  std::optional<ModelSample> sample(const Vector3f& wo, float, const Point2f& v, Transport) const;
+
+ private:
+  Spectrum reflectance(float cosine) const {
+    return perfect ? specular_reflectance
+                   : specular_reflectance * fresnel_conductor(cosine, eta, k);
+  }
+};
+
+}  // namespace duet

@@ -1,0 +1,226 @@
+// The materials that scatter light themselves, with their parameters: what the build stage makes by
+// name.
+//
+// Parameters have Mitsuba 3's names, meanings and defaults. Materials keep pointers to textures,
+// which must outlive them.
+#pragma once
+
+#include "materials/bsdf.h"
+#include "textures/texture.h"
+
+namespace duet {
+
+/// Whether none of the slots has a texture, or one that reads texture coordinates.
+template <class... Slots>
+bool all_constant(const Slots&... slots) {
+  return (slots.is_constant() && ...);
+}
+template <class... Slots>
+bool any_needs_uv(const Slots&... slots) {
+  return (slots.needs_uv() || ...);
+}
+/// Whether a weight is anything but zero somewhere.
+inline bool is_used(const FloatSlot& slot) {
+  return !slot.is_constant() || slot.constant != 0;
+}
+
+/// A rough interface. Roughness below Microfacet::kMinAlpha is raised to it.
+struct RoughnessOptions {
+  MicrofacetDistribution distribution = MicrofacetDistribution::beckmann;
+  FloatSlot alpha_u{0.1f}, alpha_v{0.1f};
+  bool sample_visible = true;
+
+  Microfacet operator()(const Surface& s) const {
+    const float u = alpha_u(s);
+    return {distribution, u, is_isotropic() ? u : alpha_v(s), sample_visible};
+  }
+  bool is_isotropic() const {
+    return alpha_u.texture == alpha_v.texture &&
+           (alpha_u.texture || alpha_u.constant == alpha_v.constant);
+  }
+  SurfaceNeeds needs() const {
+    return {.uv = any_needs_uv(alpha_u, alpha_v), .tangents = !is_isotropic()};
+  }
+};
+
+class Diffuse final : public SingleModelMaterial<Diffuse> {
+ public:
+  explicit Diffuse(const ColorSlot& reflectance);
+  DiffuseModel model(const Surface& s) const { return {reflectance_(s)}; }
+  SurfaceNeeds needs() const override;
+  bool transmits() const override { return false; }
+  Spectrum local_albedo(const Surface& s, const Vector3f&) const override {
+    return reflectance_(s);
+  }
+
+ private:
+  ColorSlot reflectance_;
+};
+
+class Null final : public SingleModelMaterial<Null> {
+ public:
+  Null() { set_constant(NullModel{}); }
+  NullModel model(const Surface&) const { return {}; }
+  SurfaceNeeds needs() const override { return {}; }
+  bool transmits() const override { return true; }
+};
+
+/// `eta` and `k` are relative to the outside; eta = 0 is a perfect mirror.
+struct ConductorOptions {
+  ColorSlot eta{Spectrum(0.0f)}, k{Spectrum(1.0f)};
+  ColorSlot specular_reflectance{Spectrum(1.0f)};
+};
+
+class Conductor final : public SingleModelMaterial<Conductor> {
+ public:
+  explicit Conductor(const ConductorOptions& options);
+  ConductorModel model(const Surface& s) const;
+  SurfaceNeeds needs() const override;
+  bool transmits() const override { return false; }
+
+ private:
+  ConductorOptions options_;
+};
+
+class RoughConductor final : public SingleModelMaterial<RoughConductor> {
+ public:
+  RoughConductor(const ConductorOptions& options, const RoughnessOptions& roughness);
+  RoughConductorModel model(const Surface& s) const;
+  SurfaceNeeds needs() const override;
+  bool transmits() const override { return false; }
+
+ private:
+  ConductorOptions options_;
+  RoughnessOptions roughness_;
+};
+
+/// `eta` > 0 is the index of the inside over that of the outside.
+struct DielectricOptions {
+  FloatSlot eta{1.5046f / 1.000277f};
+  ColorSlot specular_reflectance{Spectrum(1.0f)}, specular_transmittance{Spectrum(1.0f)};
+};
+
+class Dielectric final : public SingleModelMaterial<Dielectric> {
+ public:
+  explicit Dielectric(const DielectricOptions& options);
+  DielectricModel model(const Surface& s) const;
+  SurfaceNeeds needs() const override;
+  bool transmits() const override { return true; }
+
+ private:
+  DielectricOptions options_;
+};
+
+class RoughDielectric final : public SingleModelMaterial<RoughDielectric> {
+ public:
+  RoughDielectric(const DielectricOptions& options, const RoughnessOptions& roughness);
+  RoughDielectricModel model(const Surface& s) const;
+  SurfaceNeeds needs() const override;
+  bool transmits() const override { return true; }
+
+ private:
+  DielectricOptions options_;
+  RoughnessOptions roughness_;
+};
+
+class ThinDielectric final : public SingleModelMaterial<ThinDielectric> {
+ public:
+  explicit ThinDielectric(const DielectricOptions& options);
+  ThinDielectricModel model(const Surface& s) const;
+  SurfaceNeeds needs() const override;
+  bool transmits() const override { return true; }
+
+ private:
+  DielectricOptions options_;
+};
+
+struct PlasticOptions {
+  float eta = 1.49f / 1.000277f;
+  ColorSlot diffuse_reflectance{Spectrum(0.5f)}, specular_reflectance{Spectrum(1.0f)};
+  bool nonlinear = false;
+};
+
+class Plastic final : public SingleModelMaterial<Plastic> {
+ public:
+  explicit Plastic(const PlasticOptions& options);
+  PlasticModel model(const Surface& s) const;
+  SurfaceNeeds needs() const override;
+  bool transmits() const override { return false; }
+  Spectrum local_albedo(const Surface& s, const Vector3f&) const override {
+    return options_.diffuse_reflectance(s);
+  }
+
+ private:
+  PlasticOptions options_;
+  float internal_reflectance_;
+};
+
+/// Isotropic: of the roughness only `alpha_u` counts.
+class RoughPlastic final : public SingleModelMaterial<RoughPlastic> {
+ public:
+  RoughPlastic(const PlasticOptions& options, const RoughnessOptions& roughness);
+  RoughPlasticModel model(const Surface& s) const;
+  SurfaceNeeds needs() const override;
+  bool transmits() const override { return false; }
+  Spectrum local_albedo(const Surface& s, const Vector3f&) const override {
+    return options_.diffuse_reflectance(s);
+  }
+
+ private:
+  PlasticOptions options_;
+  RoughnessOptions roughness_;
+  RoughTransmittance tables_;
+};
+
+/// Weights outside [0, 1] are clamped. A material that transmits and has eta = 1 gets 1.001, as in
+/// Mitsuba.
+struct PrincipledOptions {
+  ColorSlot base_color{Spectrum(0.5f)};
+  FloatSlot roughness{0.5f}, anisotropic{}, metallic{}, spec_trans{};
+  float eta = 1.5f;
+  FloatSlot spec_tint{}, sheen{}, sheen_tint{}, flatness{}, clearcoat{}, clearcoat_gloss{};
+  float diffuse_reflectance_sampling_rate = 1, main_specular_sampling_rate = 1,
+        clearcoat_sampling_rate = 1;
+};
+
+/// The index that belongs to Burley's `specular`. `transmits` says whether spec_trans is used.
+float principled_eta(float specular, bool transmits);
+
+class Principled final : public SingleModelMaterial<Principled> {
+ public:
+  explicit Principled(const PrincipledOptions& options);
+  PrincipledModel model(const Surface& s) const;
+  SurfaceNeeds needs() const override;
+  bool transmits() const override;
+  Spectrum local_albedo(const Surface& s, const Vector3f&) const override {
+    return options_.base_color(s);
+  }
+
+ private:
+  PrincipledOptions options_;
+};
+
+/// Weights outside [0, 1] ([0, 2] for `diff_trans`) are clamped.
+struct PrincipledThinOptions {
+  ColorSlot base_color{Spectrum(0.5f)};
+  FloatSlot roughness{0.5f}, anisotropic{}, spec_trans{}, eta{1.5f}, spec_tint{}, sheen{},
+      sheen_tint{}, flatness{}, diff_trans{};
+  float spec_reflectance_sampling_rate = 1, spec_transmittance_sampling_rate = 1,
+        diffuse_reflectance_sampling_rate = 1, diffuse_transmittance_sampling_rate = 1;
+};
+
+class PrincipledThin final : public SingleModelMaterial<PrincipledThin> {
+ public:
+  explicit PrincipledThin(const PrincipledThinOptions& options);
+  PrincipledThinModel model(const Surface& s) const;
+  SurfaceNeeds needs() const override;
+  bool transmits() const override;
+  Spectrum local_albedo(const Surface& s, const Vector3f&) const override {
+    return options_.base_color(s);
+  }
+
+ private:
+  PrincipledThinOptions options_;
+};
+
+}  // namespace duet

@@ -1,0 +1,136 @@
+// Rough surfaces as a distribution of smooth facets: how many face where, how much of them is seen.
+//
+// Directions are unit vectors in the local frame; microfacet normals and the directions `o` and `i`
+// that densities are asked for lie in the upper hemisphere unless said otherwise.
+// Sources: Walter et al., "Microfacet Models for Refraction through Rough Surfaces", 2007; Heitz,
+// "Understanding the Masking-Shadowing Function in Microfacet-Based BRDFs", JCGT 3(2), 2014.
+#pragma once
+
+#include "materials/microfacet_kind.h"
+#include "math/frame.h"
+#include "math/warp.h"
+
+namespace duet {
+
+/// Directions that are closer to the horizon scatter nothing: their half vectors have lost all
+/// digits.
+inline constexpr float kMinCosine = 1e-6f;
+
+/// Gaussian (Beckmann) or Trowbridge-Reitz (GGX) facets with roughness alpha along x and y.
+class Microfacet {
+ public:
+  /// Rougher than a mirror by what Mitsuba demands at least.
+  static constexpr float kMinAlpha = 1e-4f;
+
+  Microfacet() = default;
+  Microfacet(MicrofacetDistribution distribution, float alpha_u, float alpha_v, bool sample_visible)
+      : alpha_u_(std::max(alpha_u, kMinAlpha)),
+        alpha_v_(std::max(alpha_v, kMinAlpha)),
+        inv_u_(1 / alpha_u_),
+        inv_v_(1 / alpha_v_),
+        ggx_(distribution == MicrofacetDistribution::ggx),
+        visible_(sample_visible) {}
+
+  bool samples_visible() const { return visible_; }
+
+  /// Area of facets with normal m per surface area and solid angle.
+  float density(const Vector3f& m) const {
+    const float x = m.x * inv_u_, y = m.y * inv_v_, z2 = m.z * m.z;
+    const float slope = x * x + y * y;
+    if (ggx_) return kInvPi * inv_u_ * inv_v_ / sqr(slope + z2);
+    // Facets this steep do not matter, but would divide zero by zero.
+    if (!(slope < 80 * z2)) return 0;
+    return kInvPi * inv_u_ * inv_v_ * std::exp(-slope / z2) / (z2 * z2);
+  }
+
+  /// Smith's masking function: the share of facets facing v that v sees. For Beckmann this is the
+  /// rational approximation (0.35 %) of Walter et al. that Mitsuba's BSDFs are defined with.
+  float masking(const Vector3f& v) const {
+    const float z = std::abs(v.z), across2 = sqr(alpha_u_ * v.x) + sqr(alpha_v_ * v.y);
+    if (ggx_) return 2 * z / (z + std::sqrt(z * z + across2));
+    if (z * z >= sqr(1.6f) * across2) return 1;
+    const float a = z / std::sqrt(across2);
+    return a * (3.535f + 2.181f * a) / (1 + a * (2.276f + 2.577f * a));
+  }
+
+  /// What value and density of reflection and refraction have in common: for a half vector h,
+  ///   value   = D(h) G₁(o) G₁(i) / o.z,
+  ///   density = the density of h when sampled from o, over (o·h).
+  struct Core {
+    float value, density;
+  };
+  Core core(const Vector3f& o, const Vector3f& i, const Vector3f& h) const {
+    const float d = density(h);
+    if (!visible_) return {d * masking(o) * masking(i) / o.z, d * h.z / dot(o, h)};
+    if (ggx_) {
+      // The same as D G₁(o) / o.z, without dividing by a vanishing cosine.
+      const float seen = 2 * d / (o.z + stretched_length(o));
+      return {seen * masking(i), seen};
+    }
+    return beckmann_core(d, o, i);
+  }
+
+  /// Reflection from o to i: value = D G₁ G₁ / (4 o.z) and density, both per solid angle of i, and
+  /// the cosine o·h.
+  struct Reflection {
+    float value, density, cosine;
+  };
+  Reflection reflection(const Vector3f& o, const Vector3f& i) const {
+    const Vector3f sum = o + i;
+    const float length2 = length_squared(sum), length = std::sqrt(length2);
+    if (!(ggx_ && visible_)) {
+      const Core c = core(o, i, sum * (1 / length));
+      return {0.25f * c.value, 0.25f * c.density, 0.5f * length};
+    }
+    // The same with two divisions made one.
+    const float x = sum.x * inv_u_, y = sum.y * inv_v_;
+    const float far = sqr(x * x + y * y + sum.z * sum.z) * (o.z + stretched_length(o));
+    const float near = i.z + stretched_length(i);
+    const float inverse = 1 / (far * near);
+    const float density = 0.5f * kInvPi * inv_u_ * inv_v_ * sqr(length2) * near * inverse;
+    return {density * (2 * i.z * far * inverse), density, 0.5f * length};
+  }
+
+  /// A facet normal seen from o. Visible normals have the density G₁(o) D(m) (o·m)⁺ / o.z, others
+  /// D(m) m.z. Neighbouring numbers make neighbouring normals.
+  Vector3f sample(const Vector3f& o, const Point2f& u) const {
+    if (!visible_) return sample_all(u);
+    return ggx_ ? sample_visible_ggx(o, u) : sample_visible_beckmann(o, u);
+  }
+
+  /// The distribution from which a rough dielectric samples if it does not sample visible normals:
+  /// somewhat wider, so that no weight becomes very large.
+  /// Source: Walter et al. 2007, section 5.3.
+  Microfacet widened(float cos_o) const {
+    const float s = 1.2f - 0.2f * std::sqrt(std::abs(cos_o));
+    return {ggx_ ? MicrofacetDistribution::ggx : MicrofacetDistribution::beckmann, alpha_u_ * s,
+            alpha_v_ * s, visible_};
+  }
+
+ private:
+  float stretched_length(const Vector3f& v) const {
+    return std::sqrt(sqr(alpha_u_ * v.x) + sqr(alpha_v_ * v.y) + v.z * v.z);
+  }
+  Core beckmann_core(float d, const Vector3f& o, const Vector3f& i) const;
+  Vector3f sample_all(const Point2f& u) const;
+  Vector3f sample_visible_ggx(const Vector3f& o, const Point2f& u) const;
+  Vector3f sample_visible_beckmann(const Vector3f& o, const Point2f& u) const;
+
+  float alpha_u_, alpha_v_, inv_u_, inv_v_;
+  bool ggx_, visible_;
+};
+
+/// Source: Dupuy & Benyoub, "Sampling Visible GGX Normals with Spherical Caps", 2023. The reflections
+/// about the facets of a (stretched) hemisphere fill a spherical cap evenly. Here the sphere has the
+/// radius to which o is stretched, which saves to normalise it.
+inline Vector3f Microfacet::sample_visible_ggx(const Vector3f& o, const Point2f& u) const {
+  const float radius = stretched_length(o);
+  // r² of a point on the disk is uniform and gives the height on the cap.
+  const Point2f p = square_to_disk(u);
+  const float up = radius + o.z, h = std::max(1 - p.x * p.x - p.y * p.y, 0.0f) * up;
+  const float scale = std::sqrt(up * (radius + h - o.z));
+  return normalize(Vector3f(alpha_u_ * (p.x * scale + alpha_u_ * o.x),
+                            alpha_v_ * (p.y * scale + alpha_v_ * o.y), h));
+}
+
+}  // namespace duet

@@ -1,0 +1,137 @@
+#include "materials/plastic.h"
+
+#include "materials/materials.h"
+namespace duet {
+
+namespace {
+
+/// Probability of the specular lobe, of which the coat reflects the share `f`.
+float lobe_probability(float f, float specular_weight, float diffuse_weight) {
+  const float s = f * specular_weight, d = (1 - f) * diffuse_weight;
+  return s + d > 0 ? s / (s + d) : 0.0f;
+}
+
+}  // namespace
+
+Spectrum coated_reflectance(const Spectrum& base, float internal_reflectance, float eta,
+                            bool nonlinear) {
+  // A base that reflects more than it receives would otherwise end in a series without a sum.
+  const auto coated = [&](float b) {
+    const float lost = 1 - (nonlinear ? b : 1.0f) * internal_reflectance;
+    return b / (std::max(lost, 1e-3f) * eta * eta);
+  };
+  return {coated(base.r), coated(base.g), coated(base.b)};
+}
+
+ModelEval PlasticModel::eval(const Vector3f& wo, const Vector3f& wi, Transport) const {
+  if (!(wo.z > 0 && wi.z > 0)) return {};
+  const float fo = fresnel_dielectric(wo.z, eta).reflectance;
+  const float fi = fresnel_dielectric(wi.z, eta).reflectance;
+  const float cosine = wi.z * kInvPi;
+  return {coated_base * (cosine * (1 - fo) * (1 - fi)),
+          cosine * (1 - lobe_probability(fo, specular_weight, diffuse_weight))};
+}
+
+std::optional<ModelSample> PlasticModel::sample(const Vector3f& wo, float u, const Point2f& v,
+                                                Transport) const {
+  if (!(wo.z > 0)) return std::nullopt;
+  const float fo = fresnel_dielectric(wo.z, eta).reflectance;
+  const float p = lobe_probability(fo, specular_weight, diffuse_weight);
+  if (u < p)
+    return ModelSample{
+        .wi = reflect(wo), .weight = specular_reflectance * (fo / p), .pdf = p, .delta = true};
+  const Vector3f wi = square_to_cosine_hemisphere(v);
+  if (!(wi.z > 0 && p < 1)) return std::nullopt;
+  const float fi = fresnel_dielectric(wi.z, eta).reflectance;
+  return ModelSample{wi, coated_base * ((1 - fo) * (1 - fi) / (1 - p)), (1 - p) * wi.z * kInvPi};
+}
+
+float RoughPlasticModel::specular_probability(float transmitted) const {
+  return lobe_probability(1 - transmitted, specular_weight, diffuse_weight);
+}
+
+ModelEval RoughPlasticModel::eval(const Vector3f& wo, const Vector3f& wi, Transport) const {
+  if (!(wo.z > kMinCosine && wi.z > kMinCosine)) return {};
+  const Microfacet::Reflection r = microfacet.reflection(wo, wi);
+  const float f = fresnel_dielectric(r.cosine, eta).reflectance;
+  const float to = transmittance(wo.z), ti = transmittance(wi.z);
+  const float p = specular_probability(to);
+  const float cosine = wi.z * kInvPi;
+  return {specular_reflectance * (f * r.value) + coated_base * (cosine * to * ti),
+          p * r.density + (1 - p) * cosine};
+}
+
+std::optional<ModelSample> RoughPlasticModel::sample(const Vector3f& wo, float u, const Point2f& v,
+                                                     Transport transport) const {
+  if (!(wo.z > kMinCosine)) return std::nullopt;
+  Vector3f wi;
+  if (u < specular_probability(transmittance(wo.z))) {
+    const Vector3f m = microfacet.sample(wo, v);
+    wi = reflect(wo, m);
+  } else {
+    wi = square_to_cosine_hemisphere(v);
+  }
+  const ModelEval e = eval(wo, wi, transport);
+  if (!(e.pdf > 0)) return std::nullopt;
+  return ModelSample{wi, e.value / e.pdf, e.pdf};
+}
+
+namespace {
+
+bool is_constant(const PlasticOptions& o) {
+  return all_constant(o.diffuse_reflectance, o.specular_reflectance);
+}
+
+bool needs_uv(const PlasticOptions& o) {
+  return any_needs_uv(o.diffuse_reflectance, o.specular_reflectance);
+}
+
+RoughTransmittance make_tables(const PlasticOptions& o, const RoughnessOptions& r) {
+  return r.alpha_u.is_constant() ? RoughTransmittance(r.distribution, o.eta, r.alpha_u.constant)
+                                 : RoughTransmittance(r.distribution, o.eta);
+}
+
+}  // namespace
+
+Plastic::Plastic(const PlasticOptions& options)
+    : options_(options), internal_reflectance_(fresnel_diffuse_reflectance(1 / options.eta)) {
+  if (is_constant(options)) set_constant(model({}));
+}
+
+PlasticModel Plastic::model(const Surface& s) const {
+  const Spectrum base = options_.diffuse_reflectance(s);
+  const Spectrum specular = options_.specular_reflectance(s);
+  return {options_.eta, specular,
+          coated_reflectance(base, internal_reflectance_, options_.eta, options_.nonlinear),
+          specular.mean(), base.mean()};
+}
+
+SurfaceNeeds Plastic::needs() const {
+  return {.uv = needs_uv(options_)};
+}
+
+RoughPlastic::RoughPlastic(const PlasticOptions& options, const RoughnessOptions& roughness)
+    : options_(options), roughness_(roughness), tables_(make_tables(options, roughness)) {
+  roughness_.alpha_v = roughness_.alpha_u;
+  if (is_constant(options) && roughness_.alpha_u.is_constant()) set_constant(model({}));
+}
+
+RoughPlasticModel RoughPlastic::model(const Surface& s) const {
+  const Spectrum base = options_.diffuse_reflectance(s);
+  const Spectrum specular = options_.specular_reflectance(s);
+  const float alpha = roughness_.alpha_u(s);
+  const RoughTransmittance::Lookup t = tables_(alpha);
+  return {Microfacet(roughness_.distribution, alpha, alpha, roughness_.sample_visible),
+          options_.eta,
+          specular,
+          coated_reflectance(base, t.internal_reflectance, options_.eta, options_.nonlinear),
+          specular.mean(),
+          base.mean(),
+          t.external};
+}
+
+SurfaceNeeds RoughPlastic::needs() const {
+  return roughness_.needs() | SurfaceNeeds{.uv = needs_uv(options_)};
+}
+
+}  // namespace duet

@@ -1,0 +1,206 @@
+#include "materials/principled.h"
+
+#include "materials/materials.h"
+namespace duet {
+
+namespace {
+
+/// Smith's masking for the clear coat, whose roughness Burley fixes at 0.25 for this purpose.
+float clearcoat_masking(float cosine) {
+  return 2 * cosine / (cosine + std::sqrt(cosine * cosine + sqr(0.25f) * (1 - cosine * cosine)));
+}
+
+Vector3f mirrored(const Vector3f& w, bool mirror) {
+  return mirror ? Vector3f{w.x, w.y, -w.z} : w;
+}
+
+}  // namespace
+
+Microfacet principled_facets(float roughness, float anisotropic) {
+  const float aspect = std::sqrt(1 - 0.9f * anisotropic), alpha = roughness * roughness;
+  return {MicrofacetDistribution::ggx, std::max(alpha / aspect, 1e-3f),
+          std::max(alpha * aspect, 1e-3f), true};
+}
+
+float principled_diffuse(float cos_o, float cos_i, float cos_d, float roughness, float flatness) {
+  const float fo = schlick_weight(cos_o), fi = schlick_weight(cos_i);
+  const float rr = 2 * roughness * cos_d * cos_d;
+  const float base = (1 - 0.5f * fo) * (1 - 0.5f * fi);
+  const float retro = rr * (fo + fi + fo * fi * (rr - 1));
+  if (flatness == 0) return base + retro;
+  const float fss90 = 0.5f * rr;
+  const float fss = lerp(1.0f, fss90, fo) * lerp(1.0f, fss90, fi);
+  const float subsurface = 1.25f * (fss * (1 / (cos_o + cos_i) - 0.5f) + 0.5f);
+  return lerp(base + retro, subsurface, flatness);
+}
+
+Spectrum tint_of(const Spectrum& color) {
+  const float l = color.luminance();
+  return l > 0 ? color / l : Spectrum(1);
+}
+
+PrincipledModel::Choice PrincipledModel::choice() const {
+  Choice c{brdf() * diffuse_rate, 0.25f * clearcoat * clearcoat_rate, specular_rate};
+  const float sum = c.diffuse + c.clearcoat + c.specular;
+  if (!(sum > 0)) return {0, 0, 0};
+  return {c.diffuse / sum, c.clearcoat / sum, c.specular / sum};
+}
+
+/// Metals and tinted reflections follow Schlick, the rest the exact equations.
+Spectrum PrincipledModel::front_fresnel(float dielectric, float cosine) const {
+  Spectrum f((1 - metallic) * (1 - spec_tint) * dielectric);
+  if (metallic > 0 || spec_tint > 0) {
+    const float w = schlick_weight(cosine, eta);
+    f += lerp(base_color, Spectrum(1), w) * metallic;
+    f += lerp(tint * normal_reflectance(eta), Spectrum(1), w) * ((1 - metallic) * spec_tint);
+  }
+  return f;
+}
+
+/// Reflection seen from above.
+ModelEval PrincipledModel::eval_front(const Vector3f& o, const Vector3f& i, const Vector3f& h,
+                                      float f, const Microfacet::Core& core) const {
+  const float cosine = dot(o, h);
+  const Choice pick = choice();
+  ModelEval e;
+  if (f > 0) e.value = front_fresnel(f, cosine) * (0.25f * core.value);
+  e.pdf =
+      pick.specular * (1 - bsdf() * (1 - f)) * 0.25f * core.density + pick.diffuse * i.z * kInvPi;
+  if (clearcoat > 0) {
+    const float d = clearcoat_density(h);
+    const float fc = lerp(0.04f, 1.0f, schlick_weight(cosine, eta));
+    e.value += Spectrum(0.25f * clearcoat * fc * d * clearcoat_masking(o.z) *
+                        clearcoat_masking(i.z) * i.z);
+    e.pdf += pick.clearcoat * d * h.z / (4 * cosine);
+  }
+  if (brdf() > 0)
+    e.value += base_color *
+               (brdf() * i.z * kInvPi * principled_diffuse(o.z, i.z, cosine, roughness, flatness));
+  if (sheen > 0)
+    e.value += lerp(Spectrum(1), tint, sheen_tint) *
+               (sheen * (1 - metallic) * schlick_weight(cosine) * i.z);
+  return e;
+}
+
+ModelEval PrincipledModel::eval(const Vector3f& wo, const Vector3f& wi, Transport transport) const {
+  if (std::abs(wo.z) < kMinCosine || std::abs(wi.z) < kMinCosine) return {};
+  const bool below = wo.z<0, reflects = wo.z * wi.z> 0;
+  if ((below || !reflects) && !(bsdf() > 0)) return {};
+  // The side that light comes from is up.
+  const Vector3f o = mirrored(wo, below), i = mirrored(wi, below);
+  const float relative = below ? 1 / eta : eta;
+  Vector3f h = reflects ? o + i : o + i * relative;
+  h = normalize(h.z < 0 ? -h : h);
+  const float oh = dot(o, h), ih = dot(i, h);
+  if (!(h.z > 0 && oh > 0 && (reflects ? ih > 0 : ih < 0))) return {};
+  const Microfacet::Core core = facets.core(o, i, h);
+  const float f = fresnel_dielectric(oh, relative).reflectance;
+  if (reflects && !below) return eval_front(o, i, h, f, core);
+  if (reflects) return {Spectrum(bsdf() * f * 0.25f * core.value), f * 0.25f * core.density};
+  const float jacobian = sqr(relative / (oh + relative * ih)) * oh * -ih;
+  const float compression = transport == Transport::radiance ? 1 / sqr(relative) : 1.0f;
+  const float pick = below ? 1.0f : choice().specular * bsdf();
+  return {sqrt(base_color) * (bsdf() * (1 - f) * core.value * jacobian * compression),
+          pick * (1 - f) * core.density * jacobian};
+}
+
+std::optional<ModelSample> PrincipledModel::sample(const Vector3f& wo, float u, const Point2f& v,
+                                                   Transport transport) const {
+  const bool below = wo.z < 0;
+  if (std::abs(wo.z) < kMinCosine || (below && !(bsdf() > 0))) return std::nullopt;
+  const Vector3f o = mirrored(wo, below);
+  const float relative = below ? 1 / eta : eta;
+  const Choice pick = below ? Choice{0, 0, 1} : choice();
+  Vector3f i;
+  float side = 1;  // relative index of the far side
+  if (u < pick.diffuse) {
+    i = square_to_cosine_hemisphere(v);
+  } else if (u < pick.diffuse + pick.clearcoat) {
+    // GTR1 has sin² θ = (α^(2 − 2x) − α²) / (1 − α²) at the quantile x (Burley 2012, eq. 5).
+    const Point2f p = square_to_disk(v);
+    const float x = p.x * p.x + p.y * p.y, a2 = clearcoat_alpha2;
+    const float log_a2 = (a2 - 1) * kInvPi / clearcoat_scale;
+    const float sin2 = a2 * std::expm1(-x * log_a2) / (1 - a2);
+    const float scale = x > 0 ? std::sqrt(sin2 / x) : 0.0f;
+    i = reflect(o, Vector3f(p.x * scale, p.y * scale, safe_sqrt(1 - sin2)));
+    if (!(i.z > 0)) return std::nullopt;
+  } else {
+    u = pick.specular > 0 ? (u - pick.diffuse - pick.clearcoat) / pick.specular : 1.0f;
+    const Vector3f m = facets.sample(o, v);
+    const float om = dot(o, m);
+    if (!(om > 0)) return std::nullopt;
+    const DielectricFresnel f = fresnel_dielectric(om, relative);
+    const float transmits = (below ? 1.0f : bsdf()) * (1 - f.reflectance);
+    if (u < transmits) {
+      i = m * (om / relative - f.cos_t) - o * (1 / relative);
+      if (!(i.z < 0)) return std::nullopt;
+      side = relative;
+    } else {
+      i = reflect(o, m);
+      if (!(i.z > 0)) return std::nullopt;
+    }
+  }
+  const Vector3f wi = mirrored(i, below);
+  const ModelEval e = eval(wo, wi, transport);
+  if (!(e.pdf > 0)) return std::nullopt;
+  return ModelSample{.wi = wi, .weight = e.value / e.pdf, .pdf = e.pdf, .eta = side};
+}
+
+namespace {
+
+float unit(float x) {
+  return std::clamp(x, 0.0f, 1.0f);
+}
+
+}  // namespace
+
+float principled_eta(float specular, bool transmits) {
+  // Transmission through an interface without refraction is not a microfacet model.
+  if (transmits && specular == 0) specular = 1e-3f;
+  return 2 / (1 - std::sqrt(0.08f * specular)) - 1;
+}
+
+Principled::Principled(const PrincipledOptions& options) : options_(options) {
+  if (is_used(options.spec_trans) && options.eta == 1) options_.eta = 1.001f;
+  const PrincipledOptions& o = options_;
+  if (all_constant(o.base_color, o.roughness, o.anisotropic, o.metallic, o.spec_trans, o.spec_tint,
+                   o.sheen, o.sheen_tint, o.flatness, o.clearcoat, o.clearcoat_gloss))
+    set_constant(model({}));
+}
+
+PrincipledModel Principled::model(const Surface& s) const {
+  const PrincipledOptions& o = options_;
+  PrincipledModel m;
+  m.base_color = o.base_color(s);
+  m.tint = tint_of(m.base_color);
+  m.roughness = std::max(o.roughness(s), 0.0f);
+  m.facets = principled_facets(m.roughness, unit(o.anisotropic(s)));
+  m.metallic = unit(o.metallic(s));
+  m.spec_trans = unit(o.spec_trans(s));
+  m.eta = o.eta;
+  m.spec_tint = unit(o.spec_tint(s));
+  m.sheen = std::max(o.sheen(s), 0.0f);
+  m.sheen_tint = unit(o.sheen_tint(s));
+  m.flatness = unit(o.flatness(s));
+  m.clearcoat = std::max(o.clearcoat(s), 0.0f);
+  m.clearcoat_alpha2 = sqr(lerp(0.1f, 0.001f, unit(o.clearcoat_gloss(s))));
+  m.clearcoat_scale = (m.clearcoat_alpha2 - 1) * kInvPi / std::log(m.clearcoat_alpha2);
+  m.diffuse_rate = o.diffuse_reflectance_sampling_rate;
+  m.specular_rate = o.main_specular_sampling_rate;
+  m.clearcoat_rate = o.clearcoat_sampling_rate;
+  return m;
+}
+
+SurfaceNeeds Principled::needs() const {
+  const PrincipledOptions& o = options_;
+  return {.uv = any_needs_uv(o.base_color, o.roughness, o.anisotropic, o.metallic, o.spec_trans,
+                             o.spec_tint, o.sheen, o.sheen_tint, o.flatness, o.clearcoat,
+                             o.clearcoat_gloss),
+          .tangents = is_used(o.anisotropic)};
+}
+
+bool Principled::transmits() const {
+  return is_used(options_.spec_trans);
+}
+
+}  // namespace duet

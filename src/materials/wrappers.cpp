@@ -1,0 +1,91 @@
+#include "materials/wrappers.h"
+
+#include <algorithm>
+#include <cassert>
+
+namespace duet {
+
+TwoSided::TwoSided(const Material& front, const Material& back) : front_(front), back_(back) {
+  if (&front == &back && front.constant()) set_constant_two_sided(*front.constant());
+}
+
+int TwoSided::component_count() const {
+  return std::max(front_.component_count(), back_.component_count());
+}
+
+Spectrum TwoSided::local_albedo(const Surface& surface, const Vector3f& wo) const {
+  return wo.z >= 0 ? front_.local_albedo(surface, wo)
+                   : back_.local_albedo(surface, {wo.x, wo.y, -wo.z});
+}
+
+void TwoSided::add_components(const Surface& surface, BsdfBuilder& builder) const {
+  if (builder.wo().z >= 0) {
+    front_.bind(surface, builder);
+  } else {
+    builder.flipped([&](BsdfBuilder& b) { back_.bind(surface, b); });
+  }
+}
+
+SurfaceNeeds Mask::needs() const {
+  return nested_.needs() | SurfaceNeeds{.uv = opacity_.needs_uv()};
+}
+
+bool Mask::transmits() const {
+  return nested_.transmits() || !(opacity_.is_constant() && opacity_.constant >= 1);
+}
+
+void Mask::add_components(const Surface& surface, BsdfBuilder& builder) const {
+  const float opacity = std::clamp(opacity_(surface), 0.0f, 1.0f);
+  builder.with_share(opacity, [&](BsdfBuilder& b) { nested_.bind(surface, b); });
+  builder.with_share(1 - opacity, [&](BsdfBuilder& b) { b.add(NullModel{}); });
+}
+
+SurfaceNeeds Blend::needs() const {
+  return first_.needs() | second_.needs() | SurfaceNeeds{.uv = weight_.needs_uv()};
+}
+
+Spectrum Blend::local_albedo(const Surface& surface, const Vector3f& wo) const {
+  return lerp(first_.local_albedo(surface, wo), second_.local_albedo(surface, wo),
+              std::clamp(weight_(surface), 0.0f, 1.0f));
+}
+
+void Blend::add_components(const Surface& surface, BsdfBuilder& builder) const {
+  const float weight = std::clamp(weight_(surface), 0.0f, 1.0f);
+  builder.with_share(1 - weight, [&](BsdfBuilder& b) { first_.bind(surface, b); });
+  builder.with_share(weight, [&](BsdfBuilder& b) { second_.bind(surface, b); });
+}
+
+void Perturbed::add_components(const Surface& surface, BsdfBuilder& builder) const {
+  assert(!nested_.perturbs());
+  Normal3f n = normal(surface);
+  // Where a map says nothing the surface is left as it is.
+  const float scale = max_abs(n);
+  n = scale > 0 && is_finite(n) ? normalize(n * (1 / scale)) : Normal3f(0, 0, 1);
+  builder.tilted(n, options_.flip_invalid_normals, options_.use_shadowing_function,
+                 [&](BsdfBuilder& b) { nested_.bind(surface, b); });
+}
+
+SurfaceNeeds BumpMap::needs() const {
+  return nested_.needs() | SurfaceNeeds{.uv = height_.needs_uv(), .tangents = true};
+}
+
+Normal3f BumpMap::normal(const Surface& s) const {
+  const Point2f slope = height_.gradient(s) * scale_;
+  const Vector3f n(s.shading.n);
+  // The change of the base's normal from place to place is neglected.
+  const Vector3f du = s.dp_du + n * (slope.x - dot(n, s.dp_du));
+  const Vector3f dv = s.dp_dv + n * (slope.y - dot(n, s.dp_dv));
+  const Vector3f up = cross(du, dv);
+  return Normal3f(s.shading.to_local(dot(s.ng, up) < 0 ? -up : up));
+}
+
+SurfaceNeeds NormalMap::needs() const {
+  return nested_.needs() | SurfaceNeeds{.uv = normals_.needs_uv(), .tangents = true};
+}
+
+Normal3f NormalMap::normal(const Surface& s) const {
+  const Spectrum c = normals_.color(s);
+  return {2 * c.r - 1, 2 * c.g - 1, 2 * c.b - 1};
+}
+
+}  // namespace duet

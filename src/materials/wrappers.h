@@ -1,0 +1,126 @@
+// Materials made of other materials, which must outlive them.
+#pragma once
+
+#include "materials/bsdf.h"
+#include "textures/texture.h"
+
+namespace duet {
+
+/// One material on the side of the normal, another (or the same) on the back. Mitsuba allows only
+/// materials here that do not transmit.
+class TwoSided final : public Material {
+ public:
+  TwoSided(const Material& front, const Material& back);
+  SurfaceNeeds needs() const override { return front_.needs() | back_.needs(); }
+  int component_count() const override;
+  bool transmits() const override { return front_.transmits() || back_.transmits(); }
+  bool perturbs() const override { return front_.perturbs() || back_.perturbs(); }
+  Spectrum local_albedo(const Surface& surface, const Vector3f& wo) const override;
+
+ protected:
+  void add_components(const Surface& surface, BsdfBuilder& builder) const override;
+
+ private:
+  const Material &front_, &back_;
+};
+
+/// Lets the share 1 − opacity of the light pass straight through. Opacity is clamped to [0, 1].
+class Mask final : public Material {
+ public:
+  Mask(const FloatSlot& opacity, const Material& nested) : opacity_(opacity), nested_(nested) {}
+  SurfaceNeeds needs() const override;
+  int component_count() const override { return nested_.component_count() + 1; }
+  bool transmits() const override;
+  bool perturbs() const override { return nested_.perturbs(); }
+  Spectrum local_albedo(const Surface& surface, const Vector3f& wo) const override {
+    return nested_.local_albedo(surface, wo);
+  }
+
+ protected:
+  void add_components(const Surface& surface, BsdfBuilder& builder) const override;
+
+ private:
+  FloatSlot opacity_;
+  const Material& nested_;
+};
+
+/// (1 − weight) · first + weight · second, with the weight clamped to [0, 1].
+class Blend final : public Material {
+ public:
+  Blend(const FloatSlot& weight, const Material& first, const Material& second)
+      : weight_(weight), first_(first), second_(second) {}
+  SurfaceNeeds needs() const override;
+  int component_count() const override {
+    return first_.component_count() + second_.component_count();
+  }
+  bool transmits() const override { return first_.transmits() || second_.transmits(); }
+  bool perturbs() const override { return first_.perturbs() || second_.perturbs(); }
+  Spectrum local_albedo(const Surface& surface, const Vector3f& wo) const override;
+
+ protected:
+  void add_components(const Surface& surface, BsdfBuilder& builder) const override;
+
+ private:
+  FloatSlot weight_;
+  const Material &first_, &second_;
+};
+
+/// What the two maps of perturbed normals have in common: see Tilt. Mitsuba 0.x has neither.
+struct PerturbationOptions {
+  bool flip_invalid_normals = true, use_shadowing_function = true;
+};
+
+/// A material in a frame whose normal differs from place to place. `nested` must not perturb
+/// normals itself.
+class Perturbed : public Material {
+ public:
+  int component_count() const override { return nested_.component_count(); }
+  bool transmits() const override { return nested_.transmits(); }
+  bool perturbs() const override { return true; }
+  Spectrum local_albedo(const Surface& surface, const Vector3f& wo) const override {
+    return nested_.local_albedo(surface, wo);
+  }
+
+ protected:
+  Perturbed(const PerturbationOptions& options, const Material& nested)
+      : options_(options), nested_(nested) {}
+  void add_components(const Surface& surface, BsdfBuilder& builder) const override;
+  /// The perturbed normal in the shading frame, of any length.
+  virtual Normal3f normal(const Surface& surface) const = 0;
+
+  PerturbationOptions options_;
+  const Material& nested_;
+};
+
+/// Normals of the surface displaced by scale · height.
+/// Source: Blinn, "Simulation of Wrinkled Surfaces", 1978.
+class BumpMap final : public Perturbed {
+ public:
+  BumpMap(const Texture& height, float scale, const PerturbationOptions& options,
+          const Material& nested)
+      : Perturbed(options, nested), height_(height), scale_(scale) {}
+  SurfaceNeeds needs() const override;
+
+ protected:
+  Normal3f normal(const Surface& surface) const override;
+
+ private:
+  const Texture& height_;
+  float scale_;
+};
+
+/// Normals in the shading frame, stored as colours (n + 1) / 2.
+class NormalMap final : public Perturbed {
+ public:
+  NormalMap(const Texture& normals, const PerturbationOptions& options, const Material& nested)
+      : Perturbed(options, nested), normals_(normals) {}
+  SurfaceNeeds needs() const override;
+
+ protected:
+  Normal3f normal(const Surface& surface) const override;
+
+ private:
+  const Texture& normals_;
+};
+
+}  // namespace duet
