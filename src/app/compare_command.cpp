@@ -109,11 +109,12 @@ Image load(const std::string& path, ImageFile& file) {
   return image;
 }
 
-/// The sample count that the image's header states, or 1.
-double header_spp(const ImageFile& file) {
+/// The sample count that was given, or else the one that the image's header states.
+std::optional<double> sample_count(double given, const ImageFile& file) {
+  if (given > 0) return given;
   for (const auto& [name, value] : file.header)
-    if (name == "spp") return std::max(1.0, std::atof(value.c_str()));
-  return 1;
+    if (const double n = name == "spp" ? std::atof(value.c_str()) : 0; n > 0) return n;
+  return std::nullopt;
 }
 
 Verdict judge(const ImageMetrics& m, bool required_met) {
@@ -132,8 +133,11 @@ int compare(const CompareOptions& o) {
   Image variance;
   if (!o.variance.empty()) {
     variance = load(o.variance, variance_file);
-    noise = NoiseModel{&variance, o.spp > 0 ? o.spp : header_spp(image_file),
-                       o.reference_spp > 0 ? o.reference_spp : header_spp(reference_file)};
+    const auto spp = sample_count(o.spp, image_file);
+    if (!spp)
+      throw UsageError(fmt::format("{} does not say how many samples it has: give --spp", o.image));
+    noise = NoiseModel{&variance, *spp,
+                       sample_count(o.reference_spp, reference_file).value_or(INFINITY)};
   }
   const ImageMetrics m = compare_images(image, reference, noise);
   const std::vector<Figure> all = figures(m);
@@ -193,8 +197,9 @@ void add_compare_command(CLI::App& app, int& exit_code) {
   c->add_option("--variance", o->variance, "Variance of one sample of the reference, per pixel");
   c->add_option("--spp", o->spp, "Samples per pixel of the image (default: from its header)")
       ->check(CLI::PositiveNumber);
-  c->add_option("--reference-spp", o->reference_spp,
-                "Samples per pixel of the reference (default: from its header)")
+  c->add_option(
+       "--reference-spp", o->reference_spp,
+       "Samples per pixel of the reference (default: from its header; else it counts as exact)")
       ->check(CLI::PositiveNumber);
   c->add_option("--diff", o->diff, "Write a picture: red where a is brighter, blue where darker");
   c->add_option("--require", o->require, "FIGURE<LIMIT or FIGURE>LIMIT; a miss exits with 3");
