@@ -1,6 +1,7 @@
 #include "materials/principledthin.h"
 
 #include "materials/materials.h"
+
 namespace duet {
 
 namespace {

@@ -162,8 +162,8 @@ std::vector<View> views_of(const Case& c, const Vector3f& wo) {
   return views;
 }
 
-test::Chi2Result run(const Bsdf& bsdf, Transport transport, const View& view,
-                     const SquareTest& options, int& smooth) {
+Chi2Result run(const Bsdf& bsdf, Transport transport, const View& view, const SquareTest& options,
+               int& smooth) {
   const auto seen = [&](const Vector3f& wi) { return view.side == 0 || wi.z * view.side > 0; };
   return chi2_sphere(
       [&](float u, Point2f v, Vector3f& out) {
