@@ -54,7 +54,7 @@ void read_direct(SceneReader&, Properties& p, IntegratorDescription& out) {
   if (p.has("emitter_samples")) direct.emitter_samples = p.integer("emitter_samples");
   if (p.has("bsdf_samples")) direct.bsdf_samples = p.integer("bsdf_samples");
   constexpr int most = 1 << 16;
-  if (direct.emitter_samples + direct.bsdf_samples == 0)
+  if (direct.emitter_samples == 0 && direct.bsdf_samples == 0)
     p.error("bsdf_samples", "at least one sample must be taken of emitters or of BSDFs");
   if (std::max(direct.emitter_samples, direct.bsdf_samples) > most)
     p.error(direct.emitter_samples > most && p.has("emitter_samples") ? "emitter_samples"

@@ -103,7 +103,8 @@ void read_bitmap(SceneReader& s, Properties& p, TextureDescription& out) {
 }
 
 void read_checkerboard(SceneReader& s, Properties& p, TextureDescription& out) {
-  out.model = CheckerboardTexture{s.color(p, "color0"), s.color(p, "color1"), !p.is_0x(), uv_transform(p)};
+  out.model =
+      CheckerboardTexture{s.color(p, "color0"), s.color(p, "color1"), !p.is_0x(), uv_transform(p)};
 }
 
 void read_mesh_attribute(SceneReader&, Properties& p, TextureDescription& out) {

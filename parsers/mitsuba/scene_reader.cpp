@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "mitsuba/texture_uses.h"
+
 namespace duet {
 
 namespace {
@@ -97,6 +99,7 @@ void SceneReader::approximate_loudly(const SourceLocation& where, std::string wh
 SceneDescription SceneReader::read(const NodeTree& tree, const std::string& file) {
   description_.file = file;
   top_level(tree.nodes.front());
+  settle_checkerboards(description_);
   return std::move(description_);
 }
 

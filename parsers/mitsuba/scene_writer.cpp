@@ -44,7 +44,7 @@ void SceneWriter::write() {
   name_things();
   integrator(d_.integrator);
   for (const SensorDescription& s : d_.sensors) sensor(s);
-  for (size_t i = 0; i < d_.textures.size(); ++i) texture(d_.textures[i], texture_ids_[i]);
+  for (size_t i = 0; i < d_.textures.size(); ++i) texture(i);
   for (size_t i = 0; i < d_.materials.size(); ++i) material(d_.materials[i], material_ids_[i]);
   for (size_t i = 0; i < d_.groups.size(); ++i) {
     out_.open("shape", "shapegroup", {}, group_ids_[i]);

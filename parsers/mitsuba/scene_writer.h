@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "mitsuba/texture_uses.h"
 #include "mitsuba/xml_printer.h"
 #include "scene/description.h"
 
@@ -13,7 +14,8 @@ namespace duet {
 /// Collects text and losses. Textures, materials and groups come before what refers to them.
 class SceneWriter {
  public:
-  explicit SceneWriter(const SceneDescription& description) : d_(description) {}
+  explicit SceneWriter(const SceneDescription& description)
+      : d_(description), texture_uses_(texture_uses(description)) {}
   void write();
   const std::string& text() const { return out_.text(); }
   const std::vector<std::string>& losses() const { return losses_; }
@@ -28,7 +30,7 @@ class SceneWriter {
   void number(std::string_view name, const FloatInput& input);
   void roughness(const std::optional<Roughness>& r, bool isotropic);
   void uv_transform(const UvTransform& uv);
-  void texture(const TextureDescription& t, const std::string& id);
+  void texture(size_t index);
   void material(const MaterialDescription& m, const std::string& id);
   void write_model(const BitmapTexture& t);
   void write_model(const CheckerboardTexture& t);
@@ -61,6 +63,7 @@ class SceneWriter {
   const std::string& material_id(MaterialId id) const { return material_ids_[size_t(id)]; }
 
   const SceneDescription& d_;
+  const std::vector<TextureUse> texture_uses_;
   XmlPrinter out_;
   std::vector<std::string> losses_;
   std::set<std::string> ids_;

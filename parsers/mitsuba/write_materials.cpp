@@ -53,9 +53,21 @@ void SceneWriter::uv_transform(const UvTransform& uv) {
   out_.transform("to_uv", m);
 }
 
-void SceneWriter::texture(const TextureDescription& t, const std::string& id) {
-  out_.open("texture", type_of(t), {}, id);
-  std::visit([&](const auto& model) { write_model(model); }, t.model);
+void SceneWriter::texture(size_t index) {
+  const TextureDescription& t = d_.textures[index];
+  out_.open("texture", type_of(t), {}, texture_ids_[index]);
+  if (const auto* board = std::get_if<CheckerboardTexture>(&t.model);
+      board && texture_uses_[index].as_number && !board->swap_values) {
+    // Mitsuba 3 is going to exchange the values.
+    CheckerboardTexture exchanged = *board;
+    if (texture_uses_[index].as_color)
+      lose("a checkerboard used as colour and as number has its numbers exchanged");
+    else
+      std::swap(exchanged.color0, exchanged.color1);
+    write_model(exchanged);
+  } else {
+    std::visit([&](const auto& model) { write_model(model); }, t.model);
+  }
   out_.close();
 }
 

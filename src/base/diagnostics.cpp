@@ -1,6 +1,7 @@
 #include "base/diagnostics.h"
 
 #include <algorithm>
+#include <utility>
 
 namespace duet {
 
@@ -28,16 +29,18 @@ void Diagnostics::add(Diagnostic d) {
 }
 
 std::string nearest_name(const std::string& name, const std::vector<std::string>& known) {
-  const auto distance = [&](const std::string& a, const std::string& b) {
-    std::vector<size_t> row(b.size() + 1);
+  // How many letters must be changed, added, removed or exchanged with their neighbours.
+  const auto distance = [](const std::string& a, const std::string& b) {
+    std::vector<size_t> before, last(b.size() + 1), row(b.size() + 1);
     for (size_t j = 0; j <= b.size(); ++j) row[j] = j;
+    const auto same = [&](size_t i, size_t j) { return std::tolower(a[i]) == std::tolower(b[j]); };
     for (size_t i = 1; i <= a.size(); ++i) {
-      size_t diagonal = row[0];
+      before = std::exchange(last, row);
       row[0] = i;
       for (size_t j = 1; j <= b.size(); ++j) {
-        const size_t substitute = diagonal + (std::tolower(a[i - 1]) != std::tolower(b[j - 1]));
-        diagonal = row[j];
-        row[j] = std::min({row[j] + 1, row[j - 1] + 1, substitute});
+        row[j] = std::min({last[j] + 1, row[j - 1] + 1, last[j - 1] + !same(i - 1, j - 1)});
+        if (i > 1 && j > 1 && same(i - 1, j - 2) && same(i - 2, j - 1))
+          row[j] = std::min(row[j], before[j - 2] + 1);
       }
     }
     return row[b.size()];

@@ -111,7 +111,7 @@ TEST_CASE("bsdf: roughness") {
   const ReadResult phong = read_scene("0.6.0",
                                       "<bsdf type='roughconductor'>\n<string name='distribution' "
                                       "value='phong'/></bsdf>");
-  CHECK(phong.has("scene.xml:3:30: warning: the Phong microfacet distribution is approximated"));
+  CHECK(phong.has("scene.xml:3:29: warning: the Phong microfacet distribution is approximated"));
   CHECK(phong.description().approximations.size() == 2);  // and no light in the scene
   CHECK(fails("3.0.0",
               "<bsdf type='roughplastic'><string name='distribution' value='blinn'/></bsdf>",

@@ -25,8 +25,12 @@ TEST_CASE("every plugin that is supported has a reader, and only those") {
       CAPTURE(p.name);
       if (PluginKind(k) == PluginKind::scene) continue;
       const bool has_reader = !std::holds_alternative<std::monostate>(p.reader);
-      CHECK(has_reader == (p.support != Support::planned));
-      CHECK((p.support != Support::planned || p.parameters.empty()));
+      const bool supported = p.support != Support::planned && p.support != Support::refused;
+      CHECK(has_reader == supported);
+      CHECK((supported || p.parameters.empty()));
+      CHECK((!supported || p.planned_parameters.empty()));
+      // Who is refused wants to know why.
+      CHECK((p.support != Support::refused || !p.note.empty()));
     }
 }
 

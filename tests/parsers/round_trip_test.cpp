@@ -1,0 +1,153 @@
+// Written as a Mitsuba 3 file and read again, a scene stays what it is.
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <filesystem>
+
+#include "mitsuba/writer.h"
+#include "support/files.h"
+#include "support/memory_scene.h"
+
+using namespace duet;
+using namespace duet::test;
+
+namespace {
+
+std::string all_messages(const Diagnostics& diagnostics) {
+  std::string all;
+  for (const Diagnostic& d : diagnostics.all()) all += d.to_string() + "\n";
+  return all;
+}
+
+SceneDescription read_from_disk(const std::string& file) {
+  Diagnostics diagnostics;
+  const auto scene = read_mitsuba(file, {}, diagnostics);
+  CHECK(all_messages(diagnostics) == "");
+  REQUIRE(scene);
+  return scene->description;
+}
+
+/// Writes and reads; the losses must be those expected.
+SceneDescription again(const SceneDescription& scene, const std::vector<std::string>& losses = {}) {
+  const TemporaryDirectory folder;
+  const MitsubaXml xml = write_mitsuba_xml(scene);
+  CHECK(xml.losses == losses);
+  return read_from_disk(folder.write("scene.xml", xml.text));
+}
+
+const std::filesystem::path kScenes = std::filesystem::path(DUET_SOURCE_DIR) / "scenes";
+
+const CheckerboardTexture& board(const SceneDescription& scene, size_t i = 0) {
+  return std::get<CheckerboardTexture>(scene.textures.at(i).model);
+}
+
+}  // namespace
+
+TEST_CASE("every scene of the project is read without a word and survives a round trip") {
+  size_t count = 0;
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(kScenes)) {
+    if (entry.path().extension() != ".xml") continue;
+    CAPTURE(entry.path().string());
+    ++count;
+    const SceneDescription scene = read_from_disk(entry.path().string()), copy = again(scene);
+    CHECK(scene.textures == copy.textures);
+    CHECK(scene.materials == copy.materials);
+    CHECK(scene.shapes == copy.shapes);
+    CHECK(scene.groups == copy.groups);
+    CHECK(scene.lights == copy.lights);
+    CHECK(scene.sensors == copy.sensors);
+    CHECK(scene == copy);
+  }
+  CHECK(count >= 15);
+}
+
+TEST_CASE("the file of 0.6 and that of 3 in two-versions describe the same scene") {
+  const SceneDescription a = read_from_disk((kScenes / "two-versions/scene.xml").string()),
+                         b = read_from_disk((kScenes / "two-versions/scene-0.6.xml").string());
+  CHECK(a.textures == b.textures);
+  CHECK(a.materials == b.materials);
+  CHECK(a.shapes == b.shapes);
+  CHECK(a.lights == b.lights);
+  CHECK(a.sensors == b.sensors);
+  CHECK(a == b);
+  CHECK(!a.shapes.empty());
+}
+
+TEST_CASE("checkerboards as numbers: Mitsuba 3 exchanges their values, 0.6 does not") {
+  const std::string boards = R"(
+    <texture type="checkerboard" id="board"><float name="color0" value="0.1"/>
+      <float name="color1" value="0.9"/></texture>)";
+  const std::string as_number =
+      "<bsdf type='mask'><ref name='opacity' id='board'/><bsdf type='diffuse'/></bsdf>";
+  const std::string as_color = "<bsdf type='diffuse'><ref name='reflectance' id='board'/></bsdf>";
+  const ColorInput low = Spectrum(0.1f), high = Spectrum(0.9f);
+  const auto read = [&](const char* version, const std::string& uses) {
+    const ReadResult r =
+        read_scene(version, boards + uses + "<emitter type='constant'/><shape type='cube'/>");
+    REQUIRE_MESSAGE(r.scene, r.messages());
+    return r.description();
+  };
+  for (const char* version : {"0.6.0", "3.0.0"}) {
+    const SceneDescription unused = read(version, ""), color = read(version, as_color);
+    for (const SceneDescription& scene : {unused, color}) {
+      CHECK(!board(scene).swap_values);
+      CHECK(board(scene).color0 == low);
+      CHECK(again(scene) == scene);
+    }
+  }
+  const SceneDescription old = read("0.6.0", as_number), current = read("3.0.0", as_number);
+  CHECK(board(old).color0 == low);
+  CHECK(board(current).color0 == high);
+  for (const SceneDescription& scene : {old, current}) {
+    CHECK(!board(scene).swap_values);
+    CHECK(again(scene) == scene);
+  }
+  // Used both ways, Mitsuba 3's exchange cannot be undone in one texture.
+  const SceneDescription both = read("3.0.0", as_number + as_color);
+  CHECK(board(both).swap_values);
+  CHECK(board(both).color0 == low);
+  CHECK(again(both) == both);
+  const SceneDescription lost = read("0.6.0", as_number + as_color);
+  CHECK(!board(lost).swap_values);
+  CHECK(
+      board(again(lost, {"a checkerboard used as colour and as number has its numbers exchanged"}))
+          .swap_values);
+}
+
+TEST_CASE("checkerboards in checkerboards are asked for what the outer one is asked for") {
+  const auto read = [](const std::string& use) {
+    const ReadResult r = read_scene(
+        "3.0.0",
+        "<texture type='checkerboard' id='outer'><texture name='color0' type='checkerboard'/>"
+        "</texture>" +
+            use + "<emitter type='constant'/>");
+    REQUIRE_MESSAGE(r.scene, r.messages());
+    return r.description();
+  };
+  const SceneDescription number =
+      read("<bsdf type='mask'><ref name='opacity' id='outer'/><bsdf type='diffuse'/></bsdf>");
+  REQUIRE(number.textures.size() == 2);
+  CHECK(board(number, 0).color0 == ColorInput(Spectrum(0.2f)));
+  CHECK(board(number, 1).color1 == ColorInput(TextureId{0}));
+  CHECK(again(number) == number);
+  const SceneDescription color =
+      read("<bsdf type='diffuse'><ref name='reflectance' id='outer'/></bsdf>");
+  CHECK(board(color, 0).color0 == ColorInput(Spectrum(0.4f)));
+  CHECK(board(color, 1).color0 == ColorInput(TextureId{0}));
+  CHECK(again(color) == color);
+}
+
+TEST_CASE("what Mitsuba 3 cannot say is said in a comment") {
+  const ReadResult r = read_text(R"(<scene version="0.6.0">
+    <integrator type="path"><boolean name="strictNormals" value="true"/></integrator>
+    <sensor type="perspective"><film type="ldrfilm"/><sampler type="halton"/></sensor>
+    <emitter type="constant"/></scene>)");
+  REQUIRE_MESSAGE(r.scene, r.messages());
+  const MitsubaXml xml = write_mitsuba_xml(r.description());
+  CHECK(xml.losses.size() == 3);
+  for (const std::string& loss : xml.losses)
+    CHECK(xml.text.find("Not in Mitsuba 3: " + loss) != std::string::npos);
+  const SceneDescription copy = again(r.description(), xml.losses);
+  CHECK(!std::get<PathIntegratorDescription>(copy.integrator.method).strict_normals);
+  CHECK(!(copy == r.description()));
+}
