@@ -72,7 +72,7 @@ RTCGeometry make_geometry(RTCDevice device, const Shape& shape) {
   const TriangleMesh& m = *shape.mesh;
   RTCGeometry g = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);
   // Embree may read 4 bytes beyond the last vertex of a shared buffer: meshes for rendering reserve
-  // them (see shared_vertices in scene/build.cpp).
+  // them (scene/build_shapes.cpp).
   rtcSetSharedGeometryBuffer(g, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, m.positions.data(), 0,
                              sizeof(Point3f), m.positions.size());
   rtcSetSharedGeometryBuffer(g, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, m.triangles.data(), 0,

@@ -29,16 +29,16 @@ Surface at_uv(const Point2f& uv) {
 
 }  // namespace
 
-std::optional<LightSample> PointLight::sample_direct(const Point3f& from, const Point2f&) const {
+std::optional<LightSample> PointEmitter::sample_direct(const Point3f& from, const Point2f&) const {
   return from_point(position_, from, intensity_);
 }
 
-double PointLight::power(double) const {
+double PointEmitter::power(double) const {
   return 4 * kPiD * double(intensity_.luminance());
 }
 
-SpotLight::SpotLight(const Transform& to_world, const Spectrum& intensity, double cutoff,
-                     double beam_width, const Texture* texture)
+SpotEmitter::SpotEmitter(const Transform& to_world, const Spectrum& intensity, double cutoff,
+                         double beam_width, const Texture* texture)
     : Light(LightKind::position),
       to_world_(to_world),
       position_(to_world(Point3f(0, 0, 0))),
@@ -50,7 +50,7 @@ SpotLight::SpotLight(const Transform& to_world, const Spectrum& intensity, doubl
       uv_scale_(float(0.5 / std::tan(cutoff))),
       texture_(texture) {}
 
-std::optional<LightSample> SpotLight::sample_direct(const Point3f& from, const Point2f&) const {
+std::optional<LightSample> SpotEmitter::sample_direct(const Point3f& from, const Point2f&) const {
   const Vector3f local = to_world_.inverse(from - position_);
   // By the arc tangent, because the arc cosine knows nothing about narrow cones.
   const float angle = std::atan2(std::sqrt(local.x * local.x + local.y * local.y), local.z);
@@ -63,7 +63,7 @@ std::optional<LightSample> SpotLight::sample_direct(const Point3f& from, const P
   return from_point(position_, from, intensity);
 }
 
-double SpotLight::power(double) const {
+double SpotEmitter::power(double) const {
   // 2π ∫ falloff(θ) sin θ dθ
   const double fade = cutoff_ - beam_width_;
   const double solid_angle =
@@ -73,8 +73,8 @@ double SpotLight::power(double) const {
   return solid_angle * double(mean.luminance());
 }
 
-ProjectorLight::ProjectorLight(const Transform& to_world, const ColorSlot& irradiance, float scale,
-                               double horizontal_fov, double aspect)
+ProjectorEmitter::ProjectorEmitter(const Transform& to_world, const ColorSlot& irradiance,
+                                   float scale, double horizontal_fov, double aspect)
     : Light(LightKind::position),
       to_world_(to_world),
       position_(to_world(Point3f(0, 0, 0))),
@@ -86,8 +86,8 @@ ProjectorLight::ProjectorLight(const Transform& to_world, const ColorSlot& irrad
   inv_height_ = float(aspect / width);
 }
 
-std::optional<LightSample> ProjectorLight::sample_direct(const Point3f& from,
-                                                         const Point2f&) const {
+std::optional<LightSample> ProjectorEmitter::sample_direct(const Point3f& from,
+                                                           const Point2f&) const {
   const Vector3f local = to_world_.inverse(from - position_);
   if (!(local.z > 0)) return std::nullopt;
   // The image's first row is at the top; +x is at its left.
@@ -105,19 +105,19 @@ std::optional<LightSample> ProjectorLight::sample_direct(const Point3f& from,
   return s;
 }
 
-double ProjectorLight::power(double) const {
+double ProjectorEmitter::power(double) const {
   return kPiD * double(scale_) * double(irradiance_.average().luminance()) /
          (double(inv_width_) * double(inv_height_));
 }
 
-DirectionalLight::DirectionalLight(const Transform& to_world, const Spectrum& irradiance)
+DirectionalEmitter::DirectionalEmitter(const Transform& to_world, const Spectrum& irradiance)
     : Light(LightKind::direction) {
   const Vector3f z = to_world(Vector3f(0, 0, 1));
   toward_light_ = -normalize(z);
   irradiance_ = irradiance * length(z);
 }
 
-std::optional<LightSample> DirectionalLight::sample_direct(const Point3f&, const Point2f&) const {
+std::optional<LightSample> DirectionalEmitter::sample_direct(const Point3f&, const Point2f&) const {
   LightSample s;
   s.wi = toward_light_;
   s.weight = irradiance_;
@@ -126,7 +126,7 @@ std::optional<LightSample> DirectionalLight::sample_direct(const Point3f&, const
   return s;
 }
 
-double DirectionalLight::power(double scene_radius) const {
+double DirectionalEmitter::power(double scene_radius) const {
   return kPiD * scene_radius * scene_radius * double(irradiance_.luminance());
 }
 

@@ -7,9 +7,9 @@
 namespace duet {
 
 /// Sends the same radiant intensity (W/sr) into all directions.
-class PointLight final : public Light {
+class PointEmitter final : public Light {
  public:
-  PointLight(const Point3f& position, const Spectrum& intensity)
+  PointEmitter(const Point3f& position, const Spectrum& intensity)
       : Light(LightKind::position), position_(position), intensity_(intensity) {}
   std::optional<LightSample> sample_direct(const Point3f& from, const Point2f& u) const override;
   double power(double scene_radius) const override;
@@ -21,12 +21,12 @@ class PointLight final : public Light {
 
 /// A point that shines into a cone around its +z axis: with full intensity (W/sr) up to the angle
 /// `beam_width`, then fading linearly in the angle until `cutoff`. Radians.
-class SpotLight final : public Light {
+class SpotEmitter final : public Light {
  public:
   /// `texture` (or null) multiplies the intensity; the square around the cone at z = 1 is its
   /// domain.
-  SpotLight(const Transform& to_world, const Spectrum& intensity, double cutoff, double beam_width,
-            const Texture* texture);
+  SpotEmitter(const Transform& to_world, const Spectrum& intensity, double cutoff,
+              double beam_width, const Texture* texture);
   std::optional<LightSample> sample_direct(const Point3f& from, const Point2f& u) const override;
   double power(double scene_radius) const override;
 
@@ -42,11 +42,11 @@ class SpotLight final : public Light {
 /// A pinhole camera turned around: throws an image through a frustum along +z such that a plane
 /// across the axis sees the image undistorted. `irradiance` times π is what a plane at z = 1
 /// receives.
-class ProjectorLight final : public Light {
+class ProjectorEmitter final : public Light {
  public:
   /// `horizontal_fov` in degrees, of an image `aspect` times as wide as high.
-  ProjectorLight(const Transform& to_world, const ColorSlot& irradiance, float scale,
-                 double horizontal_fov, double aspect);
+  ProjectorEmitter(const Transform& to_world, const ColorSlot& irradiance, float scale,
+                   double horizontal_fov, double aspect);
   std::optional<LightSample> sample_direct(const Point3f& from, const Point2f& u) const override;
   double power(double scene_radius) const override;
 
@@ -60,11 +60,11 @@ class ProjectorLight final : public Light {
 };
 
 /// Parallel light from infinitely far away.
-class DirectionalLight final : public Light {
+class DirectionalEmitter final : public Light {
  public:
   /// Light travels along the transform's +z; `irradiance` is that of a plane across. A transform
   /// that stretches z multiplies it, as Mitsuba 3 does.
-  DirectionalLight(const Transform& to_world, const Spectrum& irradiance);
+  DirectionalEmitter(const Transform& to_world, const Spectrum& irradiance);
   std::optional<LightSample> sample_direct(const Point3f& from, const Point2f& u) const override;
   double power(double scene_radius) const override;
 

@@ -44,16 +44,17 @@ Frame rotation(const Matrix4& m) {
 
 }  // namespace
 
-std::optional<LightSample> ConstantLight::sample_direct(const Point3f&, const Point2f& u) const {
+std::optional<LightSample> ConstantEnvironment::sample_direct(const Point3f&,
+                                                              const Point2f& u) const {
   return from_afar(square_to_sphere(u), radiance_, pdf_direct({}));
 }
 
-double ConstantLight::power(double scene_radius) const {
+double ConstantEnvironment::power(double scene_radius) const {
   return sphere_power(scene_radius, double(radiance_.luminance()));
 }
 
-EnvironmentMapLight::EnvironmentMapLight(int width, int height, std::vector<Spectrum> texels,
-                                         const Matrix4& to_world)
+EnvironmentMap::EnvironmentMap(int width, int height, std::vector<Spectrum> texels,
+                               const Matrix4& to_world)
     : width_(width),
       height_(height),
       texels_(std::move(texels)),
@@ -79,12 +80,12 @@ EnvironmentMapLight::EnvironmentMapLight(int width, int height, std::vector<Spec
   }
 }
 
-inline PdfW EnvironmentMapLight::to_pdf(float density, float sin_theta) const {
+inline PdfW EnvironmentMap::to_pdf(float density, float sin_theta) const {
   // (u, v) = (φ / 2π, θ / π), dω = sin θ dθ dφ = 2π² sin θ du dv
   return {density / (2 * kPi * kPi * std::max(sin_theta, 1e-7f))};
 }
 
-inline EnvironmentMapLight::Place EnvironmentMapLight::find(const Vector3f& wi) const {
+inline EnvironmentMap::Place EnvironmentMap::find(const Vector3f& wi) const {
   const Vector3f d = axes_.to_local(wi);
   const float r = std::sqrt(d.x * d.x + d.z * d.z);
   // Texel centres are half a column off the image's edge; φ = 0 is the edge.
@@ -95,23 +96,22 @@ inline EnvironmentMapLight::Place EnvironmentMapLight::find(const Vector3f& wi) 
   return {i, j, x - float(i), y - float(j), r};
 }
 
-inline Spectrum EnvironmentMapLight::radiance(const Place& p) const {
+inline Spectrum EnvironmentMap::radiance(const Place& p) const {
   return lerp(lerp(texel(p.x, p.y), texel(p.x + 1, p.y), p.dx),
               lerp(texel(p.x, p.y + 1), texel(p.x + 1, p.y + 1), p.dx), p.dy);
 }
 
-Spectrum EnvironmentMapLight::emitted(const Vector3f& wi) const {
+Spectrum EnvironmentMap::emitted(const Vector3f& wi) const {
   return radiance(find(wi));
 }
 
-PdfW EnvironmentMapLight::pdf_direct(const Vector3f& wi) const {
+PdfW EnvironmentMap::pdf_direct(const Vector3f& wi) const {
   const Place p = find(wi);
   const auto node = [&](int x, int y) { return weight(x, y); };
   return to_pdf(distribution_.density(p.x, p.y, p.dx, p.dy, node), p.sin_theta);
 }
 
-std::optional<LightSample> EnvironmentMapLight::sample_direct(const Point3f&,
-                                                              const Point2f& u) const {
+std::optional<LightSample> EnvironmentMap::sample_direct(const Point3f&, const Point2f& u) const {
   const auto s = distribution_.sample(u, [&](int x, int y) { return weight(x, y); });
   float sin_theta, cos_theta, sin_phi, cos_phi;
   sincos_turns(0.5f * (float(s.y) + s.dy) / float(height_ - 1), sin_theta, cos_theta);
@@ -123,7 +123,7 @@ std::optional<LightSample> EnvironmentMapLight::sample_direct(const Point3f&,
   return from_afar(axes_.to_world(d), radiance(place), pdf);
 }
 
-double EnvironmentMapLight::power(double scene_radius) const {
+double EnvironmentMap::power(double scene_radius) const {
   return sphere_power(scene_radius, mean_);
 }
 

@@ -11,9 +11,9 @@
 namespace duet {
 
 /// The same radiance from all directions.
-class ConstantLight final : public EnvironmentLight {
+class ConstantEnvironment final : public EnvironmentLight {
  public:
-  explicit ConstantLight(const Spectrum& radiance) : radiance_(radiance) {}
+  explicit ConstantEnvironment(const Spectrum& radiance) : radiance_(radiance) {}
   std::optional<LightSample> sample_direct(const Point3f& from, const Point2f& u) const override;
   Spectrum emitted(const Vector3f&) const override { return radiance_; }
   PdfW pdf_direct(const Vector3f&) const override { return {0.25f * kInvPi}; }
@@ -27,11 +27,11 @@ class ConstantLight final : public EnvironmentLight {
 /// one −y, so rows are (height − 1) steps apart; the columns run from −z by +x, +z and −x back to
 /// −z, and column i of n has its centre at the angle (i + 1/2) / n. Radiance is interpolated
 /// bilinearly.
-class EnvironmentMapLight final : public EnvironmentLight {
+class EnvironmentMap final : public EnvironmentLight {
  public:
   /// `texels` has width × height values of radiance, width ≥ 1 and height ≥ 2. Only the rotation
   /// (and mirroring) of the transform counts.
-  EnvironmentMapLight(int width, int height, std::vector<Spectrum> texels, const Matrix4& to_world);
+  EnvironmentMap(int width, int height, std::vector<Spectrum> texels, const Matrix4& to_world);
 
   std::optional<LightSample> sample_direct(const Point3f& from, const Point2f& u) const override;
   Spectrum emitted(const Vector3f& wi) const override;

@@ -2,8 +2,8 @@
 
 namespace duet {
 
-BitmapTexture::BitmapTexture(std::shared_ptr<const BitmapPixels> pixels, TextureFilter filter,
-                             WrapMode wrap_u, WrapMode wrap_v, const UvTransform& to_uv)
+Bitmap::Bitmap(std::shared_ptr<const BitmapPixels> pixels, TextureFilter filter, WrapMode wrap_u,
+               WrapMode wrap_v, const UvTransform& to_uv)
     : pixels_(std::move(pixels)), filter_(filter), wrap_u_(wrap_u), wrap_v_(wrap_v) {
   const auto has = [&](WrapMode w) { return wrap_u == w || wrap_v == w; };
   bordered_ = has(WrapMode::zero) || has(WrapMode::one);
@@ -40,7 +40,7 @@ inline float fold_slope(float x, WrapMode wrap) {
 
 }  // namespace
 
-inline BitmapTexture::Span BitmapTexture::span(float coordinate, int size, WrapMode wrap) {
+inline Bitmap::Span Bitmap::span(float coordinate, int size, WrapMode wrap) {
   const float end = fold(coordinate, wrap) * float(size) + 0.5f;
   if (wrap == WrapMode::repeat) {
     const int i = int(end);
@@ -57,7 +57,7 @@ inline BitmapTexture::Span BitmapTexture::span(float coordinate, int size, WrapM
   return {texel(i), texel(i + 1), t};
 }
 
-inline int BitmapTexture::nearest(float coordinate, int size, WrapMode wrap) {
+inline int Bitmap::nearest(float coordinate, int size, WrapMode wrap) {
   const int i = round_down(fold(coordinate, wrap) * float(size));
   if (wrap == WrapMode::zero || wrap == WrapMode::one)
     if (i < 0 || i >= size) return wrap == WrapMode::zero ? kZero : kOne;
@@ -65,7 +65,7 @@ inline int BitmapTexture::nearest(float coordinate, int size, WrapMode wrap) {
 }
 
 template <class Texel>
-inline auto BitmapTexture::look_up(const Surface& s, const Texel& texel) const {
+inline auto Bitmap::look_up(const Surface& s, const Texel& texel) const {
   const Point2f p = image_coordinates(s.uv);
   if (filter_ == TextureFilter::nearest)
     return texel(nearest(p.x, pixels_->width(), wrap_u_), nearest(p.y, pixels_->height(), wrap_v_));
@@ -77,7 +77,7 @@ inline auto BitmapTexture::look_up(const Surface& s, const Texel& texel) const {
 
 /// Texels with constants around them, for the modes of 0.x.
 template <class Texel>
-inline auto BitmapTexture::bordered(const Texel& texel) {
+inline auto Bitmap::bordered(const Texel& texel) {
   return [&texel](int x, int y) {
     using Value = decltype(texel(0, 0));
     if (x < 0 || y < 0) return Value((x < 0 ? x : y) == kZero ? 0.0f : 1.0f);
@@ -85,27 +85,27 @@ inline auto BitmapTexture::bordered(const Texel& texel) {
   };
 }
 
-inline float BitmapTexture::grey(const Surface& s) const {
+inline float Bitmap::grey(const Surface& s) const {
   return pixels_->visit_grey([&](const auto& texel) {
     return bordered_ ? look_up(s, bordered(texel)) : look_up(s, texel);
   });
 }
 
-inline Spectrum BitmapTexture::full_color(const Surface& s) const {
+inline Spectrum Bitmap::full_color(const Surface& s) const {
   return pixels_->visit_color([&](const auto& texel) {
     return bordered_ ? look_up(s, bordered(texel)) : look_up(s, texel);
   });
 }
 
-Spectrum BitmapTexture::color(const Surface& s) const {
+Spectrum Bitmap::color(const Surface& s) const {
   return pixels_->is_grey() ? Spectrum(grey(s)) : full_color(s);
 }
 
-float BitmapTexture::value(const Surface& s) const {
+float Bitmap::value(const Surface& s) const {
   return pixels_->is_grey() ? grey(s) : full_color(s).luminance();
 }
 
-Point2f BitmapTexture::gradient(const Surface& s) const {
+Point2f Bitmap::gradient(const Surface& s) const {
   if (filter_ == TextureFilter::nearest) return {0, 0};
   const BitmapPixels& pixels = *pixels_;
   const auto texel = [&](int x, int y) { return pixels.value(x, y); };

@@ -10,10 +10,10 @@ namespace duet {
 
 /// An image on the unit square of texture coordinates: the first row lies along v = 0, texel i of n
 /// has its centre at (i + 1/2) / n. Several textures may share the pixels.
-class BitmapTexture final : public Texture {
+class Bitmap final : public Texture {
  public:
-  BitmapTexture(std::shared_ptr<const BitmapPixels> pixels, TextureFilter filter, WrapMode wrap_u,
-                WrapMode wrap_v, const UvTransform& to_uv);
+  Bitmap(std::shared_ptr<const BitmapPixels> pixels, TextureFilter filter, WrapMode wrap_u,
+         WrapMode wrap_v, const UvTransform& to_uv);
 
   Spectrum color(const Surface& s) const override;
   float value(const Surface& s) const override;

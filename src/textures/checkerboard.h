@@ -7,11 +7,11 @@ namespace duet {
 
 /// Two by two fields on the unit square of texture coordinates, repeated everywhere; the first
 /// colour lies at the origin.
-class CheckerboardTexture final : public Texture {
+class Checkerboard final : public Texture {
  public:
   /// Asked for a number, Mitsuba 3 exchanges the two colours; `swap_values` does, too.
-  CheckerboardTexture(const ColorSlot& first, const ColorSlot& second, const UvTransform& to_uv,
-                      bool swap_values);
+  Checkerboard(const ColorSlot& first, const ColorSlot& second, const UvTransform& to_uv,
+               bool swap_values);
 
   Spectrum color(const Surface& s) const override;
   float value(const Surface& s) const override;

@@ -5,10 +5,10 @@
 
 namespace duet {
 
-MeshAttributeTexture::MeshAttributeTexture(std::string attribute, float scale)
+MeshAttributeMap::MeshAttributeMap(std::string attribute, float scale)
     : attribute_(std::move(attribute)), scale_(scale) {}
 
-bool MeshAttributeTexture::add_mesh(const TriangleMesh& mesh) {
+bool MeshAttributeMap::add_mesh(const TriangleMesh& mesh) {
   const MeshAttribute* data = mesh.find_attribute(attribute_);
   if (!data) return false;
   const auto at = std::lower_bound(
@@ -18,7 +18,7 @@ bool MeshAttributeTexture::add_mesh(const TriangleMesh& mesh) {
   return true;
 }
 
-const MeshAttributeTexture::Entry& MeshAttributeTexture::find(const Surface& s) const {
+const MeshAttributeMap::Entry& MeshAttributeMap::find(const Surface& s) const {
   const TriangleMesh* mesh = s.shape->mesh.get();
   size_t lower = 0, upper = entries_.size();
   while (upper - lower > 1) {
@@ -28,13 +28,13 @@ const MeshAttributeTexture::Entry& MeshAttributeTexture::find(const Surface& s) 
   return entries_[lower];
 }
 
-Spectrum MeshAttributeTexture::element(const MeshAttribute& data, uint32_t index) const {
+Spectrum MeshAttributeMap::element(const MeshAttribute& data, uint32_t index) const {
   if (data.channels == 1) return Spectrum(data.data[index] * scale_);
   const float* p = &data.data[3 * size_t(index)];
   return Spectrum(p[0], p[1], p[2]) * scale_;
 }
 
-Spectrum MeshAttributeTexture::color(const Surface& s) const {
+Spectrum MeshAttributeMap::color(const Surface& s) const {
   const Entry& e = find(s);
   if (e.data->per_face) return element(*e.data, s.primitive);
   const auto& t = e.mesh->triangles[s.primitive];
@@ -43,11 +43,11 @@ Spectrum MeshAttributeTexture::color(const Surface& s) const {
          element(*e.data, t[2]) * b.y;
 }
 
-float MeshAttributeTexture::value(const Surface& s) const {
+float MeshAttributeMap::value(const Surface& s) const {
   return find(s).data->channels == 1 ? color(s).r : color(s).luminance();
 }
 
-Point2f MeshAttributeTexture::gradient(const Surface& s) const {
+Point2f MeshAttributeMap::gradient(const Surface& s) const {
   const Entry& e = find(s);
   if (e.data->per_face || e.mesh->uvs.empty()) return {0, 0};
   const auto& t = e.mesh->triangles[s.primitive];
@@ -60,7 +60,7 @@ Point2f MeshAttributeTexture::gradient(const Surface& s) const {
   return {(f1 * b.y - f2 * a.y) / det, (f2 * a.x - f1 * b.x) / det};
 }
 
-Spectrum MeshAttributeTexture::average() const {
+Spectrum MeshAttributeMap::average() const {
   double sum[3] = {0, 0, 0};
   size_t n = 0;
   for (const Entry& e : entries_) {
@@ -75,7 +75,7 @@ Spectrum MeshAttributeTexture::average() const {
   return {float(sum[0] / double(n)), float(sum[1] / double(n)), float(sum[2] / double(n))};
 }
 
-float MeshAttributeTexture::maximum() const {
+float MeshAttributeMap::maximum() const {
   float m = 0;
   for (const Entry& e : entries_)
     for (const float v : e.data->data) m = std::max(m, v * scale_);

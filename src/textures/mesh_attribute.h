@@ -10,9 +10,9 @@ namespace duet {
 
 /// An attribute of the mesh that is hit, times a scale: interpolated between vertices, or constant
 /// on each face. Every mesh on which the texture is used must be announced first.
-class MeshAttributeTexture final : public Texture {
+class MeshAttributeMap final : public Texture {
  public:
-  MeshAttributeTexture(std::string attribute, float scale);
+  MeshAttributeMap(std::string attribute, float scale);
 
   /// Announces a mesh; false if it has no such attribute. The mesh must stay where it is.
   bool add_mesh(const TriangleMesh& mesh);

@@ -157,8 +157,8 @@ TEST_CASE("textured area lights are sampled where they shine") {
   std::vector<float> pixels(size_t(32) * 32 * 3, 0.02f);
   for (int y = 20; y < 24; ++y)
     for (int x = 6; x < 10; ++x) pixels[size_t(y * 32 + x) * 3 + 1] = 50;
-  const BitmapTexture image(std::make_shared<BitmapPixels>(32, 32, 3, pixels),
-                            TextureFilter::bilinear, WrapMode::repeat, WrapMode::repeat, {});
+  const Bitmap image(std::make_shared<BitmapPixels>(32, 32, 3, pixels), TextureFilter::bilinear,
+                     WrapMode::repeat, WrapMode::repeat, {});
   const ColorSlot slot{{}, &image};
   const Lamp screen(mesh(make_rectangle(), Matrix4::rotate(35, 3, 1, 2)), slot);
   const Point3f from(0.5f, 0.9f, 1.2f);
@@ -184,8 +184,8 @@ TEST_CASE("textured area lights are sampled where they shine") {
 TEST_CASE("pictures of soft contrast are sampled as their densities say") {
   std::vector<float> pixels(size_t(8) * 8);
   for (size_t i = 0; i < pixels.size(); ++i) pixels[i] = 2 + std::sin(float(i) * 0.3f);
-  const BitmapTexture image(std::make_shared<BitmapPixels>(8, 8, 1, pixels),
-                            TextureFilter::bilinear, WrapMode::repeat, WrapMode::repeat, {});
+  const Bitmap image(std::make_shared<BitmapPixels>(8, 8, 1, pixels), TextureFilter::bilinear,
+                     WrapMode::repeat, WrapMode::repeat, {});
   const ColorSlot slot{{}, &image};
   check_lamp(Lamp(mesh(make_rectangle(), Matrix4::rotate(35, 3, 1, 2)), slot), {0.5f, 0.9f, 1.2f},
              "rectangle");
@@ -196,8 +196,8 @@ TEST_CASE("pictures of soft contrast are sampled as their densities say") {
 TEST_CASE("cells cover a mesh once, whatever it shows") {
   std::vector<float> pixels(64 * 64);
   for (size_t i = 0; i < pixels.size(); ++i) pixels[i] = float(i % 7) * float(i % 64 > 20);
-  const BitmapTexture image(std::make_shared<BitmapPixels>(64, 64, 1, pixels),
-                            TextureFilter::bilinear, WrapMode::repeat, WrapMode::repeat, {});
+  const Bitmap image(std::make_shared<BitmapPixels>(64, 64, 1, pixels), TextureFilter::bilinear,
+                     WrapMode::repeat, WrapMode::repeat, {});
   TriangleMesh m = fan();
   m.uvs = {{0, 0}, {1, 0.1f}, {0.9f, 0.5f}, {0.2f, 1}, {0.1f, 0.4f}};
   Shape shape = mesh(m, Matrix4{});

@@ -17,7 +17,7 @@ constexpr double kDegree = 3.14159265358979323846 / 180;
 
 std::unique_ptr<Texture> to_image(const test::Json& t) {
   const int w = t["width"], h = t["height"];
-  return std::make_unique<BitmapTexture>(
+  return std::make_unique<Bitmap>(
       std::make_shared<BitmapPixels>(w, h, 3, t["pixels"].get<std::vector<float>>()),
       TextureFilter::bilinear, WrapMode::repeat, WrapMode::repeat, UvTransform{});
 }
@@ -32,13 +32,13 @@ std::unique_ptr<Light> to_light(const test::Json& c, const Texture* image) {
   const Transform to_world(test::to_matrix(c["to_world"]));
   if (!c["textured"]) image = nullptr;
   if (kind == "point")
-    return std::make_unique<PointLight>(to_world(Point3f(0, 0, 0)), color(p, "intensity"));
+    return std::make_unique<PointEmitter>(to_world(Point3f(0, 0, 0)), color(p, "intensity"));
   if (kind == "directional")
-    return std::make_unique<DirectionalLight>(to_world, color(p, "irradiance"));
+    return std::make_unique<DirectionalEmitter>(to_world, color(p, "irradiance"));
   if (kind == "spot") {
     const double cutoff = p.value("cutoff_angle", 20.0);
-    return std::make_unique<SpotLight>(to_world, color(p, "intensity"), cutoff * kDegree,
-                                       p.value("beam_width", 0.75 * cutoff) * kDegree, image);
+    return std::make_unique<SpotEmitter>(to_world, color(p, "intensity"), cutoff * kDegree,
+                                         p.value("beam_width", 0.75 * cutoff) * kDegree, image);
   }
   const ColorSlot slot{color(p, "irradiance"), image};
   const Point2i size = image ? image->resolution() : Point2i{1, 1};
@@ -49,8 +49,8 @@ std::unique_ptr<Light> to_light(const test::Json& c, const Texture* image) {
                            : axis == "smaller"  ? FovAxis::smaller
                            : axis == "larger"   ? FovAxis::larger
                                                 : FovAxis::x;
-  return std::make_unique<ProjectorLight>(to_world, slot, p.value("scale", 1.0f),
-                                          horizontal_fov(p["fov"], fov_axis, aspect), aspect);
+  return std::make_unique<ProjectorEmitter>(to_world, slot, p.value("scale", 1.0f),
+                                            horizontal_fov(p["fov"], fov_axis, aspect), aspect);
 }
 
 }  // namespace
@@ -98,10 +98,12 @@ TEST_CASE("the power of a light at a point is the integral of what it sends") {
   const Point3f center = to_world(Point3f(0, 0, 0));
   const Spectrum rgb(1, 2, 3);
   std::vector<std::unique_ptr<Light>> lights;
-  lights.push_back(std::make_unique<PointLight>(center, rgb));
-  lights.push_back(std::make_unique<SpotLight>(to_world, rgb, 50 * kDegree, 20 * kDegree, nullptr));
-  lights.push_back(std::make_unique<SpotLight>(to_world, rgb, 35 * kDegree, 35 * kDegree, nullptr));
-  lights.push_back(std::make_unique<ProjectorLight>(to_world, ColorSlot{rgb}, 2.0f, 60, 1.5));
+  lights.push_back(std::make_unique<PointEmitter>(center, rgb));
+  lights.push_back(
+      std::make_unique<SpotEmitter>(to_world, rgb, 50 * kDegree, 20 * kDegree, nullptr));
+  lights.push_back(
+      std::make_unique<SpotEmitter>(to_world, rgb, 35 * kDegree, 35 * kDegree, nullptr));
+  lights.push_back(std::make_unique<ProjectorEmitter>(to_world, ColorSlot{rgb}, 2.0f, 60, 1.5));
   for (const auto& light : lights) {
     Sampler sampler(SampleSequence::sobol, 1, 0, 0);
     double sum = 0;
@@ -113,12 +115,12 @@ TEST_CASE("the power of a light at a point is the integral of what it sends") {
     }
     CHECK(light->power(1e9) == doctest::Approx(sum / n * 4 * 3.14159265).epsilon(5e-3));
   }
-  const DirectionalLight sun(to_world, rgb);
+  const DirectionalEmitter sun(to_world, rgb);
   CHECK(sun.power(3) == doctest::Approx(9 * 3.14159265 * double(rgb.luminance())));
 }
 
 TEST_CASE("a narrow spot fades evenly") {
-  const SpotLight light(Transform{}, Spectrum(1), 0.1 * kDegree, 0, nullptr);
+  const SpotEmitter light(Transform{}, Spectrum(1), 0.1 * kDegree, 0, nullptr);
   for (int i = 1; i < 10; ++i) {
     const double angle = 0.01 * i * kDegree;
     const auto s =

@@ -19,7 +19,7 @@ std::vector<Spectrum> to_texels(const test::Json& pixels, float scale) {
 }
 
 /// A map with a sun, black parts and a bright pole.
-EnvironmentMapLight make_map(int width, int height, const Matrix4& to_world) {
+EnvironmentMap make_map(int width, int height, const Matrix4& to_world) {
   std::vector<Spectrum> texels;
   for (int y = 0; y < height; ++y)
     for (int x = 0; x < width; ++x) {
@@ -74,8 +74,8 @@ TEST_CASE("environment maps show what Mitsuba's show") {
   const test::Json table = test::read_table("lights");
   const int w = table["sky"]["width"], h = table["sky"]["height"];
   for (const test::Json& e : table["environments"]) {
-    const EnvironmentMapLight light(w, h, to_texels(table["sky"]["pixels"], e["scale"]),
-                                    test::to_matrix(e["to_world"]));
+    const EnvironmentMap light(w, h, to_texels(table["sky"]["pixels"], e["scale"]),
+                               test::to_matrix(e["to_world"]));
     const Transform to_world(test::to_matrix(e["to_world"]));
     double ratio = 0;
     for (const test::Json& row : e["directions"]) {
@@ -96,17 +96,17 @@ TEST_CASE("environment maps show what Mitsuba's show") {
 }
 
 TEST_CASE("environment lights are sampled as their densities say") {
-  check_light(ConstantLight(Spectrum(1, 2, 3)), 1);
+  check_light(ConstantEnvironment(Spectrum(1, 2, 3)), 1);
   check_light(make_map(16, 9, Matrix4{}), 2);
   check_light(make_map(7, 12, Matrix4::rotate(50, 1, 2, 3) * Matrix4::scale(-2, 2, 2)), 3);
   check_light(make_map(2, 3, Matrix4{}), 4);
-  check_light(EnvironmentMapLight(8, 5, std::vector<Spectrum>(40, Spectrum(2)), Matrix4{}), 5);
+  check_light(EnvironmentMap(8, 5, std::vector<Spectrum>(40, Spectrum(2)), Matrix4{}), 5);
 }
 
 TEST_CASE("a light that shines only from the pole is found there") {
   std::vector<Spectrum> texels(64 * 32);
   for (size_t i = 0; i < 64; ++i) texels[i] = Spectrum(1000);
-  const EnvironmentMapLight light(64, 32, texels, Matrix4{});
+  const EnvironmentMap light(64, 32, texels, Matrix4{});
   Sampler sampler(SampleSequence::independent, 1, 0, 0);
   test::Moments moments;
   for (int i = 0; i < 20000; ++i) {
@@ -124,7 +124,7 @@ TEST_CASE("a light that shines only from the pole is found there") {
 }
 
 TEST_CASE("a black environment is no trouble") {
-  const EnvironmentMapLight light(4, 3, std::vector<Spectrum>(12), Matrix4{});
+  const EnvironmentMap light(4, 3, std::vector<Spectrum>(12), Matrix4{});
   CHECK(light.power(1) == 0);
   CHECK(light.emitted({0, 1, 0}).is_black());
   const auto s = light.sample_direct({}, {0.3f, 0.7f});

@@ -15,11 +15,11 @@ struct Lights {
   std::vector<std::unique_ptr<Light>> lights;
   std::vector<double> factors;
   void point(float intensity, double factor = 1) {
-    lights.push_back(std::make_unique<PointLight>(Point3f(0, 0, 0), Spectrum(intensity)));
+    lights.push_back(std::make_unique<PointEmitter>(Point3f(0, 0, 0), Spectrum(intensity)));
     factors.push_back(factor);
   }
   void sky(float radiance) {
-    lights.push_back(std::make_unique<ConstantLight>(Spectrum(radiance)));
+    lights.push_back(std::make_unique<ConstantEnvironment>(Spectrum(radiance)));
     factors.push_back(1);
   }
   /// Normalised weights.

@@ -41,14 +41,14 @@ std::shared_ptr<const BitmapPixels> to_pixels(const test::Json& t) {
 std::unique_ptr<Texture> to_texture(const test::Json& t) {
   const UvTransform to_uv = to_uv_transform(t["to_uv"]);
   if (t["kind"] == "checkerboard")
-    return std::make_unique<CheckerboardTexture>(ColorSlot{{0.1f, 0.4f, 0.7f}},
-                                                 ColorSlot{{0.9f, 0.2f, 0.3f}}, to_uv, true);
+    return std::make_unique<Checkerboard>(ColorSlot{{0.1f, 0.4f, 0.7f}},
+                                          ColorSlot{{0.9f, 0.2f, 0.3f}}, to_uv, true);
   const WrapMode wrap = t["wrap"] == "repeat"   ? WrapMode::repeat
                         : t["wrap"] == "mirror" ? WrapMode::mirror
                                                 : WrapMode::clamp;
   const TextureFilter filter =
       t["filter"] == "nearest" ? TextureFilter::nearest : TextureFilter::bilinear;
-  return std::make_unique<BitmapTexture>(to_pixels(t), filter, wrap, wrap, to_uv);
+  return std::make_unique<Bitmap>(to_pixels(t), filter, wrap, wrap, to_uv);
 }
 
 Surface at(float u, float v) {
@@ -103,7 +103,7 @@ TEST_CASE("mesh attributes are interpolated as Mitsuba does") {
   Shape shape;
   shape.mesh = std::make_shared<TriangleMesh>(mesh);
   for (const test::Json& a : table["attributes"]) {
-    MeshAttributeTexture texture(a["name"], a["scale"]);
+    MeshAttributeMap texture(a["name"], a["scale"]);
     REQUIRE(texture.add_mesh(*shape.mesh));
     for (const test::Json& row : a["lookups"]) {
       INFO(a["name"].dump() << " " << row.dump());
@@ -144,7 +144,7 @@ TEST_CASE("mesh attributes are interpolated as Mitsuba does") {
       check_near(g.y, moved(0, 0.125f) * 8, 1e-4f);
     }
   }
-  MeshAttributeTexture other("vertex_nothing", 1);
+  MeshAttributeMap other("vertex_nothing", 1);
   CHECK_FALSE(other.add_mesh(*shape.mesh));
 }
 
@@ -173,7 +173,7 @@ TEST_CASE("the channels of a file become a texture's") {
 TEST_CASE("0.x textures may end in black or white") {
   const auto pixels = std::make_shared<BitmapPixels>(2, 1, 1, std::vector<float>{0.25f, 0.5f});
   const auto value = [&](WrapMode wrap, float u, TextureFilter filter = TextureFilter::bilinear) {
-    return BitmapTexture(pixels, filter, wrap, WrapMode::clamp, {}).value(at(u, 0.5f));
+    return Bitmap(pixels, filter, wrap, WrapMode::clamp, {}).value(at(u, 0.5f));
   };
   CHECK(value(WrapMode::zero, 0.25f) == 0.25f);
   CHECK(value(WrapMode::zero, 0.0f) == 0.125f);
@@ -192,7 +192,7 @@ TEST_CASE("no texture coordinate leads out of the image") {
     for (const TextureFilter filter : {TextureFilter::nearest, TextureFilter::bilinear})
       for (const float u :
            {NAN, INFINITY, -INFINITY, 3e38f, -1e-9f, 1e-45f, 1e9f, 1.0f, 0x1.fffffep-1f}) {
-        const BitmapTexture texture(pixels, filter, wrap, wrap, {});
+        const Bitmap texture(pixels, filter, wrap, wrap, {});
         for (const Surface& s : {at(u, 0.5f), at(0.5f, u), at(u, u)}) {
           const float v = texture.value(s);
           CHECK((std::isnan(v) || (v >= 0 && v <= 1)));

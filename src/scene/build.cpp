@@ -1,0 +1,69 @@
+#include "scene/build.h"
+
+#include "cameras/orthographic.h"
+#include "cameras/perspective.h"
+#include "scene/builder.h"
+
+namespace duet {
+
+std::unique_ptr<Scene> build_scene(SceneDescription description, const BuildOptions& options,
+                                   Diagnostics& diagnostics) {
+  return SceneBuilder(std::move(description), options, diagnostics).build();
+}
+
+SceneBuilder::SceneBuilder(SceneDescription description, const BuildOptions& options,
+                           Diagnostics& diagnostics)
+    : description_(std::move(description)),
+      options_(options),
+      diagnostics_(diagnostics),
+      scene_(std::make_unique<Scene>()),
+      textures_(description_.textures.size()),
+      materials_(description_.materials.size()) {}
+
+std::unique_ptr<Scene> SceneBuilder::build() {
+  const size_t errors = diagnostics_.error_count();
+  shapes();
+  lights();
+  camera();
+  if (diagnostics_.error_count() > errors) return nullptr;
+  Scene& scene = *scene_;
+  scene.accel = std::make_unique<Accel>(scene.shapes, scene.top, scene.groups, scene.instances,
+                                        options_.threads);
+  scene.picker = LightPicker(
+      selection_weights(scene.lights, sampling_weights_, scene.accel->bounds().radius()));
+  return std::move(scene_);
+}
+
+bool SceneBuilder::check_transform(const Matrix4& m, const SourceLocation& where) {
+  if (!m.is_finite() || !m.is_affine())
+    diagnostics_.error(where, "the transform is not affine");
+  else if (!m.inverse())
+    diagnostics_.error(where, "the transform cannot be inverted");
+  else
+    return true;
+  return false;
+}
+
+void SceneBuilder::camera() {
+  const SensorDescription& d = description_.sensors.at(options_.sensor);
+  if (!check_transform(d.to_world, d.where)) return;
+  const Point2i film{d.film.width, d.film.height};
+  if (d.kind == SensorKind::orthographic) {
+    scene_->camera = std::make_unique<OrthographicCamera>(
+        OrthographicView{Transform(d.to_world), film, d.near_clip, d.far_clip});
+    return;
+  }
+  const PerspectiveView view{Transform(d.to_world),
+                             film,
+                             horizontal_fov(d.fov, d.fov_axis, double(film.x) / film.y),
+                             d.principal_point_offset_x,
+                             d.principal_point_offset_y,
+                             d.near_clip,
+                             d.far_clip};
+  if (d.kind == SensorKind::thinlens)
+    scene_->camera = std::make_unique<ThinLensCamera>(view, d.aperture_radius, d.focus_distance);
+  else
+    scene_->camera = std::make_unique<PerspectiveCamera>(view);
+}
+
+}  // namespace duet

@@ -1,0 +1,89 @@
+// Builds lights from their descriptions and prepares the choice among them.
+#include "lights/area.h"
+#include "lights/delta.h"
+#include "lights/environment.h"
+#include "scene/builder.h"
+
+namespace duet {
+
+namespace {
+
+constexpr double kRadians = 3.14159265358979323846 / 180;
+
+}  // namespace
+
+void SceneBuilder::add_light(std::unique_ptr<Light> light, double sampling_weight) {
+  scene_->lights.push_back(std::move(light));
+  sampling_weights_.push_back(sampling_weight);
+}
+
+void SceneBuilder::lights() {
+  Scene& scene = *scene_;
+  for (const Emission& e : emissions_) {
+    Shape& shape = scene.shapes[e.shape];
+    if (!(surface_area(shape) > 0)) {
+      diagnostics_.error(e.where, "this light's shape has no area");
+      continue;
+    }
+    shape.light = uint32_t(scene.lights.size());
+    add_light(std::make_unique<AreaLight>(shape, e.radiance), e.sampling_weight);
+  }
+  for (const LightDescription& d : description_.lights) {
+    if (!check_transform(d.to_world, d.where)) continue;
+    auto light = std::visit([&](const auto& l) { return make(l, d); }, d.model);
+    if (!light) continue;
+    if (light->kind() == LightKind::environment) {
+      scene.environment = static_cast<const EnvironmentLight*>(light.get());
+      scene.environment_index = uint32_t(scene.lights.size());
+    }
+    add_light(std::move(light), d.sampling_weight);
+  }
+}
+
+std::unique_ptr<Light> SceneBuilder::make(const PointLight& l, const LightDescription& d) {
+  return std::make_unique<PointEmitter>(Transform(d.to_world)(Point3f(0, 0, 0)), l.intensity);
+}
+
+std::unique_ptr<Light> SceneBuilder::make(const SpotLight& l, const LightDescription& d) {
+  const Texture* image = l.texture ? texture(*l.texture) : nullptr;
+  return std::make_unique<SpotEmitter>(Transform(d.to_world), l.intensity,
+                                       l.cutoff_angle * kRadians, l.beam_width * kRadians, image);
+}
+
+std::unique_ptr<Light> SceneBuilder::make(const ProjectorLight& l, const LightDescription& d) {
+  const ColorSlot irradiance = slot(l.irradiance);
+  const Point2i size = irradiance.texture ? irradiance.texture->resolution() : Point2i{1, 1};
+  const double aspect = double(size.x) / size.y;
+  return std::make_unique<ProjectorEmitter>(Transform(d.to_world), irradiance, float(l.scale),
+                                            horizontal_fov(l.fov, l.fov_axis, aspect), aspect);
+}
+
+std::unique_ptr<Light> SceneBuilder::make(const DirectionalLight& l, const LightDescription& d) {
+  return std::make_unique<DirectionalEmitter>(Transform(d.to_world), l.irradiance);
+}
+
+std::unique_ptr<Light> SceneBuilder::make(const ConstantLight& l, const LightDescription&) {
+  return std::make_unique<ConstantEnvironment>(l.radiance);
+}
+
+std::unique_ptr<Light> SceneBuilder::make(const EnvironmentMapLight& l, const LightDescription& d) {
+  const auto image = pixels(l.file, {.gamma = l.gamma}, d.where);
+  if (!image) return nullptr;
+  const int width = image->width(), height = image->height();
+  if (height < 2 || width >= BilinearDistribution::kMaxWidth) {
+    diagnostics_.error(d.where,
+                       "an environment map of {}x{} pixels; it needs two rows and fewer than {} "
+                       "columns",
+                       width, height, BilinearDistribution::kMaxWidth);
+    return nullptr;
+  }
+  std::vector<Spectrum> texels(size_t(width) * size_t(height));
+  for (int y = 0; y < height; ++y)
+    for (int x = 0; x < width; ++x)
+      texels[size_t(y) * size_t(width) + size_t(x)] = image->color(x, y) * float(l.scale);
+  // Nobody else reads it as a texture in this form: room for the light's own copy.
+  pixels_.clear();
+  return std::make_unique<EnvironmentMap>(width, height, std::move(texels), d.to_world);
+}
+
+}  // namespace duet

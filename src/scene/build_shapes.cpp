@@ -1,0 +1,133 @@
+// Builds shapes from their descriptions: meshes move to world space and lose what nobody asks for.
+#include "scene/builder.h"
+
+namespace duet {
+
+namespace {
+
+/// Forgets vertex normals that say what the triangles say already.
+void drop_flat_normals(TriangleMesh& mesh) {
+  constexpr float kSame = 1 - 1e-6f;
+  for (const auto& t : mesh.triangles) {
+    const Point3f &a = mesh.positions[t[0]], &b = mesh.positions[t[1]], &c = mesh.positions[t[2]];
+    const Vector3f n = cross(b - a, c - a);
+    const float l = length(n);
+    if (l == 0) continue;
+    for (const uint32_t v : t)
+      if (!(dot(Vector3f(mesh.normals[v]), n) > kSame * l)) return;
+  }
+  mesh.normals = {};
+}
+
+bool has_finite_positions(const TriangleMesh& mesh) {
+  for (const Point3f& p : mesh.positions)
+    if (!std::isfinite(p.x) || !std::isfinite(p.y) || !std::isfinite(p.z)) return false;
+  return true;
+}
+
+/// Leaves out what neither the materials and lights nor the layers of the image read.
+void strip(TriangleMesh& mesh, const SurfaceNeeds& needs,
+           const std::set<MeshAttributeMap*>& attributes) {
+  if (!needs.uv && !needs.tangents) mesh.uvs = {};
+  if (!mesh.normals.empty()) drop_flat_normals(mesh);
+  std::erase_if(mesh.attributes, [&](const MeshAttribute& a) {
+    for (const MeshAttributeMap* used : attributes)
+      if (used->attribute() == a.name) return false;
+    return true;
+  });
+}
+
+}  // namespace
+
+std::shared_ptr<TriangleMesh> SceneBuilder::world_mesh(ShapeDescription& d) {
+  std::shared_ptr<TriangleMesh> mesh;
+  if (auto* shape = std::get_if<MeshShape>(&d.geometry)) {
+    // A mesh that nobody else holds is taken over; it was not made const.
+    if (shape->mesh.use_count() == 1)
+      mesh = std::const_pointer_cast<TriangleMesh>(std::move(shape->mesh));
+    else
+      mesh = std::make_shared<TriangleMesh>(*shape->mesh);
+    shape->mesh.reset();
+  } else if (std::holds_alternative<CubeShape>(d.geometry)) {
+    mesh = std::make_shared<TriangleMesh>(make_cube());
+  } else {
+    mesh = std::make_shared<TriangleMesh>(make_rectangle());
+  }
+  transform_mesh(*mesh, d.to_world);
+  // Embree may read 4 bytes beyond the last vertex.
+  mesh->positions.reserve(mesh->positions.size() + 1);
+  return mesh;
+}
+
+void SceneBuilder::shapes() {
+  Scene& scene = *scene_;
+  size_t count = 0;
+  const auto add_all = [&](std::vector<ShapeDescription>& descriptions) {
+    const size_t first = scene.shapes.size();
+    for (ShapeDescription& d : descriptions)
+      if (!std::holds_alternative<InstanceShape>(d.geometry)) add_shape(d);
+    return ShapeRange{uint32_t(first), uint32_t(scene.shapes.size() - first)};
+  };
+  for (const ShapeGroupDescription& g : description_.groups) count += g.shapes.size();
+  scene.shapes.reserve(count + description_.shapes.size());
+  scene.top = add_all(description_.shapes);
+  for (ShapeGroupDescription& g : description_.groups) scene.groups.push_back(add_all(g.shapes));
+  for (const ShapeDescription& d : description_.shapes)
+    if (const auto* instance = std::get_if<InstanceShape>(&d.geometry))
+      add_instance(d, instance->group);
+}
+
+void SceneBuilder::add_instance(const ShapeDescription& d, uint32_t group) {
+  if (!check_transform(d.to_world, d.where)) return;
+  // The Frobenius norm bounds the largest stretch.
+  double squares = 0;
+  for (int i = 0; i < 3; ++i)
+    for (int j = 0; j < 3; ++j) squares += d.to_world[i][size_t(j)] * d.to_world[i][size_t(j)];
+  scene_->instances.push_back({group, Transform(d.to_world), float(std::sqrt(squares))});
+}
+
+void SceneBuilder::add_shape(ShapeDescription& d) {
+  if (!check_transform(d.to_world, d.where)) return;
+  AttributeSet outer = std::exchange(attributes_, {});
+  const Material* made = material(d.material);
+  Shape shape;
+  shape.flip_normals = d.flip_normals;
+  shape.needs = options_.layer_needs;
+  if (made) shape.needs = shape.needs | made->needs();
+  shape.material = materials_[size_t(d.material)].index;
+  if (d.emission) {
+    const ColorSlot radiance = slot(d.emission->radiance);
+    shape.needs.uv |= radiance.needs_uv();
+    emissions_.push_back(
+        {scene_->shapes.size(), radiance, d.emission->sampling_weight, d.emission->where});
+  }
+  if (std::holds_alternative<SphereShape>(d.geometry)) {
+    shape.kind = ShapeKind::sphere;
+  } else if (std::holds_alternative<DiskShape>(d.geometry)) {
+    shape.kind = ShapeKind::disk;
+  } else if (std::holds_alternative<CylinderShape>(d.geometry)) {
+    shape.kind = ShapeKind::cylinder;
+  } else {
+    auto mesh = world_mesh(d);
+    if (!has_finite_positions(*mesh))
+      diagnostics_.error(d.where, "the transform moves vertices beyond the range of numbers");
+    strip(*mesh, shape.needs, attributes_);
+    shape.mesh = std::move(mesh);
+  }
+  if (!shape.mesh) {
+    shape.to_world = Transform(d.to_world);
+    shape.to_local = *d.to_world.inverse();
+  }
+  announce(shape.mesh.get(), d.where);
+  attributes_ = std::move(outer);
+  scene_->shapes.push_back(std::move(shape));
+}
+
+void SceneBuilder::announce(const TriangleMesh* mesh, const SourceLocation& where) {
+  for (MeshAttributeMap* a : attributes_)
+    if (!mesh || !a->add_mesh(*mesh))
+      diagnostics_.error(where, "this shape has no attribute \"{}\", which a texture on it reads",
+                         a->attribute());
+}
+
+}  // namespace duet

@@ -1,0 +1,62 @@
+// Builds textures from their descriptions.
+#include "scene/builder.h"
+#include "textures/checkerboard.h"
+
+namespace duet {
+
+const Texture* SceneBuilder::texture(TextureId id) {
+  const size_t index = size_t(id);
+  return once(textures_[index], [&]() -> const Texture* {
+    const TextureDescription& d = description_.textures[index];
+    auto made = std::visit([&](const auto& t) { return make(t, d.where); }, d.model);
+    if (!made) return nullptr;
+    scene_->textures.push_back(std::move(made));
+    return scene_->textures.back().get();
+  });
+}
+
+ColorSlot SceneBuilder::slot(const ColorInput& input) {
+  if (const auto* constant = std::get_if<Spectrum>(&input)) return {*constant, nullptr};
+  return {Spectrum(0.5f), texture(std::get<TextureId>(input))};
+}
+
+FloatSlot SceneBuilder::slot(const FloatInput& input) {
+  if (const auto* constant = std::get_if<double>(&input)) return {float(*constant), nullptr};
+  return {0.5f, texture(std::get<TextureId>(input))};
+}
+
+std::unique_ptr<Texture> SceneBuilder::make(const BitmapTexture& t, const SourceLocation& where) {
+  auto image = pixels(t.file, {.raw = t.raw, .gamma = t.gamma, .channel = t.channel}, where);
+  if (!image) return nullptr;
+  return std::make_unique<Bitmap>(std::move(image), t.filter, t.wrap_u, t.wrap_v, t.to_uv);
+}
+
+std::unique_ptr<Texture> SceneBuilder::make(const CheckerboardTexture& t, const SourceLocation&) {
+  const ColorSlot first = slot(t.color0), second = slot(t.color1);
+  return std::make_unique<Checkerboard>(first, second, t.to_uv, t.swap_values);
+}
+
+std::unique_ptr<Texture> SceneBuilder::make(const MeshAttributeTexture& t, const SourceLocation&) {
+  auto made = std::make_unique<MeshAttributeMap>(t.attribute, float(t.scale));
+  attributes_.insert(made.get());
+  return made;
+}
+
+std::shared_ptr<const BitmapPixels> SceneBuilder::pixels(const std::string& file,
+                                                         const BitmapDecoding& decoding,
+                                                         const SourceLocation& where) {
+  constexpr double kFromFile = 0;  // no gamma value
+  const auto [entry, is_new] = pixels_.try_emplace(
+      {file, decoding.raw, decoding.gamma.value_or(kFromFile), decoding.channel});
+  if (is_new) {
+    try {
+      entry->second =
+          std::make_shared<BitmapPixels>(BitmapPixels::from_file(read_image(file), decoding));
+    } catch (const ReadError& e) {
+      diagnostics_.error(where, "{}", e.what());
+    }
+  }
+  return entry->second;
+}
+
+}  // namespace duet

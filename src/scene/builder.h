@@ -1,0 +1,130 @@
+// The stages of build_scene(): one function per kind of thing.
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <set>
+#include <string>
+#include <tuple>
+
+#include "scene/build.h"
+#include "textures/bitmap.h"
+#include "textures/mesh_attribute.h"
+
+namespace duet {
+
+struct RoughnessOptions;
+
+/// Makes what shapes and lights ask for, each thing once and none that nobody asks for. After an
+/// error a function returns null or something harmless, so that the remaining errors are found too.
+class SceneBuilder {
+ public:
+  SceneBuilder(SceneDescription description, const BuildOptions& options, Diagnostics& diagnostics);
+
+  /// Null if there were errors.
+  std::unique_ptr<Scene> build();
+
+ private:
+  using AttributeSet = std::set<MeshAttributeMap*>;
+  /// A texture or material once it has been asked for.
+  template <class T>
+  struct Made {
+    bool done = false;
+    const T* thing = nullptr;  ///< null after an error
+    uint32_t index = kNone;    ///< in the scene
+    /// Textures within it that must be told on which meshes they are used.
+    AttributeSet attributes;
+  };
+  template <class T, class Make>
+  const T* once(Made<T>& made, const Make& make);
+
+  // build_textures.cpp
+  const Texture* texture(TextureId id);
+  ColorSlot slot(const ColorInput& input);
+  FloatSlot slot(const FloatInput& input);
+  std::unique_ptr<Texture> make(const BitmapTexture& t, const SourceLocation& where);
+  std::unique_ptr<Texture> make(const CheckerboardTexture& t, const SourceLocation& where);
+  std::unique_ptr<Texture> make(const MeshAttributeTexture& t, const SourceLocation& where);
+  std::shared_ptr<const BitmapPixels> pixels(const std::string& file,
+                                             const BitmapDecoding& decoding,
+                                             const SourceLocation& where);
+
+  // build_materials.cpp
+  const Material* material(MaterialId id);
+  RoughnessOptions roughness(const Roughness& r);
+  std::unique_ptr<Material> make(const DiffuseMaterial& m, const SourceLocation& where);
+  std::unique_ptr<Material> make(const ConductorMaterial& m, const SourceLocation& where);
+  std::unique_ptr<Material> make(const DielectricMaterial& m, const SourceLocation& where);
+  std::unique_ptr<Material> make(const ThinDielectricMaterial& m, const SourceLocation& where);
+  std::unique_ptr<Material> make(const PlasticMaterial& m, const SourceLocation& where);
+  std::unique_ptr<Material> make(const PrincipledMaterial& m, const SourceLocation& where);
+  std::unique_ptr<Material> make(const PrincipledThinMaterial& m, const SourceLocation& where);
+  std::unique_ptr<Material> make(const TwoSidedMaterial& m, const SourceLocation& where);
+  std::unique_ptr<Material> make(const MaskMaterial& m, const SourceLocation& where);
+  std::unique_ptr<Material> make(const BlendMaterial& m, const SourceLocation& where);
+  std::unique_ptr<Material> make(const BumpMapMaterial& m, const SourceLocation& where);
+  std::unique_ptr<Material> make(const NormalMapMaterial& m, const SourceLocation& where);
+  std::unique_ptr<Material> make(const NullMaterial& m, const SourceLocation& where);
+  /// The material inside a bump or normal map.
+  const Material* perturbed(MaterialId id, const SourceLocation& where);
+
+  // build_shapes.cpp
+  void shapes();
+  void add_shape(ShapeDescription& d);
+  void add_instance(const ShapeDescription& d, uint32_t group);
+  std::shared_ptr<TriangleMesh> world_mesh(ShapeDescription& d);
+  void announce(const TriangleMesh* mesh, const SourceLocation& where);
+
+  // build_lights.cpp
+  void lights();
+  void add_light(std::unique_ptr<Light> light, double sampling_weight);
+  std::unique_ptr<Light> make(const PointLight& l, const LightDescription& d);
+  std::unique_ptr<Light> make(const SpotLight& l, const LightDescription& d);
+  std::unique_ptr<Light> make(const ProjectorLight& l, const LightDescription& d);
+  std::unique_ptr<Light> make(const DirectionalLight& l, const LightDescription& d);
+  std::unique_ptr<Light> make(const ConstantLight& l, const LightDescription& d);
+  std::unique_ptr<Light> make(const EnvironmentMapLight& l, const LightDescription& d);
+
+  // build.cpp
+  void camera();
+
+  /// Whether the matrix can be made a Transform; an error if not.
+  bool check_transform(const Matrix4& m, const SourceLocation& where);
+
+  SceneDescription description_;
+  BuildOptions options_;
+  Diagnostics& diagnostics_;
+  std::unique_ptr<Scene> scene_;
+  std::vector<Made<Texture>> textures_;
+  std::vector<Made<Material>> materials_;
+  /// Of what is being made.
+  AttributeSet attributes_;
+  /// Images by file and by how they are decoded; null after an error.
+  std::map<std::tuple<std::string, bool, double, TextureChannel>,
+           std::shared_ptr<const BitmapPixels>>
+      pixels_;
+  /// Shapes that emit, by index.
+  struct Emission {
+    size_t shape;
+    ColorSlot radiance;
+    double sampling_weight;
+    SourceLocation where;
+  };
+  std::vector<Emission> emissions_;
+  /// Per light of the scene.
+  std::vector<double> sampling_weights_;
+};
+
+template <class T, class Make>
+const T* SceneBuilder::once(Made<T>& made, const Make& make) {
+  if (!made.done) {
+    made.done = true;
+    AttributeSet outer = std::exchange(attributes_, {});
+    made.thing = make();
+    made.attributes = std::exchange(attributes_, std::move(outer));
+  }
+  attributes_.insert(made.attributes.begin(), made.attributes.end());
+  return made.thing;
+}
+
+}  // namespace duet
