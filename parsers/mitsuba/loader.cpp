@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <unordered_map>
 
 #include "mitsuba/property_values.h"
+#include "mitsuba/references.h"
 #include "mitsuba/text.h"
 
 namespace duet {
@@ -32,14 +32,18 @@ std::optional<FileVersion> parse_version(std::string_view text) {
 class Loader {
  public:
   Loader(const MitsubaOptions& options, const FileAccess& access, Report& report)
-      : options_(options), access_(access), report_(report), substitution_(options.defines) {}
+      : options_(options),
+        access_(access),
+        report_(report),
+        substitution_(options.defines),
+        references_(report) {}
 
   NodeTree load(const std::string& file) {
     tree_.nodes.emplace_back().kind = PluginKind::scene;
     tree_.nodes.front().plugin = find_plugin(PluginKind::scene, "scene");
     const SourceLocation nowhere{std::make_shared<const std::string>(file), 0, 0};
     load_file(file, tree_.nodes.front(), options_.search_paths, nowhere, "");
-    resolve_references();
+    references_.resolve();
     tree_.parameters = substitution_.scene_parameters();
     return std::move(tree_);
   }
@@ -50,16 +54,6 @@ class Loader {
     std::unique_ptr<XmlDocument> xml;
     FileVersion version;
     std::shared_ptr<std::vector<std::string>> folders;
-  };
-  struct Reference {
-    Node* user;
-    size_t property;
-    std::string id;
-    SourceLocation where;
-  };
-  struct Alias {
-    std::string id;
-    SourceLocation where;
   };
 
   /// Appends the plugins of a file to `parent`. `where` names it and `name` is the name that a file
@@ -169,8 +163,7 @@ class Loader {
         substitution_.set_default(attributes["name"], attributes["value"]);
     } else if (tag == "alias") {
       if (attributes.check({"!id", "!as"}))
-        if (!aliases_.try_emplace(attributes["as"], Alias{attributes["id"], where}).second)
-          report_.error(where, "the alias {} is given twice", in_quotes(attributes["as"]));
+        references_.add_alias(attributes["as"], attributes["id"], where);
     } else if (tag == "path") {
       load_path(file, attributes);
     } else if (tag == "scene") {
@@ -212,9 +205,7 @@ class Loader {
     node.where = a.where();
     node.folders = file.folders;
     if (valid) find_node_plugin(node, a.where("type"));
-    if (!node.id.empty() && !ids_.try_emplace(node.id, &node).second)
-      report_.error(a.where("id"), "the id {} is given twice, first at {}", in_quotes(node.id),
-                    ids_[node.id]->where.to_string());
+    if (!node.id.empty()) references_.add_id(node, a.where("id"));
     const std::string& written = a.has("name") ? a["name"] : name;
     parent.properties.push_back({snake_case(written), written, &node, node.where, node.where});
     load_children(file, element, node, depth + 1);
@@ -223,7 +214,9 @@ class Loader {
   void find_node_plugin(Node& node, const SourceLocation& where) {
     const Plugin* plugin = find_plugin(node.kind, node.type);
     const std::string_view tag = tag_of(node.kind);
-    if (plugin && plugin->support != Support::planned) {
+    if (plugin && plugin->support == Support::refused) {
+      report_.error(where, "{} type \"{}\" is refused: {}", tag, node.type, plugin->note);
+    } else if (plugin && plugin->support != Support::planned) {
       node.plugin = plugin;
       node.type = plugin->name;
     } else if (plugin) {
@@ -251,9 +244,9 @@ class Loader {
 
   void load_reference(const Attributes& a, Node& parent) {
     if (!a.check({"!id", "name"})) return;
-    references_.push_back({&parent, parent.properties.size(), a["id"], a.where("id")});
     parent.properties.push_back(
         {snake_case(a["name"]), a["name"], Broken{}, a.where(), a.where("id")});
+    references_.add_reference(parent, a["id"], a.where("id"));
   }
 
   void load_include(File& file, const Attributes& a, Node& parent) {
@@ -280,42 +273,13 @@ class Loader {
       report_.error(a.where("value"), "{}", not_found(a["value"], *file.folders));
   }
 
-  /// The plugin with an id or alias; null after an error.
-  Node* find_id(const std::string& id, const SourceLocation& where) {
-    std::string name = id;
-    for (size_t steps = 0; steps <= aliases_.size(); ++steps) {
-      if (const auto node = ids_.find(name); node != ids_.end()) return node->second;
-      const auto alias = aliases_.find(name);
-      if (alias == aliases_.end()) break;
-      name = alias->second.id;
-    }
-    // With very many names the search for the nearest one would take too long.
-    std::vector<std::string> known;
-    if (!report_.is_full() && ids_.size() < 5000)
-      for (const auto& [key, node] : ids_) known.push_back(key);
-    std::sort(known.begin(), known.end());
-    report_.error(where, "nothing has the id {}{}", in_quotes(name), did_you_mean(name, known));
-    return nullptr;
-  }
-
-  void resolve_references() {
-    for (const auto& [name, alias] : aliases_)
-      if (const auto node = ids_.find(name); node != ids_.end())
-        report_.error(alias.where, "the alias {} is already the id of {}", in_quotes(name),
-                      describe(*node->second));
-    for (const Reference& r : references_)
-      if (const Node* node = find_id(r.id, r.where)) r.user->properties[r.property].value = node;
-  }
-
   const MitsubaOptions& options_;
   const FileAccess& access_;
   Report& report_;
   Substitution substitution_;
   NodeTree tree_;
   std::vector<std::string> open_files_;
-  std::unordered_map<std::string, Node*> ids_;
-  std::unordered_map<std::string, Alias> aliases_;
-  std::vector<Reference> references_;
+  References references_;
   int includes_ = 0;
 };
 

@@ -68,6 +68,7 @@ enum class Support : uint8_t {
   inert,    ///< changes nothing that Duet does: accepted without a word
   ignored,  ///< would change something but not the linear image: accepted with a warning
   planned,  ///< known, not supported yet
+  refused,  ///< known, never supported: the note says why
 };
 
 struct Parameter {
@@ -111,6 +112,8 @@ struct Plugin {
   std::string_view note = "";
   Support support = Support::done;
   std::string_view aliases = "";
+  /// The names of its parameters, separated by spaces, if it is not supported (yet).
+  std::string_view planned_parameters = "";
 };
 
 /// The plugins of a kind, and the parameters that all of them have.

@@ -62,7 +62,11 @@ constexpr Plugin kFilms[] = {
     {"hdrfilm", both, kHdrfilm, &read_hdrfilm},
     {"ldrfilm", v0, kLdrfilm, &read_ldrfilm, "tone mapping is for PNG and JPEG output"},
     {.name = "mfilm", .versions = v0, .support = planned},
-    {.name = "specfilm", .versions = v3, .support = planned},
+    {.name = "specfilm",
+     .versions = v3,
+     .note = "light is computed as red, green and blue, not by wavelength",
+     .support = refused,
+     .planned_parameters = "component_format"},
     {.name = "tiledhdrfilm", .versions = v0, .support = planned},
 };
 

@@ -1,0 +1,148 @@
+#include "mitsuba/vocabulary_text.h"
+
+#include <algorithm>
+
+#include "mitsuba/text.h"
+
+namespace duet {
+
+namespace {
+
+constexpr std::string_view kIntroduction = R"(# Compatibility with Mitsuba
+
+Every plugin and parameter of Mitsuba 0.6 and 3, and what Duet does with it. This file is printed by
+`duet plugins --markdown` from the tables that the reader itself uses; a test compares the two.
+
+| Status | Meaning |
+|---|---|
+| done | rendered as Mitsuba does |
+| approximated | rendered, differently; `duet info` says so for the scene at hand |
+| no effect | accepted without a word: it changes nothing that Duet computes |
+| ignored | accepted with a warning: it does not change the linear image |
+| planned | an error that names the plugin or parameter; a later version will know it |
+| refused | an error that gives the reason |
+
+Names are those of Mitsuba 3. All files may also write them as Mitsuba 0.x does (`toWorld` for
+`to_world`), and a name that only one version has is understood in files of both. Where two defaults
+are given, the second is that of 0.x files.
+)";
+
+constexpr std::string_view heading(PluginKind kind) {
+  constexpr std::string_view names[kPluginKinds] = {"Scene",
+                                                    "Integrators",
+                                                    "Sensors",
+                                                    "Films",
+                                                    "Reconstruction filters",
+                                                    "Samplers",
+                                                    "Shapes",
+                                                    "BSDFs",
+                                                    "Textures and spectra",
+                                                    "Emitters",
+                                                    "Media",
+                                                    "Phase functions",
+                                                    "Volumes",
+                                                    "Subsurface scattering"};
+  return names[size_t(kind)];
+}
+
+/// A cell of a table: "|" would end it.
+std::string cell(std::string_view text) {
+  std::string out;
+  for (const char c : text) out += c == '|' ? std::string("\\|") : std::string(1, c);
+  return out;
+}
+
+std::string code(std::string_view text) {
+  return text.empty() ? std::string() : "`" + cell(text) + "`";
+}
+
+std::string preset_of(const Parameter& p) {
+  const auto show = [](std::string_view preset) {
+    if (preset.empty() || preset.front() != '(') return code(preset);
+    return cell(preset.substr(1, preset.size() - 2));
+  };
+  if (p.required) return "required";
+  if (p.preset_0x.empty()) return show(p.preset);
+  return show(p.preset) + "; " + show(p.preset_0x);
+}
+
+/// The further names of a thing: "also `a`, `b`".
+std::string also(std::string_view aliases) {
+  std::string out;
+  for (const std::string_view name : split_list(aliases))
+    out += (out.empty() ? "also " : ", ") + code(name);
+  return out;
+}
+
+std::string joined(std::string_view a, std::string_view b) {
+  return std::string(a) + (a.empty() || b.empty() ? "" : "; ") + std::string(b);
+}
+
+std::string parameter_rows(std::span<const Parameter> parameters) {
+  std::string out =
+      "| Parameter | Type | Default | Files | Status | |\n|---|---|---|---|---|---|\n";
+  for (const Parameter& p : parameters)
+    out += fmt::format("| {} | {} | {} | {} | {} | {} |\n", code(p.name), type_name(p.type),
+                       preset_of(p), versions_name(p.versions), support_name(p.support),
+                       joined(cell(p.note), also(p.aliases)));
+  return out;
+}
+
+}  // namespace
+
+std::string_view support_name(Support support) {
+  switch (support) {
+    case Support::done:
+      return "done";
+    case Support::approximated:
+      return "approximated";
+    case Support::inert:
+      return "no effect";
+    case Support::ignored:
+      return "ignored";
+    case Support::planned:
+      return "planned";
+    case Support::refused:
+      return "refused";
+  }
+  return "";
+}
+
+std::string_view versions_name(FileVersions versions) {
+  switch (versions) {
+    case FileVersions::all:
+      return "0.x, 3.x";
+    case FileVersions::v0:
+      return "0.x";
+    case FileVersions::v3:
+      return "3.x";
+  }
+  return "";
+}
+
+std::string compatibility_section(PluginKind kind) {
+  std::string out = fmt::format("## {}\n\n", heading(kind));
+  out += "| Plugin | Files | Status | |\n|---|---|---|---|\n";
+  for (const Plugin& p : plugins(kind)) {
+    std::string others;
+    for (const std::string_view name : split_list(p.planned_parameters))
+      others += (others.empty() ? "parameters " : ", ") + code(name);
+    out +=
+        fmt::format("| {} | {} | {} | {} |\n", code(p.name), versions_name(p.versions),
+                    support_name(p.support), joined(joined(cell(p.note), also(p.aliases)), others));
+  }
+  if (const auto common = common_parameters(kind); !common.empty())
+    out += "\nParameters of all of them:\n\n" + parameter_rows(common);
+  for (const Plugin& p : plugins(kind))
+    if (!p.parameters.empty())
+      out += fmt::format("\n### {}\n\n", code(p.name)) + parameter_rows(p.parameters);
+  return out;
+}
+
+std::string compatibility_markdown() {
+  std::string out(kIntroduction);
+  for (int i = 0; i < kPluginKinds; ++i) out += "\n" + compatibility_section(PluginKind(i));
+  return out;
+}
+
+}  // namespace duet
