@@ -11,32 +11,17 @@ namespace duet {
 
 namespace {
 
-const char* text(Support s) {
-  switch (s) {
-    case Support::done:
-      return "done";
-    case Support::approximated:
-      return "approximated";
-    case Support::inert:
-      return "no effect";
-    case Support::ignored:
-      return "ignored";
-    case Support::planned:
-      return "planned";
-  }
-  return "";
-}
-
-const char* text(FileVersions v) {
-  return v == FileVersions::v0 ? ", 0.x only" : v == FileVersions::v3 ? ", 3.x only" : "";
+std::string only_in(FileVersions v) {
+  return v == FileVersions::all ? "" : fmt::format(", {} only", versions_name(v));
 }
 
 void print_parameter(const Parameter& p) {
-  std::string line = fmt::format("    {:28} {:12} {}", p.name, text(p.support), type_name(p.type));
+  std::string line =
+      fmt::format("    {:28} {:12} {}", p.name, support_name(p.support), type_name(p.type));
   if (p.required) line += ", required";
   if (!p.preset.empty()) line += fmt::format(", default {}", p.preset);
   if (!p.preset_0x.empty()) line += fmt::format(" (in 0.x {})", p.preset_0x);
-  line += text(p.versions);
+  line += only_in(p.versions);
   if (!p.aliases.empty()) line += fmt::format(", also {}", p.aliases);
   if (!p.note.empty()) line += fmt::format(": {}", p.note);
   fmt::print("{}\n", line);
@@ -45,7 +30,7 @@ void print_parameter(const Parameter& p) {
 void print_kind(PluginKind kind) {
   for (const Plugin& p : plugins(kind)) {
     fmt::print("{} {:{}} {}{}{}{}\n", tag_of(kind), p.name, 31 - int(tag_of(kind).size()),
-               text(p.support), text(p.versions),
+               support_name(p.support), only_in(p.versions),
                p.aliases.empty() ? "" : fmt::format(", also {}", p.aliases),
                p.note.empty() ? "" : fmt::format(": {}", p.note));
     for (const Parameter& q : p.parameters) print_parameter(q);
@@ -87,7 +72,8 @@ void add_plugins_command(CLI::App& app, int& exit_code) {
   c->add_flag("--markdown", o->markdown, "Print docs/compatibility.md");
   c->footer(
       "Each line says what becomes of a name: done; approximated; no effect, because it changes\n"
-      "nothing that Duet does; ignored with a warning; planned, until when it is an error.\n"
+      "nothing that Duet does; ignored with a warning; planned, until when it is an error; "
+      "refused.\n"
       "Examples:\n"
       "  duet plugins bsdf\n"
       "  duet plugins --markdown > docs/compatibility.md");
