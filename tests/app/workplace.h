@@ -53,7 +53,7 @@ class Workplace : public TemporaryDirectory {
     return write(name, s.text());
   }
   Outcome run(const std::vector<std::string>& arguments) const {
-    return run_duet(arguments, {.directory = path(""), .environment = {}, .output = ""});
+    return run_duet(arguments, {.directory = path("")});
   }
   bool has(const std::string& name) const { return std::filesystem::exists(path(name)); }
 };

@@ -19,12 +19,12 @@ struct Outcome {
 };
 
 struct ProcessOptions {
-  std::string directory;  ///< where it runs
-  std::vector<std::pair<std::string, std::string>> environment;
+  std::string directory = {};  ///< where it runs
+  std::vector<std::pair<std::string, std::string>> environment = {};
   /// Bytes that a file may have, as `ulimit -f` sets them; 0 is no limit.
   size_t file_limit = 0;
   /// Where standard output goes; "" is Outcome::out.
-  std::string output;
+  std::string output = {};
 };
 
 /// The program `duet` under way.
