@@ -32,6 +32,9 @@ class PreparedScene {
     SceneDescription& d = read->description;
     const FilmDescription& film = d.sensors.at(0).film;
     layout = {{film.width, film.height}, {0, 0, film.width, film.height}, film.filter};
+    if (film.crop)
+      layout.crop = {film.crop->x, film.crop->y, film.crop->x + film.crop->width,
+                     film.crop->y + film.crop->height};
     integrator = make_integrator(d.integrator);
     BuildOptions build;
     build.threads = 2;
