@@ -351,7 +351,7 @@ TEST_CASE("shape: meshes") {
   files.texts["/scene/a.obj"] = "broken";
   CHECK(read_scene("3.0.0", "<shape type='obj'><string name='filename' value='a.obj'/></shape>",
                    files)
-            .has("scene.xml:2:43: error: /scene/a.obj: line 7: not a face"));
+            .has("scene.xml:2:43: error: /scene/a.obj:7: not a face"));
 }
 
 TEST_CASE("shape: materials of OBJ files") {
