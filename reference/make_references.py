@@ -70,7 +70,9 @@ def render_reference(name, target, minutes):
     out = ROOT / 'reference' / name
     out.mkdir(exist_ok=True)
     rgb = mi.Bitmap.PixelFormat.RGB
-    mi.Bitmap(mean.astype(np.float32), rgb).write(str(out / 'mean.exr'))
+    image = mi.Bitmap(mean.astype(np.float32), rgb)
+    image.metadata()['spp'] = spp * passes  # where `duet compare` looks for it
+    image.write(str(out / 'mean.exr'))
     per_sample = np.clip(variance * spp, 0, 65504).astype(np.float32)
     mi.Bitmap(per_sample, rgb).convert(rgb, mi.Struct.Type.Float16, False).write(str(out / 'variance.exr'))
     provenance = {

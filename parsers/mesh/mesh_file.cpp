@@ -22,15 +22,6 @@ auto read(const std::string& file, Parse parse) {
   }
 }
 
-/// Length one, or zero if the numbers are of no use.
-Normal3f normalized_or_zero(Normal3f n) {
-  const float scale = max_abs(n);
-  if (!is_finite(n) || !(scale > 0)) return Normal3f{};
-  // First by the largest component, so that no square overflows or vanishes.
-  n = {n.x / scale, n.y / scale, n.z / scale};
-  return normalize(n);
-}
-
 }  // namespace
 
 TriangleMesh read_obj(const std::string& file, const MeshOptions& options) {

@@ -1,11 +1,13 @@
 // duet compare: how far an image is from a reference.
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
+#include <cstdlib>
+#include <limits>
 #include <nlohmann/json.hpp>
 
+#include "app/arguments.h"
 #include "app/commands.h"
-#include "base/log.h"
+#include "app/output.h"
 #include "image/image_io.h"
 #include "image/metrics.h"
 
@@ -15,7 +17,7 @@ namespace {
 
 struct CompareOptions {
   std::string image, reference, variance, diff;
-  double spp = 0, reference_spp = 0;
+  std::string spp, reference_spp;
   std::vector<std::string> require;
   bool json = false;
 };
@@ -73,26 +75,19 @@ struct Requirement {
 
 Requirement parse_requirement(const std::string& text) {
   const size_t at = text.find_first_of("<>");
+  if (at == std::string::npos || at == 0)
+    throw UsageError(fmt::format("--require \"{}\" is not like rmse<0.02", text));
   Requirement r;
   r.text = text;
-  size_t used = 0;
-  if (at != std::string::npos) {
-    r.figure = text.substr(0, at);
-    r.less = text[at] == '<';
-    const std::string number = text.substr(at + 1);
-    try {
-      r.limit = std::stod(number, &used);
-    } catch (const std::exception&) {
-      used = 0;
-    }
-    if (used != number.size()) used = 0;
-  }
-  if (used == 0) throw UsageError(fmt::format("--require \"{}\" is not like rmse<0.02", text));
+  r.figure = text.substr(0, at);
+  r.less = text[at] == '<';
+  r.limit = parse_amount("--require " + text, text.substr(at + 1), {{"", 1}},
+                         -std::numeric_limits<double>::max(), std::numeric_limits<double>::max());
   std::vector<std::string> known;
   for (const Figure& f : figures({})) known.push_back(f.name);
   if (std::find(known.begin(), known.end(), r.figure) == known.end())
-    throw UsageError(fmt::format("--require: there is no figure \"{}\"{}", r.figure,
-                                 did_you_mean(r.figure, known)));
+    throw UsageError(fmt::format("--require: there is no figure \"{}\"{}; there are {}", r.figure,
+                                 did_you_mean(r.figure, known), fmt::join(known, " ")));
   return r;
 }
 
@@ -109,78 +104,128 @@ Image load(const std::string& path, ImageFile& file) {
   return image;
 }
 
-/// The sample count that the image's header states, or 1.
-double header_spp(const ImageFile& file) {
+/// The samples per pixel that the option says, or the header of the image.
+double samples_of(const std::string& path, const ImageFile& file, const std::string& option,
+                  const std::string& given) {
+  if (!given.empty()) return parse_amount(option, given, {{"", 1}}, 1e-3, 1e15);
   for (const auto& [name, value] : file.header)
-    if (name == "spp") return std::max(1.0, std::atof(value.c_str()));
-  return 1;
+    if (const double spp = std::atof(value.c_str()); name == "spp" && spp > 0) return spp;
+  throw UsageError(
+      fmt::format("--variance also needs {}: the header of {} does not say how many samples it has",
+                  option, path));
 }
 
-Verdict judge(const ImageMetrics& m, bool required_met) {
+/// Whether a figure tells a bias from noise.
+bool shows_bias(const std::string& figure) {
+  return figure == "bias" || figure == "z" || figure == "zrms";
+}
+
+Verdict judge(const ImageMetrics& m, const std::vector<Requirement>& missed) {
   if (m.nan_pixels > 0 || m.infinite_pixels > 0) return Verdict::fail;
   if ((m.z_share && *m.z_share < kRequiredZShare) || (m.bias && std::abs(*m.bias) > kNotableBias))
     return Verdict::biased;
-  return required_met ? Verdict::pass : Verdict::noisy;
+  for (const Requirement& r : missed)
+    if (shows_bias(r.figure)) return Verdict::biased;
+  return missed.empty() ? Verdict::pass : Verdict::noisy;
+}
+
+/// A reference with holes would let everything pass there.
+void check_reference(const Image& image, const std::string& path) {
+  for (const char* name : {"R", "G", "B", "Y"}) {
+    const int channel = image.find_channel(name);
+    if (channel < 0) continue;
+    for (size_t i = size_t(channel); i < image.data.size(); i += image.channels.size())
+      if (!std::isfinite(image.data[i]))
+        throw std::runtime_error(fmt::format("{} has values that are not finite", path));
+  }
+}
+
+void print_figures(const ImageMetrics& m) {
+  for (const Figure& f : figures(m)) {
+    if (f.name == "ratio")
+      fmt::print("{:10} {:.6f} {:.6f} {:.6f}\n", "mean ratio", m.mean_ratio[0], m.mean_ratio[1],
+                 m.mean_ratio[2]);
+    if (f.name == "bias" && m.bias)
+      fmt::print("{:10} {:+.2f}\n", f.name, *m.bias);
+    else if (f.value)
+      fmt::print("{:10} {:.6g}\n", f.name, *f.value);
+    else
+      fmt::print("{:10} not available (no --variance)\n", f.name);
+  }
+}
+
+nlohmann::ordered_json to_json(const ImageMetrics& m) {
+  nlohmann::ordered_json j;
+  for (const Figure& f : figures(m))
+    j[f.name] = f.value ? nlohmann::ordered_json(*f.value) : nullptr;
+  if (m.bias) j["bias"] = *m.bias;
+  j["mean_ratio"] = m.mean_ratio;
+  return j;
+}
+
+/// Full colour at half the mean of the reference.
+void write_difference(const std::string& path, const Image& image, const Image& reference,
+                      const ImageMetrics& m) {
+  const double mean = m.relative_rmse > 0 ? m.rmse / m.relative_rmse : 1;
+  write_display_image(path, image.width, image.height, 3,
+                      difference_image(image, reference, 0.5 * mean));
 }
 
 int compare(const CompareOptions& o) {
   std::vector<Requirement> requirements;
-  for (const std::string& text : o.require) requirements.push_back(parse_requirement(text));
+  for (const std::string& text : o.require) {
+    requirements.push_back(parse_requirement(text));
+    if (o.variance.empty() && shows_bias(requirements.back().figure))
+      throw UsageError(fmt::format("--require \"{}\" needs --variance", text));
+  }
+  if (!o.diff.empty()) {
+    if (!is_display_format(o.diff))
+      throw UsageError(fmt::format("--diff {}: differences are written as .png or .jpg", o.diff));
+    if (const std::string why = unwritable_reason(o.diff); !why.empty())
+      throw UsageError(fmt::format("--diff: cannot write {}: {}", o.diff, why));
+  }
   ImageFile image_file, reference_file, variance_file;
   const Image image = load(o.image, image_file), reference = load(o.reference, reference_file);
+  check_reference(reference, o.reference);
   std::optional<NoiseModel> noise;
   Image variance;
   if (!o.variance.empty()) {
     variance = load(o.variance, variance_file);
-    noise = NoiseModel{&variance, o.spp > 0 ? o.spp : header_spp(image_file),
-                       o.reference_spp > 0 ? o.reference_spp : header_spp(reference_file)};
+    check_reference(variance, o.variance);
+    noise = NoiseModel{&variance, samples_of(o.image, image_file, "--spp", o.spp),
+                       samples_of(o.reference, reference_file, "--reference-spp", o.reference_spp)};
   }
   const ImageMetrics m = compare_images(image, reference, noise);
   const std::vector<Figure> all = figures(m);
 
-  std::vector<std::string> missed;
+  std::vector<Requirement> missed;
+  std::vector<std::string> missed_texts;
   for (const Requirement& r : requirements) {
     const auto f =
         std::find_if(all.begin(), all.end(), [&](const Figure& x) { return x.name == r.figure; });
-    if (!f->value) throw UsageError(fmt::format("--require {}: needs --variance", r.text));
     // Written so that a value that is not a number misses every limit.
-    if (!(r.less ? *f->value < r.limit : *f->value > r.limit)) missed.push_back(r.text);
+    if (f->value && (r.less ? *f->value < r.limit : *f->value > r.limit)) continue;
+    missed.push_back(r);
+    missed_texts.push_back(r.text);
   }
-  const Verdict verdict = judge(m, missed.empty());
-  if (!o.diff.empty()) {
-    const double scale = 0.5 * m.rmse / std::max(m.relative_rmse, 1e-30);
-    write_display_image(o.diff, image.width, image.height, 3,
-                        difference_image(image, reference, scale));
-  }
-
+  const Verdict verdict = judge(m, missed);
+  if (!o.diff.empty()) write_difference(o.diff, image, reference, m);
   if (o.json) {
-    nlohmann::ordered_json j;
-    for (const Figure& f : all) {
-      if (f.name == "bias")
-        j[f.name] = m.bias ? nlohmann::ordered_json(*m.bias) : nullptr;
-      else
-        j[f.name] = f.value ? nlohmann::ordered_json(*f.value) : nullptr;
-    }
-    j["mean_ratio"] = m.mean_ratio;
-    j["missed"] = missed;
+    nlohmann::ordered_json j = to_json(m);
+    j["missed"] = missed_texts;
     j["verdict"] = name_of(verdict);
-    std::printf("%s\n", j.dump(2).c_str());
+    fmt::print("{}\n", j.dump(2));
   } else {
-    for (const Figure& f : all) {
-      if (f.name == "ratio")
-        fmt::print("{:10} {:.6f} {:.6f} {:.6f}\n", "ratio", m.mean_ratio[0], m.mean_ratio[1],
-                   m.mean_ratio[2]);
-      else if (f.name == "bias" && m.bias)
-        fmt::print("{:10} {:+.2f}\n", f.name, *m.bias);
-      else if (f.value)
-        fmt::print("{:10} {:.6g}\n", f.name, *f.value);
-      else
-        fmt::print("{:10} not available (no --variance)\n", f.name);
-    }
-    for (const std::string& text : missed) fmt::print("missed     {}\n", text);
-    fmt::print("verdict    {}\n", name_of(verdict));
+    print_figures(m);
+    for (const std::string& text : missed_texts) fmt::print("missed     {}\n", text);
+    fmt::print("verdict    {}{}\n", name_of(verdict),
+               verdict == Verdict::noisy && !noise
+                   ? " (or biased: only --variance can tell these apart)"
+                   : "");
   }
-  return missed.empty() ? kSuccess : kThresholdMissed;
+  // An image with holes meets no requirement.
+  const bool met = missed.empty() && (requirements.empty() || verdict != Verdict::fail);
+  return met ? kSuccess : kThresholdMissed;
 }
 
 }  // namespace
@@ -191,19 +236,23 @@ void add_compare_command(CLI::App& app, int& exit_code) {
   c->add_option("image", o->image, "The image a")->required();
   c->add_option("reference", o->reference, "The reference b, of the same size")->required();
   c->add_option("--variance", o->variance, "Variance of one sample of the reference, per pixel");
-  c->add_option("--spp", o->spp, "Samples per pixel of the image (default: from its header)")
-      ->check(CLI::PositiveNumber);
+  c->add_option("--spp", o->spp, "Samples per pixel of the image (default: from its header)");
   c->add_option("--reference-spp", o->reference_spp,
-                "Samples per pixel of the reference (default: from its header)")
-      ->check(CLI::PositiveNumber);
-  c->add_option("--diff", o->diff, "Write a picture: red where a is brighter, blue where darker");
-  c->add_option("--require", o->require, "FIGURE<LIMIT or FIGURE>LIMIT; a miss exits with 3");
+                "Samples per pixel of the reference (default: from its header)");
+  c->add_option("--diff", o->diff,
+                "Write a .png or .jpg: red where a is brighter, blue where darker");
+  c->add_option("--require", o->require,
+                "FIGURE<LIMIT or FIGURE>LIMIT; a miss exits with 3; repeatable")
+      ->allow_extra_args(false);
   c->add_flag("--json", o->json, "Print the figures as JSON");
   std::string text = "Figures, over the channels R, G, B of all pixels:\n";
   for (const Figure& f : figures({})) text += fmt::format("  {:9} {}\n", f.name, f.formula);
   text +=
       "Verdicts: PASS; NOISY, a required figure is missed but noise explains all differences;\n"
       "BIASED, noise does not explain them (z below 0.9975 or |bias| above 4); FAIL, not finite.\n"
+      "Exit codes: 0, also without --require whatever the verdict; 1 an image cannot be read or "
+      "the\n"
+      "sizes differ; 2 wrong usage; 3 a --require is missed.\n"
       "Example:\n"
       "  duet compare a.exr mean.exr --variance variance.exr --require 'relrmse<0.05' --require "
       "'bias<4'";

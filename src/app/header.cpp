@@ -18,21 +18,21 @@ std::array<float, 16> exr_matrix(const Matrix4& m) {
   return out;
 }
 
-/// From camera space (x to the right) to normalised device coordinates: the image is the unit
-/// square, with y upwards, after division by w.
+/// From camera space (x to the right, y up) to normalised device coordinates: the image is the unit
+/// square, y downwards, after division by w.
 Matrix4 camera_to_ndc(const SensorDescription& view, Point2i size) {
   const double aspect = double(size.x) / size.y;
   Matrix4 m;
   if (view.kind == SensorKind::orthographic) {
     // The film is two units wide.
     m[0] = {0.5, 0, 0, 0.5};
-    m[1] = {0, 0.5 * aspect, 0, 0.5};
+    m[1] = {0, -0.5 * aspect, 0, 0.5};
     return m;
   }
   const double fov = horizontal_fov(view.fov, view.fov_axis, aspect);
   const double t = std::tan(0.5 * fov * 3.14159265358979323846 / 180);
-  m[0] = {0.5 / t, 0, 0.5 + view.principal_point_offset_x, 0};
-  m[1] = {0, 0.5 * aspect / t, 0.5 - view.principal_point_offset_y, 0};
+  m[0] = {0.5 / t, 0, 0.5 - view.principal_point_offset_x, 0};
+  m[1] = {0, -0.5 * aspect / t, 0.5 - view.principal_point_offset_y, 0};
   m[2] = {0, 0, 1, 0};
   m[3] = {0, 0, 1, 0};
   return m;

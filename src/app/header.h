@@ -22,7 +22,8 @@ struct RenderRecord {
 };
 
 /// Fields of the EXR header. `view` gives the matrices from the world to the camera and to the
-/// image, in OpenEXR's convention (row vectors; x to the right, y up, z into the scene).
+/// image, in OpenEXR's convention: row vectors; the camera has x to the right, y up and z into the
+/// scene, the image is the unit square with y downwards.
 std::vector<std::pair<std::string, HeaderValue>> image_header(const RenderRecord& record,
                                                               const RenderResult& result,
                                                               const SensorDescription& view,

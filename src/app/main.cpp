@@ -2,11 +2,15 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
+#include <cstdio>
+#include <filesystem>
+#include <iostream>
 #include <new>
 #include <string>
 
+#include "app/arguments.h"
 #include "app/commands.h"
+#include "base/diagnostics.h"
 #include "base/log.h"
 
 namespace duet {
@@ -15,20 +19,38 @@ std::string command_line;
 
 namespace {
 
-constexpr std::array<const char*, 3> kCommands{"render", "info", "compare"};
+std::vector<std::string> command_names(const CLI::App& app) {
+  std::vector<std::string> names;
+  for (const CLI::App* c : app.get_subcommands([](const CLI::App*) { return true; }))
+    names.push_back(c->get_name());
+  return names;
+}
 
-/// `duet SCENE …` is short for `duet render SCENE …`.
-bool names_no_command(const std::vector<std::string>& arguments) {
+/// `duet SCENE …` is short for `duet render SCENE …`. Throws UsageError for what looks like a
+/// misspelt command.
+bool names_no_command(const std::vector<std::string>& arguments, const CLI::App& app) {
   if (arguments.empty()) return false;
   const std::string& first = arguments[0];
   if (first == "-h" || first == "--help" || first == "--version") return false;
-  return std::find(kCommands.begin(), kCommands.end(), first) == kCommands.end();
+  const std::vector<std::string> names = command_names(app);
+  if (std::find(names.begin(), names.end(), first) != names.end()) return false;
+  std::error_code ignored;
+  const std::string hint = did_you_mean(first, names);
+  if (!hint.empty() && !std::filesystem::exists(first, ignored))
+    throw UsageError(fmt::format("there is no command and no scene \"{}\"{}", first, hint));
+  return true;
+}
+
+/// Results that did not arrive are a failure.
+int after_output(int exit_code) {
+  std::cout.flush();
+  if (std::cout.good() && std::fflush(stdout) == 0 && !std::ferror(stdout)) return exit_code;
+  log::error("cannot write to standard output");
+  return exit_code == kSuccess ? int(kSceneFailed) : exit_code;
 }
 
 int run(std::vector<std::string> arguments) {
-  for (const std::string& a : arguments) command_line += (command_line.empty() ? "duet " : " ") + a;
-  if (names_no_command(arguments)) arguments.insert(arguments.begin(), "render");
-
+  command_line = "duet " + shell_quoted(arguments);
   CLI::App app{
       "Duet renders the Mitsuba scenes you already have and says how accurate the images are.",
       "duet"};
@@ -41,14 +63,17 @@ int run(std::vector<std::string> arguments) {
   add_render_command(app, exit_code);
   add_info_command(app, exit_code);
   add_compare_command(app, exit_code);
-  std::reverse(arguments.begin(), arguments.end());  // as CLI11 wants them
+  add_plugins_command(app, exit_code);
   try {
-    app.parse(arguments);
-  } catch (const CLI::ParseError& e) {
-    if (e.get_exit_code() == 0) return app.exit(e);  // --help and --version
-    log::error("{}", e.what());
-    log::error("see duet --help");
-    return kWrongUsage;
+    if (names_no_command(arguments, app)) arguments.insert(arguments.begin(), "render");
+    const std::string help = arguments.empty() ? "duet --help" : "duet " + arguments[0] + " --help";
+    std::reverse(arguments.begin(), arguments.end());  // as CLI11 wants them
+    try {
+      app.parse(arguments);
+    } catch (const CLI::ParseError& e) {
+      if (e.get_exit_code() == 0) return after_output(app.exit(e));  // --help and --version
+      throw UsageError(fmt::format("{}; see {}", e.what(), help));
+    }
   } catch (const UsageError& e) {
     log::error("{}", e.what());
     return kWrongUsage;
@@ -59,7 +84,7 @@ int run(std::vector<std::string> arguments) {
     log::error("{}", e.what());
     return kSceneFailed;
   }
-  return exit_code;
+  return after_output(exit_code);
 }
 
 }  // namespace

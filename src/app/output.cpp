@@ -29,6 +29,11 @@ bool is_directory(const std::string& path) {
 }
 
 std::string fill_in(const std::string& pattern, const OutputNames& names) {
+  const std::pair<const char*, const std::string*> known[] = {{"scene", &names.scene},
+                                                              {"folder", &names.folder},
+                                                              {"integrator", &names.integrator},
+                                                              {"spp", &names.spp},
+                                                              {"seed", &names.seed}};
   std::string out;
   for (size_t i = 0; i < pattern.size(); ++i) {
     if (pattern[i] != '{') {
@@ -37,20 +42,23 @@ std::string fill_in(const std::string& pattern, const OutputNames& names) {
     }
     const size_t end = pattern.find('}', i);
     const std::string key = end == std::string::npos ? "" : pattern.substr(i + 1, end - i - 1);
-    if (key == "scene")
-      out += names.scene;
-    else if (key == "integrator")
-      out += names.integrator;
-    else if (key == "spp")
-      out += fmt::to_string(names.spp);
-    else if (key == "seed")
-      out += fmt::to_string(names.seed);
-    else
+    const auto* const meant = std::find_if(std::begin(known), std::end(known),
+                                           [&](const auto& k) { return k.first == key; });
+    if (meant == std::end(known))
       throw UsageError(fmt::format(
-          "-o {}: only {{scene}}, {{integrator}}, {{spp}} and {{seed}} are filled in", pattern));
+          "-o {}: only {{scene}}, {{folder}}, {{integrator}}, {{spp}} and {{seed}} are filled in",
+          pattern));
+    out += *meant->second;
     i = end;
   }
   return out;
+}
+
+bool has_alpha(PixelFormat f) {
+  return f == PixelFormat::rgba || f == PixelFormat::xyza || f == PixelFormat::luminance_alpha;
+}
+bool is_grey(PixelFormat f) {
+  return f == PixelFormat::luminance || f == PixelFormat::luminance_alpha;
 }
 
 /// Reinhard et al., "Photographic Tone Reproduction for Digital Images", 2002, eqs. 1 to 4, applied
@@ -82,8 +90,15 @@ class Reinhard {
 
 }  // namespace
 
-bool is_fixed_file(const std::string& pattern) {
-  return !pattern.empty() && !is_directory(pattern) && pattern.find("{scene}") == std::string::npos;
+OutputNames output_names(const std::string& scene_file) {
+  std::error_code ignored;
+  const fs::path path = fs::absolute(scene_file, ignored).lexically_normal();
+  return {path.stem().string(), path.parent_path().filename().string(), "", "", ""};
+}
+
+bool is_display_format(const std::string& path) {
+  const std::string e = extension_of(path);
+  return e == ".png" || e == ".jpg" || e == ".jpeg";
 }
 
 std::string output_path(const std::string& pattern, const OutputNames& names) {
@@ -92,15 +107,16 @@ std::string output_path(const std::string& pattern, const OutputNames& names) {
     path = names.scene + ".exr";
   else if (is_directory(path))
     path = (fs::path(path) / (names.scene + ".exr")).string();
-  const std::string e = extension_of(path);
-  if (e != ".exr" && e != ".png" && e != ".jpg" && e != ".jpeg")
+  if (extension_of(path) != ".exr" && !is_display_format(path))
     throw UsageError(fmt::format("-o {}: images are written as .exr, .png or .jpg", path));
   return path;
 }
 
 std::string unwritable_reason(const std::string& path) {
   std::error_code ignored;
-  if (fs::is_directory(path, ignored)) return "it is a directory";
+  const fs::file_status status = fs::status(path, ignored);
+  if (fs::is_directory(status)) return "it is a directory";
+  if (fs::exists(status) && !fs::is_regular_file(status)) return "it is not a regular file";
   const fs::path parent = fs::path(path).has_parent_path() ? fs::path(path).parent_path() : ".";
   if (!fs::is_directory(parent, ignored))
     return fmt::format("there is no directory \"{}\"", parent.string());
@@ -109,37 +125,40 @@ std::string unwritable_reason(const std::string& path) {
   return "";
 }
 
-std::vector<uint8_t> to_display(const Image& image, const DisplayOptions& options,
-                                bool with_alpha) {
+DisplayImage to_display(const Image& image, const DisplayOptions& options, bool grey,
+                        bool with_alpha) {
   const ToneMapping tone = options.tone_mapping.value_or(ToneMapping{});
   const size_t n = size_t(image.width) * image.height, stride = image.channels.size();
-  const int channels = with_alpha ? 4 : 3;
   const double scale = std::exp2(options.exposure + (tone.reinhard ? 0 : tone.exposure));
   std::optional<Reinhard> reinhard;
   if (tone.reinhard) reinhard.emplace(image, tone.key, tone.burn);
+  const auto byte = [](double v) { return uint8_t(std::lround(255 * std::clamp(v, 0.0, 1.0))); };
   const auto encode = [&](double v) {
     if (!(v > 0)) return uint8_t(0);
     v = std::min(v, 1.0);
-    const double e = tone.gamma > 0 ? std::pow(v, 1 / tone.gamma) : linear_to_srgb(float(v));
-    return uint8_t(std::lround(255 * std::clamp(e, 0.0, 1.0)));
+    return byte(tone.gamma > 0 ? std::pow(v, 1 / tone.gamma) : linear_to_srgb(float(v)));
   };
-  std::vector<uint8_t> bytes(n * channels);
+  DisplayImage out;
+  out.channels = (grey ? 1 : 3) + with_alpha;
+  out.bytes.reserve(n * size_t(out.channels));
   for (size_t i = 0; i < n; ++i) {
     const float* p = &image.data[i * stride];
-    const double s = scale * (reinhard ? reinhard->factor(p) : 1.0);
-    for (int c = 0; c < 3; ++c) bytes[i * channels + c] = encode(p[c] * s);
-    if (with_alpha)
-      bytes[i * channels + 3] = uint8_t(std::lround(255 * std::clamp(double(p[3]), 0.0, 1.0)));
+    double s = scale * (reinhard ? reinhard->factor(p) : 1.0);
+    if (with_alpha && p[3] > 0) s /= p[3];
+    if (grey)
+      out.bytes.push_back(encode(Spectrum(p[0], p[1], p[2]).luminance() * s));
+    else
+      for (int c = 0; c < 3; ++c) out.bytes.push_back(encode(p[c] * s));
+    if (with_alpha) out.bytes.push_back(byte(p[3]));
   }
-  return bytes;
+  return out;
 }
 
 Image in_pixel_format(const Image& image, PixelFormat format) {
-  if (image.channels.size() < 4 || image.channels[0] != "R") return image;
-  const bool with_alpha = format == PixelFormat::rgba || format == PixelFormat::xyza ||
-                          format == PixelFormat::luminance_alpha;
+  if (image.channels[0] != "R") return image;
+  const bool with_alpha = has_alpha(format);
   std::vector<std::string> names{"R", "G", "B"};
-  if (format == PixelFormat::luminance || format == PixelFormat::luminance_alpha) names = {"Y"};
+  if (is_grey(format)) names = {"Y"};
   if (format == PixelFormat::xyz || format == PixelFormat::xyza) names = {"X", "Y", "Z"};
   const size_t colours = names.size();
   if (with_alpha) names.push_back("A");
@@ -165,16 +184,13 @@ Image in_pixel_format(const Image& image, PixelFormat format) {
   return out;
 }
 
-void write_image(const std::string& path, const Image& image, const ExrOptions& exr,
-                 const DisplayOptions& display) {
+void write_image(const std::string& path, const Image& image, PixelFormat format,
+                 const ExrOptions& exr, const DisplayOptions& display) {
   const auto write = [&](const std::string& to) {
-    const std::string e = extension_of(to);
-    if (e == ".exr") return write_exr(to, image, exr);
-    if (image.channels[0] != "R")
-      throw std::runtime_error("only colours can be written in this format; use .exr");
-    const bool with_alpha = e == ".png" && image.find_channel("A") == 3;
-    write_display_image(to, image.width, image.height, with_alpha ? 4 : 3,
-                        to_display(image, display, with_alpha));
+    if (!is_display_format(to)) return write_exr(to, in_pixel_format(image, format), exr);
+    const bool with_alpha = has_alpha(format) && extension_of(to) == ".png";
+    const DisplayImage shown = to_display(image, display, is_grey(format), with_alpha);
+    write_display_image(to, image.width, image.height, shown.channels, shown.bytes);
   };
   try {
     write(path);
@@ -185,12 +201,12 @@ void write_image(const std::string& path, const Image& image, const ExrOptions& 
             .string();
     std::string outcome;
     try {
-      write_exr(rescue, image, exr);
+      write(rescue);
       outcome = fmt::format("; the image is saved as {}", rescue);
     } catch (const std::exception& second) {
       outcome = fmt::format("; nor could it be saved as {}: {}", rescue, second.what());
     }
-    throw std::runtime_error(fmt::format("cannot write {}: {}{}", path, failure.what(), outcome));
+    throw std::runtime_error(std::string(failure.what()) + outcome);
   }
 }
 

@@ -11,24 +11,27 @@ namespace duet {
 
 /// What the placeholders of a path template stand for.
 struct OutputNames {
-  std::string scene;  ///< the scene file's name without directory and extension
-  std::string integrator;
-  int spp = 0;
-  uint64_t seed = 0;
+  std::string scene;   ///< the scene file's name without directory and extension
+  std::string folder;  ///< the name of the directory it lies in
+  std::string integrator, spp, seed;
 };
 
-/// Makes the path of an image: fills in {scene} {integrator} {spp} {seed}, appends SCENE.exr to a
-/// directory, and stands for SCENE.exr in the current directory if `pattern` is empty. Throws
-/// UsageError for unknown placeholders and extensions other than exr, png, jpg and jpeg.
+/// The names that follow from the scene file's path alone.
+OutputNames output_names(const std::string& scene_file);
+
+/// Makes the path of an image: fills in {scene} {folder} {integrator} {spp} {seed}, appends
+/// SCENE.exr to a directory, and stands for SCENE.exr in the current directory if `pattern` is
+/// empty. Throws UsageError for unknown placeholders and extensions other than exr, png, jpg, jpeg.
 std::string output_path(const std::string& pattern, const OutputNames& names);
 
-/// Whether all scenes of a call would be written to the same file.
-bool is_fixed_file(const std::string& pattern);
+/// Whether the path's extension is that of a format for display: png, jpg or jpeg.
+bool is_display_format(const std::string& path);
 
-/// Empty, or why a file could not be created there.
+/// Empty, or why a file could not be created or replaced there.
 std::string unwritable_reason(const std::string& path);
 
-/// The image with its colours in the channels that the film asks for; further layers are kept.
+/// The image with its colours (R, G, B, A) in the channels that the film asks for; further layers
+/// are kept. An image without colours stays as it is.
 Image in_pixel_format(const Image& image, PixelFormat format);
 
 /// How display formats show radiance.
@@ -37,12 +40,21 @@ struct DisplayOptions {
   std::optional<ToneMapping> tone_mapping;
 };
 
-/// Writes the image in the format of the path's extension. If that fails the image is saved in the
-/// temporary directory instead. Throws std::runtime_error with both facts.
-void write_image(const std::string& path, const Image& image, const ExrOptions& exr,
-                 const DisplayOptions& display);
+/// Bytes for a display, channels interleaved.
+struct DisplayImage {
+  int channels = 3;  ///< grey, grey and alpha, colours, colours and alpha
+  std::vector<uint8_t> bytes;
+};
 
-/// Display values of the colours of an image, 8 bits each, with alpha if `with_alpha`.
-std::vector<uint8_t> to_display(const Image& image, const DisplayOptions& options, bool with_alpha);
+/// Display values of the colours of an image with channels R, G, B, A first; alpha, which is
+/// multiplied into these colours, is divided out.
+DisplayImage to_display(const Image& image, const DisplayOptions& options, bool grey,
+                        bool with_alpha);
+
+/// Writes the image (channels R, G, B, A first, if it has colours) in the format of the path's
+/// extension. If that fails the image is saved as EXR in the temporary directory instead. Throws
+/// std::runtime_error with both facts.
+void write_image(const std::string& path, const Image& image, PixelFormat format,
+                 const ExrOptions& exr, const DisplayOptions& display);
 
 }  // namespace duet

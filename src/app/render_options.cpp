@@ -1,9 +1,9 @@
 #include "app/render_options.h"
 
-#include <algorithm>
-#include <cmath>
-#include <sstream>
+#include <limits>
+#include <map>
 
+#include "app/arguments.h"
 #include "app/commands.h"
 #include "app/output.h"
 #include "base/parallel.h"
@@ -12,132 +12,134 @@ namespace duet {
 
 namespace {
 
+/// Guards against slips of the pen.
+constexpr int kMaxImageSide = 65536;
 constexpr int kMaxThreads = 1024;
+constexpr int kMaxSpp = 1 << 30;
+constexpr double kMaxSeconds = 366 * 24 * 3600.0;
 
-/// A number followed by one of the given units; the whole text must be used up.
-double parse_with_unit(const std::string& option, const std::string& text,
-                       const std::vector<std::pair<std::string, double>>& units) {
-  size_t used = 0;
-  double value = 0;
-  try {
-    value = std::stod(text, &used);
-  } catch (const std::exception&) {
-    used = 0;
-  }
-  const std::string unit = text.substr(used);
-  for (const auto& [name, factor] : units)
-    if (used > 0 && unit == name && std::isfinite(value) && value > 0) return value * factor;
-  throw UsageError(fmt::format("{}: \"{}\" is not a positive amount", option, text));
+std::string integrator_help() {
+  std::string text = "Method instead of the scene's";
+  for (const IntegratorName& n : integrator_names())
+    text += fmt::format("{}{} ({})", &n == &integrator_names()[0] ? ": " : ", ", n.name, n.summary);
+  return text;
 }
 
-std::vector<int> parse_integers(const std::string& option, std::string text, size_t count,
-                                const char* form) {
-  std::replace(text.begin(), text.end(), 'x', ',');
-  std::vector<int> values;
-  std::istringstream in(text);
-  for (std::string part; std::getline(in, part, ',');) {
-    size_t used = 0;
-    try {
-      values.push_back(std::stoi(part, &used));
-    } catch (const std::exception&) {
-      used = std::string::npos;
-    }
-    if (used != part.size()) values.clear(), used = 0;
-    if (values.empty()) break;
-  }
-  if (values.size() != count)
-    throw UsageError(fmt::format("{}: \"{}\" is not of the form {}", option, text, form));
-  return values;
+std::string layer_help() {
+  return fmt::format("Further layers of the EXR, separated by commas: {}",
+                     fmt::join(layer_names(), " "));
 }
 
 }  // namespace
 
 RenderOptionParser::RenderOptionParser(CLI::App& c) {
   RenderOptions& o = options_;
-  c.add_option("scene", o.scenes, "Scene files; each is rendered to an image of its own")
-      ->required();
-  c.add_option(
-      "-o,--output", o.outputs,
-      "File, directory or template with {scene} {integrator} {spp} {seed}; .exr is linear, "
-      ".png and .jpg are for display. May be repeated (default: SCENE.exr here)");
-  c.add_option("-i,--integrator", o.integrator.name,
-               "Method instead of the scene's: path, direct, depth or aov");
-  c.add_option("-I", integrator_parameters_, "NAME=VALUE of the method, such as max_depth=8");
-  c.add_option("--spp", spp_, "Samples per pixel instead of the scene's");
+  add_read_options(c, o.read);
+  c.add_option("-o,--output", o.outputs,
+               "File, directory or template with {scene} {folder} {integrator} {spp} {seed}; .exr "
+               "is linear, .png and .jpg are for display; repeatable (default: SCENE.exr here)")
+      ->allow_extra_args(false);
+  c.add_option("-i,--integrator", o.integrator.name, integrator_help());
+  c.add_option("-I,--parameter", integrator_parameters_,
+               "NAME=VALUE of the method, such as max_depth=8; repeatable")
+      ->allow_extra_args(false);
+  c.add_option("--spp", spp_, "Stop at this many samples per pixel (default: the scene's)");
   c.add_option("--time", time_, "Stop after this long: 90s, 10m, 2h");
   c.add_option("--target-error", target_,
                "Stop when the estimated relative RMSE falls below this: 0.01 or 1%");
-  c.add_option("--size", size_, "Image size WxH instead of the scene's");
+  c.add_option("--size", size_, "Image size WxH instead of the scene's, without its crop window");
   c.add_option("--crop", crop_, "Render only the window x,y,w,h, in pixels");
-  c.add_option("-s,--sensor", o.sensor, "Which of the scene's sensors, counting from 0");
-  c.add_option("--seed", o.seed, "Seed of the random numbers");
-  c.add_option("-t,--threads", o.threads, "Number of threads (default: all)")
-      ->check(CLI::Range(1, kMaxThreads));
-  c.add_option("-D", o.read.defines, "NAME=VALUE of a $parameter of the scene");
-  c.add_option("-a,--path", o.read.search_paths, "Further directory to look for files");
-  c.add_option(
-       "--aov", layers_,
-       "Further layers, separated by commas: albedo normal depth position uv shape variance "
-       "samples ...")
-      ->delimiter(',');
+  c.add_option("-s,--sensor", sensor_, "Which of the scene's sensors, counting from 0");
+  c.add_option("--seed", seed_, "Seed of the random numbers");
+  c.add_option("-t,--threads", threads_, "Number of threads (default: all)");
+  c.add_option("--aov", layers_, layer_help())->delimiter(',')->allow_extra_args(false);
   c.add_option("--stats", o.stats_file, "Write statistics as JSON to this file");
-  c.add_option("--exposure", o.exposure, "Exposure of display formats, in stops");
-  c.add_flag("--strict", o.read.strict, "Every warning is an error");
+  c.add_option("--exposure", exposure_, "Exposure of .png and .jpg, in stops");
   c.add_flag("--strict-sampler", o.strict_sampler,
-             "Independent samples where the scene asks for them, instead of Sobol' points");
+             "The sampler that the scene names, instead of Duet's Sobol' points");
   c.add_flag("-x,--skip-existing", o.skip_existing, "Leave out scenes whose images exist");
   c.add_flag("--keep-going,!--no-keep-going", o.keep_going,
              "After a scene that fails, render the others (default)");
-  c.add_flag("-q,--quiet", o.quiet, "Errors and warnings only");
-  c.add_flag("-v,--verbose", o.verbose, "More messages");
+  CLI::Option* quiet = c.add_flag("-q,--quiet", o.quiet, "Errors and warnings only");
+  c.add_flag("-v,--verbose", o.verbose, "More messages")->excludes(quiet);
   c.add_option("--progress", progress_, "auto, bar, plain or none")
       ->check(CLI::IsMember({"auto", "bar", "plain", "none"}));
   c.add_option("--log", o.log_file, "Write all messages to this file, too");
 }
 
-RenderOptions RenderOptionParser::finish() {
-  RenderOptions& o = options_;
-  if (spp_) {
-    if (*spp_ < 1) throw UsageError(fmt::format("--spp: {} is not a number of samples", *spp_));
-    o.budget.spp = *spp_;
-  }
+void RenderOptionParser::finish_numbers() {
+  RenderBudget& budget = options_.budget;
+  if (!spp_.empty()) budget.spp = int(parse_whole("--spp", spp_, 1, kMaxSpp));
   if (!time_.empty())
-    o.budget.seconds =
-        parse_with_unit("--time", time_, {{"", 1}, {"s", 1}, {"m", 60}, {"h", 3600}});
+    budget.seconds = parse_amount("--time", time_, {{"", 1}, {"s", 1}, {"m", 60}, {"h", 3600}},
+                                  1e-3, kMaxSeconds);
   if (!target_.empty())
-    o.budget.target_error = parse_with_unit("--target-error", target_, {{"", 1}, {"%", 0.01}});
+    budget.target_error = parse_amount("--target-error", target_, {{"", 1}, {"%", 0.01}}, 1e-6, 1);
+  options_.exposure = parse_amount("--exposure", exposure_, {{"", 1}}, -100, 100);
+  options_.threads = threads_.empty() ? hardware_threads()
+                                      : int(parse_whole("--threads", threads_, 1, kMaxThreads));
+  if (!seed_.empty())
+    options_.seed = parse_whole("--seed", seed_, 0, std::numeric_limits<uint64_t>::max());
+  if (!sensor_.empty())
+    options_.sensor = parse_whole("--sensor", sensor_, 0, std::numeric_limits<uint32_t>::max());
+}
+
+void RenderOptionParser::finish_window() {
   if (!size_.empty()) {
-    const auto v = parse_integers("--size", size_, 2, "WxH");
+    const auto v = parse_integers("--size", size_, 'x', 2, "WxH");
     if (v[0] < 1 || v[1] < 1 || v[0] > kMaxImageSide || v[1] > kMaxImageSide)
       throw UsageError(fmt::format("--size: {} is not a size from 1x1 to {}x{}", size_,
                                    kMaxImageSide, kMaxImageSide));
-    o.size = Point2i{v[0], v[1]};
+    options_.size = Point2i{v[0], v[1]};
   }
   if (!crop_.empty()) {
-    const auto v = parse_integers("--crop", crop_, 4, "x,y,w,h");
+    const auto v = parse_integers("--crop", crop_, ',', 4, "x,y,w,h");
     if (v[0] < 0 || v[1] < 0 || v[2] < 1 || v[3] < 1 || v[0] > kMaxImageSide ||
         v[1] > kMaxImageSide || v[2] > kMaxImageSide || v[3] > kMaxImageSide)
       throw UsageError(fmt::format("--crop: {} is not a window", crop_));
-    o.crop = PixelBounds{v[0], v[1], v[0] + v[2], v[1] + v[3]};
+    options_.crop = PixelBounds{v[0], v[1], v[0] + v[2], v[1] + v[3]};
   }
-  for (const std::string& p : integrator_parameters_) {
-    const size_t equals = p.find('=');
-    if (equals == std::string::npos || equals == 0)
-      throw UsageError(fmt::format("-I needs NAME=VALUE, not \"{}\"", p));
-    o.integrator.parameters.emplace_back(p.substr(0, equals), p.substr(equals + 1));
-  }
+}
+
+void RenderOptionParser::check_outputs() const {
+  const RenderOptions& o = options_;
+  const std::vector<std::string> patterns =
+      o.outputs.empty() ? std::vector<std::string>{""} : o.outputs;
+  std::map<std::string, std::string> writers;
+  for (const std::string& scene : o.read.scenes)
+    for (const std::string& pattern : patterns) {
+      if (o.skip_existing && !o.budget.spp && (o.budget.seconds || o.budget.target_error) &&
+          pattern.find("{spp}") != std::string::npos)
+        throw UsageError(fmt::format(
+            "-o {}: --skip-existing cannot know {{spp}} before the scene is rendered", pattern));
+      OutputNames names = output_names(scene);
+      // Two scenes that differ only in what they say themselves are too much alike.
+      names.integrator = names.spp = names.seed = "_";
+      const std::string path = output_path(pattern, names);
+      const auto [entry, is_new] = writers.try_emplace(path, scene);
+      if (!is_new && o.read.scenes.size() > 1)
+        throw UsageError(fmt::format(
+            "-o {}: {} and {} would be written to one file; use a template with {{scene}} or "
+            "{{folder}}",
+            pattern.empty() ? path : pattern, entry->second, scene));
+    }
+}
+
+RenderOptions RenderOptionParser::finish() {
+  RenderOptions& o = options_;
+  finish_numbers();
+  finish_window();
+  for (const std::string& p : integrator_parameters_)
+    o.integrator.parameters.push_back(parse_assignment("-I", p));
   o.integrator.layers = layers_;
   o.progress = progress_ == "bar"     ? ProgressStyle::bar
                : progress_ == "plain" ? ProgressStyle::plain
                : progress_ == "none"  ? ProgressStyle::none
                                       : ProgressStyle::automatic;
-  if (o.threads == 0) o.threads = hardware_threads();
-  if (o.scenes.size() > 1)
-    for (const std::string& output : o.outputs)
-      if (is_fixed_file(output))
-        throw UsageError(fmt::format(
-            "-o {}: several scenes cannot be written to one file; use a directory or {{scene}}",
-            output));
+  check_outputs();
+  if (!o.stats_file.empty())
+    if (const std::string why = unwritable_reason(o.stats_file); !why.empty())
+      throw UsageError(fmt::format("--stats: cannot write {}: {}", o.stats_file, why));
   return std::move(options_);
 }
 

@@ -13,11 +13,7 @@
 
 namespace duet {
 
-/// The widest and highest image there may be: a guard against slips of the pen.
-inline constexpr int kMaxImageSide = 65536;
-
 struct RenderOptions {
-  std::vector<std::string> scenes;
   ReadOptions read;
   std::vector<std::string> outputs;
   double exposure = 0;
@@ -45,10 +41,14 @@ class RenderOptionParser {
   RenderOptions finish();
 
  private:
+  void finish_numbers();
+  void finish_window();
+  void check_outputs() const;
+
   RenderOptions options_;
-  std::string time_, target_, size_, crop_, progress_ = "auto";
+  std::string spp_, time_, target_, size_, crop_, exposure_ = "0", threads_, seed_, sensor_,
+                                                  progress_ = "auto";
   std::vector<std::string> integrator_parameters_, layers_;
-  std::optional<int> spp_;
 };
 
 }  // namespace duet

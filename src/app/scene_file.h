@@ -1,6 +1,8 @@
 // Reads the scenes that are named on the command line.
 #pragma once
 
+#include <CLI/CLI.hpp>
+
 #include <optional>
 #include <string>
 #include <utility>
@@ -12,10 +14,18 @@ namespace duet {
 
 /// What the command line says about reading scenes.
 struct ReadOptions {
+  std::vector<std::string> scenes;
   std::vector<std::string> defines;  ///< NAME=VALUE
   std::vector<std::string> search_paths;
   bool strict = false;  ///< warnings are errors
 };
+
+/// Adds the scenes and the options -D, -a and --strict to a command.
+void add_read_options(CLI::App& command, ReadOptions& options);
+
+/// Throws UsageError for defines that are not NAME=VALUE or that no scene has a use for. Scenes
+/// that cannot be read may have a use for any.
+void check_defines(const ReadOptions& options);
 
 struct LoadedScene {
   SceneDescription description;
@@ -27,8 +37,7 @@ struct LoadedScene {
 /// of them (or, if strict, a warning).
 bool report(const Diagnostics& diagnostics, bool strict, size_t& printed);
 
-/// Reads one scene file and prints what is wrong with it. Empty if it cannot be used. Throws
-/// UsageError for defines that are not NAME=VALUE.
+/// Reads one scene file and prints what is wrong with it. Empty if it cannot be used.
 std::optional<LoadedScene> load_scene(const std::string& file, const ReadOptions& options);
 
 }  // namespace duet

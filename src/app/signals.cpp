@@ -20,8 +20,11 @@ extern "C" void on_signal(int signal) {
 }  // namespace
 
 void install_signal_handlers() {
-  std::signal(SIGINT, on_signal);
-  std::signal(SIGTERM, on_signal);
+  // Who started the program in the background may have chosen to ignore Ctrl-C.
+  for (const int signal : {SIGINT, SIGTERM})
+    if (std::signal(signal, SIG_IGN) != SIG_IGN) std::signal(signal, on_signal);
+  // A file that gets larger than the shell's limit is a failed write, not the end of the program.
+  std::signal(SIGXFSZ, SIG_IGN);
 }
 
 const std::atomic<bool>& interrupt_flag() {

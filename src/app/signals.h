@@ -5,7 +5,7 @@
 
 namespace duet {
 
-/// Takes over SIGINT and SIGTERM.
+/// Takes over SIGINT and SIGTERM, and makes writes beyond a size limit fail rather than kill.
 void install_signal_handlers();
 /// Becomes true at the first signal.
 const std::atomic<bool>& interrupt_flag();

@@ -2,9 +2,9 @@
 
 #include <sys/resource.h>
 
-#include <fstream>
 #include <nlohmann/json.hpp>
-#include <stdexcept>
+
+#include "base/atomic_file.h"
 
 namespace duet {
 
@@ -36,6 +36,8 @@ void StatisticsFile::add(const RenderRecord& record, const RenderResult& result,
   j["paths"] = {{"camera", c.camera_paths}, {"light", c.light_paths}};
   j["mean_path_length"] =
       c.camera_paths > 0 ? double(c.path_vertices) / double(c.camera_paths) : 0.0;
+  // What no method of this version does: the keys are there for readers of later files.
+  j["connections"] = j["merges"] = j["eye_subpaths_at_limit"] = j["reused_subpaths"] = nullptr;
   j["nonfinite_samples"] = c.nonfinite_samples;
   j["error"]["relative_rmse_estimate"] =
       result.relative_rmse ? nlohmann::ordered_json(*result.relative_rmse) : nullptr;
@@ -48,12 +50,11 @@ void StatisticsFile::add(const RenderRecord& record, const RenderResult& result,
 }
 
 void StatisticsFile::write(bool several) const {
-  std::ofstream out(path_);
-  if (several) out << "[\n";
-  for (size_t i = 0; i < entries_.size(); ++i) out << (i > 0 ? ",\n" : "") << entries_[i];
-  out << (several ? "\n]\n" : "\n");
-  out.close();
-  if (!out) throw std::runtime_error(fmt::format("cannot write {}", path_));
+  if (entries_.empty() && !several) return;
+  std::string text = several ? "[\n" : "";
+  for (size_t i = 0; i < entries_.size(); ++i) text += (i > 0 ? ",\n" : "") + entries_[i];
+  text += several ? "\n]\n" : "\n";
+  write_file_atomically(path_, {reinterpret_cast<const uint8_t*>(text.data()), text.size()});
 }
 
 }  // namespace duet

@@ -15,13 +15,13 @@ struct SceneCounts {
   size_t emitters = 0, triangles = 0, instances = 0;
 };
 
-/// Writes the JSON file of --stats. With several scenes the file holds an array of such objects.
-/// Throws std::runtime_error if it cannot be written.
+/// The JSON file of --stats: an object for a scene, or an array of them if there were several.
 class StatisticsFile {
  public:
   explicit StatisticsFile(std::string path) : path_(std::move(path)) {}
   void add(const RenderRecord& record, const RenderResult& result, const PhaseSeconds& seconds,
            const SceneCounts& counts);
+  /// Writes what was added; nothing if a single scene failed. Throws std::runtime_error.
   void write(bool several) const;
 
  private:

@@ -8,6 +8,13 @@ const MeshAttribute* TriangleMesh::find_attribute(const std::string& name) const
   return nullptr;
 }
 
+Normal3f normalized_or_zero(const Normal3f& n) {
+  const float scale = max_abs(n);
+  if (!is_finite(n) || !(scale > 0)) return Normal3f{};
+  // First by the largest component, so that no square overflows or vanishes.
+  return normalize(Normal3f{n.x / scale, n.y / scale, n.z / scale});
+}
+
 void transform_mesh(TriangleMesh& mesh, const Matrix4& to_world) {
   if (to_world == Matrix4{}) return;
   const Transform transform(to_world);
@@ -16,11 +23,7 @@ void transform_mesh(TriangleMesh& mesh, const Matrix4& to_world) {
     compute_vertex_normals(mesh);
     return;
   }
-  for (Normal3f& n : mesh.normals) {
-    const Normal3f m = transform(n);
-    const float l = length(m);
-    n = l > 0 ? m / l : Normal3f{};
-  }
+  for (Normal3f& n : mesh.normals) n = normalized_or_zero(transform(n));
 }
 
 TriangleMesh make_cube() {

@@ -36,6 +36,9 @@ struct TriangleMesh {
   const MeshAttribute* find_attribute(const std::string& name) const;
 };
 
+/// The normal with length one, whatever its scale; zero if it is zero or not finite.
+Normal3f normalized_or_zero(const Normal3f& n);
+
 /// Replaces the normals by the angle-weighted means of the faces around each vertex; a vertex
 /// without a proper face gets a normal of zero. Sets `computed_normals`. Source: Thürmer &
 /// Wüthrich, "Computing Vertex Normals from Polygonal Facets", 1998.

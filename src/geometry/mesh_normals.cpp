@@ -129,10 +129,8 @@ void compute_vertex_normals(TriangleMesh& mesh) {
     const double angles[3] = {angle0, angle1, std::max(0.0, double(kPi) - angle0 - angle1)};
     for (int i = 0; i < 3; ++i) mesh.normals[t[i]] = mesh.normals[t[i]] + face * float(angles[i]);
   }
-  for (Normal3f& n : mesh.normals) {
-    const float l = length(n);
-    n = l > 0 ? Normal3f{n.x / l, n.y / l, n.z / l} : Normal3f{};
-  }
+  // Angles, and so the sums, can be as small as a number can be.
+  for (Normal3f& n : mesh.normals) n = normalized_or_zero(n);
   mesh.computed_normals = true;
 }
 

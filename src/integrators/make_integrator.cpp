@@ -2,8 +2,10 @@
 
 #include <fmt/ranges.h>
 
+#include <algorithm>
 #include <charconv>
 #include <functional>
+#include <limits>
 #include <stdexcept>
 
 #include "integrators/depth.h"
@@ -21,12 +23,13 @@ struct Parameter {
   std::function<void(const std::string&)> set;
 };
 
-int parse_int(const std::string& name, const std::string& text, int least) {
+int parse_int(const std::string& name, const std::string& text, int least, int most) {
   int value = 0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (error != std::errc() || end != text.data() + text.size() || value < least)
-    throw std::invalid_argument(fmt::format(
-        "parameter \"{}\" needs a whole number of at least {}, not \"{}\"", name, least, text));
+  if (error != std::errc() || end != text.data() + text.size() || value < least || value > most)
+    throw std::invalid_argument(
+        fmt::format("parameter \"{}\" needs a whole number from {} to {}, not \"{}\"", name, least,
+                    most, text));
   return value;
 }
 
@@ -37,9 +40,15 @@ bool parse_bool(const std::string& name, const std::string& text) {
       fmt::format("parameter \"{}\" needs true or false, not \"{}\"", name, text));
 }
 
-Parameter integer(const std::string& name, int& value, int least) {
+constexpr int kMaxDepth = std::numeric_limits<int>::max();
+/// As many as the reader of scene files allows.
+constexpr int kMaxDirectSamples = 1 << 16;
+
+Parameter integer(const std::string& name, int& value, int least, int most) {
   return {name, [&value] { return fmt::to_string(value); },
-          [&value, name, least](const std::string& t) { value = parse_int(name, t, least); }};
+          [&value, name, least, most](const std::string& t) {
+            value = parse_int(name, t, least, most);
+          }};
 }
 
 Parameter boolean(const std::string& name, bool& value) {
@@ -48,13 +57,15 @@ Parameter boolean(const std::string& name, bool& value) {
 }
 
 std::vector<Parameter> parameters(PathIntegratorDescription& d) {
-  return {integer("max_depth", d.max_depth, -1), integer("rr_depth", d.rr_depth, 1),
+  return {integer("max_depth", d.max_depth, -1, kMaxDepth),
+          integer("rr_depth", d.rr_depth, 1, kMaxDepth),
+
           boolean("hide_emitters", d.hide_emitters), boolean("strict_normals", d.strict_normals)};
 }
 std::vector<Parameter> parameters(DirectIntegratorDescription& d) {
-  return {integer("emitter_samples", d.emitter_samples, 0),
-          integer("bsdf_samples", d.bsdf_samples, 0), boolean("hide_emitters", d.hide_emitters),
-          boolean("strict_normals", d.strict_normals)};
+  return {integer("emitter_samples", d.emitter_samples, 0, kMaxDirectSamples),
+          integer("bsdf_samples", d.bsdf_samples, 0, kMaxDirectSamples),
+          boolean("hide_emitters", d.hide_emitters), boolean("strict_normals", d.strict_normals)};
 }
 std::vector<Parameter> parameters(DepthIntegratorDescription&) {
   return {};
@@ -87,6 +98,12 @@ CameraOutput camera_output(const IntegratorDescription& integrator) {
       throw std::invalid_argument(fmt::format("there is no layer \"{}\"{}; there are {}",
                                               layer.kind, did_you_mean(layer.kind, layer_names()),
                                               fmt::join(layer_names(), ", ")));
+    if (!output.image && (*kind == LayerKind::moments || *kind == LayerKind::variance))
+      throw std::invalid_argument(
+          fmt::format("layer \"{}\" needs an image, which \"aov\" does not make", layer.kind));
+    for (const Layer& other : output.layers)
+      if (other.name == layer.name)
+        throw std::invalid_argument(fmt::format("two layers are called \"{}\"", layer.name));
     output.layers.push_back({*kind, layer.name});
   }
   if (integrator.moments) output.layers.push_back({LayerKind::moments, "m2"});
@@ -122,7 +139,14 @@ void apply_override(IntegratorDescription& integrator, const IntegratorOverride&
                                             integrator_name(integrator), name,
                                             did_you_mean(name, names)));
   }
-  for (const std::string& layer : with.layers) integrator.aovs.layers.push_back({layer, layer});
+  if (const auto* direct = std::get_if<DirectIntegratorDescription>(&integrator.method);
+      direct && direct->emitter_samples + direct->bsdf_samples == 0)
+    throw std::invalid_argument("integrator \"direct\" needs samples of emitters or of BSDFs");
+  std::vector<AovDescription::Layer>& layers = integrator.aovs.layers;
+  for (const std::string& name : with.layers) {
+    const AovDescription::Layer layer{name, name};
+    if (std::find(layers.begin(), layers.end(), layer) == layers.end()) layers.push_back(layer);
+  }
 }
 
 std::string integrator_name(const IntegratorDescription& integrator) {

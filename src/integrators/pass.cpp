@@ -13,8 +13,6 @@ namespace duet {
 
 namespace {
 
-/// Independent sequences from which the error is estimated when it decides when to stop.
-constexpr int kBatches = 8;
 /// Parts into which a known number of samples is divided, for progress and the error bound.
 constexpr int kParts = 8;
 
@@ -23,7 +21,7 @@ class Renderer {
   Renderer(const Scene& scene, const Integrator& integrator, const FilmLayout& layout,
            const RenderRequest& request)
       : scene_(scene), integrator_(integrator), request_(request) {
-    const int films = request.budget.target_error ? kBatches : 1;
+    const int films = request.budget.target_error ? kErrorBatches : 1;
     for (int i = 0; i < films; ++i) films_.emplace_back(layout, integrator.channels());
     start_ = std::chrono::steady_clock::now();
   }
@@ -88,9 +86,9 @@ class Renderer {
     const int total = request_.budget.spp.value_or(std::numeric_limits<int>::max() / 2);
     int length = 0, part = 1;
     // The budget may not divide evenly among the batches: the first ones get what remains.
-    const auto limit = [&](int batch) { return total / kBatches + (batch < total % kBatches); };
+    const auto limit = [&](int batch) { return total / kErrorBatches + (batch < total % kErrorBatches); };
     while (spp_ < total && !cancelled() && !out_of_time()) {
-      for (int b = 0; b < kBatches && !cancelled(); ++b) {
+      for (int b = 0; b < kErrorBatches && !cancelled(); ++b) {
         const int count = std::min(part, limit(b) - length);
         if (count <= 0) continue;
         pass(films_[b], uint32_t(b), length, count);
@@ -112,8 +110,8 @@ class Renderer {
     int part = int(std::clamp(needed, 1.0, double(length)));
     if (request_.budget.seconds) {
       const double left = *request_.budget.seconds - seconds();
-      const double per_sample = seconds() / (double(length) * kBatches);
-      part = int(std::clamp(left / (per_sample * kBatches), 1.0, double(part)));
+      const double per_sample = seconds() / (double(length) * kErrorBatches);
+      part = int(std::clamp(left / (per_sample * kErrorBatches), 1.0, double(part)));
     }
     return part;
   }

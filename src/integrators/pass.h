@@ -9,6 +9,10 @@
 
 namespace duet {
 
+/// Independent sequences, each with a film of its own, from which the error is estimated when it
+/// decides when to stop.
+inline constexpr int kErrorBatches = 8;
+
 /// When to stop; the first limit that is reached wins. At least one must be set.
 struct RenderBudget {
   std::optional<int> spp;

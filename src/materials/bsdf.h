@@ -37,9 +37,11 @@ struct BsdfComponent {
 /// ask it again costs no texture lookup. Mixtures (blends, masks) are lists of components whose
 /// shares sum to at most one.
 ///
-/// With respect to the shading normal n the two transports describe the same surface: apart from
-/// the squared index of refraction, the value from l to v for importance over |v·n| is that from v
-/// to l for radiance over |l·n|, also under bump maps.
+/// The two transports describe the same surface: with respect to the shading normal n, the value
+/// for importance with wo = l and wi = v, over |v·n|, is the value for radiance with wo = v and wi
+/// = l, over |l·n|. This holds for refraction, which scales only the latter by squared indices, and
+/// under bump maps, which scale the former by what they do to the cosines.
+/// Source: Veach, "Robust Monte Carlo Methods for Light Transport Simulation", 1997, section 5.3.
 class Bsdf {
  public:
   /// More components in one material are refused when the scene is built.
@@ -50,7 +52,8 @@ class Bsdf {
   /// Value and density for the unit world direction wi.
   BsdfEval eval(const Vector3f& wi, Transport transport) const;
   /// Density with which a path that arrives from wi and carries the opposite of `transport` would
-  /// be sent to wo. Delta lobes are left out; each has the same probability from both ends.
+  /// be sent to wo, if the value of this pair is not zero. Delta lobes are left out; each has the
+  /// same probability from both ends, except under bump maps that turn normals towards the eye.
   PdfW reverse_pdf(const Vector3f& wi, Transport transport) const;
   /// `u` picks the component and the lobe, `v` the direction.
   std::optional<BsdfSample> sample(float u, const Point2f& v, Transport transport) const;

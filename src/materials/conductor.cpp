@@ -1,6 +1,7 @@
 #include "materials/conductor.h"
 
 #include "materials/materials.h"
+
 namespace duet {
 
 std::optional<ModelSample> ConductorModel::sample(const Vector3f& wo, float, const Point2f&,

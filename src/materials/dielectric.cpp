@@ -1,6 +1,7 @@
 #include "materials/dielectric.h"
 
 #include "materials/materials.h"
+
 namespace duet {
 
 namespace {

@@ -120,9 +120,9 @@ class Microfacet {
   bool ggx_, visible_;
 };
 
-/// Source: Dupuy & Benyoub, "Sampling Visible GGX Normals with Spherical Caps", 2023. The reflections
-/// about the facets of a (stretched) hemisphere fill a spherical cap evenly. Here the sphere has the
-/// radius to which o is stretched, which saves to normalise it.
+/// Source: Dupuy & Benyoub, "Sampling Visible GGX Normals with Spherical Caps", 2023. The
+/// reflections about the facets of a (stretched) hemisphere fill a spherical cap evenly. Here the
+/// sphere has the radius to which o is stretched, which saves to normalise it.
 inline Vector3f Microfacet::sample_visible_ggx(const Vector3f& o, const Point2f& u) const {
   const float radius = stretched_length(o);
   // r² of a point on the disk is uniform and gives the height on the cap.

@@ -1,6 +1,7 @@
 #include "materials/plastic.h"
 
 #include "materials/materials.h"
+
 namespace duet {
 
 namespace {

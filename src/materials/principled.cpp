@@ -1,6 +1,7 @@
 #include "materials/principled.h"
 
 #include "materials/materials.h"
+
 namespace duet {
 
 namespace {

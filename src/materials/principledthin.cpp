@@ -1,6 +1,7 @@
 #include "materials/principledthin.h"
 
 #include "materials/materials.h"
+
 namespace duet {
 
 namespace {
@@ -9,9 +10,10 @@ Vector3f mirrored(const Vector3f& w, bool mirror) {
   return mirror ? Vector3f{w.x, w.y, -w.z} : w;
 }
 
-/// As in Mitsuba, light has to leave a facet on the side on which it leaves the surface.
-bool leaves_facet(const Vector3f& i, const Vector3f& h) {
-  return dot(i, h) < 0;
+/// As in Mitsuba, transmitted light has to meet the facet h from the side from which it meets the
+/// surface, seen with the eye above. `o` lies above the surface and `i` below.
+bool meets_facet(const Vector3f& o, const Vector3f& i, const Vector3f& h, Transport transport) {
+  return transport == Transport::radiance ? dot(i, h) < 0 : dot(mirrored(o, true), h) < 0;
 }
 
 }  // namespace
@@ -43,14 +45,15 @@ ModelEval PrincipledThinModel::eval_reflection(const Vector3f& o, const Vector3f
 }
 
 /// Specular transmission is reflection that is then mirrored to the other side.
-ModelEval PrincipledThinModel::eval_transmission(const Vector3f& o, const Vector3f& i) const {
+ModelEval PrincipledThinModel::eval_transmission(const Vector3f& o, const Vector3f& i,
+                                                 Transport transport) const {
   ModelEval e;
   e.value = base_color * ((1 - spec_trans) * diff_trans * kInvPi * -i.z);
   e.pdf = pick_diffuse_transmission * kInvPi * -i.z;
   if (spec_trans > 0) {
-    const Vector3f r(i.x, i.y, -i.z);
+    const Vector3f r = mirrored(i, true);
     const Vector3f h = normalize(o + r);
-    if (leaves_facet(i, h)) {
+    if (meets_facet(o, i, h, transport)) {
       const Microfacet::Core core = transmission_facets.core(o, r, h);
       const float f = fresnel_dielectric(dot(o, h), eta).reflectance;
       e.value += base_color * (spec_trans * (1 - f) * 0.25f * core.value);
@@ -60,11 +63,12 @@ ModelEval PrincipledThinModel::eval_transmission(const Vector3f& o, const Vector
   return e;
 }
 
-ModelEval PrincipledThinModel::eval(const Vector3f& wo, const Vector3f& wi, Transport) const {
+ModelEval PrincipledThinModel::eval(const Vector3f& wo, const Vector3f& wi,
+                                    Transport transport) const {
   if (std::abs(wo.z) < kMinCosine || std::abs(wi.z) < kMinCosine) return {};
   const bool below = wo.z < 0;
   const Vector3f o = mirrored(wo, below), i = mirrored(wi, below);
-  return i.z > 0 ? eval_reflection(o, i) : eval_transmission(o, i);
+  return i.z > 0 ? eval_reflection(o, i) : eval_transmission(o, i, transport);
 }
 
 std::optional<ModelSample> PrincipledThinModel::sample(const Vector3f& wo, float u,
@@ -80,7 +84,7 @@ std::optional<ModelSample> PrincipledThinModel::sample(const Vector3f& wo, float
     const Vector3f r = reflect(o, (reflects ? facets : transmission_facets).sample(o, v));
     if (!(r.z > 0)) return std::nullopt;
     i = mirrored(r, !reflects);
-    if (!reflects && !leaves_facet(i, o + r)) return std::nullopt;
+    if (!reflects && !meets_facet(o, i, o + r, transport)) return std::nullopt;
   } else {
     i = mirrored(square_to_cosine_hemisphere(v), u >= specular + pick_diffuse);
   }

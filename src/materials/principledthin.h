@@ -24,13 +24,13 @@ struct PrincipledThinModel {
   bool has_delta() const { return false; }
   bool needs_choice() const { return true; }
 
-  ModelEval eval(const Vector3f& wo, const Vector3f& wi, Transport) const;
+  ModelEval eval(const Vector3f& wo, const Vector3f& wi, Transport transport) const;
   std::optional<ModelSample> sample(const Vector3f& wo, float u, const Point2f& v,
                                     Transport transport) const;
 
  private:
   ModelEval eval_reflection(const Vector3f& o, const Vector3f& i) const;
-  ModelEval eval_transmission(const Vector3f& o, const Vector3f& i) const;
+  ModelEval eval_transmission(const Vector3f& o, const Vector3f& i, Transport transport) const;
 };
 
 }  // namespace duet

@@ -178,7 +178,8 @@ void RoughTransmittance::add_row(MicrofacetDistribution distribution, float eta,
   for (int k = 0; k < kSize; ++k) {
     const float mu = std::max(1e-6f, float(k) / float(kSize - 1));
     const Vector3f o(std::sqrt(1 - mu * mu), 0, mu);
-    external_.push_back(outside.transmittance(o, eta));
+    // By rounding the sum may exceed one.
+    external_.push_back(std::min(outside.transmittance(o, eta), 1.0f));
     internal += inside.reflectance(o, 1 / eta) * mu;
   }
   internal_.push_back(2 * internal / float(kSize));

@@ -89,6 +89,14 @@ TEST_CASE("vertices without a proper face get a normal of zero") {
   for (const Normal3f& n : mesh.normals) CHECK(n == Normal3f{});
 }
 
+TEST_CASE("the normal of a corner whose angle is hardly a number has length one") {
+  TriangleMesh mesh;
+  mesh.positions = {{6e-40f, -3e31f, 2.5e13f}, {1.2e-38f, 0, 0}, {0, -1.5e29f, 9e-44f}};
+  mesh.triangles = {{0, 1, 2}};
+  compute_vertex_normals(mesh);
+  for (const Normal3f& n : mesh.normals) CHECK(difference(n, {-1, 0, 0}) < 1e-6);
+}
+
 TEST_CASE("creases: faces share a normal only below the angle") {
   const auto creased = [](double angle) {
     TriangleMesh mesh = shared_cube();
@@ -175,6 +183,18 @@ TEST_CASE("normals from the file are carried along by a transform, computed ones
   compute_vertex_normals(expected);
   transform_mesh(cube, Matrix4::scale(5, 1, 1));
   CHECK(cube == expected);
+}
+
+TEST_CASE("normals keep their length under transforms of any scale") {
+  for (const double scale : {1e-25, 1e-6, 1e6, 1e25}) {
+    TriangleMesh mesh = make_cube();
+    const TriangleMesh before = mesh;
+    Matrix4 m;
+    for (int i = 0; i < 3; ++i) m[i][i] = scale;
+    transform_mesh(mesh, m);
+    for (size_t i = 0; i < mesh.normals.size(); ++i)
+      CHECK(difference(mesh.normals[i], before.normals[i]) < 1e-6);
+  }
 }
 
 TEST_CASE("the rectangle and the cube agree with their normals") {

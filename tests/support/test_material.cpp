@@ -1,4 +1,4 @@
-#include "materials/test_material.h"
+#include "support/test_material.h"
 
 #include <fstream>
 #include <stdexcept>

@@ -1,0 +1,87 @@
+#include "app/arguments.h"
+
+#include <fmt/format.h>
+
+#include <charconv>
+#include <cmath>
+
+#include "app/commands.h"
+
+namespace duet {
+
+double parse_amount(const std::string& option, const std::string& text, const Units& units,
+                    double least, double most) {
+  double value = 0;
+  const char* end = text.data() + text.size();
+  const auto [rest, error] = std::from_chars(text.data(), end, value);
+  const std::string unit(rest, end);
+  std::string names;
+  for (const auto& [name, factor] : units) {
+    // Written so that NaN is refused.
+    if (error == std::errc() && unit == name && value * factor >= least && value * factor <= most)
+      return value * factor;
+    if (!name.empty()) names += (names.empty() ? ", perhaps with the unit " : " or ") + name;
+  }
+  throw UsageError(fmt::format("{}: \"{}\" is not a number from {:g} to {:g}{}", option, text,
+                               least, most, names));
+}
+
+uint64_t parse_whole(const std::string& option, const std::string& text, uint64_t least,
+                     uint64_t most) {
+  uint64_t value = 0;
+  const char* end = text.data() + text.size();
+  const auto [rest, error] = std::from_chars(text.data(), end, value);
+  if (error != std::errc() || rest != end || value < least || value > most)
+    throw UsageError(
+        fmt::format("{}: \"{}\" is not a whole number from {} to {}", option, text, least, most));
+  return value;
+}
+
+std::vector<int> parse_integers(const std::string& option, const std::string& text, char separator,
+                                size_t count, const char* form) {
+  std::vector<int> values;
+  const char *p = text.data(), *end = p + text.size();
+  for (bool more = true; more;) {
+    int value = 0;
+    const auto [rest, error] = std::from_chars(p, end, value);
+    if (error != std::errc()) break;
+    values.push_back(value);
+    p = rest;
+    more = p != end && *p == separator;
+    p += more;
+  }
+  if (p != end || values.size() != count)
+    throw UsageError(fmt::format("{}: \"{}\" is not of the form {}", option, text, form));
+  return values;
+}
+
+std::pair<std::string, std::string> parse_assignment(const std::string& option,
+                                                     const std::string& text) {
+  const size_t equals = text.find('=');
+  if (equals == std::string::npos || equals == 0)
+    throw UsageError(fmt::format("{} needs NAME=VALUE, not \"{}\"", option, text));
+  return {text.substr(0, equals), text.substr(equals + 1)};
+}
+
+std::string shell_quoted(const std::vector<std::string>& arguments) {
+  constexpr const char* plain =
+      "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-+=./:,%@";
+  std::string line;
+  for (const std::string& a : arguments) {
+    if (!line.empty()) line += ' ';
+    if (!a.empty() && a.find_first_not_of(plain) == std::string::npos) {
+      line += a;
+      continue;
+    }
+    line += '\'';
+    for (const char c : a)
+      if (c == '\'')
+        line += "'\\''";
+      else
+        line += c;
+    line += '\'';
+  }
+  return line;
+}
+
+}  // namespace duet

@@ -1,0 +1,235 @@
+#include "app/description_text.h"
+
+#include <filesystem>
+
+namespace duet {
+
+namespace {
+
+template <class... F>
+struct Overloaded : F... {
+  using F::operator()...;
+};
+template <class... F>
+Overloaded(F...) -> Overloaded<F...>;
+
+std::string text(const Spectrum& s) {
+  if (s.r == s.g && s.g == s.b) return fmt::format("{:g}", s.r);
+  return fmt::format("{:.4g} {:.4g} {:.4g}", s.r, s.g, s.b);
+}
+
+std::string file_name(const std::string& path) {
+  return std::filesystem::path(path).filename().string();
+}
+
+/// Where the origin of a transform lies.
+std::string place(const Matrix4& m) {
+  return fmt::format("at ({:.4g}, {:.4g}, {:.4g})", m[0][3], m[1][3], m[2][3]);
+}
+
+/// Where a transform's +z axis points.
+std::string direction(const Matrix4& m) {
+  return fmt::format("towards ({:.4g}, {:.4g}, {:.4g})", m[0][2], m[1][2], m[2][2]);
+}
+
+std::string filter_text(const FilterDescription& f) {
+  switch (f.kind) {
+    case FilterKind::box:
+      return fmt::format("box filter of radius {:g}", f.radius);
+    case FilterKind::tent:
+      return fmt::format("tent filter of radius {:g}", f.radius);
+    case FilterKind::gaussian:
+      return fmt::format("gaussian filter of deviation {:g}", f.stddev);
+    case FilterKind::mitchell:
+      return fmt::format("mitchell filter, B {:.3g}, C {:.3g}", f.b, f.c);
+    case FilterKind::catmullrom:
+      return "catmullrom filter";
+    case FilterKind::lanczos:
+      return fmt::format("lanczos filter of {} lobes", f.lobes);
+  }
+  return "";
+}
+
+}  // namespace
+
+std::string DescriptionText::name(MaterialId id) const {
+  const std::string& label = scene_.materials[size_t(id)].label.text;
+  return label.empty() ? fmt::format("#{}", size_t(id)) : label;
+}
+
+std::string DescriptionText::texture_name(TextureId id) const {
+  const TextureDescription& t = scene_.textures[size_t(id)];
+  if (!t.label.text.empty()) return t.label.text;
+  if (const auto* bitmap = std::get_if<BitmapTexture>(&t.model)) return file_name(bitmap->file);
+  return fmt::format("texture #{}", size_t(id));
+}
+
+std::string DescriptionText::input(const ColorInput& input) const {
+  if (const auto* id = std::get_if<TextureId>(&input)) return texture_name(*id);
+  return text(std::get<Spectrum>(input));
+}
+
+std::string DescriptionText::input(const FloatInput& input) const {
+  if (const auto* id = std::get_if<TextureId>(&input)) return texture_name(*id);
+  return fmt::format("{:.4g}", std::get<double>(input));
+}
+
+std::string DescriptionText::material(MaterialId id) const {
+  const auto rough = [&](const std::optional<Roughness>& r, const std::string& model) {
+    if (!r) return model;
+    const std::string u = input(r->alpha_u), v = input(r->alpha_v);
+    return fmt::format("rough{} ({}, alpha {})", model,
+                       r->distribution == MicrofacetDistribution::ggx ? "ggx" : "beckmann",
+                       u == v ? u : u + " and " + v);
+  };
+  return std::visit(
+      Overloaded{
+          [&](const DiffuseMaterial& m) { return "diffuse " + input(m.reflectance); },
+          [&](const ConductorMaterial& m) { return rough(m.roughness, "conductor"); },
+          [&](const DielectricMaterial& m) {
+            return fmt::format("{}, eta {}", rough(m.roughness, "dielectric"), input(m.eta));
+          },
+          [&](const ThinDielectricMaterial& m) {
+            return fmt::format("thindielectric, eta {:.4g}", m.eta);
+          },
+          [&](const PlasticMaterial& m) {
+            return fmt::format("{}, eta {:.4g}, diffuse {}", rough(m.roughness, "plastic"), m.eta,
+                               input(m.diffuse_reflectance));
+          },
+          [&](const PrincipledMaterial& m) {
+            return fmt::format("principled {}, roughness {}, metallic {}", input(m.base_color),
+                               input(m.roughness), input(m.metallic));
+          },
+          [&](const PrincipledThinMaterial& m) {
+            return fmt::format("principledthin {}, roughness {}", input(m.base_color),
+                               input(m.roughness));
+          },
+          [&](const TwoSidedMaterial& m) {
+            return m.front == m.back ? fmt::format("twosided [{}]", material(m.front))
+                                     : fmt::format("twosided [front {}; back {}]",
+                                                   material(m.front), material(m.back));
+          },
+          [&](const MaskMaterial& m) {
+            return fmt::format("mask, opacity {} [{}]", input(m.opacity), material(m.nested));
+          },
+          [&](const BlendMaterial& m) {
+            return fmt::format("blendbsdf, weight {} [{}; {}]", input(m.weight), material(m.first),
+                               material(m.second));
+          },
+          [&](const BumpMapMaterial& m) {
+            return fmt::format("bumpmap {} [{}]", texture_name(m.height), material(m.nested));
+          },
+          [&](const NormalMapMaterial& m) {
+            return fmt::format("normalmap {} [{}]", texture_name(m.normals), material(m.nested));
+          },
+          [&](const NullMaterial&) { return std::string("null"); },
+      },
+      scene_.materials[size_t(id)].model);
+}
+
+std::string DescriptionText::texture(const TextureDescription& t) const {
+  const std::string label = t.label.text.empty() ? "" : t.label.text + ": ";
+  return label + std::visit(Overloaded{
+                                [](const BitmapTexture& m) {
+                                  return fmt::format("bitmap {}{}", m.file, m.raw ? ", raw" : "");
+                                },
+                                [&](const CheckerboardTexture& m) {
+                                  return fmt::format("checkerboard {} and {}", input(m.color0),
+                                                     input(m.color1));
+                                },
+                                [](const MeshAttributeTexture& m) {
+                                  return fmt::format("mesh_attribute {}", m.attribute);
+                                },
+                            },
+                            t.model);
+}
+
+std::string DescriptionText::shape_kind(const ShapeDescription& s) const {
+  return std::visit(Overloaded{
+                        [](const MeshShape& m) {
+                          return m.source.plugin.empty() ? std::string("mesh") : m.source.plugin;
+                        },
+                        [](const RectangleShape&) { return std::string("rectangle"); },
+                        [](const CubeShape&) { return std::string("cube"); },
+                        [](const SphereShape&) { return std::string("sphere"); },
+                        [](const DiskShape&) { return std::string("disk"); },
+                        [](const CylinderShape&) { return std::string("cylinder"); },
+                        [](const InstanceShape&) { return std::string("instance"); },
+                    },
+                    s.geometry);
+}
+
+std::string DescriptionText::shape(const ShapeDescription& s) const {
+  std::string t = shape_kind(s);
+  if (!s.label.text.empty()) t += " " + s.label.text;
+  if (const auto* instance = std::get_if<InstanceShape>(&s.geometry)) {
+    const std::string& group = scene_.groups[instance->group].label.text;
+    return t + " of " + (group.empty() ? fmt::format("group #{}", instance->group) : group);
+  }
+  if (const auto* m = std::get_if<MeshShape>(&s.geometry)) {
+    if (!m->source.file.empty()) t += fmt::format(" ({})", file_name(m->source.file));
+    t += fmt::format(", {} triangles", m->mesh->triangles.size());
+  }
+  t += ", bsdf " + name(s.material);
+  if (s.emission) t += ", emits " + input(s.emission->radiance);
+  return t;
+}
+
+std::string DescriptionText::area_light(const ShapeDescription& s) const {
+  return fmt::format("area on {}{}: {}", shape_kind(s),
+                     s.label.text.empty() ? "" : " " + s.label.text, input(s.emission->radiance));
+}
+
+std::string DescriptionText::light(const LightDescription& l) const {
+  const Matrix4& m = l.to_world;
+  return std::visit(Overloaded{
+                        [&](const PointLight& p) {
+                          return fmt::format("point {}: {}", place(m), text(p.intensity));
+                        },
+                        [&](const SpotLight& p) {
+                          return fmt::format("spot {} {}, {:g} degrees: {}{}", place(m),
+                                             direction(m), p.cutoff_angle, text(p.intensity),
+                                             p.texture ? " with " + texture_name(*p.texture) : "");
+                        },
+                        [&](const ProjectorLight& p) {
+                          return fmt::format("projector {} {}: {}, scale {:g}", place(m),
+                                             direction(m), input(p.irradiance), p.scale);
+                        },
+                        [&](const DirectionalLight& p) {
+                          return fmt::format("directional {}: {}", direction(m),
+                                             text(p.irradiance));
+                        },
+                        [&](const ConstantLight& p) { return "constant: " + text(p.radiance); },
+                        [&](const EnvironmentMapLight& p) {
+                          return fmt::format("envmap: {}, scale {:g}", p.file, p.scale);
+                        },
+                    },
+                    l.model);
+}
+
+std::string DescriptionText::sensor(const SensorDescription& s) const {
+  constexpr const char* kinds[] = {"perspective", "thinlens", "orthographic"};
+  constexpr const char* axes[] = {"x", "y", "diagonal", "smaller", "larger"};
+  std::string t =
+      fmt::format("{} {} {}", kinds[size_t(s.kind)], place(s.to_world), direction(s.to_world));
+  if (s.kind != SensorKind::orthographic)
+    t += fmt::format(", fov {:.4g} along {}", s.fov, axes[size_t(s.fov_axis)]);
+  if (s.kind == SensorKind::thinlens)
+    t += fmt::format(", aperture radius {:g}, focus at {:g}", s.aperture_radius, s.focus_distance);
+  return t;
+}
+
+std::string DescriptionText::film(const FilmDescription& f) const {
+  constexpr const char* formats[] = {"luminance", "luminance and alpha", "rgb", "rgba", "xyz",
+                                     "xyza"};
+  std::string t = fmt::format("{}x{}", f.width, f.height);
+  if (f.crop)
+    t += fmt::format(", window {},{},{},{}", f.crop->x, f.crop->y, f.crop->width, f.crop->height);
+  t += fmt::format(", {}, {} {}", filter_text(f.filter), formats[size_t(f.pixel_format)],
+                   f.component_format == ComponentFormat::half ? "half" : "float");
+  if (f.tone_mapping)
+    t += f.tone_mapping->reinhard ? ", Reinhard's tone mapping" : ", tone mapping";
+  return t;
+}
+
+}  // namespace duet

@@ -1,0 +1,83 @@
+// duet plugins: what is understood in scene files.
+#include <algorithm>
+#include <string_view>
+
+#include "app/commands.h"
+#include "base/diagnostics.h"
+#include "mitsuba/vocabulary.h"
+#include "mitsuba/vocabulary_text.h"
+
+namespace duet {
+
+namespace {
+
+std::string only_in(FileVersions v) {
+  return v == FileVersions::all ? "" : fmt::format(", {} only", versions_name(v));
+}
+
+void print_parameter(const Parameter& p) {
+  std::string line =
+      fmt::format("    {:28} {:12} {}", p.name, support_name(p.support), type_name(p.type));
+  if (p.required) line += ", required";
+  if (!p.preset.empty()) line += fmt::format(", default {}", p.preset);
+  if (!p.preset_0x.empty()) line += fmt::format(" (in 0.x {})", p.preset_0x);
+  line += only_in(p.versions);
+  if (!p.aliases.empty()) line += fmt::format(", also {}", p.aliases);
+  if (!p.note.empty()) line += fmt::format(": {}", p.note);
+  fmt::print("{}\n", line);
+}
+
+void print_kind(PluginKind kind) {
+  for (const Plugin& p : plugins(kind)) {
+    fmt::print("{} {:{}} {}{}{}{}\n", tag_of(kind), p.name, 31 - int(tag_of(kind).size()),
+               support_name(p.support), only_in(p.versions),
+               p.aliases.empty() ? "" : fmt::format(", also {}", p.aliases),
+               p.note.empty() ? "" : fmt::format(": {}", p.note));
+    for (const Parameter& q : p.parameters) print_parameter(q);
+  }
+  if (common_parameters(kind).empty()) return;
+  fmt::print("every {}\n", tag_of(kind));
+  for (const Parameter& q : common_parameters(kind)) print_parameter(q);
+}
+
+int list_plugins(const std::string& kind_name, bool markdown) {
+  if (markdown) {
+    if (!kind_name.empty()) throw UsageError("--markdown prints all kinds; name none");
+    fmt::print("{}", compatibility_markdown());
+    return kSuccess;
+  }
+  std::vector<std::string> tags;
+  for (int k = 0; k < kPluginKinds; ++k)
+    if (PluginKind(k) != PluginKind::scene) tags.emplace_back(tag_of(PluginKind(k)));
+  if (!kind_name.empty()) {
+    if (std::find(tags.begin(), tags.end(), kind_name) == tags.end())
+      throw UsageError(fmt::format("there is no kind \"{}\"{}; there are {}", kind_name,
+                                   did_you_mean(kind_name, tags), fmt::join(tags, " ")));
+    tags = {kind_name};
+  }
+  for (const std::string& tag : tags) print_kind(*kind_of_tag(tag));
+  return kSuccess;
+}
+
+}  // namespace
+
+void add_plugins_command(CLI::App& app, int& exit_code) {
+  CLI::App* c = app.add_subcommand("plugins", "List the plugins and parameters of scene files");
+  struct Options {
+    std::string kind;
+    bool markdown = false;
+  };
+  const auto o = std::make_shared<Options>();
+  c->add_option("kind", o->kind, "Only these: bsdf, shape, emitter, sensor, ... (default: all)");
+  c->add_flag("--markdown", o->markdown, "Print docs/compatibility.md");
+  c->footer(
+      "Each line says what becomes of a name: done; approximated; no effect, because it changes\n"
+      "nothing that Duet does; ignored with a warning; planned, until when it is an error; "
+      "refused.\n"
+      "Examples:\n"
+      "  duet plugins bsdf\n"
+      "  duet plugins --markdown > docs/compatibility.md");
+  c->callback([o, &exit_code] { exit_code = list_plugins(o->kind, o->markdown); });
+}
+
+}  // namespace duet

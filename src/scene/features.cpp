@@ -1,0 +1,205 @@
+#include "scene/features.h"
+
+#include <fmt/format.h>
+
+#include <set>
+
+namespace duet {
+
+namespace {
+
+/// The place of a point, in double precision.
+Point3f place(const Matrix4& m, const Point3f& p) {
+  Point3f out;
+  for (int i = 0; i < 3; ++i)
+    out[i] = float(m[i][0] * double(p.x) + m[i][1] * double(p.y) + m[i][2] * double(p.z) + m[i][3]);
+  return out;
+}
+
+bool is_used(const FloatInput& input) {
+  const double* constant = std::get_if<double>(&input);
+  return !constant || *constant != 0;
+}
+
+class Survey {
+ public:
+  explicit Survey(const SceneDescription& scene) : scene_(scene) {
+    for (const ShapeGroupDescription& g : scene.groups) {
+      group_ = &groups_.emplace_back();
+      for (const ShapeDescription& s : g.shapes) add(s, group_->bounds);
+    }
+    group_ = nullptr;
+    for (const ShapeDescription& s : scene.shapes) add(s, features_.bounds);
+    for (const LightDescription& l : scene.lights) std::visit(*this, l.model);
+    for (const SensorDescription& s : scene.sensors)
+      features_.depth_of_field |= s.kind == SensorKind::thinlens && s.aperture_radius > 0;
+    features_.textures = scene.textures.size();
+  }
+  SceneFeatures result() const { return features_; }
+
+  // Lights.
+  void operator()(const PointLight&) { ++features_.point_lights; }
+  void operator()(const SpotLight&) { ++features_.spot_lights; }
+  void operator()(const ProjectorLight&) { ++features_.projectors; }
+  void operator()(const DirectionalLight&) { ++features_.directional_lights; }
+  void operator()(const ConstantLight&) { features_.constant_environment = true; }
+  void operator()(const EnvironmentMapLight&) { features_.environment_map = true; }
+
+  // Materials.
+  void operator()(const DiffuseMaterial&) { ++features_.diffuse; }
+  void operator()(const ConductorMaterial& m) {
+    ++(m.roughness ? features_.rough_reflection : features_.mirrors);
+  }
+  void operator()(const DielectricMaterial& m) {
+    ++(m.roughness ? features_.rough_refraction : features_.smooth_glass);
+  }
+  void operator()(const ThinDielectricMaterial&) { ++features_.smooth_glass; }
+  void operator()(const PlasticMaterial& m) {
+    ++features_.diffuse;
+    ++(m.roughness ? features_.rough_reflection : features_.mirrors);
+  }
+  void operator()(const PrincipledMaterial& m) {
+    ++features_.diffuse, ++features_.rough_reflection;
+    features_.rough_refraction += is_used(m.spec_trans);
+  }
+  void operator()(const PrincipledThinMaterial& m) {
+    ++features_.diffuse, ++features_.rough_reflection;
+    features_.rough_refraction += is_used(m.spec_trans);
+  }
+  void operator()(const TwoSidedMaterial& m) { add(m.front), add(m.back); }
+  void operator()(const MaskMaterial& m) { ++features_.masks, add(m.nested); }
+  void operator()(const BlendMaterial& m) { add(m.first), add(m.second); }
+  void operator()(const BumpMapMaterial& m) { ++features_.bumps, add(m.nested); }
+  void operator()(const NormalMapMaterial& m) { ++features_.bumps, add(m.nested); }
+  void operator()(const NullMaterial&) { ++features_.masks; }
+
+ private:
+  struct Group {
+    size_t triangles = 0;
+    Bounds bounds;
+  };
+
+  void add(MaterialId id) {
+    if (materials_.insert(id).second) std::visit(*this, scene_.materials[size_t(id)].model);
+  }
+
+  void add_triangles(size_t count) {
+    features_.triangles += count;
+    if (group_)
+      group_->triangles += count;
+    else
+      features_.placed_triangles += double(count);
+  }
+
+  void add(const ShapeDescription& s, Bounds& bounds) {
+    if (const auto* instance = std::get_if<InstanceShape>(&s.geometry)) {
+      const Group& g = groups_[instance->group];
+      ++features_.instances;
+      features_.placed_triangles += double(g.triangles);
+      if (g.bounds.empty()) return;
+      for (int corner = 0; corner < 8; ++corner) {
+        Point3f p;
+        for (int i = 0; i < 3; ++i)
+          p[i] = corner & (1 << i) ? g.bounds.upper[i] : g.bounds.lower[i];
+        bounds.extend(place(s.to_world, p));
+      }
+      return;
+    }
+    add(s.material);
+    if (s.emission) {
+      ++features_.area_lights;
+      features_.textured_area_lights += std::holds_alternative<TextureId>(s.emission->radiance);
+    }
+    if (const auto* mesh = std::get_if<MeshShape>(&s.geometry))
+      add_mesh(*mesh->mesh, s.to_world, bounds);
+    else if (std::holds_alternative<RectangleShape>(s.geometry))
+      add_mesh(make_rectangle(), s.to_world, bounds);
+    else if (std::holds_alternative<CubeShape>(s.geometry))
+      add_mesh(make_cube(), s.to_world, bounds);
+    else
+      add_analytic(s, bounds);
+  }
+
+  void add_mesh(const TriangleMesh& mesh, const Matrix4& to_world, Bounds& bounds) {
+    ++features_.meshes;
+    add_triangles(mesh.triangles.size());
+    for (const Point3f& p : mesh.positions) bounds.extend(place(to_world, p));
+  }
+
+  void add_analytic(const ShapeDescription& s, Bounds& bounds) {
+    ++features_.analytic_shapes;
+    const auto to_local = s.to_world.inverse();
+    if (!to_local) return;  // the build stage refuses it
+    Shape shape;
+    shape.kind = std::holds_alternative<SphereShape>(s.geometry) ? ShapeKind::sphere
+                 : std::holds_alternative<DiskShape>(s.geometry) ? ShapeKind::disk
+                                                                 : ShapeKind::cylinder;
+    shape.to_world = Transform(s.to_world);
+    shape.to_local = *to_local;
+    bounds.extend(analytic_bounds(shape));
+  }
+
+  const SceneDescription& scene_;
+  SceneFeatures features_;
+  std::vector<Group> groups_;
+  Group* group_ = nullptr;  ///< the one whose shapes are looked at
+  std::set<MaterialId> materials_;
+};
+
+/// Joins "3 things" for all counts but zero.
+class List {
+ public:
+  List& add(size_t count, const char* one, const char* many) {
+    if (count > 0) append(fmt::format("{} {}", count, count == 1 ? one : many));
+    return *this;
+  }
+  List& add(bool present, const char* what) {
+    if (present) append(what);
+    return *this;
+  }
+  std::string text(const char* otherwise) const { return text_.empty() ? otherwise : text_; }
+
+ private:
+  void append(const std::string& part) { text_ += (text_.empty() ? "" : ", ") + part; }
+  std::string text_;
+};
+
+}  // namespace
+
+SceneFeatures scene_features(const SceneDescription& scene) {
+  return Survey(scene).result();
+}
+
+std::string describe(const SceneFeatures& f) {
+  std::string text = List()
+                         .add(f.meshes, "mesh", "meshes")
+                         .add(f.triangles, "triangle", "triangles")
+                         .add(f.analytic_shapes, "analytic shape", "analytic shapes")
+                         .add(f.instances, "instance", "instances")
+                         .text("no shapes");
+  if (f.instances > 0) text += fmt::format(" ({:.0f} triangles in all copies)", f.placed_triangles);
+  text += "; " + List()
+                     .add(f.area_lights, "area light", "area lights")
+                     .add(f.textured_area_lights, "of them textured", "of them textured")
+                     .add(f.point_lights, "point light", "point lights")
+                     .add(f.spot_lights, "spot light", "spot lights")
+                     .add(f.projectors, "projector", "projectors")
+                     .add(f.directional_lights, "directional light", "directional lights")
+                     .add(f.constant_environment, "constant environment")
+                     .add(f.environment_map, "environment map")
+                     .text("no lights");
+  text += "; " + List()
+                     .add(f.diffuse > 0, "diffuse reflection")
+                     .add(f.rough_reflection > 0, "rough reflection")
+                     .add(f.rough_refraction > 0, "rough refraction")
+                     .add(f.mirrors > 0, "perfect mirrors")
+                     .add(f.smooth_glass > 0, "smooth glass")
+                     .add(f.masks > 0, "transparent surfaces")
+                     .add(f.bumps > 0, "bump or normal maps")
+                     .add(f.textures, "texture", "textures")
+                     .text("no materials");
+  if (f.depth_of_field) text += "; depth of field";
+  return text;
+}
+
+}  // namespace duet

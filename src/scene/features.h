@@ -1,0 +1,42 @@
+// What a scene contains that decides how light travels in it, and so which method suits it.
+#pragma once
+
+#include <cstddef>
+#include <string>
+
+#include "geometry/shape.h"
+#include "scene/description.h"
+
+namespace duet {
+
+/// Counts of the things that are used. What an instanced group holds counts once, however often it
+/// is placed.
+struct SceneFeatures {
+  size_t meshes = 0, analytic_shapes = 0, instances = 0;
+  size_t triangles = 0;
+  double placed_triangles = 0;  ///< with all copies
+  Bounds bounds;                ///< of all surfaces, in world space; empty without surfaces
+
+  size_t area_lights = 0, textured_area_lights = 0;
+  size_t point_lights = 0, spot_lights = 0, projectors = 0, directional_lights = 0;
+  bool constant_environment = false, environment_map = false;
+
+  /// Materials on surfaces, by how they scatter. One can count several times: smooth plastic is
+  /// diffuse and a mirror.
+  size_t diffuse = 0;
+  size_t rough_reflection = 0, rough_refraction = 0;  ///< microfacets
+  size_t mirrors = 0, smooth_glass = 0;               ///< delta distributions
+  size_t masks = 0;                                   ///< partly or wholly transparent surfaces
+  size_t bumps = 0;                                   ///< bump and normal maps
+  size_t textures = 0;
+
+  bool depth_of_field = false;  ///< of any sensor
+};
+
+/// Looks at everything that shapes of the scene refer to.
+SceneFeatures scene_features(const SceneDescription& scene);
+
+/// One line for people: "3 meshes (1,204 triangles), 2 area lights, mirrors, …".
+std::string describe(const SceneFeatures& features);
+
+}  // namespace duet

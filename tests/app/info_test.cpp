@@ -1,0 +1,131 @@
+// duet info and duet plugins.
+#include <doctest/doctest.h>
+
+#include "app/workplace.h"
+#include "mitsuba/vocabulary.h"
+#include "mitsuba/vocabulary_text.h"
+
+using namespace duet;
+using namespace duet::test;
+
+namespace {
+
+TinyScene rich_scene() {
+  TinyScene s;
+  s.extra = R"(<bsdf type="roughconductor" id="copper"><string name="material" value="Cu"/>
+      <string name="distribution" value="ggx"/><float name="alpha" value="0.3"/></bsdf>
+    <shape type="sphere" id="ball"><point name="center" x="1" y="2" z="10"/>
+      <ref id="copper"/></shape>
+    <shape type="shapegroup" id="pair"><shape type="cube"/><shape type="disk"/></shape>
+    <shape type="instance"><ref id="pair"/></shape>
+    <shape type="instance"><ref id="pair"/><transform name="to_world">
+      <translate x="-20"/></transform></shape>
+    <shape type="rectangle"><emitter type="area"><rgb name="radiance" value="3,2,1"/></emitter>
+      <bsdf type="mask"><float name="opacity" value="0.25"/><bsdf type="dielectric"/></bsdf></shape>
+    <emitter type="constant"/>)";
+  return s;
+}
+
+}  // namespace
+
+TEST_SUITE("program") {
+  TEST_CASE("info tells what a scene contains") {
+    const Workplace place;
+    place.scene("rich.xml", rich_scene());
+    const Outcome o = place.run({"info", "rich.xml", "-D", "spp=12"});
+    CAPTURE(o.err);
+    CAPTURE(o.out);
+    CHECK(o.code == 0);
+    CHECK(place.count() == 1);
+    for (const char* part : {"rich.xml",
+                             "$spp = 12",
+                             "path: max_depth=4",
+                             "perspective at (0, 0, 2)",
+                             "fov 90 along x",
+                             "16x12, box filter",
+                             "rgb half",
+                             "independent, 12 samples",
+                             "2 instance, 2 rectangle, 1 sphere",
+                             "sphere ball, bsdf copper",
+                             "(28 triangles in all copies)",
+                             "from (-21, -3, -1) to (3, 3",
+                             "copper: roughconductor (ggx, alpha 0.3)",
+                             "mask, opacity 0.25 [dielectric",
+                             "emits 3 2 1",
+                             "diffuse 0.8 0.4 0.2",
+                             "area on rectangle",
+                             "point at (0, 0, 3): 20",
+                             "constant: 1",
+                             "instance of pair",
+                             "modelled",
+                             "transparent surfaces",
+                             "approximated  nothing"}) {
+      CAPTURE(part);
+      CHECK(contains(o.out, part));
+    }
+  }
+
+  TEST_CASE("info says what is approximated, and cuts long lists") {
+    const Workplace place;
+    TinyScene s;
+    s.version = "0.6.0";
+    s.extra =
+        R"(<bsdf type="roughconductor" id="r"><string name="distribution" value="phong"/></bsdf>)";
+    for (int i = 0; i < 30; ++i) s.extra += "<shape type=\"sphere\"><ref id=\"r\"/></shape>";
+    place.scene("many.xml", s);
+    const Outcome o = place.run({"info", "many.xml"});
+    CHECK(o.code == 0);
+    CHECK(contains(o.out, "many.xml:"));
+    CHECK(contains(o.out, "Phong"));
+    CHECK(contains(o.out, "and 19 more (-v lists all)"));
+    const Outcome all = place.run({"info", "many.xml", "-v"});
+    CHECK(!contains(all.out, "more (-v"));
+    CHECK(all.out.size() > o.out.size());
+  }
+
+  TEST_CASE("info goes on after a bad scene") {
+    const Workplace place;
+    place.scene();
+    place.write("bad.xml", "<scene>");
+    const Outcome o = place.run({"info", "bad.xml", "missing.xml", "tiny.xml"});
+    CHECK(o.code == 1);
+    CHECK(contains(o.out, "tiny.xml"));
+    CHECK(contains(o.err, "bad.xml"));
+    CHECK(contains(o.err, "missing.xml"));
+  }
+
+  TEST_CASE("info writes a scene that renders the same image") {
+    const Workplace place;
+    place.scene("rich.xml", rich_scene());
+    const Outcome o = place.run({"info", "rich.xml", "--xml", "-D", "spp=2"});
+    CHECK(o.code == 0);
+    place.write("again.xml", o.out);
+    CHECK(place.run({"rich.xml", "--spp", "2"}).code == 0);
+    const Outcome rendered = place.run({"again.xml"});
+    CAPTURE(rendered.err);
+    REQUIRE(rendered.code == 0);
+    const Outcome compared =
+        place.run({"compare", "again.exr", "rich.exr", "--require", "rmse<1e-3"});
+    CHECK(compared.code == 0);
+  }
+
+  TEST_CASE("plugins lists everything that is known") {
+    const Workplace place;
+    const Outcome all = place.run({"plugins"});
+    CHECK(all.code == 0);
+    for (int k = 0; k < kPluginKinds; ++k) {
+      if (PluginKind(k) == PluginKind::scene) continue;
+      for (const Plugin& p : plugins(PluginKind(k))) {
+        CAPTURE(p.name);
+        CHECK(contains(all.out,
+                       std::string(tag_of(PluginKind(k))) + " " + std::string(p.name) + " "));
+        for (const Parameter& q : p.parameters) CHECK(contains(all.out, std::string(q.name)));
+      }
+    }
+    const Outcome bsdf = place.run({"plugins", "bsdf"});
+    CHECK(contains(bsdf.out, "bsdf roughconductor"));
+    CHECK(!contains(bsdf.out, "emitter"));
+    const Outcome markdown = place.run({"plugins", "--markdown"});
+    CHECK(markdown.out == compatibility_markdown());
+  }
+}

@@ -1,0 +1,346 @@
+// What duet render writes, in the form of what was asked for.
+#include <OpenEXR/ImfChannelList.h>
+#include <OpenEXR/ImfHeader.h>
+#include <OpenEXR/ImfInputFile.h>
+#include <OpenEXR/ImfMatrixAttribute.h>
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <map>
+#include <nlohmann/json.hpp>
+
+#include "app/workplace.h"
+#include "image/image_io.h"
+
+using namespace duet;
+using namespace duet::test;
+
+namespace {
+
+std::map<std::string, std::string> header_of(const ImageFile& file) {
+  return {file.header.begin(), file.header.end()};
+}
+
+double mean(const Image& image, const char* channel) {
+  const int c = image.find_channel(channel);
+  REQUIRE(c >= 0);
+  double sum = 0;
+  for (int y = 0; y < image.height; ++y)
+    for (int x = 0; x < image.width; ++x) sum += double(image.pixel(x, y)[c]);
+  return sum / (double(image.width) * image.height);
+}
+
+}  // namespace
+
+TEST_SUITE("program") {
+  TEST_CASE("a scene becomes an image here, with a summary and nothing on standard output") {
+    const Workplace place;
+    std::filesystem::create_directory(place.path("below"));
+    place.scene("below/tiny.xml");
+    const Outcome o = place.run({"below/tiny.xml"});
+    CHECK(o.code == 0);
+    CHECK(o.out.empty());
+    CHECK(contains(o.err, "4 spp"));
+    CHECK(contains(o.err, "-> tiny.exr"));
+    const ImageFile file = read_image(place.path("tiny.exr"));
+    CHECK(file.image.width == 16);
+    CHECK(file.image.height == 12);
+    CHECK(file.image.channels == std::vector<std::string>{"R", "G", "B"});
+    CHECK(mean(file.image, "R") > 0.1);
+    // The square's reflectance is in the ratio 4 : 2 : 1.
+    CHECK(mean(file.image, "R") == doctest::Approx(2 * mean(file.image, "G")).epsilon(1e-2));
+    CHECK(mean(file.image, "G") == doctest::Approx(2 * mean(file.image, "B")).epsilon(1e-2));
+    const Outcome quiet = place.run({"render", "below/tiny.xml", "-q"});
+    CHECK(quiet.code == 0);
+    CHECK(quiet.err.empty());
+  }
+
+  TEST_CASE("templates and directories name images; several formats come from one render") {
+    const Workplace place;
+    place.scene();
+    std::filesystem::create_directory(place.path("out"));
+    const Outcome o = place.run({"-o", "out", "-o", "{scene}-{integrator}-{spp}-{seed}.png", "-o",
+                                 "out/{scene}.JPG", "tiny.xml", "--seed", "7", "--spp", "3"});
+    CHECK(o.code == 0);
+    CHECK(place.has("out/tiny.exr"));
+    CHECK(place.has("tiny-path-3-7.png"));
+    CHECK(place.has("out/tiny.JPG"));
+    CHECK(place.count() == 3);
+    // The PNG shows the linear values in sRGB.
+    const ImageFile linear = read_image(place.path("out/tiny.exr"));
+    const ImageFile shown = read_image(place.path("tiny-path-3-7.png"));
+    REQUIRE(shown.bytes.size() == size_t(16 * 12 * 3));
+    for (int c = 0; c < 3; ++c) {
+      const float expected = linear_to_srgb(linear.image.pixel(3, 5)[c]);
+      CHECK(std::abs(float(shown.bytes[size_t((5 * 16 + 3) * 3 + c)]) - 255 * expected) < 1);
+    }
+  }
+
+  TEST_CASE("exposure brightens what is shown and nothing else") {
+    const Workplace place;
+    place.scene();
+    CHECK(place.run({"tiny.xml", "-o", "a.exr", "-o", "a.png", "--exposure", "-2"}).code == 0);
+    CHECK(place.run({"tiny.xml", "-o", "b.exr", "-o", "b.png"}).code == 0);
+    CHECK(read_image(place.path("a.exr")).image.data == read_image(place.path("b.exr")).image.data);
+    const ImageFile a = read_image(place.path("a.png")), b = read_image(place.path("b.png"));
+    const float dark = srgb_to_linear(float(a.bytes[0]) / 255);
+    const float bright = srgb_to_linear(float(b.bytes[0]) / 255);
+    CHECK(dark == doctest::Approx(0.25f * bright).epsilon(0.05));
+  }
+
+  TEST_CASE("a window has its place in the header and the pixels of the whole image") {
+    const Workplace place;
+    place.scene();
+    CHECK(place.run({"tiny.xml", "-o", "full.exr"}).code == 0);
+    CHECK(place.run({"tiny.xml", "-o", "window.exr", "--crop", "5,2,7,6"}).code == 0);
+    const ImageFile full = read_image(place.path("full.exr"));
+    const ImageFile window = read_image(place.path("window.exr"));
+    CHECK(window.image.width == 7);
+    CHECK(window.image.height == 6);
+    CHECK(window.origin.x == 5);
+    CHECK(window.origin.y == 2);
+    CHECK(window.display_size.x == 16);
+    CHECK(window.display_size.y == 12);
+    for (int y = 0; y < 6; ++y)
+      for (int x = 0; x < 7; ++x)
+        CHECK(window.image.pixel(x, y)[0] == full.image.pixel(x + 5, y + 2)[0]);
+  }
+
+  TEST_CASE("the film decides on half or float and on the channels") {
+    const Workplace place;
+    const auto film = [](const std::string& format, const std::string& component) {
+      TinyScene s;
+      s.film =
+          "<film type=\"hdrfilm\"><integer name=\"width\" value=\"16\"/><integer "
+          "name=\"height\" value=\"12\"/><string name=\"pixel_format\" value=\"" +
+          format + "\"/><string name=\"component_format\" value=\"" + component + "\"/></film>";
+      return s;
+    };
+    const std::pair<const char*, std::vector<std::string>> formats[] = {
+        {"rgb", {"R", "G", "B"}}, {"rgba", {"R", "G", "B", "A"}},
+        {"luminance", {"Y"}},     {"luminance_alpha", {"Y", "A"}},
+        {"xyz", {"X", "Y", "Z"}}, {"xyza", {"X", "Y", "Z", "A"}}};
+    for (const auto& [format, channels] : formats) {
+      CAPTURE(format);
+      place.scene("tiny.xml", film(format, "float32"));
+      const Outcome o = place.run({"tiny.xml", "-o", "a.exr", "-o", "a.png"});
+      CAPTURE(o.err);
+      CHECK(o.code == 0);
+      const ImageFile file = read_image(place.path("a.exr"));
+      std::vector<std::string> sorted = file.image.channels, expected = channels;
+      std::sort(sorted.begin(), sorted.end());
+      std::sort(expected.begin(), expected.end());
+      CHECK(sorted == expected);
+      const bool grey = channels[0] == std::string("Y"), alpha = channels.back() == "A";
+      const ImageFile shown = read_image(place.path("a.png"));
+      CHECK(shown.image.channel_count() == (grey ? 1 : 3) + alpha);
+      if (alpha) CHECK(shown.bytes.back() == 255);
+      const Imf::InputFile exr(place.path("a.exr").c_str());
+      CHECK(exr.header().channels().begin().channel().type == Imf::FLOAT);
+    }
+    place.scene("tiny.xml", film("rgb", "float16"));
+    CHECK(place.run({"tiny.xml", "-o", "h.exr"}).code == 0);
+    const Imf::InputFile half(place.path("h.exr").c_str());
+    CHECK(half.header().channels().begin().channel().type == Imf::HALF);
+  }
+
+  TEST_CASE("the header says how the image was made") {
+    const Workplace place;
+    place.scene("a scene.xml");
+    CHECK(place
+              .run({"a scene.xml", "-o", "a.exr", "--seed", "9", "-t", "1", "-I", "max_depth=3",
+                    "--spp", "8"})
+              .code == 0);
+    auto h = header_of(read_image(place.path("a.exr")));
+    CHECK(h["program"] == "Duet");
+    CHECK(h["version"] == DUET_VERSION);
+    CHECK(h["commandLine"] == "duet 'a scene.xml' -o a.exr --seed 9 -t 1 -I max_depth=3 --spp 8");
+    CHECK(h["scene"] == "a scene.xml");
+    CHECK(h["sceneHash"].size() == 16);
+    CHECK(h["integrator"] == "path");
+    CHECK(contains(h["integratorParameters"], "max_depth=3 rr_depth=5"));
+    CHECK(h["sampler"] == "sobol");
+    CHECK(std::stod(h["spp"]) == 8);
+    CHECK(h.contains("lightSubpaths"));
+    CHECK(h["seed"] == "9");
+    CHECK(std::stod(h["threads"]) == 1);
+    CHECK(std::stod(h["renderSeconds"]) > 0);
+    CHECK(std::stod(h["relativeRmseEstimate"]) > 0);
+    place.write("a scene.xml", TinyScene().text() + "<!-- another -->");
+    CHECK(place.run({"a scene.xml", "-o", "b.exr", "--strict-sampler"}).code == 0);
+    auto other = header_of(read_image(place.path("b.exr")));
+    CHECK(other["sceneHash"] != h["sceneHash"]);
+    CHECK(other["sampler"] == "independent");
+  }
+
+  TEST_CASE("the header's matrices say where a point of the world is in the image") {
+    const Workplace place;
+    for (const char* type : {"perspective", "orthographic"}) {
+      CAPTURE(type);
+      const bool perspective = type == std::string("perspective");
+      TinyScene s;
+      // A small lamp, seen by a camera that looks from the side.
+      place.write("lamp.xml",
+                  std::string(R"(<scene version="3.0.0"><integrator type="direct"/>
+        <sensor type=")") +
+                      type + R"("><transform name="to_world">)" +
+                      (perspective ? "" : "<scale x=\"4\" y=\"4\"/>") +
+                      R"(<lookat origin="7,1,-2" target="0,0,0" up="0,0.2,1"/></transform>)" +
+                      (perspective ? R"(<float name="fov" value="50"/>
+            <float name="principal_point_offset_x" value="0.1"/>
+            <float name="principal_point_offset_y" value="-0.07"/>)"
+                                   : "") +
+                      R"(
+        <film type="hdrfilm"><integer name="width" value="120"/>
+          <integer name="height" value="80"/><rfilter type="box"/></film></sensor>
+        <shape type="sphere"><point name="center" x="0.5" y="-0.9" z="0.4"/>
+          <float name="radius" value="0.08"/><emitter type="area"/></shape></scene>)");
+      const Outcome o = place.run({"lamp.xml", "--spp", "16"});
+      CAPTURE(o.err);
+      REQUIRE(o.code == 0);
+      const Image image = read_image(place.path("lamp.exr")).image;
+      double x = 0, y = 0, weight = 0;
+      for (int j = 0; j < image.height; ++j)
+        for (int i = 0; i < image.width; ++i) {
+          const double w = double(image.pixel(i, j)[1]);
+          x += w * (i + 0.5), y += w * (j + 0.5), weight += w;
+        }
+      REQUIRE(weight > 0);
+      const Imf::InputFile file(place.path("lamp.exr").c_str());
+      const auto& to_ndc = file.header().typedAttribute<Imf::M44fAttribute>("worldToNDC").value();
+      const auto& to_camera =
+          file.header().typedAttribute<Imf::M44fAttribute>("worldToCamera").value();
+      Imath::V3f ndc, camera;
+      to_ndc.multVecMatrix(Imath::V3f(0.5f, -0.9f, 0.4f), ndc);
+      to_camera.multVecMatrix(Imath::V3f(0.5f, -0.9f, 0.4f), camera);
+      CHECK(double(ndc.x) * image.width == doctest::Approx(x / weight).epsilon(0.01));
+      CHECK(double(ndc.y) * image.height == doctest::Approx(y / weight).epsilon(0.01));
+      CHECK(camera.z > 0);
+      if (!perspective) {
+        CHECK((camera.x > 0) == (x / weight > 60));
+        CHECK((camera.y > 0) == (y / weight < 40));
+      }
+    }
+  }
+
+  TEST_CASE("statistics have their keys") {
+    const Workplace place;
+    place.scene("tiny.xml");
+    place.scene("other.xml");
+    CHECK(place.run({"tiny.xml", "--stats", "s.json", "-t", "2", "--seed", "5"}).code == 0);
+    const auto j = nlohmann::json::parse(read_file(place.path("s.json")));
+    for (const char* key :
+         {"scene", "integrator", "spp", "seed", "threads", "seconds", "memory_peak_bytes", "rays",
+          "paths", "mean_path_length", "connections", "merges", "eye_subpaths_at_limit",
+          "reused_subpaths", "nonfinite_samples", "error", "emitters", "triangles", "instances"}) {
+      CAPTURE(key);
+      CHECK(j.contains(key));
+    }
+    CHECK(j["scene"] == "tiny.xml");
+    CHECK(j["spp"] == 4);
+    CHECK(j["seed"] == 5);
+    CHECK(j["threads"] == 2);
+    CHECK(j["seconds"]["render"] > 0);
+    for (const char* phase : {"parse", "build", "write"}) CHECK(j["seconds"][phase] >= 0);
+    CHECK(j["memory_peak_bytes"] > 1000000);
+    CHECK(j["paths"]["camera"] == 16 * 12 * 4);
+    CHECK(j["paths"]["light"] == 0);
+    CHECK(j["rays"]["closest"] >= 16 * 12 * 4);
+    CHECK(j["rays"]["shadow"] > 0);
+    CHECK(j["emitters"] == 1);
+    CHECK(j["triangles"] == 2);
+    CHECK(j["instances"] == 0);
+    CHECK(j["nonfinite_samples"] == 0);
+    CHECK(j["error"]["relative_rmse_estimate"] > 0);
+    CHECK(place.run({"tiny.xml", "other.xml", "--stats", "s.json"}).code == 0);
+    const auto both = nlohmann::json::parse(read_file(place.path("s.json")));
+    REQUIRE(both.is_array());
+    REQUIRE(both.size() == 2);
+    CHECK(both[1]["scene"] == "other.xml");
+  }
+
+  TEST_CASE("layers are asked for by name and come after the colours") {
+    const Workplace place;
+    place.scene();
+    const Outcome o = place.run({"--aov", "albedo,depth,normal,samples", "tiny.xml", "--aov",
+                                 "albedo,variance", "--size", "8x8"});
+    CAPTURE(o.err);
+    REQUIRE(o.code == 0);
+    const ImageFile file = read_image(place.path("tiny.exr"));
+    const Image& image = file.image;
+    CHECK(image.channel_count() == 3 + 3 + 1 + 3 + 1 + 3);
+    CHECK(mean(image, "albedo.R") == doctest::Approx(0.8).epsilon(1e-3));
+    CHECK(mean(image, "albedo.B") == doctest::Approx(0.2).epsilon(1e-3));
+    CHECK(mean(image, "depth.T") > 2);
+    CHECK(mean(image, "depth.T") < 3.5);
+    CHECK(mean(image, "normal.Z") == doctest::Approx(1));
+    CHECK(mean(image, "samples.I") == 4);
+    CHECK(mean(image, "variance.R") > 0);
+    CHECK(place.run({"tiny.xml", "-i", "aov", "--aov", "uv", "-o", "uv.exr"}).code == 0);
+    CHECK(read_image(place.path("uv.exr")).image.find_channel("R") < 0);
+  }
+
+  TEST_CASE("a sensor is chosen by its number") {
+    const Workplace place;
+    TinyScene s;
+    s.extra = R"(<sensor type="orthographic"><film type="hdrfilm">
+      <integer name="width" value="9"/><integer name="height" value="5"/></film></sensor>)";
+    place.scene("two.xml", s);
+    CHECK(place.run({"two.xml", "-s", "1"}).code == 0);
+    CHECK(read_image(place.path("two.exr")).image.width == 9);
+    CHECK(place.run({"two.xml", "-s", "2"}).code == 2);
+  }
+
+  TEST_CASE("definitions, folders and methods of the command line win over the scene") {
+    const Workplace place;
+    place.scene();
+    std::filesystem::create_directory(place.path("parts"));
+    place.write("parts/lamp.xml", R"(<scene version="3.0.0"><emitter type="constant"/></scene>)");
+    TinyScene s;
+    s.extra = "<include filename=\"lamp.xml\"/>";
+    place.scene("incomplete.xml", s);
+    CHECK(place.run({"incomplete.xml"}).code == 1);
+    CHECK(place.run({"incomplete.xml", "-a", "parts"}).code == 0);
+    CHECK(place.run({"tiny.xml", "-Dspp=9", "-o", "{integrator}{spp}.exr", "-i", "direct"}).code ==
+          0);
+    CHECK(place.has("direct9.exr"));
+  }
+
+  TEST_CASE("what exists is skipped if asked to") {
+    const Workplace place;
+    place.scene("a.xml");
+    place.scene("b.xml");
+    place.write("a.exr", "mine");
+    const Outcome o = place.run({"a.xml", "b.xml", "-x"});
+    CHECK(o.code == 0);
+    CHECK(contains(o.err, "a.xml: skipped"));
+    CHECK(read_file(place.path("a.exr")) == "mine");
+    CHECK(place.has("b.exr"));
+    CHECK(place.run({"a.xml"}).code == 0);
+    CHECK(read_file(place.path("a.exr")) != "mine");
+  }
+
+  TEST_CASE("an old film's tone mapping is for display formats") {
+    const Workplace place;
+    const auto shown = [&](const std::string& film) {
+      TinyScene s;
+      s.version = "0.6.0";
+      s.film =
+          "<film type=\"ldrfilm\"><integer name=\"width\" value=\"16\"/><integer "
+          "name=\"height\" value=\"12\"/>" +
+          film + "</film>";
+      place.scene("old.xml", s);
+      const Outcome o = place.run({"old.xml", "-o", "old.png", "-o", "old.exr"});
+      CAPTURE(o.err);
+      REQUIRE(o.code == 0);
+      return std::pair(srgb_to_linear(float(read_image(place.path("old.png")).bytes[0]) / 255),
+                       read_image(place.path("old.exr")).image.pixel(0, 0)[0]);
+    };
+    const auto [plain, radiance] = shown("");
+    const auto [darker, same] = shown("<float name=\"exposure\" value=\"-1\"/>");
+    CHECK(radiance == same);
+    CHECK(darker == doctest::Approx(0.5f * plain).epsilon(0.05));
+    const auto [curve, again] = shown("<float name=\"gamma\" value=\"1\"/>");
+    CHECK(linear_to_srgb(curve) == doctest::Approx(radiance).epsilon(0.05));
+  }
+}

@@ -1,0 +1,212 @@
+// Values that make no sense, for every flag there is: exit code 2 and a message.
+#include <doctest/doctest.h>
+
+#include "app/workplace.h"
+
+using namespace duet::test;
+
+namespace {
+
+using Arguments = std::vector<std::string>;
+
+/// The command is refused with exit code 2 and a message that names what is wrong, and leaves
+/// nothing behind.
+void check_refused(const Workplace& place, const Arguments& arguments, const std::string& named) {
+  std::string line;
+  for (const std::string& a : arguments) line += " " + a;
+  CAPTURE(line);
+  const size_t files = place.count();
+  const Outcome o = place.run(arguments);
+  CAPTURE(o.err);
+  CHECK(o.code == 2);
+  CHECK(contains(o.err, "duet: error: "));
+  CHECK(contains(o.err, named));
+  CHECK(o.out.empty());
+  CHECK(place.count() == files);
+}
+
+}  // namespace
+
+TEST_SUITE("program") {
+  TEST_CASE("numbers that make no sense are refused for every flag") {
+    const Workplace place;
+    place.scene();
+    const std::pair<const char*, const char*> flags[] = {
+        {"--spp", "--spp"},
+        {"--time", "--time"},
+        {"--target-error", "--target-error"},
+        {"--size", "--size"},
+        {"--crop", "--crop"},
+        {"--sensor", "sensor"},
+        {"--seed", "--seed"},
+        {"--threads", "--threads"},
+        {"--define", "-D"},
+        {"--parameter", "-I"},
+        {"--aov", "layer"},
+        {"--progress", "--progress"},
+        {"--integrator", "integrator"},
+        {"--exposure", "--exposure"},
+    };
+    for (const auto& [flag, named] : flags)
+      for (const char* value : {"nan", "-1", "1e99", "99999999999999999999999", "x"}) {
+        const std::string argument = std::string(flag) + "=" + value;
+        if (argument != "--exposure=-1") check_refused(place, {"tiny.xml", argument}, named);
+      }
+  }
+
+  TEST_CASE("values of the wrong form are refused") {
+    const Workplace place;
+    place.scene();
+    const std::pair<Arguments, const char*> cases[] = {
+        {{"--spp", "0"}, "--spp"},
+        {{"--spp", "1.5"}, "--spp"},
+        {{"--spp", "4", "--spp", "8"}, "--spp"},
+        {{"--time", "0"}, "--time"},
+        {{"--time", "5 parsecs"}, "--time"},
+        {{"--time", "9999h"}, "--time"},
+        {{"--time", "inf"}, "--time"},
+        {{"--target-error", "0"}, "--target-error"},
+        {{"--target-error", "500%"}, "--target-error"},
+        {{"--size", "16"}, "--size"},
+        {{"--size", "16x"}, "--size"},
+        {{"--size", "16x16x16"}, "--size"},
+        {{"--size", "0x16"}, "--size"},
+        {{"--size", "16x70000"}, "--size"},
+        {{"--crop", "0,0,4"}, "--crop"},
+        {{"--crop", "0,0,0,4"}, "--crop"},
+        {{"--crop", "-1,0,4,4"}, "--crop"},
+        {{"--crop", "10,0,8,4"}, "--crop"},
+        {{"--crop", "2147483647,0,2147483647,4"}, "--crop"},
+        {{"-s", "1"}, "1 sensor"},
+        {{"-t", "0"}, "--threads"},
+        {{"-t", "100000"}, "--threads"},
+        {{"-D", "spp"}, "NAME=VALUE"},
+        {{"-D", "=3"}, "NAME=VALUE"},
+        {{"-D", "sp=3"}, "did you mean \"spp\"?"},
+        {{"-I", "max_depth"}, "NAME=VALUE"},
+        {{"-I", "max_dept=3"}, "did you mean \"max_depth\"?"},
+        {{"-I", "max_depth=-2"}, "max_depth"},
+        {{"-I", "max_depth=3.5"}, "max_depth"},
+        {{"-I", "max_depth=99999999999"}, "max_depth"},
+        {{"-I", "hide_emitters=maybe"}, "hide_emitters"},
+        {{"-i", "direct", "-I", "bsdf_samples=1000000000"}, "bsdf_samples"},
+        {{"-i", "direct", "-I", "bsdf_samples=0", "-I", "emitter_samples=0"}, "samples"},
+        {{"-i", "pathh"}, "did you mean \"path\"?"},
+        {{"-i", "aov"}, "layers"},
+        {{"-i", "aov", "--aov", "variance"}, "variance"},
+        {{"-i", "aov", "--aov", "albedo", "--target-error", "0.1"}, "--target-error"},
+        {{"-i", "aov", "--aov", "albedo", "-o", "a.png"}, "a.png"},
+        {{"--aov", "albedoo"}, "did you mean \"albedo\"?"},
+        {{"--exposure", "1e9"}, "--exposure"},
+        {{"--progress", "fancy"}, "--progress"},
+        {{"-q", "-v"}, "--verbose"},
+        {{"-o", "a.bmp"}, ".exr"},
+        {{"-o", "{scen}.exr"}, "{scene}"},
+        {{"-o", "{scene.exr"}, "{scene}"},
+        {{"-x", "--time", "1", "-o", "{spp}.exr"}, "{spp}"},
+        {{"-a", "nowhere"}, "nowhere"},
+        {{"--stats", "nowhere/stats.json"}, "nowhere"},
+        {{"--stats", "."}, "directory"},
+        {{"--log", "."}, "--log"},
+        {{"--frobnicate"}, "frobnicate"},
+    };
+    for (const auto& [flags, named] : cases) {
+      Arguments arguments{"tiny.xml"};
+      arguments.insert(arguments.end(), flags.begin(), flags.end());
+      check_refused(place, arguments, named);
+    }
+  }
+
+  TEST_CASE("calls without sense are refused") {
+    const Workplace place;
+    place.scene();
+    check_refused(place, {}, "subcommand");
+    check_refused(place, {"render"}, "scene");
+    check_refused(place, {"-q"}, "scene");
+    check_refused(place, {"rendr", "tiny.xml"}, "did you mean \"render\"?");
+    check_refused(place, {"info"}, "scene");
+    check_refused(place, {"info", "tiny.xml", "tiny.xml", "--xml"}, "--xml");
+    check_refused(place, {"info", "tiny.xml", "-D", "x=1"}, "$spp");
+    check_refused(place, {"plugins", "bsd"}, "did you mean \"bsdf\"?");
+    check_refused(place, {"plugins", "bsdf", "--markdown"}, "--markdown");
+    check_refused(place, {"compare", "a.exr"}, "reference");
+  }
+
+  TEST_CASE("several scenes need several files") {
+    const Workplace place;
+    place.scene("a.xml");
+    place.scene("b.xml");
+    std::filesystem::create_directory(place.path("other"));
+    place.scene("other/a.xml");
+    check_refused(place, {"a.xml", "b.xml", "-o", "out.exr"}, "out.exr");
+    check_refused(place, {"a.xml", "other/a.xml"}, "a.xml and other/a.xml");
+    check_refused(place, {"a.xml", "a.xml"}, "a.xml and a.xml");
+    check_refused(place, {"a.xml", "b.xml", "-o", "{seed}.exr"}, "{scene}");
+  }
+
+  TEST_CASE("help is complete and has examples") {
+    const Workplace place;
+    const std::pair<Arguments, Arguments> cases[] = {
+        {{"--help"}, {"render", "info", "compare", "plugins", "--version", "duet SCENE..."}},
+        {{"render", "--help"},
+         {"--output",
+          "--integrator",
+          "-I",
+          "--spp",
+          "--time",
+          "--target-error",
+          "--size",
+          "--crop",
+          "--sensor",
+          "--seed",
+          "--threads",
+          "-D",
+          "-a",
+          "--aov",
+          "--stats",
+          "--strict",
+          "--strict-sampler",
+          "--skip-existing",
+          "--keep-going",
+          "--quiet",
+          "--verbose",
+          "--progress",
+          "--log",
+          "--exposure",
+          "Examples:",
+          "Exit codes:",
+          "albedo",
+          "path"}},
+        {{"info", "--help"}, {"-D", "-a", "--strict", "--xml", "Examples:"}},
+        {{"compare", "--help"}, {"--variance", "--spp",     "--reference-spp",
+                                 "--diff",     "--require", "--json",
+                                 "rmse",       "relrmse",   "relmse",
+                                 "trimmed",    "mae",       "ratio",
+                                 "bias",       "zrms",      "nan",
+                                 "negative",   "PASS",      "NOISY",
+                                 "BIASED",     "FAIL",      "Example:"}},
+        {{"plugins", "--help"}, {"--markdown", "kind", "Examples:"}},
+    };
+    for (const auto& [arguments, parts] : cases) {
+      const Outcome o = place.run(arguments);
+      CHECK(o.code == 0);
+      CHECK(o.err.empty());
+      for (const std::string& part : parts) {
+        CAPTURE(part);
+        CHECK(contains(o.out, part));
+      }
+    }
+    const Outcome version = place.run({"--version"});
+    CHECK(version.code == 0);
+    CHECK(version.out == "duet " DUET_VERSION "\n");
+  }
+
+  TEST_CASE("results that cannot be printed are a failure") {
+    const Workplace place;
+    for (const char* argument : {"plugins", "--help"}) {
+      const Outcome o = run_duet({argument}, {.directory = place.path(""), .output = "/dev/full"});
+      CHECK(o.code == 1);
+      CHECK(contains(o.err, "write"));
+    }
+  }
+}

@@ -1,0 +1,53 @@
+// Runs the program the way a user does.
+#pragma once
+
+#include <sys/types.h>
+
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "support/files.h"
+
+namespace duet::test {
+
+/// What a finished program left behind.
+struct Outcome {
+  int code = -1;  ///< exit code; 128 + signal if it was killed; −1 if it had to be ended
+  std::string out, err;
+  double seconds = 0;
+};
+
+struct ProcessOptions {
+  std::string directory = {};  ///< where it runs
+  std::vector<std::pair<std::string, std::string>> environment = {};
+  /// Bytes that a file may have, as `ulimit -f` sets them; 0 is no limit.
+  size_t file_limit = 0;
+  /// Where standard output goes; "" is Outcome::out.
+  std::string output = {};
+};
+
+/// The program `duet` under way.
+class Process {
+ public:
+  Process(const std::vector<std::string>& arguments, const ProcessOptions& options);
+  ~Process();
+  Process(const Process&) = delete;
+  Process& operator=(const Process&) = delete;
+
+  void send(int signal) const;
+  /// Waits until standard error contains a text; false after `seconds`.
+  bool wait_for_message(const std::string& text, double seconds) const;
+  /// Waits for the end, and after `seconds` makes it.
+  Outcome wait(double seconds);
+
+ private:
+  TemporaryDirectory streams_;
+  pid_t id_ = -1;
+  double start_;
+};
+
+/// Runs `duet` with these arguments to the end, which must come within half a minute.
+Outcome run_duet(const std::vector<std::string>& arguments, const ProcessOptions& options);
+
+}  // namespace duet::test
