@@ -153,7 +153,7 @@ constexpr Plugin kBsdfs[] = {
     {.name = "circular",
      .versions = v3,
      .support = planned,
-     .planned_parameters = "theta transmittance left_handed"},
+     .planned_parameters = "transmittance left_handed"},
     {.name = "coating",
      .versions = v0,
      .support = planned,
@@ -194,7 +194,7 @@ constexpr Plugin kBsdfs[] = {
      .versions = v3,
      .support = planned,
      .planned_parameters = "diffuse_reflectance specular_reflectance int_ior ext_ior distribution "
-                           "alpha alpha_u alpha_v sample_visible nonlinear"},
+                           "alpha alpha_u alpha_v sample_visible"},
     {.name = "retarder",
      .versions = v3,
      .support = planned,
