@@ -1,6 +1,8 @@
 // Vertex normals made from faces: smooth, or smooth with creases.
+#include <algorithm>
 #include <bit>
 #include <cmath>
+#include <span>
 
 #include "base/numbering.h"
 #include "geometry/mesh.h"
@@ -46,6 +48,12 @@ uint32_t bits(float x) {
 
 enum class CompareNormals { no, yes };
 
+/// A vertex's numbers of an attribute.
+std::span<const float> channels(const MeshAttribute& attribute, uint32_t vertex) {
+  const size_t n = size_t(attribute.channels);
+  return {attribute.data.data() + vertex * n, n};
+}
+
 /// Numbers the distinct vertices; `first[number]` is the first vertex of each.
 class DistinctVertices {
  public:
@@ -72,6 +80,10 @@ class DistinctVertices {
       const Normal3f& n = mesh_.normals[v];
       h = hash_combine(h, hash_combine(bits(n.x), hash_combine(bits(n.y), bits(n.z))));
     }
+    // Without these, vertices that differ only here would all be compared with each other.
+    for (const MeshAttribute& attribute : mesh_.attributes)
+      if (!attribute.per_face)
+        for (float x : channels(attribute, v)) h = hash_combine(h, bits(x));
     return h;
   }
   bool equal(uint32_t a, uint32_t b) const {
@@ -80,10 +92,8 @@ class DistinctVertices {
     if (normals_ && !(mesh_.normals[a] == mesh_.normals[b])) return false;
     for (const MeshAttribute& attribute : mesh_.attributes) {
       if (attribute.per_face) continue;
-      const float* data = attribute.data.data();
-      for (int c = 0; c < attribute.channels; ++c)
-        if (data[size_t(a) * attribute.channels + c] != data[size_t(b) * attribute.channels + c])
-          return false;
+      const std::span<const float> x = channels(attribute, a), y = channels(attribute, b);
+      if (!std::equal(x.begin(), x.end(), y.begin())) return false;
     }
     return true;
   }

@@ -159,6 +159,20 @@ TEST_CASE("equal vertices are merged in every array, and normals count") {
   CHECK(mesh.normals[3] == Normal3f{0, 1, 0});
 }
 
+TEST_CASE("vertices that differ in an attribute only are not merged, however many there are") {
+  // Without the attribute in the hash this would take minutes.
+  constexpr uint32_t kVertices = 300000;
+  TriangleMesh mesh;
+  mesh.positions.resize(kVertices);
+  mesh.attributes = {{"vertex_a", 1, false, {}}};
+  for (uint32_t v = 0; v < kVertices; ++v) mesh.attributes[0].data.push_back(float(v / 2));
+  for (uint32_t v = 0; v < kVertices; v += 3) mesh.triangles.push_back({v, v + 1, v + 2});
+  merge_equal_vertices(mesh);
+  CHECK(mesh.positions.size() == kVertices / 2);
+  CHECK(mesh.attributes[0].data.size() == kVertices / 2);
+  CHECK(mesh.attributes[0].data.back() == float(kVertices / 2 - 1));
+}
+
 TEST_CASE("normals from the file are carried along by a transform, computed ones are made again") {
   TriangleMesh mesh;
   mesh.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
