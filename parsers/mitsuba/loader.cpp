@@ -286,6 +286,7 @@ class Loader {
 }  // namespace
 
 std::string describe(const Node& node) {
+  if (node.kind == PluginKind::scene) return "<scene>";
   return fmt::format("<{} type=\"{}\">", tag_of(node.kind), node.type);
 }
 

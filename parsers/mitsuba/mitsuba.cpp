@@ -16,7 +16,7 @@ std::optional<MitsubaScene> read_mitsuba(const std::string& file, const MitsubaO
   // is nothing to look at.
   if (tree.nodes.front().folders) scene.description = SceneReader(access, report).read(tree, file);
   scene.parameters = tree.parameters;
-  report.finish({std::make_shared<const std::string>(file), 0, 0});
+  report.finish({std::make_shared<const std::string>(file), 1, 1});
   if (report.has_errors()) return std::nullopt;
   return scene;
 }

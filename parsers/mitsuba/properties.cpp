@@ -266,7 +266,10 @@ void Properties::report_unused(const Entry& e) {
                     known.support == Support::ignored ? " on the linear image" : " here");
     return;
   }
-  if (p.name.empty() && std::holds_alternative<NullReference>(p.value)) return;
+  // <null/> says nothing on purpose; what is broken has its own error.
+  if (p.name.empty() && (std::holds_alternative<NullReference>(p.value) ||
+                         std::holds_alternative<Broken>(p.value)))
+    return;
   if (p.written.starts_with("metadata[") || p.written.starts_with("label[")) {
     report_.warning(p.where, "annotations have no effect on the linear image");
     return;

@@ -80,7 +80,7 @@ std::shared_ptr<const TriangleMesh> SceneReader::mesh(const std::string& plugin,
   if (is_new) try {
       entry->second = std::make_shared<TriangleMesh>(access_.read_mesh(plugin, file, options));
     } catch (const ReadError& error) {
-      report_.error(where, "{}: {}", file, error.what());
+      report_.error(where, "{}", error.what());
     }
   return entry->second;
 }

@@ -16,19 +16,25 @@ constexpr size_t kLongestValue = 1 << 16;
 
 Substitution::Substitution(const std::vector<std::pair<std::string, std::string>>& defines) {
   for (const auto& [name, value] : defines)
-    if (!find(name)) parameters_.push_back({name, value});
-}
-
-Substitution::Parameter* Substitution::find(std::string_view name) {
-  for (Parameter& p : parameters_)
-    if (p.name == name) return &p;
-  return nullptr;
+    if (!name.empty()) parameters_.try_emplace(name, Parameter{value});
 }
 
 void Substitution::set_default(const std::string& name, const std::string& value) {
-  Parameter* p = find(name);
-  if (!p) p = &parameters_.emplace_back(Parameter{name, value});
-  mark(*p);
+  if (!name.empty()) mark(parameters_.try_emplace(name, Parameter{value}).first->second);
+}
+
+Substitution::Parameters::iterator Substitution::longest_prefix(std::string_view text) {
+  // Prefixes of the text are sorted by length and lie before it.
+  for (;;) {
+    auto next = parameters_.upper_bound(text);
+    if (next == parameters_.begin()) return parameters_.end();
+    --next;
+    if (text.starts_with(next->first)) return next;
+    // What lies between and is a prefix of the text is one of what both have in common, too.
+    const auto [in_text, in_name] =
+        std::mismatch(text.begin(), text.end(), next->first.begin(), next->first.end());
+    text = text.substr(0, size_t(in_text - text.begin()));
+  }
 }
 
 std::optional<std::string> Substitution::expand(std::string_view text, const SourceLocation& where,
@@ -45,24 +51,22 @@ std::optional<std::string> Substitution::expand(std::string_view text, const Sou
       continue;
     }
     const std::string_view rest = text.substr(i + 1);
-    Parameter* meant = nullptr;
-    for (Parameter& p : parameters_)
-      if (!p.name.empty() && rest.starts_with(p.name) &&
-          (!meant || p.name.size() > meant->name.size()))
-        meant = &p;
-    if (!meant) {
+    const auto meant = longest_prefix(rest);
+    if (meant == parameters_.end()) {
       const auto is_name = [](unsigned char c) { return std::isalnum(c) || c == '_'; };
       const auto end = std::find_if_not(rest.begin(), rest.end(), is_name);
       const std::string name(rest.begin(), end);
       std::vector<std::string> known;
-      for (const Parameter& p : parameters_) known.push_back(p.name);
+      // With very many names the search for the nearest one would take too long.
+      if (!report.is_full() && parameters_.size() < 5000)
+        for (const auto& [known_name, parameter] : parameters_) known.push_back(known_name);
       report.error(where, "undefined parameter {}{}", in_quotes("$" + name),
                    did_you_mean(name, known));
       return std::nullopt;
     }
-    mark(*meant);
-    result += meant->value;
-    i += 1 + meant->name.size();
+    mark(meant->second);
+    result += meant->second.value;
+    i += 1 + meant->first.size();
     if (result.size() > kLongestValue) {
       report.error(where, "the value gets longer than {} bytes", kLongestValue);
       return std::nullopt;
@@ -73,8 +77,8 @@ std::optional<std::string> Substitution::expand(std::string_view text, const Sou
 
 std::vector<std::pair<std::string, std::string>> Substitution::scene_parameters() const {
   std::vector<std::pair<std::string, std::string>> result(size_t(next_order_), {"", ""});
-  for (const Parameter& p : parameters_)
-    if (p.order >= 0) result[size_t(p.order)] = {p.name, p.value};
+  for (const auto& [name, p] : parameters_)
+    if (p.order >= 0) result[size_t(p.order)] = {name, p.value};
   return result;
 }
 

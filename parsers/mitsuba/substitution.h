@@ -1,6 +1,7 @@
 // The parameters of a scene file: `$name` in an attribute stands for a value.
 #pragma once
 
+#include <map>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -30,15 +31,17 @@ class Substitution {
 
  private:
   struct Parameter {
-    std::string name, value;
+    std::string value;
     int order = -1;  ///< of appearance in the scene; −1 if only the caller knows it
   };
-  Parameter* find(std::string_view name);
+  using Parameters = std::map<std::string, Parameter, std::less<>>;
+  /// The longest name with which the text begins.
+  Parameters::iterator longest_prefix(std::string_view text);
   void mark(Parameter& p) {
     if (p.order < 0) p.order = next_order_++;
   }
 
-  std::vector<Parameter> parameters_;
+  Parameters parameters_;
   int next_order_ = 0;
 };
 

@@ -23,6 +23,9 @@ template <class File>
     reason = file->geterror();
   else
     reason = OIIO::geterror();
+  // One line: the library appends what its own libraries say.
+  while (!reason.empty() && reason.back() == '\n') reason.pop_back();
+  std::replace(reason.begin(), reason.end(), '\n', ';');
   if (reason.empty()) reason = "the file is damaged";
   throw std::runtime_error(reason);
 }

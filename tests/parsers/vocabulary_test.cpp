@@ -99,7 +99,9 @@ TEST_CASE("all plugins of Mitsuba 3.9 and of 0.6 are known") {
       {PluginKind::integrator,
        "aov depth direct moment path ptracer stokes volpath volpathmis bdpt mlt pssmlt erpt sppm "
        "ppm "
-       "photonmapper vpl irrcache adaptive multichannel field ao motion volpath_simple"},
+       "photonmapper vpl irrcache adaptive multichannel field ao motion volpath_simple prb "
+       "prb_basic "
+       "prb_projective prbvolpath direct_projective volprim_rf_basic"},
       {PluginKind::sensor,
        "perspective thinlens orthographic batch distant irradiancemeter radiancemeter fluencemeter "
        "perspective_rdist spherical telecentric"},

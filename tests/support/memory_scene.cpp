@@ -15,7 +15,7 @@ FileAccess MemoryFiles::access() const {
   };
   access.read_mesh = [texts_copy](const std::string&, const std::string& path,
                                   const MeshOptions& options) {
-    if (texts_copy.at(path) == "broken") throw ReadError("line 7: not a face");
+    if (texts_copy.at(path) == "broken") throw ReadError(path + ":7: not a face");
     TriangleMesh mesh = make_rectangle();
     if (options.face_normals) mesh.normals.clear();
     return mesh;
