@@ -1,0 +1,58 @@
+// Renders the project's scenes within a test.
+#pragma once
+
+#include <doctest/doctest.h>
+
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "integrators/make_integrator.h"
+#include "integrators/pass.h"
+#include "mitsuba/mitsuba.h"
+#include "scene/build.h"
+
+namespace duet::test {
+
+using Defines = std::vector<std::pair<std::string, std::string>>;
+
+inline std::string source_path(const std::string& path) {
+  return std::string(DUET_SOURCE_DIR) + "/" + path;
+}
+
+/// A scene of the folder scenes/, ready to be rendered.
+class PreparedScene {
+ public:
+  explicit PreparedScene(const std::string& name, const Defines& defines = {}) {
+    Diagnostics diagnostics;
+    MitsubaOptions options;
+    options.defines = defines;
+    auto read = read_mitsuba(source_path("scenes/" + name + "/scene.xml"), options, diagnostics);
+    REQUIRE(read);
+    SceneDescription& d = read->description;
+    const FilmDescription& film = d.sensors.at(0).film;
+    layout = {{film.width, film.height}, {0, 0, film.width, film.height}, film.filter};
+    integrator = make_integrator(d.integrator);
+    BuildOptions build;
+    build.threads = 2;
+    build.layer_needs = integrator_needs(d.integrator);
+    scene = build_scene(std::move(d), build, diagnostics);
+    REQUIRE(scene);
+  }
+
+  Image render(int spp, int threads = 2) const { return render(spp, threads, layout.crop); }
+  Image render(int spp, int threads, const PixelBounds& crop) const {
+    FilmLayout part = layout;
+    part.crop = crop;
+    RenderRequest request;
+    request.budget.spp = spp;
+    request.threads = threads;
+    return duet::render(*scene, *integrator, part, request).image;
+  }
+
+  FilmLayout layout;
+  std::unique_ptr<Integrator> integrator;
+  std::unique_ptr<Scene> scene;
+};
+
+}  // namespace duet::test
