@@ -17,7 +17,8 @@ using namespace duet;
 
 namespace {
 
-/// Directions and numbers in random order: too many for the branch predictor to learn them by heart.
+/// Directions and numbers in random order: too many for the branch predictor to learn them by
+/// heart.
 constexpr size_t kInputs = 4096;
 /// Bound materials: few enough to stay in the first cache.
 constexpr size_t kBound = 16;

@@ -267,8 +267,8 @@ void Properties::report_unused(const Entry& e) {
     return;
   }
   // <null/> says nothing on purpose; what is broken has its own error.
-  if (p.name.empty() && (std::holds_alternative<NullReference>(p.value) ||
-                         std::holds_alternative<Broken>(p.value)))
+  if (p.name.empty() &&
+      (std::holds_alternative<NullReference>(p.value) || std::holds_alternative<Broken>(p.value)))
     return;
   if (p.written.starts_with("metadata[") || p.written.starts_with("label[")) {
     report_.warning(p.where, "annotations have no effect on the linear image");

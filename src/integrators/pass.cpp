@@ -86,7 +86,9 @@ class Renderer {
     const int total = request_.budget.spp.value_or(std::numeric_limits<int>::max() / 2);
     int length = 0, part = 1;
     // The budget may not divide evenly among the batches: the first ones get what remains.
-    const auto limit = [&](int batch) { return total / kErrorBatches + (batch < total % kErrorBatches); };
+    const auto limit = [&](int batch) {
+      return total / kErrorBatches + (batch < total % kErrorBatches);
+    };
     while (spp_ < total && !cancelled() && !out_of_time()) {
       for (int b = 0; b < kErrorBatches && !cancelled(); ++b) {
         const int count = std::min(part, limit(b) - length);

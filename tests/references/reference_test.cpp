@@ -64,9 +64,9 @@ TEST_SUITE("references") {
   TEST_CASE("scenes agree with Mitsuba") {
     for (const Case& c : kCases) {
       CAPTURE(c.reference);
-      const std::string folder = source_path("reference/") + c.reference;
-      const ImageFile mean = read_image(folder + "/mean.exr");
-      const ImageFile variance = read_image(folder + "/variance.exr");
+      const ImageFile mean = read_image(source_path("reference/" + c.reference + "/mean.exr"));
+      const ImageFile variance =
+          read_image(source_path("reference/" + c.reference + "/variance.exr"));
       REQUIRE(reference_spp(mean) > 0);
       const Image image = PreparedScene(c.scene, c.defines).render(c.spp);
       const ImageMetrics m = compare_images(
