@@ -9,10 +9,14 @@ namespace duet {
 namespace {
 
 /// "--" must not occur in a comment.
-std::string commented(std::string text) {
-  for (size_t at = text.find("--"); at != text.npos; at = text.find("--"))
-    text.replace(at, 2, "- ");
-  return "  " + text + "\n";
+std::string commented(std::string_view text) {
+  std::string out = "  ";
+  for (const char c : text)
+    if (c == '-' && out.back() == '-')
+      out += " -";
+    else
+      out += c;
+  return out += '\n';
 }
 
 }  // namespace
