@@ -8,24 +8,31 @@ namespace duet {
 namespace {
 
 const std::vector<std::string>& layer_kinds() {
-  static const std::vector<std::string> kinds{
-      "albedo", "depth", "position", "uv",     "geo_normal", "sh_normal",
-      "dp_du",  "dp_dv", "duv_dx",   "duv_dy", "prim_index", "shape_index"};
+  static const std::vector<std::string> kinds{"albedo",     "depth",      "position", "uv",
+                                              "geo_normal", "sh_normal",  "dp_du",    "dp_dv",
+                                              "prim_index", "shape_index"};
   return kinds;
 }
 
 void read_layers(Properties& p, AovDescription& out) {
   if (!p.find("aovs")) return;
   const std::string text = p.string("aovs");
-  for (std::string_view part : split_list(text)) {
+  const auto parts = split_list(text);
+  if (parts.empty()) p.error("aovs", "no layer is listed");
+  for (std::string_view part : parts) {
     const size_t colon = part.find(':');
     const std::string name(part.substr(0, colon));
     const std::string kind(colon == part.npos ? "" : part.substr(colon + 1));
     const auto& kinds = layer_kinds();
+    const auto same_name = [&](const auto& layer) { return layer.name == name; };
     if (name.empty() || kind.empty())
       p.error("aovs", "{} is not of the form name:kind", in_quotes(part));
+    else if (kind == "duv_dx" || kind == "duv_dy")
+      p.error("aovs", "layers of kind {} are planned and not there yet", in_quotes(kind));
     else if (std::find(kinds.begin(), kinds.end(), kind) == kinds.end())
       p.error("aovs", "unknown kind of layer {}{}", in_quotes(kind), did_you_mean(kind, kinds));
+    else if (std::any_of(out.layers.begin(), out.layers.end(), same_name))
+      p.error("aovs", "two layers are called {}", in_quotes(name));
     else
       out.layers.push_back({kind, name});
   }

@@ -33,8 +33,8 @@ constexpr Parameter kDepth[] = {{.name = "hide_emitters", .type = boolean, .supp
 constexpr Parameter kAov[] = {
     {.name = "aovs",
      .type = string,
-     .note = "name:kind, …; albedo depth position uv geo_normal sh_normal dp_du dp_dv duv_dx "
-             "duv_dy prim_index shape_index",
+     .note = "name:kind, …; albedo depth position uv geo_normal sh_normal dp_du dp_dv "
+             "prim_index shape_index (planned: duv_dx duv_dy)",
      .required = true},
     {.name = "hide_emitters", .type = boolean, .support = inert}};
 constexpr Parameter kMoment[] = {{.name = "hide_emitters", .type = boolean, .support = inert}};

@@ -104,11 +104,28 @@ constexpr Plugin kFilters[] = {
     {"catmullrom", both, {}, &read_filter},      {"lanczos", both, kLanczos, &read_filter},
 };
 
+/// A sampler whose place Duet's own takes.
+constexpr Plugin sobol_instead(std::string_view name, FileVersions versions) {
+  return {.name = name,
+          .versions = versions,
+          .reader = &read_sampler,
+          .note = "Owen-scrambled Sobol' points instead",
+          .support = Support::approximated};
+}
+
 constexpr Plugin kSamplers[] = {
-    {"independent", both, {}, &read_sampler}, {"stratified", both, {}, &read_sampler},
-    {"multijitter", v3, {}, &read_sampler},   {"orthogonal", v3, {}, &read_sampler},
-    {"ldsampler", both, {}, &read_sampler},   {"sobol", v0, {}, &read_sampler},
-    {"halton", v0, {}, &read_sampler},        {"hammersley", v0, {}, &read_sampler},
+    {"independent",
+     both,
+     {},
+     &read_sampler,
+     "Owen-scrambled Sobol' points, with --strict-sampler independent ones"},
+    sobol_instead("stratified", both),
+    sobol_instead("multijitter", v3),
+    sobol_instead("orthogonal", v3),
+    sobol_instead("ldsampler", both),
+    {"sobol", v0, {}, &read_sampler, "Owen-scrambled"},
+    sobol_instead("halton", v0),
+    sobol_instead("hammersley", v0),
 };
 
 }  // namespace

@@ -21,15 +21,18 @@ class PerspectiveCamera : public Camera {
   Ray sample_ray(const Point2f& film, const Point2f& lens) const override;
 
  protected:
-  /// The point of the plane z = 1 in camera space that is seen at a film position.
+  /// From the eye to the point that is seen at a film position, at depth 1; in world space.
   Vector3f film_direction(const Point2f& film) const;
-  /// A ray from `origin` (camera space) along unit `direction`, between the clipping planes.
+  /// A ray from `origin` between the clipping planes; `direction` spans a depth of 1.
   Ray clipped_ray(const Point3f& origin, const Vector3f& direction) const;
 
+  Point3f eye_;
+
  private:
-  Transform to_world_;
-  float scale_, center_x_, center_y_;
-  float near_, far_;
+  Vector3f right_, down_;  ///< by one pixel, at depth 1
+  Vector3f forward_;
+  float center_x_, center_y_;
+  float near_, depth_;
 };
 
 /// Rays leave a disk-shaped aperture and meet in the plane of focus.
@@ -40,7 +43,8 @@ class ThinLensCamera final : public PerspectiveCamera {
   bool has_lens() const override { return true; }
 
  private:
-  float aperture_radius_, focus_distance_;
+  Vector3f lens_x_, lens_y_;  ///< the aperture's radii
+  float inv_focus_distance_;
 };
 
 }  // namespace duet

@@ -144,10 +144,13 @@ Accel::~Accel() = default;
 namespace {
 
 inline void set_ray(RTCRay& r, const Ray& ray) {
-  r.org_x = ray.origin.x, r.org_y = ray.origin.y, r.org_z = ray.origin.z;
-  r.dir_x = ray.direction.x, r.dir_y = ray.direction.y, r.dir_z = ray.direction.z;
-  r.tnear = 0, r.tfar = ray.tmax;
-  r.time = 0, r.mask = ~0u, r.id = 0, r.flags = 0;
+  // Embree reads origin and direction as vectors of four: what is written piece by piece and read
+  // as a whole has to wait until it has left the store buffer.
+  using Four [[gnu::vector_size(16), gnu::may_alias]] = float;
+  *reinterpret_cast<Four*>(&r.org_x) = Four{ray.origin.x, ray.origin.y, ray.origin.z, 0};
+  *reinterpret_cast<Four*>(&r.dir_x) = Four{ray.direction.x, ray.direction.y, ray.direction.z, 0};
+  r.tfar = ray.tmax;
+  r.mask = ~0u, r.id = 0, r.flags = 0;
 }
 
 }  // namespace

@@ -46,6 +46,8 @@ bool tangents(const TriangleMesh& m, const std::array<uint32_t, 3>& t, const Cor
   return true;
 }
 
+}  // namespace
+
 Surface make_mesh_surface(const Shape& shape, const Hit& hit) {
   const TriangleMesh& m = *shape.mesh;
   const std::array<uint32_t, 3>& t = m.triangles[hit.primitive];
@@ -80,8 +82,6 @@ Surface make_mesh_surface(const Shape& shape, const Hit& hit) {
   s.shading = Frame::from_tangent(ns, s.dp_du);
   return s;
 }
-
-}  // namespace
 
 Surface make_surface(const Shape& shape, const Instance* instance, const Ray& ray, const Hit& hit) {
   if (!instance)

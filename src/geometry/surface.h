@@ -22,6 +22,9 @@ struct Surface {
   const Shape* shape;
 };
 
+/// Completes a hit of a mesh that is not instanced.
+Surface make_mesh_surface(const Shape& shape, const Hit& hit);
+
 /// Completes a hit of `ray`. `instance` is null for shapes that are not instanced.
 Surface make_surface(const Shape& shape, const Instance* instance, const Ray& ray, const Hit& hit);
 

@@ -66,9 +66,9 @@ void CameraIntegrator::render_tile(const Scene& scene, const Film& film, FilmTil
         }
         std::fill(values.begin(), values.end(), 0.0f);
         sample(scene, camera.sample_ray(position, lens), sampler, counters, values);
-        bool finite = true;
-        for (const float v : values) finite &= std::isfinite(v);
-        if (!finite) {
+        float zero = 0;
+        for (const float v : values) zero += 0 * v;
+        if (!(zero == 0)) {  // infinite or not a number
           ++counters.nonfinite_samples;
           std::fill(values.begin(), values.end(), 0.0f);
         }

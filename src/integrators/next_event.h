@@ -40,8 +40,10 @@ inline Ray behind_emitters(const Scene& scene, Ray ray, RenderCounters& counters
 
 /// Next event estimation at a surface point: radiance towards the Bsdf's wo that comes straight
 /// from one chosen light, weighted against BSDF sampling. Uses up to three dimensions of the
-/// sampler. The scene must have a light.
-inline Spectrum sample_light(const Scene& scene, const Surface& s, const Bsdf& bsdf,
+/// sampler. The scene must have a light. `B` is Bsdf
+/// or PlainDiffuse.
+template <class B>
+inline Spectrum sample_light(const Scene& scene, const Surface& s, const B& bsdf,
                              bool strict_normals, const SampleShares& shares, Sampler& sampler,
                              RenderCounters& counters) {
   const Point2f u = sampler.next_2d();

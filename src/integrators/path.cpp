@@ -1,6 +1,7 @@
 #include "integrators/path.h"
 
 #include "integrators/next_event.h"
+#include "materials/plain_diffuse.h"
 
 namespace duet {
 
@@ -13,63 +14,85 @@ constexpr uint32_t kBsdfDimension = 4;
 
 }  // namespace
 
+/// A path that grows, and what it has found.
+struct PathIntegrator::Path {
+  Ray ray;  ///< to the next vertex
+  Sampler& sampler;
+  RenderCounters& counters;
+  float& alpha;
+  Spectrum sum{}, throughput{1};
+  std::optional<PdfW> bsdf_pdf{};  ///< of the ray, if light samples compete with it
+  Point3f from = ray.origin;       ///< the previous vertex
+  float eta = 1;                   ///< relative index of refraction along the path
+};
+
 Spectrum PathIntegrator::radiance(const Scene& scene, const Ray& camera_ray, Sampler& sampler,
                                   RenderCounters& counters, float& alpha) const {
   if (options_.max_depth == 0) return {};
-  const SampleShares shares;
-  Ray ray = options_.hide_emitters ? behind_emitters(scene, camera_ray, counters) : camera_ray;
-  Spectrum sum, throughput(1);
-  std::optional<PdfW> bsdf_pdf;  // of the last direction, if light samples compete with it
-  Point3f from = ray.origin;
-  float eta = 1;  // relative index of refraction along the path
+  Path path{options_.hide_emitters ? behind_emitters(scene, camera_ray, counters) : camera_ray,
+            sampler, counters, alpha};
   for (int depth = 1;; ++depth) {
     Hit hit;
     ++counters.closest_rays;
-    if (!scene.accel->closest_hit(ray, hit)) {
+    if (!scene.accel->closest_hit(path.ray, hit)) {
       if (depth == 1 && options_.hide_emitters) break;
-      sum += throughput * weighted_environment(scene, ray.direction, bsdf_pdf, shares);
+      path.sum +=
+          path.throughput * weighted_environment(scene, path.ray.direction, path.bsdf_pdf, {});
       if (scene.environment) alpha = 1;
       break;
     }
     ++counters.path_vertices;
-    const Surface s = scene.surface(ray, hit);
+    const Surface s = scene.surface(path.ray, hit);
     if (s.shape->light != kNone)
-      sum += throughput * weighted_emission(scene, s, from, ray.direction, hit.t, bsdf_pdf, shares);
+      path.sum += path.throughput * weighted_emission(scene, s, path.from, path.ray.direction,
+                                                      hit.t, path.bsdf_pdf, {});
     if (depth == options_.max_depth) {
       alpha = 1;
       break;
     }
-    const Bsdf bsdf = scene.materials[s.shape->material]->bind(s, -ray.direction);
-    const uint32_t dimension = kFirstVertexDimension + kDimensionsPerVertex * uint32_t(depth - 1);
-    if (bsdf.has_smooth() && scene.picker.size() > 0) {
-      sampler.start_dimension(dimension);
-      sum += throughput *
-             sample_light(scene, s, bsdf, options_.strict_normals, shares, sampler, counters);
-    }
-    sampler.start_dimension(dimension + kBsdfDimension);
-    const Point2f v = sampler.next_2d();
-    const float u = bsdf.needs_choice() ? sampler.next_1d() : 0.5f;
-    const auto sample = bsdf.sample(u, v, Transport::radiance);
-    if (!sample || !sample->null) alpha = 1;
-    if (!sample || (options_.strict_normals && sides_differ(s, sample->wi))) break;
-    throughput *= sample->weight;
-    const float importance = throughput.max();
-    if (!(importance > 0)) break;
-    eta *= sample->eta;
-    if (depth >= options_.rr_depth) {
-      // Where light is refracted into a denser medium its radiance grows without carrying more.
-      const float survival = std::min(importance * eta * eta, 0.95f);
-      if (!(sampler.next_1d() < survival)) break;
-      throughput *= 1 / survival;
-    }
-    if (sample->delta)
-      bsdf_pdf.reset();
-    else
-      bsdf_pdf = sample->pdf;
-    from = s.position;
-    ray = spawn_ray(s, sample->wi);
+    const Material& material = *scene.materials[s.shape->material];
+    const Vector3f wo = -path.ray.direction;
+    const bool goes_on = PlainDiffuse::suits(material)
+                             ? scatter(scene, s, PlainDiffuse(material, s, wo), depth, path)
+                             : scatter(scene, s, material.bind(s, wo), depth, path);
+    if (!goes_on) break;
   }
-  return sum;
+  return path.sum;
+}
+
+template <class B>
+inline bool PathIntegrator::scatter(const Scene& scene, const Surface& s, const B& bsdf, int depth,
+                                    Path& path) const {
+  Sampler& sampler = path.sampler;
+  const uint32_t dimension = kFirstVertexDimension + kDimensionsPerVertex * uint32_t(depth - 1);
+  if (bsdf.has_smooth() && scene.picker.size() > 0) {
+    sampler.start_dimension(dimension);
+    path.sum += path.throughput *
+                sample_light(scene, s, bsdf, options_.strict_normals, {}, sampler, path.counters);
+  }
+  sampler.start_dimension(dimension + kBsdfDimension);
+  const Point2f v = sampler.next_2d();
+  const float u = bsdf.needs_choice() ? sampler.next_1d() : 0.5f;
+  const auto sample = bsdf.sample(u, v, Transport::radiance);
+  if (!sample || !sample->null) path.alpha = 1;
+  if (!sample || (options_.strict_normals && sides_differ(s, sample->wi))) return false;
+  path.throughput *= sample->weight;
+  const float importance = path.throughput.max();
+  if (!(importance > 0)) return false;
+  path.eta *= sample->eta;
+  if (depth >= options_.rr_depth) {
+    // Where light is refracted into a denser medium its radiance grows without carrying more.
+    const float survival = std::min(importance * path.eta * path.eta, 0.95f);
+    if (!(sampler.next_1d() < survival)) return false;
+    path.throughput *= 1 / survival;
+  }
+  if (sample->delta)
+    path.bsdf_pdf.reset();
+  else
+    path.bsdf_pdf = sample->pdf;
+  path.from = s.position;
+  path.ray = spawn_ray(s, sample->wi);
+  return true;
 }
 
 }  // namespace duet

@@ -25,6 +25,12 @@ class PathIntegrator final : public CameraIntegrator {
                     float& alpha) const override;
 
  private:
+  struct Path;
+  /// Adds light that comes straight from a light to a vertex of the path, and chooses where the
+  /// path goes on; false if it ends. `B` is Bsdf or PlainDiffuse.
+  template <class B>
+  bool scatter(const Scene& scene, const Surface& s, const B& bsdf, int depth, Path& path) const;
+
   PathOptions options_;
 };
 

@@ -104,11 +104,16 @@ std::optional<LightSample> AreaLight::sample_parallelogram(const Point3f& from,
   const Vector3f d = target - from;
   const float facing = -dot(normal_, d);
   if (!(facing > 0)) return std::nullopt;
-  const float inv_distance = 1 / std::sqrt(length_squared(d));
-  // cos θ / d², as a density per area of the parallelogram turned into one per solid angle
-  const float solid_angle = facing * inv_distance * inv_distance * inv_distance * float(area_);
-  return LightSample{d * inv_distance, target, radiance_.constant * solid_angle,
-                     PdfW{1 / solid_angle}};
+  const float d2 = length_squared(d), distance = std::sqrt(d2), inv_distance = 1 / distance;
+  // area · cos θ / d²: what a density per area becomes per solid angle
+  const float projected = facing * float(area_);
+  const float solid_angle = projected * inv_distance * inv_distance * inv_distance;
+  std::optional<LightSample> sample(std::in_place);
+  sample->wi = d * inv_distance;
+  sample->target = target;
+  sample->weight = radiance_.constant * solid_angle;
+  sample->pdf = PdfW{d2 * distance / projected};
+  return sample;
 }
 
 LightSample AreaLight::toward(const ShapePoint& p, PdfW pdf, const Vector3f& wi) const {

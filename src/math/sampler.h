@@ -47,13 +47,13 @@ class Sampler {
     if (sequence_ == SampleSequence::sobol) select_block(d / kSobolDimensions);
   }
 
-  float next_1d() {
+  [[gnu::always_inline]] float next_1d() {
     const uint32_t d = dimension_++;
     if (sequence_ == SampleSequence::independent) return to_unit_float(uint32_t(draw(d) >> 32));
     return scrambled(d);
   }
 
-  Point2f next_2d() {
+  [[gnu::always_inline]] Point2f next_2d() {
     const uint32_t d = dimension_;
     dimension_ += 2;
     if (sequence_ == SampleSequence::independent) {

@@ -7,14 +7,14 @@ namespace duet {
 
 /// Uniform on the unit disk; keeps neighbouring points together.
 /// Source: Shirley & Chiu, "A Low Distortion Map Between Disk and Square", 1997.
-inline Point2f square_to_disk(const Point2f& u) {
+[[gnu::always_inline]] inline Point2f square_to_disk(const Point2f& u) {
   const float a = 2 * u.x - 1, b = 2 * u.y - 1;
   // Which coordinate is larger cannot be predicted: choose without a branch.
-  const float m = std::max(std::abs(a), std::abs(b));
-  const float steep = std::abs(a) < m ? 1.0f : 0.0f;
+  const float steep = float(std::abs(a) < std::abs(b));
   const float r = a + steep * (b - a), other = b + steep * (a - b);
   float sine, cosine;
-  small_sincos((kPi / 4) * other / (m == 0 ? 1.0f : r), sine, cosine);
+  // The summand matters only in the centre, where both are zero.
+  small_sincos((kPi / 4) * other / (r + std::copysign(1e-30f, r)), sine, cosine);
   return {r * (cosine + steep * (sine - cosine)), r * (sine + steep * (cosine - sine))};
 }
 

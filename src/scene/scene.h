@@ -35,8 +35,11 @@ struct Scene {
   Scene& operator=(const Scene&) = delete;
 
   Surface surface(const Ray& ray, const Hit& hit) const {
-    const Instance* instance = hit.instance == kNone ? nullptr : &instances[hit.instance];
-    return make_surface(shapes[hit.shape], instance, ray, hit);
+    const Shape& shape = shapes[hit.shape];
+    if (hit.instance != kNone) return make_surface(shape, &instances[hit.instance], ray, hit);
+    if (shape.kind == ShapeKind::mesh) [[likely]]
+      return make_mesh_surface(shape, hit);
+    return make_surface(shape, nullptr, ray, hit);
   }
   /// The light on a shape, or null.
   const SurfaceLight* light_on(const Shape& shape) const {

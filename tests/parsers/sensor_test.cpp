@@ -239,6 +239,12 @@ TEST_CASE("integrators") {
             "(did you mean \"depth\"?)"));
   CHECK(bad("<integrator type='aov'><string name='aovs' value='depth'/></integrator>",
             "form name:kind"));
+  CHECK(bad("<integrator type='aov'><string name='aovs' value='d:duv_dx'/></integrator>",
+            "planned and not there yet"));
+  CHECK(bad("<integrator type='aov'><string name='aovs' value='d:depth, d:uv'/></integrator>",
+            "two layers are called \"d\""));
+  CHECK(bad("<integrator type='aov'><string name='aovs' value=' '/></integrator>",
+            "no layer is listed"));
   CHECK(bad("<integrator type='aov'/>", "needs the parameter \"aovs\""));
   CHECK(bad("<integrator type='moment'/>", "needs an integrator"));
   CHECK(bad("<integrator type='path'/><integrator type='path'/>", "can have only one integrator"));

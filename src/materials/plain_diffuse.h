@@ -1,0 +1,53 @@
+// The most frequent material, bound without the machinery of all others.
+#pragma once
+
+#include "materials/bsdf.h"
+
+namespace duet {
+
+/// A Material that is nothing but a DiffuseModel of constant reflectance, at a surface point: the
+/// same numbers as its Bsdf gives, by the same functions, so that code can be written for either.
+class PlainDiffuse {
+ public:
+  static bool suits(const Material& material) {
+    return material.constant() && material.constant()->component.kind == ModelKind::diffuse;
+  }
+
+  /// `wo` is a unit vector in world space.
+  PlainDiffuse(const Material& material, const Surface& s, const Vector3f& wo)
+      : frame_(s.shading),
+        reflectance_(material.constant()->component.model.diffuse.reflectance),
+        has_smooth_(material.constant()->has_smooth) {
+    const float cosine = dot(frame_.n, wo);
+    side_ = cosine > 0 ? 1.0f : cosine < 0 && material.constant()->two_sided ? -1.0f : 0.0f;
+  }
+
+  bool has_smooth() const { return has_smooth_; }
+  bool needs_choice() const { return false; }
+
+  BsdfEval eval(const Vector3f& wi, Transport) const {
+    const float cosine = dot(frame_.n, wi) * side_;
+    if (!(cosine > 0)) return {};
+    const float pdf = cosine * kInvPi;
+    return {reflectance_ * pdf, PdfW{pdf}};
+  }
+
+  std::optional<BsdfSample> sample(float, const Point2f& v, Transport) const {
+    std::optional<BsdfSample> out;
+    const Vector3f wi = square_to_cosine_hemisphere(v);
+    if (side_ == 0 || !(wi.z > 0)) return out;
+    out.emplace();
+    out->wi = frame_.to_world({wi.x, wi.y, wi.z * side_});
+    out->weight = reflectance_;
+    out->pdf.value = wi.z * kInvPi;
+    return out;
+  }
+
+ private:
+  const Frame& frame_;
+  Spectrum reflectance_;
+  bool has_smooth_;
+  float side_;  ///< on which the surface is lit, 0 if not on that of wo
+};
+
+}  // namespace duet
