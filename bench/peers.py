@@ -34,7 +34,7 @@ mi.set_variant('llvm_ad_rgb')
 mi.set_log_level(mi.LogLevel.Error)
 
 ROOT = Path(__file__).resolve().parent.parent
-REFERENCE_PASSES, REFERENCE_SPP = 16, 256
+REFERENCE_PASSES, REFERENCE_SPP = 8, 256
 
 RENDER_WITH_MITSUBA = '''
 import sys, mitsuba as mi
