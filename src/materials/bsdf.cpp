@@ -10,7 +10,7 @@ Transport opposite(Transport t) {
   return t == Transport::radiance ? Transport::importance : Transport::radiance;
 }
 
-Vector3f mirrored(const Vector3f& w, float side) {
+Vector3f on_side(const Vector3f& w, float side) {
   return {w.x, w.y, w.z * side};
 }
 
@@ -40,7 +40,7 @@ ModelEval eval_tilted(const BsdfComponent& c, const Tilt& tilt, const Vector3f& 
   const bool turned = tilt.turned_for(eye);
   const Vector3f o = tilt.to_local(wo, turned), i = tilt.to_local(wi, turned);
   if (!tilt.agrees(light, to_light ? i : o)) return {};
-  ModelEval e = eval_model(c, mirrored(o, c.side), mirrored(i, c.side), transport);
+  ModelEval e = eval_model(c, on_side(o, c.side), on_side(i, c.side), transport);
   e.value *= tilt.shadowing(light);
   if (to_light) return e;
   e.value *= cosine_exchange(light, o, eye, i);
@@ -48,7 +48,7 @@ ModelEval eval_tilted(const BsdfComponent& c, const Tilt& tilt, const Vector3f& 
   const float p = tilt.turned_probability();
   if (p > 0) {
     const Vector3f o2 = tilt.to_local(wo, !turned), i2 = tilt.to_local(wi, !turned);
-    const float other = eval_model(c, mirrored(o2, c.side), mirrored(i2, c.side), transport).pdf;
+    const float other = eval_model(c, on_side(o2, c.side), on_side(i2, c.side), transport).pdf;
     const float q = turned ? p : 1 - p;
     e.pdf = q * e.pdf + (1 - q) * other;
   }
@@ -69,9 +69,9 @@ std::optional<ModelSample> sample_tilted(const BsdfComponent& c, const Tilt& til
     u = std::min((turned ? u : u - p) / probability, kBelowOne);
   }
   const Vector3f o = tilt.to_local(wo, turned);
-  auto s = sample_model(c, mirrored(o, c.side), u, v, transport);
+  auto s = sample_model(c, on_side(o, c.side), u, v, transport);
   if (!s) return std::nullopt;
-  const Vector3f i = mirrored(s->wi, c.side);
+  const Vector3f i = on_side(s->wi, c.side);
   s->wi = tilt.from_local(i, turned);
   const Vector3f& eye = to_light ? wo : s->wi;
   const Vector3f& light = to_light ? s->wi : wo;
@@ -96,7 +96,7 @@ ModelEval eval_component(const BsdfComponent& c, const Tilt* tilts, const Vector
                          const Vector3f& wi, Transport transport) {
   if (c.tilt >= 0) [[unlikely]]
     return eval_tilted(c, tilts[c.tilt], wo, wi, transport);
-  return eval_model(c, mirrored(wo, c.side), mirrored(wi, c.side), transport);
+  return eval_model(c, on_side(wo, c.side), on_side(wi, c.side), transport);
 }
 
 std::optional<ModelSample> sample_component(const BsdfComponent& c, const Tilt* tilts,
@@ -104,7 +104,7 @@ std::optional<ModelSample> sample_component(const BsdfComponent& c, const Tilt* 
                                             Transport transport) {
   if (c.tilt >= 0) [[unlikely]]
     return sample_tilted(c, tilts[c.tilt], wo, u, v, transport);
-  return sample_model(c, mirrored(wo, c.side), u, v, transport);
+  return sample_model(c, on_side(wo, c.side), u, v, transport);
 }
 
 }  // namespace
@@ -116,8 +116,7 @@ BsdfEval Bsdf::eval(const Vector3f& wi_world, Transport transport) const {
   const Vector3f wi = frame_.to_local(wi_world);
   if (is_plain_diffuse()) [[likely]] {
     const BsdfComponent& c = components_[0];
-    const ModelEval e =
-        c.model.diffuse.eval(mirrored(wo_, c.side), mirrored(wi, c.side), transport);
+    const ModelEval e = c.model.diffuse.eval(on_side(wo_, c.side), on_side(wi, c.side), transport);
     return {e.value * c.share, PdfW{e.pdf * c.share}};
   }
   return eval_all(wi, transport);
@@ -126,9 +125,9 @@ BsdfEval Bsdf::eval(const Vector3f& wi_world, Transport transport) const {
 std::optional<BsdfSample> Bsdf::sample(float u, const Point2f& v, Transport transport) const {
   if (is_plain_diffuse() && components_[0].share == 1) [[likely]] {
     const BsdfComponent& c = components_[0];
-    const auto s = c.model.diffuse.sample(mirrored(wo_, c.side), u, v, transport);
+    const auto s = c.model.diffuse.sample(on_side(wo_, c.side), u, v, transport);
     if (!s) return std::nullopt;
-    return BsdfSample{frame_.to_world(mirrored(s->wi, c.side)), s->weight, PdfW{s->pdf}};
+    return BsdfSample{frame_.to_world(on_side(s->wi, c.side)), s->weight, PdfW{s->pdf}};
   }
   return sample_all(u, v, transport);
 }
@@ -162,7 +161,7 @@ PdfW Bsdf::reverse_pdf(const Vector3f& wi_world, Transport transport) const {
   u = std::min(u / c.share, kBelowOne);
   const auto s = sample_component(c, tilts_, wo_, u, v, transport);
   if (!s) return out;
-  const Vector3f wi = c.tilt >= 0 ? s->wi : mirrored(s->wi, c.side);
+  const Vector3f wi = c.tilt >= 0 ? s->wi : on_side(s->wi, c.side);
   out.emplace();
   out->wi = frame_.to_world(wi);
   out->weight = s->weight;

@@ -11,11 +11,6 @@ float compression(float eta, Transport transport) {
   return transport == Transport::radiance ? 1 / (eta * eta) : 1.0f;
 }
 
-/// Both sides of the surface are treated as if seen from above, by mirroring at the surface.
-Vector3f mirrored(const Vector3f& w, bool mirror) {
-  return mirror ? Vector3f{w.x, w.y, -w.z} : w;
-}
-
 }  // namespace
 
 std::optional<ModelSample> DielectricModel::sample(const Vector3f& wo, float u, const Point2f&,

@@ -11,10 +11,6 @@ float clearcoat_masking(float cosine) {
   return 2 * cosine / (cosine + std::sqrt(cosine * cosine + sqr(0.25f) * (1 - cosine * cosine)));
 }
 
-Vector3f mirrored(const Vector3f& w, bool mirror) {
-  return mirror ? Vector3f{w.x, w.y, -w.z} : w;
-}
-
 }  // namespace
 
 Microfacet principled_facets(float roughness, float anisotropic) {

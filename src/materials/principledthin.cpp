@@ -6,10 +6,6 @@ namespace duet {
 
 namespace {
 
-Vector3f mirrored(const Vector3f& w, bool mirror) {
-  return mirror ? Vector3f{w.x, w.y, -w.z} : w;
-}
-
 /// As in Mitsuba, transmitted light has to meet the facet h from the side from which it meets the
 /// surface, seen with the eye above. `o` lies above the surface and `i` below.
 bool meets_facet(const Vector3f& o, const Vector3f& i, const Vector3f& h, Transport transport) {

@@ -51,6 +51,11 @@ inline float sin2_theta(const Vector3f& w) {
 inline bool same_hemisphere(const Vector3f& a, const Vector3f& b) {
   return a.z * b.z > 0;
 }
+/// `w`, or its mirror image behind the surface: so that both sides can be treated as if seen from
+/// above.
+inline Vector3f mirrored(const Vector3f& w, bool mirror) {
+  return {w.x, w.y, mirror ? -w.z : w.z};
+}
 /// The mirror image of `w` about the normal.
 inline Vector3f reflect(const Vector3f& w) {
   return {-w.x, -w.y, w.z};

@@ -1,0 +1,103 @@
+// What the header of an EXR file says about the image.
+#include <OpenEXR/ImfHeader.h>
+#include <OpenEXR/ImfInputFile.h>
+#include <OpenEXR/ImfMatrixAttribute.h>
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <map>
+
+#include "app/workplace.h"
+#include "image/image_io.h"
+
+using namespace duet;
+using namespace duet::test;
+
+namespace {
+
+std::map<std::string, std::string> header_of(const ImageFile& file) {
+  return {file.header.begin(), file.header.end()};
+}
+
+}  // namespace
+
+TEST_SUITE("program") {
+  TEST_CASE("the header says how the image was made") {
+    const Workplace place;
+    place.scene("a scene.xml");
+    CHECK(place
+              .run({"a scene.xml", "-o", "a.exr", "--seed", "9", "-t", "1", "-I", "max_depth=3",
+                    "--spp", "8"})
+              .code == 0);
+    auto h = header_of(read_image(place.path("a.exr")));
+    CHECK(h["program"] == "Duet");
+    CHECK(h["version"] == DUET_VERSION);
+    CHECK(h["commandLine"] == "duet 'a scene.xml' -o a.exr --seed 9 -t 1 -I max_depth=3 --spp 8");
+    CHECK(h["scene"] == "a scene.xml");
+    CHECK(h["sceneHash"].size() == 16);
+    CHECK(h["integrator"] == "path");
+    CHECK(contains(h["integratorParameters"], "max_depth=3 rr_depth=5"));
+    CHECK(h["sampler"] == "sobol");
+    CHECK(std::stod(h["spp"]) == 8);
+    CHECK(h.contains("lightSubpaths"));
+    CHECK(h["seed"] == "9");
+    CHECK(std::stod(h["threads"]) == 1);
+    CHECK(std::stod(h["renderSeconds"]) > 0);
+    CHECK(std::stod(h["relativeRmseEstimate"]) > 0);
+    place.write("a scene.xml", TinyScene().text() + "<!-- another -->");
+    CHECK(place.run({"a scene.xml", "-o", "b.exr", "--strict-sampler"}).code == 0);
+    auto other = header_of(read_image(place.path("b.exr")));
+    CHECK(other["sceneHash"] != h["sceneHash"]);
+    CHECK(other["sampler"] == "independent");
+  }
+
+  TEST_CASE("the header's matrices say where a point of the world is in the image") {
+    const Workplace place;
+    for (const char* type : {"perspective", "orthographic"}) {
+      CAPTURE(type);
+      const bool perspective = type == std::string("perspective");
+      TinyScene s;
+      // A small lamp, seen by a camera that looks from the side.
+      place.write("lamp.xml",
+                  std::string(R"(<scene version="3.0.0"><integrator type="direct"/>
+        <sensor type=")") +
+                      type + R"("><transform name="to_world">)" +
+                      (perspective ? "" : "<scale x=\"4\" y=\"4\"/>") +
+                      R"(<lookat origin="7,1,-2" target="0,0,0" up="0,0.2,1"/></transform>)" +
+                      (perspective ? R"(<float name="fov" value="50"/>
+            <float name="principal_point_offset_x" value="0.1"/>
+            <float name="principal_point_offset_y" value="-0.07"/>)"
+                                   : "") +
+                      R"(
+        <film type="hdrfilm"><integer name="width" value="120"/>
+          <integer name="height" value="80"/><rfilter type="box"/></film></sensor>
+        <shape type="sphere"><point name="center" x="0.5" y="-0.9" z="0.4"/>
+          <float name="radius" value="0.08"/><emitter type="area"/></shape></scene>)");
+      const Outcome o = place.run({"lamp.xml", "--spp", "16"});
+      CAPTURE(o.err);
+      REQUIRE(o.code == 0);
+      const Image image = read_image(place.path("lamp.exr")).image;
+      double x = 0, y = 0, weight = 0;
+      for (int j = 0; j < image.height; ++j)
+        for (int i = 0; i < image.width; ++i) {
+          const double w = double(image.pixel(i, j)[1]);
+          x += w * (i + 0.5), y += w * (j + 0.5), weight += w;
+        }
+      REQUIRE(weight > 0);
+      const Imf::InputFile file(place.path("lamp.exr").c_str());
+      const auto& to_ndc = file.header().typedAttribute<Imf::M44fAttribute>("worldToNDC").value();
+      const auto& to_camera =
+          file.header().typedAttribute<Imf::M44fAttribute>("worldToCamera").value();
+      Imath::V3f ndc, camera;
+      to_ndc.multVecMatrix(Imath::V3f(0.5f, -0.9f, 0.4f), ndc);
+      to_camera.multVecMatrix(Imath::V3f(0.5f, -0.9f, 0.4f), camera);
+      CHECK(double(ndc.x) * image.width == doctest::Approx(x / weight).epsilon(0.01));
+      CHECK(double(ndc.y) * image.height == doctest::Approx(y / weight).epsilon(0.01));
+      CHECK(camera.z > 0);
+      if (!perspective) {
+        CHECK((camera.x > 0) == (x / weight > 60));
+        CHECK((camera.y > 0) == (y / weight < 40));
+      }
+    }
+  }
+}
