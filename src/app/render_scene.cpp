@@ -236,6 +236,8 @@ class SceneRenderer {
                           r.rmse_is_upper_bound ? "below " : "", 100 * *r.relative_rmse);
     for (const std::string& p : paths(r.spp)) text += " -> " + p;
     log::info("{}", text);
+    if (request_.budget.target_error && !r.relative_rmse && !r.interrupted)
+      warn("the image is black: there is no relative error for --target-error");
     if (r.counters.nonfinite_samples > 0)
       warn(fmt::format("{} of {} samples were not finite and count as black",
                        r.counters.nonfinite_samples, r.counters.camera_paths));

@@ -15,6 +15,9 @@ namespace {
 
 /// Parts into which a known number of samples is divided, for progress and the error bound.
 constexpr int kParts = 8;
+/// Samples of each batch after which an image that is still black is taken to be so: there is no
+/// error relative to nothing.
+constexpr int kBlackSamples = 256;
 
 class Renderer {
  public:
@@ -99,7 +102,7 @@ class Renderer {
       if (cancelled()) break;
       length += part;
       relative_rmse_ = batch_relative_rmse(films_);
-      if (relative_rmse_ && *relative_rmse_ <= target) break;
+      if (relative_rmse_ ? *relative_rmse_ <= target : length >= kBlackSamples) break;
       part = next_batch_part(length, target);
     }
   }

@@ -16,7 +16,8 @@ namespace {
 /// machinery around it can be tested without a scene.
 class FakeIntegrator final : public Integrator {
  public:
-  explicit FakeIntegrator(int milliseconds = 0) : milliseconds_(milliseconds) {}
+  explicit FakeIntegrator(int milliseconds = 0, float brightness = 1)
+      : milliseconds_(milliseconds), brightness_(brightness) {}
   std::vector<std::string> channels() const override { return {"R", "G", "B"}; }
   void finish(Image&, int) const override {}
   void render_tile(const Scene&, const Film& film, FilmTile& tile, const SampleRange& range,
@@ -31,7 +32,7 @@ class FakeIntegrator final : public Integrator {
           s.start_sample(range.first + i);
           const Point2f u = s.next_2d();
           const float v = 1 + float(x % 3) + 2 * (s.next_1d() - 0.5f);
-          const float values[3] = {v, v * u.x, 1};
+          const float values[3] = {v * brightness_, v * u.x * brightness_, brightness_};
           tile.add_sample(film.filter(), {float(x) + u.x, float(y) + u.y}, values);
         }
       }
@@ -40,6 +41,7 @@ class FakeIntegrator final : public Integrator {
 
  private:
   int milliseconds_;
+  float brightness_;
 };
 
 FilmLayout layout(FilterKind kind, PixelBounds crop = {0, 0, 40, 50}) {
@@ -104,6 +106,16 @@ TEST_CASE("every pixel gets the samples it was promised") {
     CHECK(b.spp == spp);
     CHECK(b.counters.camera_paths == uint64_t(40 * 50 * spp));
   }
+}
+
+TEST_CASE("a target for the error does not keep a black image rendering") {
+  RenderRequest r = request(1, 2);
+  r.budget.spp.reset();
+  r.budget.target_error = 1e-3;
+  const RenderResult black = render(no_scene(), FakeIntegrator(0, 0), layout(FilterKind::box), r);
+  CHECK(!black.relative_rmse);
+  CHECK(black.spp >= 8 * 256);
+  CHECK(black.spp <= 8 * 512);
 }
 
 TEST_CASE("the error estimate matches the error that is really made") {
