@@ -1,13 +1,12 @@
 #include "lights/picker.h"
 
-#include <algorithm>
 #include <array>
 
 namespace duet {
 
 std::vector<float> selection_weights(std::span<const std::unique_ptr<Light>> lights,
                                      std::span<const double> factors, double scene_radius) {
-  constexpr double kLeastOfKind = 0.25, kEqualShare = 0.1;
+  constexpr double kEqualShare = 0.1;
   const size_t n = lights.size();
   std::vector<double> power(n);
   std::array<double, 2> total{}, count{};
@@ -17,14 +16,13 @@ std::vector<float> selection_weights(std::span<const std::unique_ptr<Light>> lig
     total[kind] += power[i];
     count[kind] += power[i] > 0;
   }
-  double infinite = total[0] + total[1] > 0 ? total[1] / (total[0] + total[1]) : 0.5;
-  if (total[0] > 0 && total[1] > 0) infinite = std::clamp(infinite, kLeastOfKind, 1 - kLeastOfKind);
+  const double of_kind = total[0] > 0 && total[1] > 0 ? 0.5 : 1;
   std::vector<float> weights(n);
   for (size_t i = 0; i < n; ++i) {
     if (!(power[i] > 0)) continue;
     const size_t kind = is_infinite(lights[i]->kind());
     const double share = (1 - kEqualShare) * power[i] / total[kind] + kEqualShare / count[kind];
-    weights[i] = float(share * (kind == 1 ? infinite : 1 - infinite) * factors[i]);
+    weights[i] = float(share * of_kind * factors[i]);
   }
   return weights;
 }

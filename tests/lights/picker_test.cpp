@@ -67,13 +67,12 @@ TEST_CASE("a factor multiplies the share of a light") {
 TEST_CASE("neither near nor infinitely far lights starve each other") {
   Lights l;
   l.point(1), l.point(1), l.sky(1);
-  for (const double radius : {1e-3, 1e3}) {
+  for (const double radius : {1e-3, 0.8, 1e3}) {
     const auto w = l.shares(radius);
-    CHECK(w[2] == doctest::Approx(radius < 1 ? 0.25 : 0.75));
-    CHECK(w[0] == doctest::Approx(w[1]));
+    CHECK(w[2] == doctest::Approx(0.5));
+    CHECK(w[0] == doctest::Approx(0.25));
+    CHECK(w[1] == doctest::Approx(0.25));
   }
-  // In between the power decides: 4π² r² L against 8π I.
-  CHECK(l.shares(0.8)[2] == doctest::Approx(1 / (1 + 2 / (3.14159265 * 0.64))));
 }
 
 TEST_CASE("lights that are all dark, or alone, can still be picked") {
