@@ -38,23 +38,23 @@ F* next(const char* name) {
 }  // namespace
 
 #if RTC_VERSION_MAJOR >= 4
-extern "C" RTC_API void rtcIntersect1(RTCScene scene, RTCRayHit* rh, RTCIntersectArguments* args) {
+RTC_API void rtcIntersect1(RTCScene scene, RTCRayHit* rh, RTCIntersectArguments* args) {
   static auto* const real = next<decltype(rtcIntersect1)>("rtcIntersect1");
   if (recording) recorded_scene = scene, closest_rays.push_back(rh->ray);
   real(scene, rh, args);
 }
-extern "C" RTC_API void rtcOccluded1(RTCScene scene, RTCRay* ray, RTCOccludedArguments* args) {
+RTC_API void rtcOccluded1(RTCScene scene, RTCRay* ray, RTCOccludedArguments* args) {
   static auto* const real = next<decltype(rtcOccluded1)>("rtcOccluded1");
   if (recording) shadow_rays.push_back(*ray);
   real(scene, ray, args);
 }
 #else
-extern "C" RTC_API void rtcIntersect1(RTCScene scene, RTCIntersectContext* context, RTCRayHit* rh) {
+RTC_API void rtcIntersect1(RTCScene scene, RTCIntersectContext* context, RTCRayHit* rh) {
   static auto* const real = next<decltype(rtcIntersect1)>("rtcIntersect1");
   if (recording) recorded_scene = scene, closest_rays.push_back(rh->ray);
   real(scene, context, rh);
 }
-extern "C" RTC_API void rtcOccluded1(RTCScene scene, RTCIntersectContext* context, RTCRay* ray) {
+RTC_API void rtcOccluded1(RTCScene scene, RTCIntersectContext* context, RTCRay* ray) {
   static auto* const real = next<decltype(rtcOccluded1)>("rtcOccluded1");
   if (recording) shadow_rays.push_back(*ray);
   real(scene, context, ray);
