@@ -9,12 +9,11 @@
 
 namespace duet {
 
-/// The weights with which lights are to be chosen: in proportion to their power, with three
-/// precautions. The power of lights that are infinitely far away grows with the scene's size and
-/// says little about how much of it counts, so if there are both kinds, each gets half, which at
-/// most doubles the variance. Among its kind, every light that shines at all gets a tenth of an
-/// equal share, because power says nothing about distance. And `factors` (one per light) multiply
-/// the result.
+/// The weights with which lights are to be chosen: half of them the same for all lights that shine
+/// at all, because power says nothing about distance; half in proportion to power. So the variance
+/// is at most twice that of either choice alone. The power of lights that are infinitely far away
+/// grows with the scene's size and says little about how much of it counts: if there are both
+/// kinds, each gets half of the second half. `factors` (one per light) multiply the result.
 std::vector<float> selection_weights(std::span<const std::unique_ptr<Light>> lights,
                                      std::span<const double> factors, double scene_radius);
 

@@ -39,7 +39,7 @@ TEST_CASE("lights are chosen by power, but none that shines is forgotten") {
   const auto w = l.shares(1);
   for (size_t i = 0; i < 3; ++i) {
     const float power[] = {0.6f, 0.3f, 0.1f};
-    CHECK(w[i] == doctest::Approx(0.9 * double(power[i]) + 0.1 / 3));
+    CHECK(w[i] == doctest::Approx(0.5 * double(power[i]) + 0.5 / 3));
   }
   CHECK(w[3] == 0);
   const LightPicker picker(w);
@@ -69,9 +69,9 @@ TEST_CASE("neither near nor infinitely far lights starve each other") {
   l.point(1), l.point(1), l.sky(1);
   for (const double radius : {1e-3, 0.8, 1e3}) {
     const auto w = l.shares(radius);
-    CHECK(w[2] == doctest::Approx(0.5));
-    CHECK(w[0] == doctest::Approx(0.25));
-    CHECK(w[1] == doctest::Approx(0.25));
+    CHECK(w[2] == doctest::Approx(0.25 + 0.5 / 3));
+    CHECK(w[0] == doctest::Approx(0.125 + 0.5 / 3));
+    CHECK(w[1] == w[0]);
   }
 }
 
