@@ -56,36 +56,49 @@ std::unique_ptr<void, Free> allocate(size_t size) {
   return memory;
 }
 
-/// Knows whether it was asked for bytes beyond the end of the file. libtiff fills what is missing
-/// with zeros and reports nothing.
+/// Knows whether it was asked for bytes beyond the end of the file: libtiff fills what is missing
+/// with zeros and reports nothing. For libpng this reader does the same, because OpenImageIO 2.4
+/// loses the memory of its own message when it jumps out of a read that comes short.
 class WatchedReader : public OIIO::Filesystem::IOMemReader {
  public:
-  using IOMemReader::IOMemReader;
+  WatchedReader(const uint8_t* bytes, size_t size, bool fill)
+      : IOMemReader(bytes, size), fill_(fill) {}
   size_t read(void* target, size_t size) override {
-    return watch(IOMemReader::read(target, size), size);
+    return watch(target, IOMemReader::read(target, size), size);
   }
   size_t pread(void* target, size_t size, int64_t offset) override {
-    return watch(IOMemReader::pread(target, size, offset), size);
+    return watch(target, IOMemReader::pread(target, size, offset), size);
   }
   bool overrun() const { return overrun_; }
 
  private:
-  size_t watch(size_t got, size_t wanted) {
+  size_t watch(void* target, size_t got, size_t wanted) {
     overrun_ = overrun_ || got < wanted;
-    return got;
+    if (!fill_) return got;
+    std::memset(static_cast<char*>(target) + got, 0, wanted - got);
+    return wanted;
   }
-  bool overrun_ = false;
+  bool fill_, overrun_ = false;
 };
+
+/// Throws if a format whose reader asks for no more than it needs was asked beyond the end.
+void check_end(const WatchedReader& source, std::string_view kind) {
+  if (source.overrun() && (kind == "tiff" || kind == "png"))
+    throw std::runtime_error("the file ends in the middle of the image");
+}
 
 int decode(const char* kind, const uint8_t* bytes, size_t size, DuetDecodedImage* image,
            char* error, size_t error_size) {
   return guarded(error, error_size, [&] {
-    WatchedReader source(bytes, size);
+    WatchedReader source(bytes, size, std::string_view(kind) == "png");
     auto input = OIIO::ImageInput::create(kind);
     if (!input || !input->set_ioproxy(&source)) fail(input);
     OIIO::ImageSpec config, spec;
     config.attribute("oiio:UnassociatedAlpha", 1);
-    if (!input->open(kind, spec, config)) fail(input);
+    if (!input->open(kind, spec, config)) {
+      check_end(source, kind);
+      fail(input);
+    }
     if (spec.width <= 0 || spec.height <= 0 || spec.depth > 1 || spec.nchannels <= 0 ||
         spec.width > duet::kGreatestImageSize || spec.height > duet::kGreatestImageSize)
       throw std::runtime_error("an image of " + std::to_string(spec.width) + " x " +
@@ -98,10 +111,12 @@ int decode(const char* kind, const uint8_t* bytes, size_t size, DuetDecodedImage
                                std::to_string(spec.width) + " x " + std::to_string(spec.height));
     auto pixels = allocate(image_bytes);
     if (!input->read_image(0, 0, 0, spec.nchannels,
-                           is_byte ? OIIO::TypeDesc::UINT8 : OIIO::TypeDesc::FLOAT, pixels.get()))
+                           is_byte ? OIIO::TypeDesc::UINT8 : OIIO::TypeDesc::FLOAT,
+                           pixels.get())) {
+      check_end(source, kind);
       fail(input);
-    if (std::string_view(kind) == "tiff" && source.overrun())
-      throw std::runtime_error("the file ends in the middle of the image");
+    }
+    check_end(source, kind);
     *image = {spec.width,
               spec.height,
               spec.nchannels,
