@@ -61,7 +61,7 @@ std::vector<std::pair<std::string, HeaderValue>> image_header(const RenderRecord
       {"integratorParameters", record.integrator_parameters},
       {"sampler", record.sampler},
       {"spp", result.spp},
-      {"lightSubpaths", 0},
+      {"lightSubpaths", fmt::to_string(result.counters.light_paths)},
       {"seed", fmt::to_string(record.seed)},
       {"threads", record.threads},
       {"renderSeconds", float(result.seconds)},

@@ -36,8 +36,16 @@ void StatisticsFile::add(const RenderRecord& record, const RenderResult& result,
   j["paths"] = {{"camera", c.camera_paths}, {"light", c.light_paths}};
   j["mean_path_length"] =
       c.camera_paths > 0 ? double(c.path_vertices) / double(c.camera_paths) : 0.0;
-  // What no method of this version does: the keys are there for readers of later files.
-  j["connections"] = j["merges"] = j["eye_subpaths_at_limit"] = j["reused_subpaths"] = nullptr;
+  const ConnectionCounters& connections = c.connections;
+  j["connections"] = {{"attempted", connections.attempted()},
+                      {"contributed", connections.contributed},
+                      {"failed_specular", connections.failed_specular},
+                      {"failed_occluded", connections.failed_occluded},
+                      {"failed_zero", connections.failed_zero},
+                      {"skipped", connections.skipped}};
+  j["merges"] = {{"queried", c.merge_queries}, {"accepted", c.merges}};
+  j["eye_subpaths_at_limit"] = c.eye_subpaths_at_limit;
+  j["reused_subpaths"] = c.reused_subpaths;
   j["nonfinite_samples"] = c.nonfinite_samples;
   j["error"]["relative_rmse_estimate"] =
       result.relative_rmse ? nlohmann::ordered_json(*result.relative_rmse) : nullptr;

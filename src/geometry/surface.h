@@ -22,6 +22,11 @@ struct Surface {
   const Shape* shape;
 };
 
+/// Whether the shading and the geometric normal see a direction on different sides.
+inline bool sides_differ(const Surface& s, const Vector3f& w) {
+  return dot(s.ng, w) * dot(s.shading.n, w) <= 0;
+}
+
 /// Completes a hit of a mesh that is not instanced.
 Surface make_mesh_surface(const Shape& shape, const Hit& hit);
 

@@ -4,7 +4,49 @@
 #include <cassert>
 #include <cmath>
 
+#include "base/parallel.h"
+
 namespace duet {
+
+namespace {
+
+/// Calls `f(x0, y, wx, wy)` for each row of `bounds` that a sample at `p` counts for: its pixels
+/// from x0 on have the weights wx[i] wy.
+template <class F>
+void for_reached_rows(const ReconstructionFilter& filter, const Point2f& p,
+                      const PixelBounds& bounds, F&& f) {
+  constexpr int kMaxReach = 64;
+  const float r = filter.radius();
+  // Pixel i has its centre at i + 1/2.
+  const int x0 = std::max(bounds.x0, int(std::ceil(p.x - r - 0.5f)));
+  const int x1 = std::min(bounds.x1 - 1, int(std::floor(p.x + r - 0.5f)));
+  const int y0 = std::max(bounds.y0, int(std::ceil(p.y - r - 0.5f)));
+  const int y1 = std::min(bounds.y1 - 1, int(std::floor(p.y + r - 0.5f)));
+  if (x0 > x1 || y0 > y1) return;
+  assert(x1 - x0 < kMaxReach);
+  float wx[kMaxReach];
+  for (int x = x0; x <= x1; ++x) wx[x - x0] = filter.weight(float(x) + 0.5f - p.x);
+  for (int y = y0; y <= y1; ++y)
+    f(x0, y, std::span<const float>(wx, size_t(x1 - x0 + 1)), filter.weight(float(y) + 0.5f - p.y));
+}
+
+/// The filter around each pixel of [first, end), integrated over [0, size).
+std::vector<double> filter_integrals(const ReconstructionFilter& filter, int first, int end,
+                                     int size) {
+  constexpr int kSteps = 1024;
+  std::vector<double> integrals;
+  for (int i = first; i < end; ++i) {
+    const double center = i + 0.5, r = double(filter.radius());
+    const double from = std::max(center - r, 0.0), to = std::min(center + r, double(size));
+    double sum = 0;
+    for (int k = 0; k < kSteps; ++k)
+      sum += double(filter.weight(float(from + (to - from) * (k + 0.5) / kSteps - center)));
+    integrals.push_back(sum * (to - from) / kSteps);
+  }
+  return integrals;
+}
+
+}  // namespace
 
 PixelBounds PixelBounds::intersect(const PixelBounds& o) const {
   return {std::max(x0, o.x0), std::max(y0, o.y0), std::min(x1, o.x1), std::min(y1, o.y1)};
@@ -25,26 +67,14 @@ void FilmTile::add_to_pixel(int x, int y, std::span<const float> values, float c
 
 void FilmTile::add_sample(const ReconstructionFilter& filter, const Point2f& p,
                           std::span<const float> values) {
-  constexpr int kMaxReach = 64;
-  const float r = filter.radius();
-  // Pixel i has its centre at i + 1/2.
-  const int x0 = std::max(stored_.x0, int(std::ceil(p.x - r - 0.5f)));
-  const int x1 = std::min(stored_.x1 - 1, int(std::floor(p.x + r - 0.5f)));
-  const int y0 = std::max(stored_.y0, int(std::ceil(p.y - r - 0.5f)));
-  const int y1 = std::min(stored_.y1 - 1, int(std::floor(p.y + r - 0.5f)));
-  if (x0 > x1 || y0 > y1) return;
-  assert(x1 - x0 < kMaxReach);
-  float wx[kMaxReach];
-  for (int x = x0; x <= x1; ++x) wx[x - x0] = filter.weight(float(x) + 0.5f - p.x);
-  for (int y = y0; y <= y1; ++y) {
-    const float wy = filter.weight(float(y) + 0.5f - p.y);
+  for_reached_rows(filter, p, stored_, [&](int x0, int y, std::span<const float> wx, float wy) {
     double* s = sums(x0, y);
-    for (int x = x0; x <= x1; ++x) {
-      const float w = wx[x - x0] * wy;
+    for (const float w0 : wx) {
+      const float w = w0 * wy;
       *s++ += w;
       for (const float v : values) *s++ += double(w) * v;
     }
-  }
+  });
 }
 
 void FilmTile::add(const FilmTile& other) {
@@ -86,12 +116,70 @@ Image Film::develop() const {
     const double w = sums[i];
     for (int c = 1; c <= n; ++c) *out++ = w != 0 ? float(sums[i + c] / w) : 0.0f;
   }
+  for (size_t k = 0; k < splats_.size(); ++k) {
+    float* pixel = image.data.data() + splats_[k].first_channel;
+    for (int y = crop_.y0; y < crop_.y1; ++y)
+      for (int x = crop_.x0; x < crop_.x1; ++x, pixel += n)
+        for (int c = 0; c < 3; ++c) pixel[c] += float(splat_mean(k, x, y, c));
+  }
   return image;
+}
+
+size_t Film::add_splat_layer(size_t first_channel) {
+  if (splats_.empty() && !filter_.is_unit_box()) {
+    filter_x_ = filter_integrals(filter_, crop_.x0, crop_.x1, full_.x);
+    filter_y_ = filter_integrals(filter_, crop_.y0, crop_.y1, full_.y);
+  }
+  splats_.push_back(
+      {first_channel, std::vector<double>(3 * size_t(crop_.width()) * size_t(crop_.height()))});
+  return splats_.size() - 1;
+}
+
+double Film::splat_mean(size_t layer, int x, int y, int channel) const {
+  if (splat_passes_ == 0) return 0;
+  const size_t column = size_t(x - crop_.x0), row = size_t(y - crop_.y0);
+  const double sum =
+      splats_[layer].sums[3 * (row * size_t(crop_.width()) + column) + size_t(channel)];
+  const double filter = filter_x_.empty() ? 1.0 : filter_x_[column] * filter_y_[row];
+  return filter > 0 ? sum / (filter * splat_passes_) : 0.0;
+}
+
+void Film::add_splats(size_t layer, std::span<const Splat> splats, float scale, int threads) {
+  std::vector<double>& sums = splats_[layer].sums;
+  const auto add = [&](double* to, const Spectrum& v, double weight) {
+    to[0] += weight * double(v.r), to[1] += weight * double(v.g), to[2] += weight * double(v.b);
+  };
+  const auto row = [&](int x, int y) {
+    return &sums[3 * (size_t(y - crop_.y0) * size_t(crop_.width()) + size_t(x - crop_.x0))];
+  };
+  // Each thread has rows of its own and goes through all splats, in their order.
+  const int bands = std::min(std::max(1, threads), crop_.height());
+  parallel_for(size_t(bands), threads, [&](size_t band) {
+    PixelBounds b = crop_;
+    b.y0 = crop_.y0 + int(band) * crop_.height() / bands;
+    b.y1 = crop_.y0 + int(band + 1) * crop_.height() / bands;
+    for (const Splat& s : splats) {
+      if (filter_.is_unit_box()) {
+        const int x = int(std::floor(s.position.x)), y = int(std::floor(s.position.y));
+        if (b.contains(x, y)) add(row(x, y), s.value, double(scale));
+        continue;
+      }
+      for_reached_rows(filter_, s.position, b,
+                       [&](int x0, int y, std::span<const float> wx, float wy) {
+                         double* to = row(x0, y);
+                         for (const float w : wx) add(to, s.value, double(scale * w * wy)), to += 3;
+                       });
+    }
+  });
 }
 
 void Film::add(const Film& other) {
   assert(tiles_.size() == other.tiles_.size());
   for (size_t i = 0; i < tiles_.size(); ++i) tiles_[i].add(other.tiles_[i]);
+  for (size_t k = 0; k < splats_.size(); ++k)
+    for (size_t i = 0; i < splats_[k].sums.size(); ++i)
+      splats_[k].sums[i] += other.splats_[k].sums[i];
+  splat_passes_ += other.splat_passes_;
 }
 
 }  // namespace duet

@@ -7,6 +7,7 @@
 
 #include "image/filter.h"
 #include "image/image.h"
+#include "math/spectrum.h"
 #include "math/vector.h"
 
 namespace duet {
@@ -56,6 +57,12 @@ class FilmTile {
   std::vector<double> data_;
 };
 
+/// Light that arrives at a film position without having been looked for there.
+struct Splat {
+  Point2f position;
+  Spectrum value;
+};
+
 /// What a film looks like before it has samples.
 struct FilmLayout {
   Point2i full;      ///< size of the whole image
@@ -80,7 +87,21 @@ class Film {
   std::vector<FilmTile>& tiles() { return tiles_; }
   const std::vector<FilmTile>& tiles() const { return tiles_; }
 
-  /// The weighted means of the window's pixels; a pixel that no sample reached is zero.
+  /// Makes room for splats that add to three channels from `first_channel` on. Returns the number
+  /// of the layer.
+  size_t add_splat_layer(size_t first_channel);
+  /// Adds splats, scaled by `scale`, to a layer. They go through the same filter as samples do, so
+  /// that a unit of light per pixel area adds one to each pixel. The sum does not depend on the
+  /// number of threads.
+  void add_splats(size_t layer, std::span<const Splat> splats, float scale, int threads);
+  /// To be called once for each pass whose splats are complete: splats are divided by their number.
+  void end_splat_pass() { ++splat_passes_; }
+  /// What the splats of a layer add to a channel of a pixel of the window.
+  double splat_mean(size_t layer, int x, int y, int channel) const;
+  size_t splat_layer_count() const { return splats_.size(); }
+  int splat_passes() const { return splat_passes_; }
+
+  /// The weighted means of the window's pixels, with splats; a pixel that nothing reached is zero.
   Image develop() const;
   /// Adds the sums of another film of the same layout.
   void add(const Film& other);
@@ -91,6 +112,15 @@ class Film {
   ReconstructionFilter filter_;
   std::vector<std::string> channels_;
   std::vector<FilmTile> tiles_;
+
+  struct SplatLayer {
+    size_t first_channel;
+    std::vector<double> sums;  ///< three per pixel of the window
+  };
+  std::vector<SplatLayer> splats_;
+  int splat_passes_ = 0;
+  /// Per column and row of the window: integral of the filter over the image.
+  std::vector<double> filter_x_, filter_y_;
 };
 
 }  // namespace duet

@@ -21,11 +21,18 @@ CameraIntegrator::CameraIntegrator(const CameraOutput& output) : image_(output.i
   }
 }
 
-void CameraIntegrator::sample(const Scene& scene, const Ray& ray, Sampler& sampler,
+size_t CameraIntegrator::add_colour_layer(const std::string& name) {
+  const size_t first = channels_.size();
+  for (const char* c : {".R", ".G", ".B"}) channels_.push_back(name + c);
+  return first;
+}
+
+void CameraIntegrator::sample(const Scene& scene, const CameraPath& path, Sampler& sampler,
                               RenderCounters& counters, std::span<float> values) const {
+  const Ray& ray = path.ray;
   Spectrum l;
   if (image_) {
-    l = radiance(scene, ray, sampler, counters, values[3]);
+    l = radiance(scene, path, sampler, counters, values);
     values[0] = l.r, values[1] = l.g, values[2] = l.b;
   }
   if (layers_.empty()) return;
@@ -41,6 +48,13 @@ void CameraIntegrator::sample(const Scene& scene, const Ray& ray, Sampler& sampl
     else if (found)
       evaluate_layer(layer.kind, scene, surface, -ray.direction, hit, out);
   }
+}
+
+void CameraIntegrator::render_pass(const Scene& scene, Film& film, const SampleRange& samples,
+                                   const PassControl& control, RenderCounters& counters) {
+  for_each_tile(film, control, counters, [&](FilmTile& tile, RenderCounters& c) {
+    render_tile(scene, film, tile, samples, c);
+  });
 }
 
 void CameraIntegrator::render_tile(const Scene& scene, const Film& film, FilmTile& tile,
@@ -65,7 +79,8 @@ void CameraIntegrator::render_tile(const Scene& scene, const Film& film, FilmTil
           lens = sampler.next_2d();
         }
         std::fill(values.begin(), values.end(), 0.0f);
-        sample(scene, camera.sample_ray(position, lens), sampler, counters, values);
+        const CameraPath path{camera.sample_ray(position, lens), pixel, range.first + i};
+        sample(scene, path, sampler, counters, values);
         float zero = 0;
         for (const float v : values) zero += 0 * v;
         if (!(zero == 0)) {  // infinite or not a number

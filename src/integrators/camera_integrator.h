@@ -10,10 +10,25 @@ namespace duet {
 inline constexpr uint32_t kLensDimension = 2;
 inline constexpr uint32_t kFirstVertexDimension = 4;
 
+/// Whether each technique of a bidirectional method gets a layer of its own.
+enum class TechniqueOutput {
+  none,
+  weighted,  ///< the layers add up to the image
+  raw,       ///< each as if it were the only one
+};
+
 /// Layers that a method renders beside (or, without `image`, instead of) its colours.
 struct CameraOutput {
   bool image = true;
   std::vector<Layer> layers;
+  TechniqueOutput techniques = TechniqueOutput::none;
+};
+
+/// Where a path from the camera begins.
+struct CameraPath {
+  Ray ray;
+  uint64_t pixel;   ///< y · width + x of the full image
+  uint32_t sample;  ///< its number in the pixel
 };
 
 /// A method that estimates the radiance along one camera ray at a time.
@@ -22,18 +37,24 @@ class CameraIntegrator : public Integrator {
   explicit CameraIntegrator(const CameraOutput& output);
 
   std::vector<std::string> channels() const final { return channels_; }
-  void render_tile(const Scene& scene, const Film& film, FilmTile& tile, const SampleRange& samples,
-                   RenderCounters& counters) const final;
+  void render_pass(const Scene& scene, Film& film, const SampleRange& samples,
+                   const PassControl& control, RenderCounters& counters) override;
   void finish(Image& image, int spp) const final;
 
  protected:
-  /// An estimate of the radiance that arrives along `ray`. `alpha` becomes 1 if something is seen.
-  virtual Spectrum radiance(const Scene& scene, const Ray& ray, Sampler& sampler,
-                            RenderCounters& counters, float& alpha) const = 0;
+  /// An estimate of the radiance that arrives along the path's ray. `values` are the channels of
+  /// the sample, all zero; the fourth, alpha, becomes 1 if something is seen. The first three are
+  /// set by the caller.
+  virtual Spectrum radiance(const Scene& scene, const CameraPath& path, Sampler& sampler,
+                            RenderCounters& counters, std::span<float> values) const = 0;
+  /// Adds a layer of three channels that radiance() fills; returns the first of them.
+  size_t add_colour_layer(const std::string& name);
 
  private:
-  void sample(const Scene& scene, const Ray& ray, Sampler& sampler, RenderCounters& counters,
-              std::span<float> values) const;
+  void render_tile(const Scene& scene, const Film& film, FilmTile& tile, const SampleRange& samples,
+                   RenderCounters& counters) const;
+  void sample(const Scene& scene, const CameraPath& path, Sampler& sampler,
+              RenderCounters& counters, std::span<float> values) const;
 
   struct PlacedLayer {
     LayerKind kind;

@@ -11,12 +11,12 @@ class DepthIntegrator final : public CameraIntegrator {
   explicit DepthIntegrator(const CameraOutput& output) : CameraIntegrator(output) {}
 
  protected:
-  Spectrum radiance(const Scene& scene, const Ray& ray, Sampler&, RenderCounters& counters,
-                    float& alpha) const override {
+  Spectrum radiance(const Scene& scene, const CameraPath& start, Sampler&, RenderCounters& counters,
+                    std::span<float> values) const override {
     Hit hit;
     ++counters.closest_rays;
-    if (!scene.accel->closest_hit(ray, hit)) return {};
-    alpha = 1;
+    if (!scene.accel->closest_hit(start.ray, hit)) return {};
+    values[3] = 1;
     return Spectrum(hit.t);
   }
 };

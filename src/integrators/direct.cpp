@@ -8,21 +8,20 @@ namespace {
 constexpr uint32_t kDimensionsPerSample = 4;
 }
 
-Spectrum DirectIntegrator::radiance(const Scene& scene, const Ray& camera_ray, Sampler& sampler,
-                                    RenderCounters& counters, float& alpha) const {
+Spectrum DirectIntegrator::radiance(const Scene& scene, const CameraPath& start, Sampler& sampler,
+                                    RenderCounters& counters, std::span<float> values) const {
   const int lights = options_.emitter_samples, bsdfs = options_.bsdf_samples;
   const SampleShares shares{float(lights), float(bsdfs)};
-  const Ray ray =
-      options_.hide_emitters ? behind_emitters(scene, camera_ray, counters) : camera_ray;
+  const Ray ray = options_.hide_emitters ? behind_emitters(scene, start.ray, counters) : start.ray;
   Hit hit;
   ++counters.closest_rays;
   if (!scene.accel->closest_hit(ray, hit)) {
     if (options_.hide_emitters || !scene.environment) return {};
-    alpha = 1;
+    values[3] = 1;
     return weighted_environment(scene, ray.direction, std::nullopt, shares);
   }
   ++counters.path_vertices;
-  alpha = 1;
+  values[3] = 1;
   const Surface s = scene.surface(ray, hit);
   Spectrum sum =
       weighted_emission(scene, s, ray.origin, ray.direction, hit.t, std::nullopt, shares);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace duet {
 
@@ -42,11 +43,24 @@ PartialMeans::PartialMeans(const Film& film) : channels_(color_channels(film)) {
     last_.emplace_back(size_t(t.stored().intersect(t.sampled()).width()) *
                        std::max(0, t.stored().intersect(t.sampled()).height()));
   }
+  if (film.splat_layer_count() > 0)
+    splats_before_.resize(size_t(film.crop().width()) * size_t(film.crop().height()) * 3);
 }
 
 void PartialMeans::add_part(const Film& film) {
   const size_t stride = film.channels().size() + 1;
   total_ = weight_ = pixels_ = 0;
+  const double passes = film.splat_passes(), new_passes = passes - passes_before_;
+  // What the splats of this part alone add to a channel of a pixel; their mean is remembered.
+  const auto splats_of_part = [&](int x, int y, int c, double& mean) {
+    double& before = splats_before_[(size_t(y - film.crop().y0) * size_t(film.crop().width()) +
+                                     size_t(x - film.crop().x0)) *
+                                        3 +
+                                    size_t(c)];
+    mean = film.splat_mean(0, x, y, c);
+    const double sum = mean * passes - std::exchange(before, mean) * passes_before_;
+    return new_passes > 0 ? sum / new_passes : 0.0;
+  };
   for (size_t k = 0; k < film.tiles().size(); ++k) {
     const FilmTile& tile = film.tiles()[k];
     const PixelBounds own = tile.stored().intersect(tile.sampled());
@@ -64,7 +78,12 @@ void PartialMeans::add_part(const Film& film) {
         const double w = now[0] - then[0];
         for (int c = 0; c < channels_; ++c) {
           total_ += now[c + 1];
-          const double mean = w > 0 ? (now[c + 1] - then[c + 1]) / w : 0;
+          double mean = w > 0 ? (now[c + 1] - then[c + 1]) / w : 0;
+          if (!splats_before_.empty()) {
+            double splats;
+            mean += splats_of_part(x, y, c, splats);
+            total_ += splats * now[0];
+          }
           if (parts_ > 0 && w > 0 && last.weight > 0) {
             squares_ += std::pow(mean - last.mean[c], 2) / (1 / w + 1 / double(last.weight));
             count_ += 1;
@@ -75,6 +94,7 @@ void PartialMeans::add_part(const Film& film) {
       }
     before_[k].assign(tile.data().begin(), tile.data().end());
   }
+  passes_before_ = passes;
   ++parts_;
 }
 

@@ -30,6 +30,8 @@ class PartialMeans {
   };
   std::vector<std::vector<double>> before_;  ///< the sums of each tile at the last call
   std::vector<std::vector<Pixel>> last_;     ///< the last part's means, of each tile's own pixels
+  std::vector<double> splats_before_;        ///< means of the splats, if the film has any
+  double passes_before_ = 0;
   int parts_ = 0;
   int channels_ = 0;
   double squares_ = 0;  ///< sum of the estimates of the variance of one sample

@@ -2,12 +2,14 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <string>
 #include <vector>
 
 #include "image/film.h"
 #include "math/sampler.h"
 #include "scene/scene.h"
+#include "transport/counters.h"
 
 namespace duet {
 
@@ -19,34 +21,35 @@ struct SampleRange {
   uint32_t first = 0, count = 0;
 };
 
-/// What happened while rendering; summed over tiles.
-struct RenderCounters {
-  uint64_t closest_rays = 0, shadow_rays = 0;
-  uint64_t camera_paths = 0, light_paths = 0;
-  uint64_t path_vertices = 0;
-  uint64_t nonfinite_samples = 0;
-
-  void add(const RenderCounters& o) {
-    closest_rays += o.closest_rays;
-    shadow_rays += o.shadow_rays;
-    camera_paths += o.camera_paths;
-    light_paths += o.light_paths;
-    path_vertices += o.path_vertices;
-    nonfinite_samples += o.nonfinite_samples;
-  }
+/// How a pass is to be run.
+struct PassControl {
+  int threads = 1;
+  /// Whether to stop as soon as the film is fit to be developed.
+  std::function<bool()> cancelled = [] { return false; };
+  /// Takes the share of the pass that is done, from any thread.
+  std::function<void(double)> report = [](double) {};
 };
 
+/// Runs `work` on every tile of a film that is not cancelled before its turn, in parallel, and adds
+/// up what the tiles count.
+void for_each_tile(Film& film, const PassControl& control, RenderCounters& counters,
+                   const std::function<void(FilmTile&, RenderCounters&)>& work);
+
+/// A method of light transport.
 class Integrator {
  public:
   virtual ~Integrator() = default;
-  /// Names of the film channels that render_tile() fills, in order.
+  /// Names of the film channels that render_pass() fills, in order.
   virtual std::vector<std::string> channels() const = 0;
+  /// Called once for each film, before its first pass.
+  virtual void prepare(Film&) const {}
+  /// Adds samples to every pixel of the film. A pass that is cancelled leaves a film whose mean is
+  /// still right.
+  virtual void render_pass(const Scene& scene, Film& film, const SampleRange& samples,
+                           const PassControl& control, RenderCounters& counters) = 0;
   /// Turns what the film has summed up into what its channels are called, once `spp` samples per
   /// pixel are there.
   virtual void finish(Image& image, int spp) const = 0;
-  /// Adds samples to one tile. Called from many threads, never twice at a time for one tile.
-  virtual void render_tile(const Scene& scene, const Film& film, FilmTile& tile,
-                           const SampleRange& samples, RenderCounters& counters) const = 0;
 };
 
 }  // namespace duet

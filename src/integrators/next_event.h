@@ -20,11 +20,6 @@ inline float power_heuristic(float a, float b) {
   return 1 / (1 + ratio * ratio);
 }
 
-/// Whether the shading and the geometric normal see a direction on different sides.
-inline bool sides_differ(const Surface& s, const Vector3f& w) {
-  return dot(s.ng, w) * dot(s.shading.n, w) <= 0;
-}
-
 /// The camera's ray continued behind all emitting surfaces that it meets first: what
 /// `hide_emitters` means in Mitsuba 3. The environment is hidden by whoever traces the ray.
 inline Ray behind_emitters(const Scene& scene, Ray ray, RenderCounters& counters) {

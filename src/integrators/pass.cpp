@@ -6,7 +6,6 @@
 #include <limits>
 #include <mutex>
 
-#include "base/parallel.h"
 #include "integrators/error_estimate.h"
 
 namespace duet {
@@ -21,11 +20,12 @@ constexpr int kBlackSamples = 256;
 
 class Renderer {
  public:
-  Renderer(const Scene& scene, const Integrator& integrator, const FilmLayout& layout,
+  Renderer(const Scene& scene, Integrator& integrator, const FilmLayout& layout,
            const RenderRequest& request)
       : scene_(scene), integrator_(integrator), request_(request) {
     const int films = request.budget.target_error ? kErrorBatches : 1;
-    for (int i = 0; i < films; ++i) films_.emplace_back(layout, integrator.channels());
+    for (int i = 0; i < films; ++i)
+      integrator.prepare(films_.emplace_back(layout, integrator.channels()));
     start_ = std::chrono::steady_clock::now();
   }
 
@@ -48,17 +48,13 @@ class Renderer {
 
   /// One pass: `count` further samples of every pixel, into one film.
   void pass(Film& film, uint32_t scramble, int first, int count) {
-    std::vector<FilmTile>& tiles = film.tiles();
-    std::vector<RenderCounters> counters(tiles.size());
-    std::atomic<size_t> done{0};
-    parallel_for(tiles.size(), request_.threads, [&](size_t i) {
-      if (cancelled()) return;
-      const SampleRange range{request_.sequence, request_.seed, scramble, uint32_t(first),
-                              uint32_t(count)};
-      integrator_.render_tile(scene_, film, tiles[i], range, counters[i]);
-      report(double(++done) / double(tiles.size()), count);
-    });
-    for (const RenderCounters& c : counters) counters_.add(c);
+    const SampleRange range{request_.sequence, request_.seed, scramble, uint32_t(first),
+                            uint32_t(count)};
+    PassControl control;
+    control.threads = request_.threads;
+    control.cancelled = [&] { return cancelled(); };
+    control.report = [&](double fraction) { report(fraction, count); };
+    integrator_.render_pass(scene_, film, range, control, counters_);
   }
 
   /// All samples of a pixel come from one low-discrepancy sequence.
@@ -168,7 +164,7 @@ class Renderer {
   }
 
   const Scene& scene_;
-  const Integrator& integrator_;
+  Integrator& integrator_;
   const RenderRequest& request_;
   std::vector<Film> films_;
   RenderCounters counters_;
@@ -182,7 +178,7 @@ class Renderer {
 
 }  // namespace
 
-RenderResult render(const Scene& scene, const Integrator& integrator, const FilmLayout& layout,
+RenderResult render(const Scene& scene, Integrator& integrator, const FilmLayout& layout,
                     const RenderRequest& request) {
   return Renderer(scene, integrator, layout, request).run();
 }

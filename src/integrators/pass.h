@@ -55,7 +55,7 @@ struct RenderResult {
 
 /// Renders until the budget is used up. The image depends on the scene, the integrator, the film,
 /// the seed, the sequence and the number of samples; never on the number of threads.
-RenderResult render(const Scene& scene, const Integrator& integrator, const FilmLayout& layout,
+RenderResult render(const Scene& scene, Integrator& integrator, const FilmLayout& layout,
                     const RenderRequest& request);
 
 }  // namespace duet

@@ -26,11 +26,11 @@ struct PathIntegrator::Path {
   float eta = 1;                   ///< relative index of refraction along the path
 };
 
-Spectrum PathIntegrator::radiance(const Scene& scene, const Ray& camera_ray, Sampler& sampler,
-                                  RenderCounters& counters, float& alpha) const {
+Spectrum PathIntegrator::radiance(const Scene& scene, const CameraPath& start, Sampler& sampler,
+                                  RenderCounters& counters, std::span<float> values) const {
   if (options_.max_depth == 0) return {};
-  Path path{options_.hide_emitters ? behind_emitters(scene, camera_ray, counters) : camera_ray,
-            sampler, counters, alpha};
+  Path path{options_.hide_emitters ? behind_emitters(scene, start.ray, counters) : start.ray,
+            sampler, counters, values[3]};
   for (int depth = 1;; ++depth) {
     Hit hit;
     ++counters.closest_rays;
@@ -38,7 +38,7 @@ Spectrum PathIntegrator::radiance(const Scene& scene, const Ray& camera_ray, Sam
       if (depth == 1 && options_.hide_emitters) break;
       path.sum +=
           path.throughput * weighted_environment(scene, path.ray.direction, path.bsdf_pdf, {});
-      if (scene.environment) alpha = 1;
+      if (scene.environment) path.alpha = 1;
       break;
     }
     ++counters.path_vertices;
@@ -47,7 +47,7 @@ Spectrum PathIntegrator::radiance(const Scene& scene, const Ray& camera_ray, Sam
       path.sum += path.throughput * weighted_emission(scene, s, path.from, path.ray.direction,
                                                       hit.t, path.bsdf_pdf, {});
     if (depth == options_.max_depth) {
-      alpha = 1;
+      path.alpha = 1;
       break;
     }
     const Material& material = *scene.materials[s.shape->material];

@@ -21,8 +21,8 @@ class PathIntegrator final : public CameraIntegrator {
       : CameraIntegrator(output), options_(options) {}
 
  protected:
-  Spectrum radiance(const Scene& scene, const Ray& ray, Sampler& sampler, RenderCounters& counters,
-                    float& alpha) const override;
+  Spectrum radiance(const Scene& scene, const CameraPath& start, Sampler& sampler,
+                    RenderCounters& counters, std::span<float> values) const override;
 
  private:
   struct Path;

@@ -142,8 +142,31 @@ std::optional<BsdfSample> Bsdf::sample(float u, const Point2f& v, Transport tran
   return sum;
 }
 
+BsdfPair Bsdf::eval_both_ways(const Vector3f& wi_world, Transport transport) const {
+  const Vector3f wi = frame_.to_local(wi_world);
+  if (is_plain_diffuse()) [[likely]] {
+    const BsdfComponent& c = components_[0];
+    const ModelEval e = c.model.diffuse.eval(on_side(wo_, c.side), on_side(wi, c.side), transport);
+    // The other way round the cosines change places.
+    return {e.value * c.share, PdfW{e.pdf * c.share}, PdfW{std::abs(wo_.z) * kInvPi * c.share}};
+  }
+  const BsdfEval e = eval_all(wi, transport);
+  if (e.value.is_black()) return {};
+  return {e.value, e.pdf, reverse_pdf_all(wi, transport)};
+}
+
 PdfW Bsdf::reverse_pdf(const Vector3f& wi_world, Transport transport) const {
   const Vector3f wi = frame_.to_local(wi_world);
+  if (is_plain_diffuse()) [[likely]] {
+    const BsdfComponent& c = components_[0];
+    const ModelEval e =
+        c.model.diffuse.eval(on_side(wi, c.side), on_side(wo_, c.side), opposite(transport));
+    return PdfW{e.pdf * c.share};
+  }
+  return reverse_pdf_all(wi, transport);
+}
+
+[[gnu::noinline]] PdfW Bsdf::reverse_pdf_all(const Vector3f& wi, Transport transport) const {
   PdfW sum;
   for (int i = 0; i < count_; ++i)
     sum.value += eval_component(components_[i], tilts_, wi, wo_, opposite(transport)).pdf *

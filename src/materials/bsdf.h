@@ -12,6 +12,12 @@ struct BsdfEval {
   PdfW pdf;
 };
 
+/// The same with the density of the reverse direction; see Bsdf::reverse_pdf().
+struct BsdfPair {
+  Spectrum value;
+  PdfW pdf, reverse;
+};
+
 struct BsdfSample {
   Vector3f wi;      ///< unit, in world space
   Spectrum weight;  ///< f |cos θ_i| / pdf
@@ -55,6 +61,8 @@ class Bsdf {
   /// be sent to wo, if the value of this pair is not zero. Delta lobes are left out; each has the
   /// same probability from both ends, except under bump maps that turn normals towards the eye.
   PdfW reverse_pdf(const Vector3f& wi, Transport transport) const;
+  /// eval() and, where the value is not zero, reverse_pdf() at once.
+  BsdfPair eval_both_ways(const Vector3f& wi, Transport transport) const;
   /// `u` picks the component and the lobe, `v` the direction.
   std::optional<BsdfSample> sample(float u, const Point2f& v, Transport transport) const;
   /// Whether any lobe can be met by a connection or a light sample.
@@ -75,6 +83,7 @@ class Bsdf {
     return count_ == 1 && components_[0].kind == ModelKind::diffuse && components_[0].tilt < 0;
   }
   BsdfEval eval_all(const Vector3f& wi, Transport transport) const;
+  PdfW reverse_pdf_all(const Vector3f& wi, Transport transport) const;
   std::optional<BsdfSample> sample_all(float u, const Point2f& v, Transport transport) const;
 
   Frame frame_;

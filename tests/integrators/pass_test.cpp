@@ -20,8 +20,15 @@ class FakeIntegrator final : public Integrator {
       : milliseconds_(milliseconds), brightness_(brightness) {}
   std::vector<std::string> channels() const override { return {"R", "G", "B"}; }
   void finish(Image&, int) const override {}
-  void render_tile(const Scene&, const Film& film, FilmTile& tile, const SampleRange& range,
-                   RenderCounters& counters) const override {
+  void render_pass(const Scene&, Film& film, const SampleRange& samples, const PassControl& control,
+                   RenderCounters& counters) override {
+    for_each_tile(film, control, counters,
+                  [&](FilmTile& tile, RenderCounters& c) { render_tile(film, tile, samples, c); });
+  }
+
+ private:
+  void render_tile(const Film& film, FilmTile& tile, const SampleRange& range,
+                   RenderCounters& counters) const {
     if (milliseconds_ > 0) std::this_thread::sleep_for(std::chrono::milliseconds(milliseconds_));
     const PixelBounds& b = tile.sampled();
     for (int y = b.y0; y < b.y1; ++y)
@@ -39,7 +46,6 @@ class FakeIntegrator final : public Integrator {
     counters.camera_paths += uint64_t(b.width()) * b.height() * range.count;
   }
 
- private:
   int milliseconds_;
   float brightness_;
 };
@@ -58,30 +64,30 @@ RenderRequest request(int spp, int threads = 1) {
   return r;
 }
 
-const Scene& no_scene() {
-  static const Scene scene;
-  return scene;
+RenderResult render_fake(FakeIntegrator fake, const FilmLayout& film, const RenderRequest& r) {
+  static const Scene no_scene;
+  return render(no_scene, fake, film, r);
 }
 
 }  // namespace
 
 TEST_CASE("the image does not depend on the number of threads") {
   for (const FilterKind kind : {FilterKind::box, FilterKind::gaussian, FilterKind::lanczos}) {
-    const Image one = render(no_scene(), FakeIntegrator(), layout(kind), request(20, 1)).image;
+    const Image one = render_fake(FakeIntegrator(), layout(kind), request(20, 1)).image;
     for (const int threads : {2, 7})
-      CHECK(render(no_scene(), FakeIntegrator(), layout(kind), request(20, threads)).image.data ==
+      CHECK(render_fake(FakeIntegrator(), layout(kind), request(20, threads)).image.data ==
             one.data);
     RenderRequest other = request(20, 1);
     other.seed = 10;
-    CHECK(render(no_scene(), FakeIntegrator(), layout(kind), other).image.data != one.data);
+    CHECK(render_fake(FakeIntegrator(), layout(kind), other).image.data != one.data);
   }
 }
 
 TEST_CASE("a crop window is cut out of the full image bit for bit") {
   for (const FilterKind kind : {FilterKind::box, FilterKind::tent, FilterKind::mitchell}) {
-    const Image full = render(no_scene(), FakeIntegrator(), layout(kind), request(12)).image;
+    const Image full = render_fake(FakeIntegrator(), layout(kind), request(12)).image;
     for (const PixelBounds crop : {PixelBounds{5, 7, 29, 33}, {0, 0, 1, 1}, {39, 49, 40, 50}}) {
-      const Image cut = render(no_scene(), FakeIntegrator(), layout(kind, crop), request(12)).image;
+      const Image cut = render_fake(FakeIntegrator(), layout(kind, crop), request(12)).image;
       REQUIRE(cut.width == crop.width());
       bool equal = true;
       for (int y = 0; y < cut.height; ++y)
@@ -95,14 +101,13 @@ TEST_CASE("a crop window is cut out of the full image bit for bit") {
 
 TEST_CASE("every pixel gets the samples it was promised") {
   for (const int spp : {1, 7, 8, 100}) {
-    const RenderResult r =
-        render(no_scene(), FakeIntegrator(), layout(FilterKind::box), request(spp));
+    const RenderResult r = render_fake(FakeIntegrator(), layout(FilterKind::box), request(spp));
     CHECK(r.spp == spp);
     CHECK(r.counters.camera_paths == uint64_t(40 * 50 * spp));
     CHECK(r.image.pixel(3, 3)[2] == 1);
     RenderRequest batches = request(spp);
     batches.budget.target_error = 1e-9;
-    const RenderResult b = render(no_scene(), FakeIntegrator(), layout(FilterKind::box), batches);
+    const RenderResult b = render_fake(FakeIntegrator(), layout(FilterKind::box), batches);
     CHECK(b.spp == spp);
     CHECK(b.counters.camera_paths == uint64_t(40 * 50 * spp));
   }
@@ -112,7 +117,7 @@ TEST_CASE("a target for the error does not keep a black image rendering") {
   RenderRequest r = request(1, 2);
   r.budget.spp.reset();
   r.budget.target_error = 1e-3;
-  const RenderResult black = render(no_scene(), FakeIntegrator(0, 0), layout(FilterKind::box), r);
+  const RenderResult black = render_fake(FakeIntegrator(0, 0), layout(FilterKind::box), r);
   CHECK(!black.relative_rmse);
   CHECK(black.spp >= 8 * 256);
   CHECK(black.spp <= 8 * 512);
@@ -123,7 +128,7 @@ TEST_CASE("the error estimate matches the error that is really made") {
   for (const FilterKind kind : {FilterKind::box, FilterKind::gaussian}) {
     RenderRequest exact_request = request(6000, 2);
     exact_request.seed = 1;
-    const Image exact = render(no_scene(), FakeIntegrator(), layout(kind), exact_request).image;
+    const Image exact = render_fake(FakeIntegrator(), layout(kind), exact_request).image;
     RenderRequest r = request(64);
     r.sequence = SampleSequence::independent;
     const auto error = [&](const Image& image) {
@@ -134,18 +139,18 @@ TEST_CASE("the error estimate matches the error that is really made") {
       }
       return std::sqrt(squares / double(image.data.size())) / (sum / double(image.data.size()));
     };
-    const RenderResult sequence = render(no_scene(), FakeIntegrator(), layout(kind), r);
+    const RenderResult sequence = render_fake(FakeIntegrator(), layout(kind), r);
     REQUIRE(sequence.relative_rmse);
     CHECK(!sequence.rmse_is_upper_bound);
     CHECK(*sequence.relative_rmse == doctest::Approx(error(sequence.image)).epsilon(0.1));
     r.budget.target_error = 1e-9;
-    const RenderResult batches = render(no_scene(), FakeIntegrator(), layout(kind), r);
+    const RenderResult batches = render_fake(FakeIntegrator(), layout(kind), r);
     REQUIRE(batches.relative_rmse);
     CHECK(*batches.relative_rmse == doctest::Approx(error(batches.image)).epsilon(0.1));
     // One low-discrepancy sequence is better than its parts let on.
     r.budget.target_error.reset();
     r.sequence = SampleSequence::sobol;
-    const RenderResult sobol = render(no_scene(), FakeIntegrator(), layout(kind), r);
+    const RenderResult sobol = render_fake(FakeIntegrator(), layout(kind), r);
     CHECK(sobol.rmse_is_upper_bound);
     CHECK(*sobol.relative_rmse > error(sobol.image));
   }
@@ -155,7 +160,7 @@ TEST_CASE("a target error stops the render about where it is reached") {
   RenderRequest r = request(100000);
   r.sequence = SampleSequence::independent;
   r.budget.target_error = 0.02;
-  const RenderResult result = render(no_scene(), FakeIntegrator(), layout(FilterKind::box), r);
+  const RenderResult result = render_fake(FakeIntegrator(), layout(FilterKind::box), r);
   CHECK(*result.relative_rmse <= 0.02);
   CHECK(*result.relative_rmse > 0.015);
   CHECK(result.spp < 10000);
@@ -164,7 +169,7 @@ TEST_CASE("a target error stops the render about where it is reached") {
 TEST_CASE("a time budget is kept, to within one pass") {
   RenderRequest r;
   r.budget.seconds = 0.3;
-  const RenderResult result = render(no_scene(), FakeIntegrator(1), layout(FilterKind::box), r);
+  const RenderResult result = render_fake(FakeIntegrator(1), layout(FilterKind::box), r);
   CHECK(result.seconds >= 0.25);
   CHECK(result.seconds < 0.9);
   CHECK(result.spp > 0);
@@ -180,7 +185,7 @@ TEST_CASE("cancelling keeps what there is") {
     CHECK(p.fraction <= 1);
     if (++reports == 3) cancel = true;
   };
-  const RenderResult result = render(no_scene(), FakeIntegrator(5), layout(FilterKind::box), r);
+  const RenderResult result = render_fake(FakeIntegrator(5), layout(FilterKind::box), r);
   CHECK(result.interrupted);
   CHECK(reports == 3);
   CHECK(result.image.pixel(0, 0)[2] == 1);

@@ -1,0 +1,203 @@
+#include "integrators/bidirectional.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <stdexcept>
+
+namespace duet {
+
+namespace {
+
+/// Exponent with which the radius of a method's merging shrinks unless the user says otherwise.
+/// Source: Kaplanyan & Dachsbacher, "Adaptive Progressive Photon Mapping", 2013, for 2/3; Georgiev
+/// et al., "Light Transport Simulation with Vertex Connection and Merging", 2012, for 3/4.
+double default_alpha(BidirectionalMethod method) {
+  return method == BidirectionalMethod::vcm ? 0.75 : 2.0 / 3;
+}
+/// Radius of the first iteration's merging, in pixels.
+constexpr double kPixelRadius = 1.5;
+/// No roulette lets a path become longer than this.
+constexpr int kUnlimited = 60000;
+
+bool merges(BidirectionalMethod m) {
+  return m == BidirectionalMethod::ppm || m == BidirectionalMethod::bpm ||
+         m == BidirectionalMethod::vcm;
+}
+bool connects(BidirectionalMethod m) {
+  return m == BidirectionalMethod::bdpt || m == BidirectionalMethod::reuse ||
+         m == BidirectionalMethod::vcm;
+}
+
+int depth_limit(const BidirectionalIntegratorDescription& d) {
+  if (d.max_depth >= 0) return std::min(d.max_depth, kUnlimited);
+  if (d.method == BidirectionalMethod::reuse && d.weights != ReuseWeights::exact)
+    return std::min(d.max_eye_depth + d.max_light_depth + 1, kUnlimited);
+  return kUnlimited;
+}
+
+}  // namespace
+
+BidirectionalIntegrator::BidirectionalIntegrator(const Options& options, const CameraOutput& output)
+    : CameraIntegrator(output),
+      options_(options),
+      max_depth_(depth_limit(options)),
+      is_thesis_(options.method == Method::reuse && options.weights != ReuseWeights::exact) {
+  windows_.eye = options.max_eye_depth;
+  windows_.light = options.max_light_depth;
+  windows_.tail = options.continue_probability;
+  if (output.techniques == TechniqueOutput::none) return;
+  if (max_depth_ > TechniqueLayers::kMaxDepth)
+    throw std::invalid_argument(
+        fmt::format("an image for each technique needs a \"max_depth\" of at most {}",
+                    TechniqueLayers::kMaxDepth));
+  raw_techniques_ = output.techniques == TechniqueOutput::raw;
+  layers_.enabled = true;
+  for (int k = 1; k <= max_depth_; ++k)
+    for (int s = 0; s <= k; ++s) {
+      const int t = k + 1 - s;
+      if (has_technique(s, t))
+        layers_.joins[size_t(s)][size_t(t)] = add_colour_layer(fmt::format("s{}t{}", s, t));
+      // A merge has one vertex more than a path of as many segments.
+      if (merges(options_.method) && s >= 1 && t >= 2 && k >= 2)
+        layers_.merges[size_t(s + 1)][size_t(t)] =
+            add_colour_layer(fmt::format("merge_s{}t{}", s + 1, t));
+    }
+}
+
+bool BidirectionalIntegrator::has_technique(int s, int t) const {
+  if (s == 0) return t == 2 || options_.method != Method::ptracer;
+  if (s + t == 2) return false;
+  if (options_.method == Method::ptracer) return t == 1;
+  if (t == 1 && !options_.light_image) return false;
+  if (options_.method == Method::reuse) return windows_.share(s, t) > 0;
+  return connects(options_.method);
+}
+
+void BidirectionalIntegrator::prepare(Film& film) const {
+  const bool has_colours = !film.channels().empty() && film.channels()[0] == "R";
+  if (!has_colours) return;
+  film.add_splat_layer(0);
+  if (!layers_.enabled) return;
+  for (int s = 2; s <= max_depth_; ++s)
+    if (const size_t first = layers_.join(s, 1)) film.add_splat_layer(first);
+}
+
+uint32_t BidirectionalIntegrator::light_walks(const Film& film) const {
+  const double pixels = double(film.full_size().x) * film.full_size().y;
+  return uint32_t(std::clamp(std::round(options_.light_paths * pixels), 1.0, 4e9));
+}
+
+double BidirectionalIntegrator::radius(uint32_t iteration) const {
+  const double first = options_.radius > 0 ? options_.radius : kPixelRadius * pilot_->footprint;
+  const double alpha = options_.alpha > 0 ? options_.alpha : default_alpha(options_.method);
+  return first * std::pow(double(iteration) + 1, 0.5 * (alpha - 1));
+}
+
+TechniqueSet BidirectionalIntegrator::techniques(const Film& film, uint32_t iteration) const {
+  TechniqueSet set;
+  set.connections = connects(options_.method);
+  set.camera_joins =
+      options_.light_image && (set.connections || options_.method == Method::ptracer);
+  set.merges = merges(options_.method);
+  set.light_paths = float(light_walks(film));
+  if (!pilot_) return set;
+  if (set.connections && options_.connections >= 0 && pilot_->vertices_per_walk > 0)
+    set.connection_share = float(std::max(1e-6, options_.connections / pilot_->vertices_per_walk));
+  if (set.merges) set.merge_area = kPi * sqr(float(radius(iteration)));
+  return set;
+}
+
+void BidirectionalIntegrator::render_pass(const Scene& scene, Film& film,
+                                          const SampleRange& samples, const PassControl& control,
+                                          RenderCounters& counters) {
+  for (uint32_t i = 0; i < samples.count && !control.cancelled(); ++i) {
+    SampleRange one = samples;
+    one.first = samples.first + i;
+    one.count = 1;
+    PassControl whole = control;
+    // Eye and light walks belong together: an iteration that has begun is finished.
+    whole.cancelled = [] { return false; };
+    whole.report = [&](double fraction) {
+      control.report((double(i) + fraction) / double(samples.count));
+    };
+    iteration(scene, film, one, whole, counters);
+  }
+}
+
+void BidirectionalIntegrator::iteration(const Scene& scene, Film& film, const SampleRange& samples,
+                                        const PassControl& control, RenderCounters& counters) {
+  windows_.light_paths = light_walks(film);
+  LightPassPlan plan;
+  plan.set = techniques(film, samples.first);
+  plan.walk = {options_.rr_depth, options_.strict_normals};
+  plan.max_depth = max_depth_ - 1;
+  if (options_.method == Method::reuse)
+    plan.max_depth = std::min(plan.max_depth, options_.max_light_depth);
+  plan.walks = light_walks(film);
+  plan.unit_weights = options_.method == Method::ptracer;
+  plan.hide_emitters = options_.hide_emitters;
+  plan.keep_vertices = plan.set.merges || (plan.set.connections && options_.connections != 0);
+  if (options_.method == Method::reuse && !is_thesis_) plan.windows = &windows_;
+  plan.sequence = samples.sequence;
+  plan.seed = samples.seed;
+  plan.scramble = samples.scramble;
+  plan.iteration = samples.first;
+  plan.threads = control.threads;
+  if (!pilot_) {
+    pilot_ = run_pilot(scene, film, plan);
+    plan.set = techniques(film, samples.first);
+  }
+  // A walk counts 1 / N_L.
+  plan.roulette_threshold = roulette_threshold() * plan.set.light_paths;
+  set_ = plan.set;
+  key_ = hash_combine(hash_combine(samples.seed, samples.scramble), samples.first);
+  if (scene.lights.empty()) plan.walks = 0;
+  if (plan.keep_vertices)
+    lights_.reserve(size_t(1.05 * pilot_->vertices_per_walk * double(plan.walks)) + 1024,
+                    plan.walks);
+  if (plan.walks > 0 && (plan.keep_vertices || plan.set.camera_joins))
+    lights_.run(
+        scene, plan,
+        [&](std::span<const LightSplat> splats) { splat(film, splats, control.threads, counters); },
+        counters);
+  if (set_.merges) {
+    const std::vector<LightVertex>& v = lights_.vertices().vertices;
+    grid_.build(
+        uint32_t(v.size()), [&](uint32_t i) { return v[i].position; }, float(radius(samples.first)),
+        control.threads);
+  }
+  CameraIntegrator::render_pass(scene, film, samples, control, counters);
+  film.end_splat_pass();
+}
+
+void BidirectionalIntegrator::splat(Film& film, std::span<const LightSplat> splats, int threads,
+                                    RenderCounters& counters) {
+  if (film.splat_layer_count() == 0) return;
+  const float scale = 1 / set_.light_paths;
+  const auto add = [&](size_t layer, int depth, bool weighted) {
+    splat_buffer_.clear();
+    for (const LightSplat& s : splats) {
+      if (depth > 0 && s.depth != depth) continue;
+      Splat out = s.splat;
+      if (weighted) out.value *= s.weight;
+      if (is_finite(out.value))
+        splat_buffer_.push_back(out);
+      else
+        counters.nonfinite_samples += layer == 0;
+    }
+    film.add_splats(layer, splat_buffer_, scale, threads);
+  };
+  add(0, 0, true);
+  if (!layers_.enabled) return;
+  size_t layer = 1;
+  for (int s = 2; s <= max_depth_; ++s)
+    if (layers_.join(s, 1)) add(layer++, s - 1, !raw_techniques_);
+}
+
+std::unique_ptr<Integrator> make_bidirectional(const BidirectionalIntegratorDescription& d,
+                                               const CameraOutput& output) {
+  return std::make_unique<BidirectionalIntegrator>(d, output);
+}
+
+}  // namespace duet

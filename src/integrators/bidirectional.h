@@ -1,0 +1,85 @@
+// The methods that trace walks from both ends.
+#pragma once
+
+#include <memory>
+#include <optional>
+
+#include "integrators/camera_integrator.h"
+#include "integrators/pilot.h"
+#include "integrators/technique_layers.h"
+#include "scene/description.h"
+#include "transport/light_pass.h"
+#include "transport/vertex_grid.h"
+
+namespace duet {
+
+/// Light tracing, bidirectional path tracing, path reuse, photon mapping in its progressive and
+/// bidirectional forms, and vertex connection and merging, told apart by their TechniqueSet. Every
+/// sample per pixel is an iteration: first all light walks, then an eye walk per pixel.
+class BidirectionalIntegrator final : public CameraIntegrator {
+ public:
+  using Options = BidirectionalIntegratorDescription;
+  BidirectionalIntegrator(const Options& options, const CameraOutput& output);
+
+  void prepare(Film& film) const override;
+  void render_pass(const Scene& scene, Film& film, const SampleRange& samples,
+                   const PassControl& control, RenderCounters& counters) override;
+
+ protected:
+  Spectrum radiance(const Scene& scene, const CameraPath& path, Sampler& sampler,
+                    RenderCounters& counters, std::span<float> values) const override;
+
+ private:
+  struct Eye;
+  using Method = BidirectionalMethod;
+  /// Of the mean pixel: too little to be seen in the noise of a sample.
+  static constexpr double kRouletteShare = 0.02;
+
+  void iteration(const Scene& scene, Film& film, const SampleRange& samples,
+                 const PassControl& control, RenderCounters& counters);
+  TechniqueSet techniques(const Film& film, uint32_t iteration) const;
+  double radius(uint32_t iteration) const;
+  /// Contributions below which joins are left to chance.
+  float roulette_threshold() const { return float(kRouletteShare * pilot_->brightness); }
+  uint32_t light_walks(const Film& film) const;
+  bool has_technique(int s, int t) const;
+  void splat(Film& film, std::span<const LightSplat> splats, int threads, RenderCounters& counters);
+
+  // bidirectional_eye.cpp
+  template <class Weights>
+  void walk(const Weights& weights, Trail* trail, Eye& eye) const;
+  template <class Weights>
+  void join(const Weights& weights, const PathVertex& v, Eye& eye) const;
+  template <class Weights>
+  void connect(const Weights& weights, const PathVertex& v, Eye& eye) const;
+  template <class Weights>
+  void connect_to_cache(const Weights& weights, const PathVertex& v, Eye& eye) const;
+  template <class Weights>
+  void merge(const Weights& weights, const PathVertex& v, Eye& eye) const;
+  /// Vertices of the pixel's light walk that are near enough in length to be joined with `v`.
+  int candidates(const PathVertex& v, const Eye& eye) const;
+  bool enter_tail(Walk& walk, Eye& eye) const;
+  /// What the thesis does at the end of an eye walk that cannot connect.
+  void thesis_tail(const PathVertex& limit, Walk& walk, Eye& eye) const;
+  void add(Eye& eye, int s, int t, const Join& join) const;
+
+  Options options_;
+  int max_depth_;
+  bool is_thesis_;  ///< path reuse with the weights of the thesis
+  bool raw_techniques_ = false;
+  TechniqueLayers layers_;
+  Windows windows_;
+  std::optional<Pilot> pilot_;
+
+  // Of the iteration under way.
+  TechniqueSet set_;
+  uint64_t key_ = 0;
+  LightPass lights_;
+  VertexGrid grid_;
+  std::vector<Splat> splat_buffer_;
+};
+
+std::unique_ptr<Integrator> make_bidirectional(const BidirectionalIntegratorDescription& d,
+                                               const CameraOutput& output);
+
+}  // namespace duet

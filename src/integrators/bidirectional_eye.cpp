@@ -1,0 +1,273 @@
+// The eye walks of the bidirectional methods, and what they are joined with.
+#include "integrators/bidirectional.h"
+#include "integrators/next_event.h"
+
+namespace duet {
+
+namespace {
+
+/// Random numbers set aside for each vertex: direction to and choice of the light; direction and
+/// lobe of the BSDF, roulette.
+constexpr uint32_t kDimensionsPerVertex = 8;
+constexpr uint32_t kBsdfDimension = 4;
+
+/// Weights of path tracing alone, for the tail of the thesis.
+struct TailWeights {
+  float hit(const Walk& walk, float direct, float) const {
+    return walk.from_specular ? 1.0f : walk.forward / (walk.forward + direct);
+  }
+  float light_sample(const PathVertex&, float direct, float bsdf, const JoinEnd&) const {
+    return direct / (direct + bsdf);
+  }
+};
+
+}  // namespace
+
+/// An eye walk under way.
+struct BidirectionalIntegrator::Eye {
+  const Scene& scene;
+  const CameraPath& start;
+  Sampler& sampler;
+  RenderCounters& counters;
+  std::span<float> values;
+  JoinRoulette roulette;
+  uint64_t random;  ///< key of numbers that no dimension of the sampler is set aside for
+  Spectrum sum{};
+  size_t light_walk = 0;  ///< the one that belongs to the pixel
+  /// Its vertices, once the walk has a vertex to join them with.
+  const std::vector<PathVertex>* light_vertices = nullptr;
+
+  float draw() {
+    random = mix64(random + 0x9e3779b97f4a7c15ull);
+    return to_unit_float(uint32_t(random >> 32));
+  }
+};
+
+namespace {
+
+void add_to_layer(std::span<float> values, size_t layer, const Spectrum& v) {
+  values[layer] += v.r, values[layer + 1] += v.g, values[layer + 2] += v.b;
+}
+
+}  // namespace
+
+void BidirectionalIntegrator::add(Eye& eye, int s, int t, const Join& join) const {
+  eye.sum += join.value * join.weight;
+  if (const size_t layer = layers_.join(s, t))
+    add_to_layer(eye.values, layer, raw_techniques_ ? join.value : join.value * join.weight);
+}
+
+template <class Weights>
+void BidirectionalIntegrator::walk(const Weights& weights, Trail* trail, Eye& eye) const {
+  const Scene& scene = eye.scene;
+  const Ray& camera_ray = eye.start.ray;
+  float& alpha = eye.values[3];
+  const WalkOptions options{options_.rr_depth, options_.strict_normals};
+  Walk walk;
+  walk.ray = options_.hide_emitters ? behind_emitters(scene, camera_ray, eye.counters) : camera_ray;
+  walk.from = walk.ray.origin;
+  walk.throughput = Spectrum(1);
+  walk.trail = trail;
+  for (int depth = 1;; ++depth) {
+    if (trail && depth == windows_.eye + 1 && !enter_tail(walk, eye)) return;
+    // Where merging or light tracing does the rest, only what is seen directly is left to be hit.
+    const bool hits = set_.connections || (set_.merges ? walk.specular : depth == 1);
+    Hit hit;
+    ++eye.counters.closest_rays;
+    if (!scene.accel->closest_hit(walk.ray, hit)) {
+      if (!scene.environment || (depth == 1 && options_.hide_emitters)) return;
+      if (hits) add(eye, 0, depth + 1, join_escape(scene, weights, walk));
+      alpha = 1;
+      return;
+    }
+    ++eye.counters.path_vertices;
+    const Surface s = scene.surface(walk.ray, hit);
+    const float d2 = hit.t * hit.t, cosine = std::abs(dot(s.ng, walk.ray.direction));
+    if (hits && s.shape->light != kNone)
+      add(eye, 0, depth + 1, join_hit(scene, weights, walk, s, d2));
+    if (depth == max_depth_ || !(cosine > 0)) {
+      alpha = 1;
+      return;
+    }
+    Partials partials;
+    if (depth == 1) {
+      const float importance =
+          scene.camera->importance(camera_ray, distance(s.position, camera_ray.origin));
+      walk.forward = importance * d2;
+      if (set_.camera_joins)
+        partials.vcm = set_.light_paths / (set_.connection_share * importance * cosine);
+    } else {
+      partials = arrive(walk.partials, d2, cosine);
+    }
+    record_arrival(walk, d2, cosine);
+    const PathVertex v(scene, s, -walk.ray.direction, walk.throughput, partials, depth);
+    const uint32_t dimension = kFirstVertexDimension + kDimensionsPerVertex * uint32_t(depth - 1);
+    eye.sampler.start_dimension(dimension);
+    if (v.bsdf.has_smooth())
+      join(weights, v, eye);
+    else
+      eye.counters.connections.failed_specular += uint64_t(candidates(v, eye));
+    if (is_thesis_ && depth == windows_.eye) {
+      alpha = 1;
+      thesis_tail(v, walk, eye);
+      return;
+    }
+    bool straight = false;
+    eye.sampler.start_dimension(dimension + kBsdfDimension);
+    const bool goes_on =
+        options_.method != Method::ptracer &&
+        scatter<Transport::radiance>(v, set_, options, eye.sampler, walk, &straight);
+    if (!straight) alpha = 1;
+    if (!goes_on || (options_.method == Method::ppm && !walk.specular)) return;
+  }
+}
+
+template <class Weights>
+void BidirectionalIntegrator::join(const Weights& weights, const PathVertex& v, Eye& eye) const {
+  if (set_.connections) {
+    if (eye.scene.picker.size() > 0)
+      add(eye, 1, v.depth + 1,
+          join_light(eye.scene, weights, v, options_.strict_normals, eye.sampler, eye.counters));
+    if (options_.connections < 0)
+      connect(weights, v, eye);
+    else if (options_.connections > 0)
+      connect_to_cache(weights, v, eye);
+  }
+  if constexpr (!std::is_same_v<Weights, WindowWeights>)
+    if (set_.merges) merge(weights, v, eye);
+}
+
+int BidirectionalIntegrator::candidates(const PathVertex& v, const Eye& eye) const {
+  const LightVertices& light = lights_.vertices();
+  if (!set_.connections || options_.connections >= 0 || light.ends.empty()) return 0;
+  if (options_.method == Method::reuse && v.depth > windows_.eye) return 0;
+  return std::clamp(max_depth_ - v.depth - 1, 0, int(light.lengths[eye.light_walk]));
+}
+
+template <class Weights>
+void BidirectionalIntegrator::connect(const Weights& weights, const PathVertex& v, Eye& eye) const {
+  const int most = candidates(v, eye);
+  if (most == 0) return;
+  if (!eye.light_vertices) {
+    thread_local std::vector<PathVertex> unpacked;
+    unpacked.clear();
+    for (const LightVertex& l : lights_.vertices().walk(eye.light_walk))
+      unpacked.push_back(l.unpack(eye.scene));
+    eye.light_vertices = &unpacked;
+  }
+  int tried = 0;
+  for (const PathVertex& l : *eye.light_vertices) {
+    if (l.depth > most) break;
+    ++tried;
+    add(eye, l.depth + 1, v.depth + 1,
+        join_ends(eye.scene, weights, l, v, options_.strict_normals, eye.roulette, eye.counters));
+  }
+  eye.counters.connections.failed_specular += uint64_t(most - tried);
+}
+
+template <class Weights>
+void BidirectionalIntegrator::connect_to_cache(const Weights& weights, const PathVertex& v,
+                                               Eye& eye) const {
+  const std::vector<LightVertex>& cache = lights_.vertices().vertices;
+  if (cache.empty()) return;
+  // Every vertex of all walks is drawn with the same probability.
+  const float scale =
+      float(double(cache.size()) / (double(set_.light_paths) * options_.connections));
+  for (int i = 0; i < options_.connections; ++i) {
+    const LightVertex& drawn =
+        cache[std::min(size_t(double(eye.draw()) * double(cache.size())), cache.size() - 1)];
+    if (int(drawn.depth) + v.depth + 1 > max_depth_) continue;
+    Join found = join_ends(eye.scene, weights, drawn.unpack(eye.scene), v, options_.strict_normals,
+                           eye.roulette, eye.counters);
+    found.value *= scale;
+    add(eye, int(drawn.depth) + 1, v.depth + 1, found);
+  }
+}
+
+template <class Weights>
+void BidirectionalIntegrator::merge(const Weights& weights, const PathVertex& v, Eye& eye) const {
+  const std::vector<LightVertex>& photons = lights_.vertices().vertices;
+  const float kernel = 1 / (set_.merge_area * set_.light_paths);
+  ++eye.counters.merge_queries;
+  grid_.query(v.position(), [&](uint32_t index, float) {
+    const LightVertex& photon = photons[index];
+    if (int(photon.depth) + v.depth > max_depth_) return;
+    const Join found = join_merge(weights, photon, v, kernel, options_.strict_normals);
+    if (found.value.is_black()) return;
+    ++eye.counters.merges;
+    eye.sum += found.value * found.weight;
+    if (const size_t layer = layers_.merge(int(photon.depth) + 1, v.depth + 1))
+      add_to_layer(eye.values, layer, raw_techniques_ ? found.value : found.value * found.weight);
+  });
+}
+
+bool BidirectionalIntegrator::enter_tail(Walk& walk, Eye& eye) const {
+  ++eye.counters.eye_subpaths_at_limit;
+  const float q = float(options_.continue_probability);
+  if (q < 1) {
+    if (!(eye.draw() < q)) return false;
+    walk.throughput *= 1 / q;
+  }
+  ++eye.counters.reused_subpaths;
+  return true;
+}
+
+void BidirectionalIntegrator::thesis_tail(const PathVertex& limit, Walk& walk, Eye& eye) const {
+  ++eye.counters.eye_subpaths_at_limit;
+  const LightVertices& light = lights_.vertices();
+  const bool light_end_joins = !light.ends.empty() && !light.walk(eye.light_walk).empty() &&
+                               int(light.walk(eye.light_walk).back().depth) == windows_.light;
+  const bool specular = !limit.bsdf.has_smooth();
+  if (!specular && (options_.weights == ReuseWeights::thesis_a || light_end_joins)) return;
+  ++eye.counters.reused_subpaths;
+  const WalkOptions options{options_.rr_depth, options_.strict_normals};
+  const Scene& scene = eye.scene;
+  const PathVertex* v = &limit;
+  std::optional<PathVertex> reached;
+  for (int depth = limit.depth + 1; depth <= max_depth_; ++depth) {
+    eye.sampler.start_dimension(kFirstVertexDimension + kDimensionsPerVertex * uint32_t(depth - 2) +
+                                kBsdfDimension);
+    if (!scatter<Transport::radiance>(*v, set_, options, eye.sampler, walk)) return;
+    Hit hit;
+    ++eye.counters.closest_rays;
+    if (!scene.accel->closest_hit(walk.ray, hit)) {
+      if (scene.environment) add(eye, 0, depth + 1, join_escape(scene, TailWeights(), walk));
+      return;
+    }
+    ++eye.counters.path_vertices;
+    const Surface s = scene.surface(walk.ray, hit);
+    if (s.shape->light != kNone)
+      add(eye, 0, depth + 1, join_hit(scene, TailWeights(), walk, s, hit.t * hit.t));
+    if (depth == max_depth_) return;
+    reached.emplace(scene, s, -walk.ray.direction, walk.throughput, Partials{}, depth);
+    v = &*reached;
+    if (!v->bsdf.has_smooth() || scene.picker.size() == 0) continue;
+    eye.sampler.start_dimension(kFirstVertexDimension + kDimensionsPerVertex * uint32_t(depth - 1));
+    add(eye, 1, depth + 1,
+        join_light(scene, TailWeights(), *v, options_.strict_normals, eye.sampler, eye.counters));
+  }
+}
+
+Spectrum BidirectionalIntegrator::radiance(const Scene& scene, const CameraPath& path,
+                                           Sampler& sampler, RenderCounters& counters,
+                                           std::span<float> values) const {
+  if (max_depth_ == 0) return {};
+  const uint64_t key = hash_combine(key_, path.pixel);
+  Eye eye{scene, path, sampler, counters, values, JoinRoulette(roulette_threshold(), ~key), key};
+  const size_t walks = lights_.vertices().ends.size();
+  if (walks > 0) eye.light_walk = size_t(double(path.pixel) * options_.light_paths) % walks;
+  if (options_.method == Method::reuse && options_.weights == ReuseWeights::exact) {
+    thread_local Trail trail;
+    trail.assign(1, TrailVertex{1, 0, 1, false});
+    WindowWeights weights(windows_, nullptr, &trail);
+    if (walks > 0) weights.set_light(lights_.trail(eye.light_walk));
+    walk(weights, &trail, eye);
+  } else if (options_.method == Method::ptracer || options_.method == Method::ppm) {
+    walk(UnitWeights(), nullptr, eye);
+  } else {
+    walk(BalanceWeights(set_), nullptr, eye);
+  }
+  return eye.sum;
+}
+
+}  // namespace duet

@@ -1,0 +1,19 @@
+// What has to be known about a scene before the first iteration, from a few walks that are not part
+// of the image.
+#pragma once
+
+#include "image/film.h"
+#include "transport/light_pass.h"
+
+namespace duet {
+
+struct Pilot {
+  double vertices_per_walk = 0;  ///< those that can be connected
+  double brightness = 0;         ///< mean of the image, as far as light walks reach it directly
+  double footprint = 0;          ///< side of a pixel where it meets surfaces, in world units
+};
+
+/// `plan` is that of a whole iteration. The result depends on its seed alone.
+Pilot run_pilot(const Scene& scene, const Film& film, LightPassPlan plan);
+
+}  // namespace duet

@@ -1,0 +1,195 @@
+// What the two ends of a path have in common: how light found by an eye walk, sampled from one of
+// its vertices, or brought by a light walk becomes a weighted contribution. Shadow rays come last.
+//
+// `Weights` decides how a join is weighed against the other techniques:
+//   hit(walk, direct, emission)      s = 0; densities of the light's two other techniques
+//   light_sample(eye, direct, bsdf, eye_end)
+//                                    s = 1; densities of sampling and of hitting the light
+//   camera(light, light_end)         t = 1
+//   connection(light, light_end, eye, eye_end)
+//   merge(light, light_reverse, eye, eye_reverse)
+#pragma once
+
+#include "math/hash.h"
+#include "transport/light_vertex.h"
+#include "transport/walk.h"
+
+namespace duet {
+
+/// Spares joins that would add next to nothing their shadow ray: one that contributes c is kept
+/// with probability min(1, c / threshold) and then counts for more.
+class JoinRoulette {
+ public:
+  /// `key` seeds the decisions; a threshold of zero keeps everything.
+  JoinRoulette(float threshold, uint64_t key) : threshold_(threshold), key_(key) {}
+  /// 0 to drop the contribution, or what it is to be multiplied by.
+  float keep(const Spectrum& contribution) {
+    const float c = contribution.max();
+    if (!(c < threshold_)) return 1;
+    key_ = mix64(key_ + 0x9e3779b97f4a7c15ull);
+    return to_unit_float(uint32_t(key_ >> 32)) * threshold_ < c ? threshold_ / c : 0.0f;
+  }
+
+ private:
+  float threshold_;
+  uint64_t key_;
+};
+
+/// Whether anything but a light lies on the ray: what blocks the view if emitters are hidden.
+inline bool occluded_by_others(const Scene& scene, Ray ray, RenderCounters& counters) {
+  for (;;) {
+    Hit hit;
+    ++counters.shadow_rays;
+    if (!scene.accel->closest_hit(ray, hit)) return false;
+    const Surface s = scene.surface(ray, hit);
+    if (s.shape->light == kNone) return true;
+    // Directions that end at a target keep their length.
+    const float left = ray.tmax - hit.t;
+    ray = spawn_ray(s, ray.direction);
+    ray.tmax = left;
+  }
+}
+
+/// A way from the light to the lens: its estimate without weight, and its weight.
+struct Join {
+  Spectrum value;
+  float weight = 0;
+};
+
+/// The light at the end of an eye walk that has hit the surface point `s` at squared distance `d2`.
+template <class Weights>
+inline Join join_hit(const Scene& scene, const Weights& weights, const Walk& walk, const Surface& s,
+                     float d2) {
+  const SurfaceLight* light = scene.light_on(*s.shape);
+  if (!light) return {};
+  const Spectrum emitted = light->emitted(s, -walk.ray.direction);
+  if (emitted.is_black()) return {};
+  const float pick = scene.picker.probability(s.shape->light);
+  const float direct = light->pdf_direct(walk.from, s, walk.ray.direction, d2).value * pick;
+  const float emission = light->emission_density(s, -walk.ray.direction) * pick;
+  return {walk.throughput * emitted, weights.hit(walk, direct, emission)};
+}
+
+/// The environment at the end of an eye walk that has left the scene.
+template <class Weights>
+inline Join join_escape(const Scene& scene, const Weights& weights, const Walk& walk) {
+  const Vector3f& w = walk.ray.direction;
+  const Spectrum emitted = scene.environment->emitted(w);
+  if (emitted.is_black()) return {};
+  const float pick = scene.picker.probability(scene.environment_index);
+  const float direct = scene.environment->pdf_direct(w).value * pick;
+  const float emission = scene.environment->emission_density(w) * pick;
+  return {walk.throughput * emitted, weights.hit(walk, direct, emission)};
+}
+
+/// A light sample from an eye vertex. Uses up to three dimensions of the sampler.
+template <class Weights>
+inline Join join_light(const Scene& scene, const Weights& weights, const PathVertex& eye,
+                       bool strict_normals, Sampler& sampler, RenderCounters& counters) {
+  const Point2f u = sampler.next_2d();
+  const LightPicker::Pick pick =
+      scene.picker.size() == 1 ? LightPicker::Pick{0, 1} : scene.picker.pick(sampler.next_1d());
+  const Light& light = *scene.lights[pick.light];
+  const auto sample = light.sample_direct(eye.position(), u);
+  if (!sample || (strict_normals && sides_differ(eye.surface, sample->wi))) return {};
+  const BsdfEval f = eye.bsdf.eval(sample->wi, Transport::radiance);
+  if (f.value.is_black()) return {};
+  const Ray shadow = sample->finite ? spawn_ray_to(eye.surface, sample->target)
+                                    : spawn_ray(eye.surface, sample->wi);
+  ++counters.shadow_rays;
+  if (scene.accel->occluded(shadow)) return {};
+  float direct = sample->pdf.value;
+  if (sample->delta)
+    direct = sample->finite ? length_squared(sample->target - eye.position()) : 1.0f;
+  const JoinEnd eye_end{sample->emission * eye.cosine(sample->wi) / direct,
+                        eye.bsdf.reverse_pdf(sample->wi, Transport::radiance).value};
+  return {eye.throughput * f.value * sample->weight * (1 / pick.probability),
+          weights.light_sample(eye, direct * pick.probability, sample->delta ? 0.0f : f.pdf.value,
+                               eye_end)};
+}
+
+/// Where a light vertex is seen, and how bright it makes that place if the image is a function per
+/// pixel area and one light walk is traced.
+struct CameraJoin {
+  Point2f film;
+  Join join;
+};
+
+template <class Weights>
+inline std::optional<CameraJoin> join_camera(const Scene& scene, const Weights& weights,
+                                             const PathVertex& light, const Point2f& lens,
+                                             bool hide_emitters, JoinRoulette& roulette,
+                                             RenderCounters& counters) {
+  if (hide_emitters && light.surface.shape->light != kNone) return std::nullopt;
+  const auto seen = scene.camera->sample_lens(light.position(), lens);
+  if (!seen) return std::nullopt;
+  const BsdfPair f = light.bsdf.eval_both_ways(seen->direction, Transport::importance);
+  if (f.value.is_black()) return std::nullopt;
+  const float adjoint = adjoint_factor(light.surface, light.wo, seen->direction);
+  if (!(adjoint > 0)) return std::nullopt;
+  const JoinEnd light_end{seen->importance * light.cosine(seen->direction), f.reverse.value};
+  Join join{light.throughput * f.value * (adjoint * seen->importance),
+            weights.camera(light, light_end)};
+  const float kept = roulette.keep(join.value * join.weight);
+  if (kept == 0) return std::nullopt;
+  join.value *= kept;
+  const Ray ray = spawn_ray_to(light.surface, seen->target);
+  if (hide_emitters ? occluded_by_others(scene, ray, counters)
+                    : (++counters.shadow_rays, scene.accel->occluded(ray)))
+    return std::nullopt;
+  return CameraJoin{seen->film, join};
+}
+
+/// A light vertex seen from an eye vertex.
+template <class Weights>
+inline Join join_ends(const Scene& scene, const Weights& weights, const PathVertex& light,
+                      const PathVertex& eye, bool strict_normals, JoinRoulette& roulette,
+                      RenderCounters& counters) {
+  const auto fails = [&](uint64_t& reason) {
+    ++reason;
+    return Join{};
+  };
+  const Vector3f d = light.position() - eye.position();
+  const float d2 = length_squared(d);
+  if (!(d2 > 0)) return fails(counters.connections.failed_zero);
+  const Vector3f to_light = d * (1 / std::sqrt(d2));
+  if (strict_normals && sides_differ(eye.surface, to_light))
+    return fails(counters.connections.failed_zero);
+  const BsdfPair f = eye.bsdf.eval_both_ways(to_light, Transport::radiance);
+  if (f.value.is_black()) return fails(counters.connections.failed_zero);
+  const BsdfPair g = light.bsdf.eval_both_ways(-to_light, Transport::importance);
+  if (g.value.is_black()) return fails(counters.connections.failed_zero);
+  const float adjoint = adjoint_factor(light.surface, light.wo, -to_light);
+  if (!(adjoint > 0)) return fails(counters.connections.failed_zero);
+  const float inverse_d2 = 1 / d2;
+  const JoinEnd light_end{f.pdf.value * light.cosine(to_light) * inverse_d2, g.reverse.value};
+  const JoinEnd eye_end{g.pdf.value * eye.cosine(to_light) * inverse_d2, f.reverse.value};
+  Join join{eye.throughput * f.value * light.throughput * g.value * (adjoint * inverse_d2),
+            weights.connection(light, light_end, eye, eye_end)};
+  const float kept = roulette.keep(join.value * join.weight);
+  if (kept == 0) return fails(counters.connections.skipped);
+  join.value *= kept;
+  ++counters.shadow_rays;
+  const Point3f target = offset_position(light.surface, -to_light);
+  if (scene.accel->occluded(spawn_ray_to(eye.surface, target)))
+    return fails(counters.connections.failed_occluded);
+  ++counters.connections.contributed;
+  return join;
+}
+
+/// A light vertex near an eye vertex, taken for the same point. `kernel` is the weight of the
+/// photon: one over the disk's area and the number of light walks.
+template <class Weights>
+inline Join join_merge(const Weights& weights, const LightVertex& light, const PathVertex& eye,
+                       float kernel, bool strict_normals) {
+  const Vector3f wi = light.direction_to_previous();
+  // Photons are counted per area of the surface, not of the shading normal's.
+  const float cosine = eye.cosine(wi);
+  if (!(cosine > 0) || (strict_normals && sides_differ(eye.surface, wi))) return {};
+  const BsdfPair f = eye.bsdf.eval_both_ways(wi, Transport::radiance);
+  if (f.value.is_black()) return {};
+  return {eye.throughput * f.value * light.throughput * (kernel / cosine),
+          weights.merge(light, f.pdf.value, eye, f.reverse.value)};
+}
+
+}  // namespace duet

@@ -1,0 +1,102 @@
+#include "transport/light_pass.h"
+
+#include "base/parallel.h"
+#include "transport/light_walk.h"
+
+namespace duet {
+
+namespace {
+
+/// Walks that one task traces, and tasks whose results are held at a time.
+constexpr uint32_t kWalksPerBlock = 1024;
+constexpr uint32_t kBlocksAtATime = 16;
+/// Keeps the random numbers of light walks apart from those of the pixels.
+constexpr uint64_t kLightStream = 0x6c69676874ull;
+
+}  // namespace
+
+void LightPass::reserve(size_t vertices, size_t walks) {
+  vertices_.vertices.reserve(vertices);
+  vertices_.ends.reserve(walks);
+  vertices_.lengths.reserve(walks);
+}
+
+template <class Weights>
+void LightPass::trace(const Scene& scene, const LightPassPlan& plan, const Weights& weights,
+                      uint32_t first, uint32_t end, Trail* trail, Block& block) const {
+  block.vertices.clear();
+  block.splats.clear();
+  block.trails.clear();
+  block.trail_ends.clear();
+  block.counters = {};
+  const bool has_lens = scene.camera->has_lens();
+  for (uint32_t i = first; i < end; ++i) {
+    JoinRoulette roulette(plan.roulette_threshold,
+                          hash_combine(hash_combine(plan.seed, plan.scramble ^ kLightStream),
+                                       (uint64_t(plan.iteration) << 32) + i));
+    Sampler sampler(plan.sequence, plan.seed ^ kLightStream, plan.scramble, i);
+    sampler.start_sample(plan.iteration);
+    const auto visit = [&](const PathVertex& v, const Hit& hit) {
+      if (!v.bsdf.has_smooth()) return;
+      if (plan.set.camera_joins) {
+        Point2f lens{};
+        if (has_lens) {
+          sampler.start_dimension(kLightStartDimensions +
+                                  kLightVertexDimensions * uint32_t(v.depth - 1) + kLensOffset);
+          lens = sampler.next_2d();
+        }
+        const auto seen =
+            join_camera(scene, weights, v, lens, plan.hide_emitters, roulette, block.counters);
+        if (seen)
+          block.splats.push_back({{seen->film, seen->join.value}, seen->join.weight, v.depth});
+      }
+      if (plan.keep_vertices) block.vertices.vertices.emplace_back(v, hit);
+    };
+    const int length = trace_light_walk(scene, plan.set, plan.walk, plan.max_depth, sampler,
+                                        block.counters, trail, visit);
+    block.vertices.ends.push_back(uint32_t(block.vertices.vertices.size()));
+    block.vertices.lengths.push_back(uint16_t(std::min(length, 0xffff)));
+    if (trail) {
+      block.trails.insert(block.trails.end(), trail->begin(), trail->end());
+      block.trail_ends.push_back(uint32_t(block.trails.size()));
+    }
+  }
+}
+
+void LightPass::run(const Scene& scene, const LightPassPlan& plan,
+                    const std::function<void(std::span<const LightSplat>)>& splats,
+                    RenderCounters& counters) {
+  vertices_.clear();
+  trails_.clear();
+  trail_ends_.clear();
+  blocks_.resize(kBlocksAtATime);
+  for (uint32_t wave = 0; wave < plan.walks; wave += kWalksPerBlock * kBlocksAtATime) {
+    const uint32_t left = (plan.walks - wave + kWalksPerBlock - 1) / kWalksPerBlock;
+    const uint32_t count = std::min(left, kBlocksAtATime);
+    parallel_for(count, plan.threads, [&](size_t i) {
+      const uint32_t first = wave + uint32_t(i) * kWalksPerBlock;
+      const uint32_t end = std::min(first + kWalksPerBlock, plan.walks);
+      if (plan.windows) {
+        Trail trail;
+        trace(scene, plan, WindowWeights(*plan.windows, &trail, nullptr), first, end, &trail,
+              blocks_[i]);
+      } else if (plan.unit_weights) {
+        trace(scene, plan, UnitWeights(), first, end, nullptr, blocks_[i]);
+      } else {
+        trace(scene, plan, BalanceWeights(plan.set), first, end, nullptr, blocks_[i]);
+      }
+    });
+    for (uint32_t i = 0; i < count; ++i) {
+      const Block& b = blocks_[i];
+      counters.add(b.counters);
+      if (!b.splats.empty()) splats(b.splats);
+      if (plan.keep_vertices) vertices_.append(b.vertices);
+      if (!plan.windows) continue;
+      const uint32_t offset = uint32_t(trails_.size());
+      trails_.insert(trails_.end(), b.trails.begin(), b.trails.end());
+      for (const uint32_t e : b.trail_ends) trail_ends_.push_back(offset + e);
+    }
+  }
+}
+
+}  // namespace duet

@@ -1,0 +1,71 @@
+#include "transport/light_vertex.h"
+
+namespace duet {
+
+namespace {
+
+constexpr double kScale = 2147483647.0;
+
+uint32_t quantize(float x) {
+  return uint32_t(int32_t(std::clamp(double(x), -1.0, 1.0) * kScale));
+}
+float restore(uint32_t q) {
+  return float(int32_t(q) * (1 / kScale));
+}
+uint16_t quantize_unit(float x) {
+  return uint16_t(std::clamp(x, 0.0f, 1.0f) * 65535.0f + 0.5f);
+}
+
+}  // namespace
+
+// The direction as a point of the octahedron |x| + |y| + |z| = 1, its lower half folded over the
+// upper. Source: Cigolle et al., "A Survey of Efficient Representations for Independent Unit
+// Vectors", JCGT 3(2), 2014.
+LightVertex::LightVertex(const PathVertex& v, const Hit& hit)
+    : position(v.surface.position),
+      throughput(v.throughput),
+      partials(v.partials),
+      shape(hit.shape),
+      primitive(hit.primitive),
+      instance(hit.instance),
+      barycentric{0, 0},
+      depth(uint32_t(v.depth)) {
+  if (v.surface.shape->kind == ShapeKind::mesh) {
+    barycentric[0] = quantize_unit(v.surface.barycentric.x);
+    barycentric[1] = quantize_unit(v.surface.barycentric.y);
+  }
+  const Vector3f w = v.wo / (std::abs(v.wo.x) + std::abs(v.wo.y) + std::abs(v.wo.z));
+  const float x = w.z < 0 ? std::copysign(1 - std::abs(w.y), w.x) : w.x;
+  const float y = w.z < 0 ? std::copysign(1 - std::abs(w.x), w.y) : w.y;
+  wo[0] = quantize(x), wo[1] = quantize(y);
+}
+
+Vector3f LightVertex::direction_to_previous() const {
+  const float x = restore(wo[0]), y = restore(wo[1]);
+  const float z = 1 - std::abs(x) - std::abs(y);
+  if (z >= 0) return normalize(Vector3f(x, y, z));
+  return normalize(
+      Vector3f(std::copysign(1 - std::abs(y), x), std::copysign(1 - std::abs(x), y), z));
+}
+
+PathVertex LightVertex::unpack(const Scene& scene) const {
+  const Vector3f towards_previous = direction_to_previous();
+  const Hit hit{0,
+                float(barycentric[0]) * (1 / 65535.0f),
+                float(barycentric[1]) * (1 / 65535.0f),
+                primitive,
+                shape,
+                instance};
+  Surface s = scene.surface({position, -towards_previous, 0}, hit);
+  s.position = position;
+  return PathVertex(scene, s, towards_previous, throughput, partials, int(depth));
+}
+
+void LightVertices::append(const LightVertices& o) {
+  const uint32_t first = uint32_t(vertices.size());
+  vertices.insert(vertices.end(), o.vertices.begin(), o.vertices.end());
+  for (const uint32_t e : o.ends) ends.push_back(first + e);
+  lengths.insert(lengths.end(), o.lengths.begin(), o.lengths.end());
+}
+
+}  // namespace duet

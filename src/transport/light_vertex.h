@@ -1,0 +1,44 @@
+// Vertices of light walks in the form in which millions of them are kept.
+#pragma once
+
+#include <vector>
+
+#include "transport/path_vertex.h"
+
+namespace duet {
+
+/// A vertex of a light walk, packed: its BSDF is bound again when it is needed.
+struct LightVertex {
+  Point3f position;
+  Spectrum throughput;
+  Partials partials;
+  uint32_t shape, primitive, instance;
+  uint32_t wo[2];           ///< octahedral, 32 bits per coordinate
+  uint16_t barycentric[2];  ///< for what is interpolated; the position is exact
+  uint32_t depth;
+
+  LightVertex() = default;
+  LightVertex(const PathVertex& v, const Hit& hit);
+
+  Vector3f direction_to_previous() const;
+  PathVertex unpack(const Scene& scene) const;
+};
+static_assert(sizeof(LightVertex) == 64);
+
+/// The connectible vertices of many light walks, walk after walk.
+struct LightVertices {
+  std::vector<LightVertex> vertices;
+  /// Walk i owns the vertices [ends[i − 1], ends[i]).
+  std::vector<uint32_t> ends;
+  /// All vertices that each walk had, also those that cannot be connected.
+  std::vector<uint16_t> lengths;
+
+  void clear() { vertices.clear(), ends.clear(), lengths.clear(); }
+  std::span<const LightVertex> walk(size_t i) const {
+    const uint32_t first = i == 0 ? 0 : ends[i - 1];
+    return {vertices.data() + first, ends[i] - first};
+  }
+  void append(const LightVertices& o);
+};
+
+}  // namespace duet

@@ -1,0 +1,94 @@
+// Multiple importance sampling over all techniques that could have made a path, by sums that a walk
+// carries along: each join costs a handful of operations, however long the path is.
+//
+// Notation (docs/mis.md): a path x_0 (on a light) … x_k (on the lens) of k segments is made by
+// technique (s, t) from a light walk of s vertices and an eye walk of t = k + 1 − s. A weight is
+// n_i p_i / Σ n_j p_j, the balance heuristic with n samples of density p each.
+// Source: Veach 1997, section 10.2; Georgiev, "Implementing Vertex Connection and Merging", 2012,
+// equations 31 to 50, generalised to several samples per technique (docs/mis.md).
+#pragma once
+
+#include <cmath>
+
+namespace duet {
+
+/// The techniques of a method, and how many samples each of them takes for a path.
+struct TechniqueSet {
+  bool hits = false;           ///< s = 0: the eye walk finds a light
+  bool light_samples = false;  ///< s = 1: next event estimation
+  bool camera_joins = false;   ///< t = 1: light vertices seen by the camera
+  bool connections = false;    ///< s, t >= 2
+  bool merges = false;         ///< eye and light vertices that are near each other, s, t >= 2
+
+  float light_paths = 1;       ///< N_L: light walks per iteration
+  float connection_share = 1;  ///< n_VC: samples of each connection per eye walk
+  float merge_area = 0;        ///< π r², of the merging disk
+
+  /// η = n_VM π r² / n_VC: by how much a merge outweighs the connection that it extends.
+  float eta() const { return light_paths * merge_area / connection_share; }
+  /// The merge at a vertex relative to the connections beside it, where both kinds exist.
+  float merge_term() const { return merges ? eta() : 0.0f; }
+  /// The reverse: the connection relative to the merge.
+  float connection_term() const { return merges && connections ? 1 / eta() : 0.0f; }
+};
+
+/// What a walk knows at a vertex about the techniques that would have made its part of the path
+/// from the other end: d^VCM, d^VC and d^VM of the source.
+struct Partials {
+  float vcm = 0, vc = 0, vm = 0;
+};
+
+/// A scattering event as the sums see it; densities are per solid angle at the vertex.
+struct Departure {
+  float forward;     ///< density of the direction taken
+  float reverse;     ///< density of the direction back, for a walk from the other end
+  float cosine_out;  ///< |cos| between the direction taken and the geometric normal
+};
+
+/// The sums on leaving a vertex by a smooth lobe; arrive() completes them.
+inline Partials leave(const Partials& at, const Departure& d, float merge_term,
+                      float connection_term) {
+  const float to_next = d.cosine_out / d.forward;
+  return {1 / d.forward, to_next * (merge_term + at.vcm + d.reverse * at.vc),
+          to_next * (1 + at.vcm * connection_term + d.reverse * at.vm)};
+}
+
+/// The same through a delta lobe. `jacobian` is the solid angle of directions that arrive per solid
+/// angle of directions that leave: |cos θ_in| n_in² / (|cos θ_out| n_out²), 1 for reflection. The
+/// lobe is picked with the same probability from both ends.
+inline Partials leave_specular(const Partials& at, float cosine_out, float jacobian) {
+  const float factor = cosine_out * jacobian;
+  return {0, factor * at.vc, factor * at.vm};
+}
+
+/// On arrival at the next vertex, at squared distance `d2` (1 from infinitely far away) under the
+/// geometric cosine `cosine`.
+inline Partials arrive(const Partials& p, float d2, float cosine) {
+  const float inverse = 1 / cosine;
+  return {p.vcm * d2 * inverse, p.vc * inverse, p.vm * inverse};
+}
+
+/// One end of a join, described by what the join adds to its walk.
+struct JoinEnd {
+  float arrival;  ///< area density with which the other end's walk would have made this vertex
+  float beyond;   ///< density per solid angle with which it would have gone on to the one before
+};
+
+/// Relative density of all techniques that take vertices away from this end.
+inline float beyond_end(const Partials& p, const JoinEnd& end, float merge_term) {
+  return end.arrival * (merge_term + p.vcm + end.beyond * p.vc);
+}
+
+inline float connection_weight(const Partials& light, const JoinEnd& light_end, const Partials& eye,
+                               const JoinEnd& eye_end, float merge_term) {
+  return 1 / (1 + beyond_end(light, light_end, merge_term) + beyond_end(eye, eye_end, merge_term));
+}
+
+/// The merge of two vertices; `reverse` densities per solid angle of going back along each walk.
+inline float merge_weight(const Partials& light, float light_reverse, const Partials& eye,
+                          float eye_reverse, float connection_term) {
+  return 1 / (1 + light.vcm * connection_term + light_reverse * light.vm +
+              eye.vcm * connection_term + eye_reverse * eye.vm);
+}
+
+}  // namespace duet

@@ -1,0 +1,19 @@
+// The densities of all vertices of a walk, for weights that need more than running sums.
+#pragma once
+
+#include <vector>
+
+namespace duet {
+
+struct TrailVertex {
+  float forward;  ///< area density with which this walk made the vertex
+  float reverse;  ///< the same for a walk from the other end; set on leaving the next vertex
+  float back;     ///< |cos| at the previous vertex over the squared distance: what makes a density
+                  ///< per solid angle here one per area there
+  bool specular;  ///< left by a delta lobe
+};
+
+/// Vertex 0 is on the light or on the lens; only vertices that are surfaces have all entries.
+using Trail = std::vector<TrailVertex>;
+
+}  // namespace duet

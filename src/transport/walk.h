@@ -1,0 +1,94 @@
+// One random walk for both sides: from vertex to vertex, with the sums of multiple importance
+// sampling carried along.
+#pragma once
+
+#include "math/sampler.h"
+#include "transport/counters.h"
+#include "transport/path_vertex.h"
+#include "transport/trail.h"
+
+namespace duet {
+
+struct WalkOptions {
+  int rr_depth = 5;  ///< segments before roulette begins
+  bool strict_normals = false;
+};
+
+/// A walk between two vertices.
+struct Walk {
+  Ray ray;                    ///< to the next vertex
+  Spectrum throughput;        ///< on arrival there
+  Partials partials{};        ///< on leaving the last one
+  float carried = 1;          ///< product of what scattering has left, without what refraction adds
+  Point3f from{};             ///< the last vertex
+  bool from_specular = true;  ///< it was left by a delta lobe, or is on the lens
+  float cosine_out = 1;       ///< |cos| with which the last vertex was left
+  bool specular = true;       ///< only delta lobes so far
+  float forward = 0;          ///< density per solid angle of the ray
+  Trail* trail = nullptr;     ///< filled if not null
+};
+
+/// Records the arrival of a walk at a surface.
+inline void record_arrival(Walk& walk, float d2, float cosine) {
+  if (!walk.trail) return;
+  walk.trail->push_back({walk.forward * cosine / d2, 0, walk.cosine_out / d2, false});
+}
+
+/// Records that the last vertex was left, by which the one before learns its reverse density.
+inline void record_departure(Walk& walk, float reverse, bool specular) {
+  if (!walk.trail) return;
+  Trail& trail = *walk.trail;
+  trail.back().specular = specular;
+  if (trail.size() > 1) trail[trail.size() - 2].reverse = reverse * trail.back().back;
+}
+
+/// Chooses where a walk goes on from a vertex; false if it ends. Uses up to four dimensions of the
+/// sampler. The roulette divides the throughput and is left out of all densities.
+template <Transport transport>
+inline bool scatter(const PathVertex& v, const TechniqueSet& set, const WalkOptions& options,
+                    Sampler& sampler, Walk& walk, bool* passed_straight = nullptr) {
+  const Point2f direction = sampler.next_2d();
+  const float choice = v.bsdf.needs_choice() ? sampler.next_1d() : 0.5f;
+  const auto s = v.bsdf.sample(choice, direction, transport);
+  if (passed_straight) *passed_straight = s && s->null;
+  if (!s) return false;
+  constexpr bool to_light = transport == Transport::radiance;
+  // Strictness is about the direction towards the light, whoever walks.
+  if (options.strict_normals && sides_differ(v.surface, to_light ? s->wi : v.wo)) return false;
+  Spectrum weight = s->weight;
+  if (!to_light) weight *= adjoint_factor(v.surface, v.wo, s->wi);
+  walk.throughput = v.throughput * weight;
+  walk.carried *= weight.max();
+  if (to_light) walk.carried *= s->eta * s->eta;
+  if (!(walk.throughput.max() > 0)) return false;
+  if (v.depth >= options.rr_depth) {
+    // Relative to what the walk began with: the same for dim and for bright lights.
+    const float survival = std::min(walk.carried, 0.95f);
+    if (!(sampler.next_1d() < survival)) return false;
+    walk.throughput *= 1 / survival;
+    walk.carried /= survival;
+  }
+  const float cosine_out = v.cosine(s->wi);
+  if (s->delta) {
+    const float in = std::abs(dot(v.surface.shading.n, v.wo)),
+                out = std::abs(dot(v.surface.shading.n, s->wi));
+    const float jacobian = s->eta == 1 ? 1.0f : in / (out * s->eta * s->eta);
+    walk.partials = leave_specular(v.partials, cosine_out, jacobian);
+    walk.forward = 1;
+    record_departure(walk, jacobian, true);
+  } else {
+    const float reverse = v.bsdf.reverse_pdf(s->wi, transport).value;
+    walk.partials = leave(v.partials, {s->pdf.value, reverse, cosine_out}, set.merge_term(),
+                          set.connection_term());
+    walk.forward = s->pdf.value;
+    walk.specular = false;
+    record_departure(walk, reverse, false);
+  }
+  walk.cosine_out = cosine_out;
+  walk.from = v.position();
+  walk.from_specular = s->delta;
+  walk.ray = spawn_ray(v.surface, s->wi);
+  return true;
+}
+
+}  // namespace duet

@@ -1,0 +1,85 @@
+#include "transport/window_weights.h"
+
+namespace duet {
+
+double WindowWeights::fewer(std::span<const TrailVertex> light, int m, int t,
+                            const JoinEnd& end) const {
+  double sum = 0, ratio = 1;
+  // Vertex i changes sides: it is made from the eye's end now, and i light vertices are left.
+  for (int i = m; i >= 1; --i) {
+    const TrailVertex& v = light[size_t(i)];
+    const double reverse = i == m       ? double(end.arrival)
+                           : i == m - 1 ? double(end.beyond) * double(light[size_t(m)].back)
+                                        : double(v.reverse);
+    ratio *= reverse / double(v.forward);
+    // Of a single light vertex light samples have a density of their own.
+    if (i == 1) ratio *= double(light[0].back);
+    ++t;
+    const bool joins = (i == m || !v.specular) && (i == 1 || !light[size_t(i - 1)].specular);
+    if (joins) sum += windows_.share(i, t) * ratio;
+  }
+  if (light[0].specular) return sum;
+  const double found = m == 1 ? double(end.beyond) : double(light[0].reverse);
+  return sum + windows_.share(0, t + 1) * ratio * found / double(light[0].back);
+}
+
+double WindowWeights::more(int n, int s, const JoinEnd& end) const {
+  const Trail& eye = *eye_;
+  double sum = 0, ratio = 1;
+  for (int j = n; j >= 1; --j) {
+    const TrailVertex& v = eye[size_t(j)];
+    const double reverse = j == n       ? double(end.arrival)
+                           : j == n - 1 ? double(end.beyond) * double(eye[size_t(n)].back)
+                                        : double(v.reverse);
+    ratio *= reverse / double(v.forward);
+    ++s;
+    const bool joins = (j == n || !v.specular) && (j == 1 || !eye[size_t(j - 1)].specular);
+    if (joins) sum += windows_.share(s, j) * ratio;
+  }
+  return sum;
+}
+
+float WindowWeights::hit(const Walk& walk, float direct, float emission) const {
+  const Trail& eye = *eye_;
+  const int n = int(eye.size()) - 1;  // the last vertex before the light
+  if (n == 0) return 1;
+  const double own = windows_.share(0, n + 2);
+  if (own == 0) return 0;
+  double sum = own;
+  const TrailVertex& last = eye[size_t(n)];
+  const double found = double(walk.forward);
+  if (!last.specular) sum += windows_.share(1, n + 1) * double(direct) / found;
+  // From two light vertices on the last eye vertex is among them.
+  double ratio = double(emission) * double(walk.cosine_out) / (found * double(last.forward));
+  for (int j = n, s = 2; j >= 1; --j, ++s) {
+    const bool joins = !eye[size_t(j)].specular && (j == 1 || !eye[size_t(j - 1)].specular);
+    if (joins) sum += windows_.share(s, j) * ratio;
+    if (j > 1) ratio *= double(eye[size_t(j - 1)].reverse) / double(eye[size_t(j - 1)].forward);
+  }
+  return float(own / sum);
+}
+
+float WindowWeights::light_sample(const PathVertex& eye, float direct, float bsdf,
+                                  const JoinEnd& eye_end) const {
+  const int n = eye.depth;
+  const double own = windows_.share(1, n + 1);
+  if (own == 0) return 0;
+  const double found = windows_.share(0, n + 2) * double(bsdf) / double(direct);
+  return float(own / (own + found + more(n, 1, eye_end)));
+}
+
+float WindowWeights::camera(const PathVertex& light, const JoinEnd& light_end) const {
+  const int m = light.depth;
+  const double own = windows_.share(m + 1, 1);
+  return own == 0 ? 0.0f : float(own / (own + fewer(*light_, m, 1, light_end)));
+}
+
+float WindowWeights::connection(const PathVertex& light, const JoinEnd& light_end,
+                                const PathVertex& eye, const JoinEnd& eye_end) const {
+  const int m = light.depth, n = eye.depth;
+  const double own = windows_.share(m + 1, n + 1);
+  if (own == 0) return 0;
+  return float(own / (own + fewer(light_walk_, m, n + 1, light_end) + more(n, m + 1, eye_end)));
+}
+
+}  // namespace duet

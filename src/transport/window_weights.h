@@ -1,0 +1,55 @@
+// Weights for walks of limited length: the exact balance heuristic over the techniques that are
+// left and the unidirectional tail, by a product over all vertices of the path (docs/mis.md).
+#pragma once
+
+#include <span>
+
+#include "transport/join.h"
+
+namespace duet {
+
+/// The limits of path reuse.
+struct Windows {
+  int eye = 4;             ///< T: segments of the eye walk before its tail
+  int light = 3;           ///< S: segments of a light walk
+  double tail = 1;         ///< q: probability with which the eye walk goes on beyond T
+  double light_paths = 1;  ///< N_L
+
+  /// How many samples technique (s, t) takes; 0 if it is not among the method's. Its tail consists
+  /// of hits and light samples.
+  double share(int s, int t) const {
+    if (t <= eye + 1 && s <= light + 1) return t == 1 ? light_paths : 1.0;
+    return t > eye + 1 && s <= 1 ? tail : 0.0;
+  }
+};
+
+/// Weighs the joins of a light walk and an eye walk by their trails; either may be null where no
+/// join asks for it. The trails end with the vertices to be joined.
+class WindowWeights {
+ public:
+  WindowWeights(const Windows& windows, const Trail* light, const Trail* eye)
+      : windows_(windows), light_(light), eye_(eye) {}
+  /// For connections: the trail of a light walk of which some vertices may follow.
+  void set_light(std::span<const TrailVertex> trail) { light_walk_ = trail; }
+
+  float hit(const Walk& walk, float direct, float emission) const;
+  float light_sample(const PathVertex& eye, float direct, float bsdf, const JoinEnd& eye_end) const;
+  float camera(const PathVertex& light, const JoinEnd& light_end) const;
+  float connection(const PathVertex& light, const JoinEnd& light_end, const PathVertex& eye,
+                   const JoinEnd& eye_end) const;
+
+ private:
+  /// Density of the techniques with fewer light vertices, relative to the one at hand, whose last
+  /// light vertex is number `m`; `t` is its number of eye vertices.
+  double fewer(std::span<const TrailVertex> light, int m, int t, const JoinEnd& end) const;
+  /// The same for more light vertices: eye vertex `n` and all before it change sides one by one.
+  /// `s` is the number of light vertices of the technique at hand.
+  double more(int n, int s, const JoinEnd& end) const;
+
+  Windows windows_;
+  const Trail* light_;
+  const Trail* eye_;
+  std::span<const TrailVertex> light_walk_;
+};
+
+}  // namespace duet
