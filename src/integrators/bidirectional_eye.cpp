@@ -89,16 +89,9 @@ void BidirectionalIntegrator::walk(const Weights& weights, Trail* trail, Eye& ey
       alpha = 1;
       return;
     }
-    Partials partials;
-    if (depth == 1) {
-      const float importance =
-          scene.camera->importance(camera_ray, distance(s.position, camera_ray.origin));
-      walk.forward = importance * d2;
-      if (set_.camera_joins)
-        partials.vcm = set_.light_paths / (set_.connection_share * importance * cosine);
-    } else {
-      partials = arrive(walk.partials, d2, cosine);
-    }
+    const Partials partials =
+        depth == 1 ? first_eye_partials(scene, camera_ray, s.position, d2, cosine, set_, walk)
+                   : arrive(walk.partials, d2, cosine);
     record_arrival(walk, d2, cosine);
     const PathVertex v(scene, s, -walk.ray.direction, walk.throughput, partials, depth);
     const uint32_t dimension = kFirstVertexDimension + kDimensionsPerVertex * uint32_t(depth - 1);

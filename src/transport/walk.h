@@ -34,6 +34,18 @@ inline void record_arrival(Walk& walk, float d2, float cosine) {
   walk.trail->push_back({walk.forward * cosine / d2, 0, walk.cosine_out / d2, false});
 }
 
+/// The sums at the first surface that an eye walk meets, where light tracing competes, at squared
+/// distance `d2` under the geometric cosine `cosine`. `camera_ray` starts at the camera, which the
+/// walk's ray may not do.
+inline Partials first_eye_partials(const Scene& scene, const Ray& camera_ray, const Point3f& at,
+                                   float d2, float cosine, const TechniqueSet& set, Walk& walk) {
+  const float importance = scene.camera->importance(camera_ray, distance(at, camera_ray.origin));
+  walk.forward = importance * d2;
+  Partials p;
+  if (set.camera_joins) p.vcm = set.light_paths / (set.connection_share * importance * cosine);
+  return p;
+}
+
 /// Records that the last vertex was left, by which the one before learns its reverse density.
 inline void record_departure(Walk& walk, float reverse, bool specular) {
   if (!walk.trail) return;

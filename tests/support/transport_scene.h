@@ -1,0 +1,89 @@
+// Small scenes for tests of light transport, from texts.
+#pragma once
+
+#include <doctest/doctest.h>
+
+#include "integrators/make_integrator.h"
+#include "integrators/pass.h"
+#include "scene/build.h"
+#include "support/memory_scene.h"
+
+namespace duet::test {
+
+struct TransportScene {
+  FilmLayout layout;
+  std::unique_ptr<Scene> scene;
+  IntegratorDescription integrator;
+
+  /// `content` is what stands within the <scene> of a file of version 3.0.0.
+  explicit TransportScene(const std::string& content) {
+    ReadResult read = read_text("<scene version='3.0.0'>" + content + "</scene>");
+    REQUIRE_MESSAGE(read.scene, read.messages());
+    SceneDescription& d = read.scene->description;
+    const FilmDescription& film = d.sensors.at(0).film;
+    layout = {{film.width, film.height}, {0, 0, film.width, film.height}, film.filter};
+    integrator = d.integrator;
+    BuildOptions build;
+    build.threads = 2;
+    Diagnostics diagnostics;
+    scene = build_scene(std::move(d), build, diagnostics);
+    REQUIRE(scene);
+  }
+
+  using Parameters = std::vector<std::pair<std::string, std::string>>;
+  RenderResult render(const std::string& method, const Parameters& parameters, int spp,
+                      uint64_t seed, int threads = 2) const {
+    IntegratorDescription d = integrator;
+    apply_override(d, {method, parameters, {}});
+    const auto made = make_integrator(d);
+    RenderRequest request;
+    request.budget.spp = spp;
+    request.seed = seed;
+    request.threads = threads;
+    return duet::render(*scene, *made, layout, request);
+  }
+};
+
+/// A camera at `origin` that looks at `target`, z up, with a square image.
+inline std::string camera_xml(const std::string& origin, const std::string& target, int size,
+                              const std::string& type = "perspective",
+                              const std::string& extra = "") {
+  const std::string n = std::to_string(size);
+  return "<sensor type='" + type + "'><float name='fov' value='50'/>" + extra +
+         "<transform name='to_world'><lookat origin='" + origin + "' target='" + target +
+         "' up='0,0,1'/></transform><film type='hdrfilm'><integer name='width' value='" + n +
+         "'/><integer name='height' value='" + n + "'/><rfilter type='box'/></film></sensor>";
+}
+
+/// A box from (-1, -1, 0) to (1, 1, 2), open towards -y, of the given BSDF.
+inline std::string room_xml(const std::string& bsdf) {
+  const auto wall = [&](const std::string& transform) {
+    return "<shape type='rectangle'><transform name='to_world'>" + transform + "</transform>" +
+           bsdf + "</shape>";
+  };
+  return wall("") + wall("<rotate x='1' angle='180'/><translate z='2'/>") +
+         wall("<rotate x='1' angle='90'/><translate y='1' z='1'/>") +
+         wall("<rotate y='1' angle='90'/><translate x='-1' z='1'/>") +
+         wall("<rotate y='1' angle='-90'/><translate x='1' z='1'/>");
+}
+
+inline std::string grey(const std::string& reflectance) {
+  return "<bsdf type='twosided'><bsdf type='diffuse'><rgb name='reflectance' value='" +
+         reflectance + "'/></bsdf></bsdf>";
+}
+
+inline std::string sphere_xml(const std::string& center, const std::string& radius,
+                              const std::string& content) {
+  return "<shape type='sphere'><point name='center' value='" + center +
+         "'/><float name='radius' value='" + radius + "'/>" + content + "</shape>";
+}
+
+/// A rectangle under the ceiling of the room, facing down.
+inline std::string lamp_xml(const std::string& size, const std::string& radiance) {
+  return "<shape type='rectangle'><transform name='to_world'><scale value='" + size +
+         "'/><rotate x='1' angle='180'/><translate z='1.95'/></transform><emitter type='area'>"
+         "<rgb name='radiance' value='" +
+         radiance + "'/></emitter></shape>";
+}
+
+}  // namespace duet::test

@@ -1,0 +1,333 @@
+// Every weight that a join gets against the definition, on the paths that walks really make.
+#include <cmath>
+
+#include "support/mis_oracle.h"
+#include "support/transport_scene.h"
+#include "transport/light_walk.h"
+#include "transport/weights.h"
+
+using namespace duet;
+using namespace duet::test;
+
+namespace {
+
+constexpr float kGlass = 1.5f;
+
+/// Rooms with everything that walks can meet; `lens` for a camera with an aperture.
+std::vector<std::string> scenes() {
+  const std::string grey_walls = room_xml(grey("0.7, 0.5, 0.3"));
+  const std::string glass =
+      "<bsdf type='dielectric'><float name='int_ior' value='1.5'/>"
+      "<float name='ext_ior' value='1'/></bsdf>";
+  const std::string rough_glass =
+      "<bsdf type='roughdielectric'><float name='alpha' value='0.3'/>"
+      "<float name='int_ior' value='1.5'/><float name='ext_ior' value='1'/></bsdf>";
+  const std::string mirror = "<bsdf type='conductor'/>";
+  const std::string rough_metal =
+      "<bsdf type='roughconductor'><float name='alpha' value='0.2'/></bsdf>";
+  const std::string plastic = "<bsdf type='plastic'/>";
+  const std::string holes =
+      "<bsdf type='mask'><float name='opacity' value='0.6'/>" + grey("0.5, 0.5, 0.5") + "</bsdf>";
+  const std::string camera = camera_xml("0, -3, 1", "0, 0, 1", 32);
+  const std::string lens = camera_xml(
+      "0.3, -3, 1.2", "0, 0, 1", 32, "thinlens",
+      "<float name='aperture_radius' value='0.1'/><float name='focus_distance' value='3'/>");
+  const std::string ortho =
+      "<sensor type='orthographic'><transform name='to_world'><scale value='1.1'/>"
+      "<lookat origin='0,-3,1' target='0,0,1' up='0,0,1'/></transform><film type='hdrfilm'>"
+      "<integer name='width' value='32'/><integer name='height' value='32'/></film></sensor>";
+  const std::string point =
+      "<emitter type='point'><point name='position' value='0.2, 0.1, 1.6'/>"
+      "<rgb name='intensity' value='2'/></emitter>";
+  const std::string sky = "<emitter type='constant'><rgb name='radiance' value='0.5'/></emitter>";
+  const std::string sun =
+      "<emitter type='directional'><vector name='direction' value='0.2, 1, -0.4'/>"
+      "<rgb name='irradiance' value='2'/></emitter>";
+  const std::string bulb = sphere_xml(
+      "0.4, -0.3, 1.5", "0.1", "<emitter type='area'><rgb name='radiance' value='9'/></emitter>");
+  const std::string lamp = lamp_xml("0.3", "12");
+  const auto ball = [](const std::string& where, const std::string& bsdf) {
+    return sphere_xml(where, "0.4", bsdf);
+  };
+  return {
+      camera + grey_walls + lamp,
+      camera + grey_walls + lamp + ball("-0.4, 0, 0.4", glass) + ball("0.5, 0.2, 0.9", mirror),
+      lens + grey_walls + bulb + ball("-0.4, 0, 0.5", rough_glass) + ball("0.5, 0, 0.4", plastic),
+      camera + room_xml(rough_metal) + lamp + sky + ball("0, 0, 0.6", glass),
+      ortho + grey_walls + point + lamp + ball("-0.4, 0, 0.6", holes) +
+          ball("0.5, 0, 0.5", rough_metal),
+      lens + grey_walls + sun + sky + bulb + ball("0, 0, 0.7", glass),
+      camera + room_xml(plastic) + lamp + point + ball("0, 0, 0.7", rough_glass),
+  };
+}
+
+/// The vertices of one walk, with how each was left.
+struct Recorded {
+  std::vector<PathVertex> vertices;
+  std::vector<bool> specular;
+};
+
+/// eta as a path from the light to the eye sees it, at a surface that only glass can refract at.
+double eta_towards_eye(const Surface& s, const Vector3f& to_light, const Vector3f& to_eye,
+                       bool specular) {
+  const float light = dot(s.shading.n, to_light), eye = dot(s.shading.n, to_eye);
+  if (!specular || light * eye > 0) return 1;
+  // Straight on is a hole, not a refraction.
+  if (dot(to_light, to_eye) < -0.99999f) return 1;
+  return light > 0 ? double(kGlass) : 1 / double(kGlass);
+}
+
+/// Compares weights as they are used with the definition.
+class Checker {
+ public:
+  Checker(const Scene& scene, const TechniqueSet& set, const Windows* windows)
+      : scene_(scene), set_(set), windows_(windows) {}
+
+  void run(uint32_t paths, int max_depth) {
+    for (uint32_t i = 0; i < paths; ++i) pair(i, max_depth);
+  }
+  int64_t compared() const { return compared_; }
+  /// Weights that differ by more than 1e-4.
+  int64_t inexact() const { return inexact_; }
+
+ private:
+  double share(int s, int t) const {
+    if (windows_) return windows_->share(s, t);
+    return t == 1 ? double(set_.light_paths) : s >= 2 ? double(set_.connection_share) : 1.0;
+  }
+  double merge_share(int) const { return set_.merges ? double(set_.light_paths) : 0.0; }
+
+  void check(const OraclePath& path, int s, float weight) {
+    const auto densities = technique_densities(
+        scene_, path, [&](int a, int b) { return share(a, b); }, double(set_.merge_area),
+        [&](int i) { return merge_share(i); });
+    double sum = 0;
+    for (const double d : densities) sum += d;
+    const double expected = densities[size_t(s)] / sum;
+    ++compared_;
+    const double error = std::abs(double(weight) - expected);
+    inexact_ += error > 1e-4;
+    // Long chains of grazing vertices add up the rounding of directions.
+    CHECK_MESSAGE(error < 0.02, "s = ", s, " of ", path.segments(), " segments: ", weight, " for ",
+                  expected);
+  }
+
+  /// The part of a path that an eye walk has made: appended from the light's side to the lens'.
+  void append_eye(OraclePath& path, const Recorded& eye, int count, const Ray& camera_ray) const {
+    for (int j = count - 1; j >= 0; --j) {
+      const PathVertex& v = eye.vertices[size_t(j)];
+      const bool specular = j != count - 1 && eye.specular[size_t(j)];
+      const Vector3f to_light = j == count - 1 ? path.to_light : -eye.vertices[size_t(j + 1)].wo;
+      path.surfaces.push_back(v.surface);
+      path.specular.push_back(specular);
+      path.eta.push_back(eta_towards_eye(v.surface, to_light, v.wo, specular));
+    }
+    const PathVertex& first = eye.vertices[0];
+    path.to_lens = first.wo;
+    path.importance = double(
+        scene_.camera->importance(camera_ray, distance(first.position(), camera_ray.origin)));
+  }
+
+  /// The part that a light walk has made; `next` is where its last vertex is left to.
+  void append_light(OraclePath& path, const Recorded& light, int count, const Vector3f& next,
+                    const LightStart& start) const {
+    const PathVertex& first = light.vertices[0];
+    path.to_light = first.wo;
+    path.direct = double(start.direct(first.position()));
+    path.emission = double(start.density());
+    path.light_can_be_hit = !is_delta(start.light->kind());
+    for (int j = 0; j < count; ++j) {
+      const PathVertex& v = light.vertices[size_t(j)];
+      const bool specular = j != count - 1 && light.specular[size_t(j)];
+      const Vector3f to_eye = j == count - 1 ? next : -light.vertices[size_t(j + 1)].wo;
+      path.surfaces.push_back(v.surface);
+      path.specular.push_back(specular);
+      path.eta.push_back(eta_towards_eye(v.surface, v.wo, to_eye, specular));
+    }
+  }
+
+  /// One light walk and one eye walk with all their joins.
+  void pair(uint32_t index, int max_depth);
+  template <class Weights>
+  void joins(const Weights& weights, const Recorded& light, const std::optional<LightStart>& start,
+             const Recorded& eye, const Ray& camera_ray, Sampler& sampler);
+  template <class Weights>
+  void eye_walk(Weights weights, const Ray& camera_ray, int max_depth, Sampler& sampler,
+                Trail* trail, const Recorded& light, const std::optional<LightStart>& start);
+
+  const Scene& scene_;
+  TechniqueSet set_;
+  const Windows* windows_;
+  RenderCounters counters_;
+  Trail light_trail_;
+  int64_t compared_ = 0;
+  int64_t inexact_ = 0;
+};
+
+template <class Weights>
+void Checker::eye_walk(Weights weights, const Ray& camera_ray, int max_depth, Sampler& sampler,
+                       Trail* trail, const Recorded& light,
+                       const std::optional<LightStart>& start) {
+  Recorded eye;
+  Walk walk;
+  walk.ray = camera_ray;
+  walk.from = camera_ray.origin;
+  walk.throughput = Spectrum(1);
+  walk.trail = trail;
+  JoinRoulette roulette(0, 0);
+  for (int depth = 1; depth < max_depth; ++depth) {
+    Hit hit;
+    const bool found = scene_.accel->closest_hit(walk.ray, hit);
+    Surface s;
+    if (found) s = scene_.surface(walk.ray, hit);
+    if (depth > 1) {  // s = 0
+      Join join{};
+      double direct = 0, emission = 0;
+      if (!found && scene_.environment) {
+        join = join_escape(scene_, weights, walk);
+        const float pick = scene_.picker.probability(scene_.environment_index);
+        direct = double(scene_.environment->pdf_direct(walk.ray.direction).value * pick);
+        emission = double(scene_.environment->emission_density(walk.ray.direction) * pick);
+      } else if (found && scene_.light_on(*s.shape)) {
+        join = join_hit(scene_, weights, walk, s, hit.t * hit.t);
+        const SurfaceLight& l = *scene_.light_on(*s.shape);
+        const float pick = scene_.picker.probability(s.shape->light);
+        direct = double(l.pdf_direct(walk.from, s, walk.ray.direction, hit.t * hit.t).value * pick);
+        emission = double(l.emission_density(s, -walk.ray.direction) * pick);
+      }
+      if (!join.value.is_black()) {
+        OraclePath path;
+        path.to_light = walk.ray.direction;
+        path.direct = direct, path.emission = emission;
+        append_eye(path, eye, depth - 1, camera_ray);
+        // The last vertex was left by a lobe of its own.
+        path.specular[0] = walk.from_specular;
+        path.eta[0] = eta_towards_eye(path.surfaces[0], path.to_light, eye.vertices.back().wo,
+                                      walk.from_specular);
+        check(path, 0, join.weight);
+      }
+    }
+    if (!found) return;
+    const float d2 = hit.t * hit.t, cosine = std::abs(dot(s.ng, walk.ray.direction));
+    if (!(cosine > 0)) return;
+    const Partials partials =
+        depth == 1 ? first_eye_partials(scene_, camera_ray, s.position, d2, cosine, set_, walk)
+                   : arrive(walk.partials, d2, cosine);
+    record_arrival(walk, d2, cosine);
+    const PathVertex v(scene_, s, -walk.ray.direction, walk.throughput, partials, depth);
+    eye.vertices.push_back(v);
+    eye.specular.push_back(false);
+    if (v.bsdf.has_smooth())
+      for (const PathVertex& l : light.vertices) {
+        if (!l.bsdf.has_smooth()) continue;
+        const Join join = join_ends(scene_, weights, l, v, false, roulette, counters_);
+        if (join.value.is_black() || share(l.depth + 1, depth + 1) == 0) continue;
+        OraclePath path;
+        const Vector3f next = normalize(v.position() - l.position());
+        append_light(path, light, l.depth, next, *start);
+        const Vector3f to_light = path.to_light;
+        path.to_light = -next;
+        append_eye(path, eye, depth, camera_ray);
+        path.to_light = to_light;
+        check(path, l.depth + 1, join.weight);
+      }
+    if (!scatter<Transport::radiance>(v, set_, {1000, false}, sampler, walk)) return;
+    eye.specular.back() = walk.from_specular;
+  }
+}
+
+void Checker::pair(uint32_t index, int max_depth) {
+  Sampler sampler(SampleSequence::independent, 7, 0, index);
+  sampler.start_sample(0);
+  Recorded light;
+  Sampler light_sampler(SampleSequence::independent, 8, 0, index);
+  light_sampler.start_sample(0);
+  Sampler same = light_sampler;
+  same.start_dimension(0);
+  const auto start = start_light_walk(scene_, same);
+  JoinRoulette roulette(0, 0);
+  Trail* trail = windows_ ? &light_trail_ : nullptr;
+  const auto visit_with = [&](const auto& weights) {
+    return [&](const PathVertex& v, const Hit&) {
+      if (!light.vertices.empty()) {
+        // How the one before was left: only a delta lobe leaves nothing to be joined with.
+        light.specular.back() = v.partials.vcm == 0;
+      }
+      light.vertices.push_back(v);
+      light.specular.push_back(false);
+      if (!v.bsdf.has_smooth()) return;
+      const auto seen =
+          join_camera(scene_, weights, v, sampler.next_2d(), false, roulette, counters_);
+      if (!seen || share(v.depth + 1, 1) == 0) return;
+      const auto lens = scene_.camera->sample_lens(v.position(), {0.5f, 0.5f});
+      if (!lens || scene_.camera->has_lens()) return;
+      OraclePath path;
+      append_light(path, light, v.depth, lens->direction, *start);
+      path.to_lens = lens->direction;
+      path.importance = double(lens->importance);
+      check(path, v.depth + 1, seen->join.weight);
+    };
+  };
+  const auto trace = [&](const auto& weights) {
+    trace_light_walk(scene_, set_, {1000, false}, max_depth - 1, light_sampler, counters_, trail,
+                     visit_with(weights));
+  };
+  const Ray camera_ray = scene_.camera->sample_ray({32 * sampler.next_1d(), 32 * sampler.next_1d()},
+                                                   sampler.next_2d());
+  if (windows_) {
+    trace(WindowWeights(*windows_, &light_trail_, nullptr));
+    Trail eye_trail{{1, 0, 1, false}};
+    WindowWeights weights(*windows_, nullptr, &eye_trail);
+    weights.set_light(light_trail_);
+    eye_walk(weights, camera_ray, max_depth, sampler, &eye_trail, light, start);
+  } else {
+    trace(BalanceWeights(set_));
+    eye_walk(BalanceWeights(set_), camera_ray, max_depth, sampler, nullptr, light, start);
+  }
+}
+
+TechniqueSet all_techniques(float light_paths) {
+  TechniqueSet set;
+  set.camera_joins = set.connections = true;
+  set.light_paths = light_paths;
+  return set;
+}
+
+}  // namespace
+
+TEST_CASE("weights of BDPT and VCM are the balance heuristic") {
+  int64_t compared = 0, inexact = 0;
+  for (const std::string& content : scenes()) {
+    const TransportScene s(content);
+    for (const bool merges : {false, true})
+      for (const float connection_share : {1.0f, 0.4f}) {
+        TechniqueSet set = all_techniques(500);
+        set.merges = merges;
+        set.merge_area = merges ? 0.002f : 0.0f;
+        set.connection_share = connection_share;
+        Checker checker(*s.scene, set, nullptr);
+        checker.run(1500, 7);
+        compared += checker.compared(), inexact += checker.inexact();
+      }
+  }
+  CHECK(compared > 100000);
+  CHECK(double(inexact) < 2e-3 * double(compared));
+}
+
+TEST_CASE("weights of path reuse are exact under any limits") {
+  const std::vector<Windows> settings{
+      {4, 3, 1, 700},   {4, 3, 0.5, 700}, {2, 1, 1, 700}, {2, 5, 1, 700},   {8, 1, 1, 700},
+      {8, 0, 0.3, 700}, {1, 2, 0.7, 700}, {0, 7, 1, 700}, {0, 0, 0.9, 700}, {7, 7, 1, 700},
+      {3, 3, 1, 700},   {1, 1, 0.2, 700}, {6, 2, 1, 700}, {5, 6, 0.8, 700}};
+  int64_t compared = 0, inexact = 0;
+  for (const std::string& content : scenes()) {
+    const TransportScene s(content);
+    for (const Windows& w : settings) {
+      Checker checker(*s.scene, all_techniques(float(w.light_paths)), &w);
+      checker.run(600, 7);
+      compared += checker.compared(), inexact += checker.inexact();
+    }
+  }
+  CHECK(compared > 100000);
+  CHECK(double(inexact) < 2e-3 * double(compared));
+}
