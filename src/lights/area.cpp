@@ -67,6 +67,8 @@ bool AreaLight::choose_parallelogram() {
   if (!p) return false;
   const ShapePoint first = point_on_triangle(shape_, 0, {0.3f, 0.3f}),
                    second = point_on_triangle(shape_, 1, {0.3f, 0.3f});
+  // Normals that lean would darken a part of the directions.
+  if (!(dot(first.ng, first.ns) > 0.9999f)) return false;
   normal_ = first.ng;
   edge_u_ = p->edge_u;
   edge_v_ = p->edge_v;
