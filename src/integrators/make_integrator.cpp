@@ -3,90 +3,77 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <charconv>
-#include <functional>
-#include <limits>
+#include <array>
+#include <optional>
 #include <stdexcept>
 
+#include "integrators/bidirectional.h"
 #include "integrators/depth.h"
 #include "integrators/direct.h"
+#include "integrators/parameters.h"
 #include "integrators/path.h"
 
 namespace duet {
 
 namespace {
 
-/// A parameter of a method: how it is called, shown and set.
-struct Parameter {
-  std::string name;
-  std::function<std::string()> get;
-  std::function<void(const std::string&)> set;
-};
+using Method = decltype(IntegratorDescription::method);
 
-int parse_int(const std::string& name, const std::string& text, int least, int most) {
-  int value = 0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (error != std::errc() || end != text.data() + text.size() || value < least || value > most)
-    throw std::invalid_argument(
-        fmt::format("parameter \"{}\" needs a whole number from {} to {}, not \"{}\"", name, least,
-                    most, text));
-  return value;
+/// In the order of BidirectionalMethod.
+constexpr std::array<const char*, 6> kBidirectionalNames{"ptracer", "bdpt", "reuse",
+                                                         "ppm",     "bpm",  "vcm"};
+
+/// The method of that name with its presets; nothing if there is none. Layers alone come from
+/// camera rays, which any method that starts at the camera has.
+std::optional<Method> find_method(const std::string& name) {
+  if (name == "path" || name == "aov") return PathIntegratorDescription{};
+  if (name == "direct") return DirectIntegratorDescription{};
+  if (name == "depth") return DepthIntegratorDescription{};
+  for (size_t i = 0; i < kBidirectionalNames.size(); ++i)
+    if (name == kBidirectionalNames[i])
+      return BidirectionalIntegratorDescription{.method = BidirectionalMethod(i)};
+  return std::nullopt;
 }
 
-bool parse_bool(const std::string& name, const std::string& text) {
-  if (text == "true" || text == "1") return true;
-  if (text == "false" || text == "0") return false;
-  throw std::invalid_argument(
-      fmt::format("parameter \"{}\" needs true or false, not \"{}\"", name, text));
-}
-
-constexpr int kMaxDepth = std::numeric_limits<int>::max();
-/// As many as the reader of scene files allows.
-constexpr int kMaxDirectSamples = 1 << 16;
-
-Parameter integer(const std::string& name, int& value, int least, int most) {
-  return {name, [&value] { return fmt::to_string(value); },
-          [&value, name, least, most](const std::string& t) {
-            value = parse_int(name, t, least, most);
-          }};
-}
-
-Parameter boolean(const std::string& name, bool& value) {
-  return {name, [&value] { return std::string(value ? "true" : "false"); },
-          [&value, name](const std::string& t) { value = parse_bool(name, t); }};
-}
-
-std::vector<Parameter> parameters(PathIntegratorDescription& d) {
-  return {integer("max_depth", d.max_depth, -1, kMaxDepth),
-          integer("rr_depth", d.rr_depth, 1, kMaxDepth),
-
-          boolean("hide_emitters", d.hide_emitters), boolean("strict_normals", d.strict_normals)};
-}
-std::vector<Parameter> parameters(DirectIntegratorDescription& d) {
-  return {integer("emitter_samples", d.emitter_samples, 0, kMaxDirectSamples),
-          integer("bsdf_samples", d.bsdf_samples, 0, kMaxDirectSamples),
-          boolean("hide_emitters", d.hide_emitters), boolean("strict_normals", d.strict_normals)};
-}
-std::vector<Parameter> parameters(DepthIntegratorDescription&) {
-  return {};
+/// Whether a parameter asks for the same in every method that has it.
+bool is_shared(const std::string& parameter) {
+  return parameter == "max_depth" || parameter == "rr_depth" || parameter == "hide_emitters" ||
+         parameter == "strict_normals";
 }
 
 /// Keeps what another method of the scene already said.
 void select_method(IntegratorDescription& integrator, const std::string& name) {
   if (name == integrator_name(integrator)) return;
-  integrator.image = name != "aov";
-  if (name == "path")
-    integrator.method = PathIntegratorDescription{};
-  else if (name == "direct")
-    integrator.method = DirectIntegratorDescription{};
-  else if (name == "depth")
-    integrator.method = DepthIntegratorDescription{};
-  else if (name != "aov") {
+  const std::optional<Method> method = find_method(name);
+  if (!method) {
     std::vector<std::string> known;
     for (const IntegratorName& n : integrator_names()) known.push_back(n.name);
     throw std::invalid_argument(fmt::format("there is no integrator \"{}\"{}; there are {}", name,
                                             did_you_mean(name, known), fmt::join(known, ", ")));
   }
+  IntegratorDescription selected = integrator;
+  selected.method = *method;
+  selected.image = name != "aov";
+  for (const MethodParameter& from : method_parameters(integrator))
+    for (const MethodParameter& to : method_parameters(selected))
+      if (from.name == to.name && is_shared(to.name)) to.set(from.get());
+  integrator = std::move(selected);
+}
+
+/// In the order of the method's parameters, because some depend on others before them.
+void set_parameters(IntegratorDescription& integrator,
+                    const std::vector<std::pair<std::string, std::string>>& values) {
+  const std::vector<MethodParameter> parameters = method_parameters(integrator);
+  std::vector<std::string> names;
+  for (const MethodParameter& p : parameters) names.push_back(p.name);
+  for (const auto& [name, value] : values)
+    if (std::find(names.begin(), names.end(), name) == names.end())
+      throw std::invalid_argument(fmt::format("integrator \"{}\" has no parameter \"{}\"{}",
+                                              integrator_name(integrator), name,
+                                              did_you_mean(name, names)));
+  for (const MethodParameter& p : parameters)
+    for (const auto& [name, value] : values)
+      if (p.name == name) p.set(value);
 }
 
 CameraOutput camera_output(const IntegratorDescription& integrator) {
@@ -118,6 +105,12 @@ const std::vector<IntegratorName>& integrator_names() {
   static const std::vector<IntegratorName> names{
       {"path", "path tracing with next event estimation"},
       {"direct", "light seen directly or after one scattering"},
+      {"ptracer", "light tracing: paths from the lights, connected to the camera"},
+      {"bdpt", "bidirectional path tracing"},
+      {"reuse", "bidirectional path tracing that reuses light sub-paths"},
+      {"ppm", "progressive photon mapping"},
+      {"bpm", "bidirectional photon mapping"},
+      {"vcm", "vertex connection and merging"},
       {"depth", "distance to the first surface"},
       {"aov", "layers only, chosen with --aov"},
   };
@@ -126,19 +119,7 @@ const std::vector<IntegratorName>& integrator_names() {
 
 void apply_override(IntegratorDescription& integrator, const IntegratorOverride& with) {
   if (!with.name.empty()) select_method(integrator, with.name);
-  std::vector<Parameter> known =
-      std::visit([](auto& m) { return parameters(m); }, integrator.method);
-  for (const auto& [name, value] : with.parameters) {
-    bool found = false;
-    for (Parameter& p : known)
-      if (p.name == name) p.set(value), found = true;
-    if (found) continue;
-    std::vector<std::string> names;
-    for (const Parameter& p : known) names.push_back(p.name);
-    throw std::invalid_argument(fmt::format("integrator \"{}\" has no parameter \"{}\"{}",
-                                            integrator_name(integrator), name,
-                                            did_you_mean(name, names)));
-  }
+  set_parameters(integrator, with.parameters);
   if (const auto* direct = std::get_if<DirectIntegratorDescription>(&integrator.method);
       direct && direct->emitter_samples + direct->bsdf_samples == 0)
     throw std::invalid_argument("integrator \"direct\" needs samples of emitters or of BSDFs");
@@ -155,6 +136,9 @@ std::string integrator_name(const IntegratorDescription& integrator) {
     const char* operator()(const PathIntegratorDescription&) const { return "path"; }
     const char* operator()(const DirectIntegratorDescription&) const { return "direct"; }
     const char* operator()(const DepthIntegratorDescription&) const { return "depth"; }
+    const char* operator()(const BidirectionalIntegratorDescription& d) const {
+      return kBidirectionalNames[size_t(d.method)];
+    }
   };
   return std::visit(Name{}, integrator.method);
 }
@@ -162,8 +146,8 @@ std::string integrator_name(const IntegratorDescription& integrator) {
 std::string integrator_parameters(const IntegratorDescription& integrator) {
   IntegratorDescription copy = integrator;
   std::vector<std::string> parts;
-  for (const Parameter& p : std::visit([](auto& m) { return parameters(m); }, copy.method))
-    parts.push_back(p.name + "=" + p.get());
+  for (const MethodParameter& p : method_parameters(copy))
+    if (const std::string value = p.get(); !value.empty()) parts.push_back(p.name + "=" + value);
   return fmt::format("{}", fmt::join(parts, " "));
 }
 
@@ -187,6 +171,9 @@ std::unique_ptr<Integrator> make_integrator(const IntegratorDescription& integra
     }
     std::unique_ptr<Integrator> operator()(const DepthIntegratorDescription&) const {
       return std::make_unique<DepthIntegrator>(output);
+    }
+    std::unique_ptr<Integrator> operator()(const BidirectionalIntegratorDescription& d) const {
+      return make_bidirectional(d, output);
     }
   };
   return std::visit(Make{camera_output(integrator)}, integrator.method);

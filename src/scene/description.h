@@ -380,6 +380,31 @@ struct DirectIntegratorDescription {
 struct DepthIntegratorDescription {
   bool operator==(const DepthIntegratorDescription&) const = default;
 };
+
+/// Methods that trace sub-paths from the lights, too.
+enum class BidirectionalMethod { ptracer, bdpt, reuse, ppm, bpm, vcm };
+/// How `reuse` weights its techniques: exactly, or as the thesis of docs/references.md does, in
+/// either of two readings of it.
+enum class ReuseWeights { exact, thesis_a, thesis_b };
+struct BidirectionalIntegratorDescription {
+  BidirectionalMethod method = BidirectionalMethod::bdpt;
+  /// In segments; −1 is no limit, but max_eye_depth + max_light_depth + 1 with the thesis' weights.
+  int max_depth = -1;
+  int rr_depth = 5;
+  bool hide_emitters = false, strict_normals = false;
+  double light_paths = 1;  ///< light sub-paths per pixel
+  /// Light vertices to which each eye vertex is connected; −1: all of one light sub-path.
+  int connections = -1;
+  bool light_image = true;    ///< bdpt: connect light vertices to the camera
+  bool sample_direct = true;  ///< bdpt: next event estimation
+  double radius = 0;  ///< of merging in the first iteration, world units; 0: from the pixels' size
+  double alpha = 0;   ///< how fast the radius shrinks; 0: the method's default
+  int max_eye_depth = 4, max_light_depth = 3;  ///< reuse
+  ReuseWeights weights = ReuseWeights::exact;  ///< reuse
+  double continue_probability = 1;             ///< reuse
+  bool operator==(const BidirectionalIntegratorDescription&) const = default;
+};
+
 /// Layers by their Mitsuba name and the name they get in the file.
 struct AovDescription {
   struct Layer {
@@ -392,7 +417,8 @@ struct AovDescription {
 
 struct IntegratorDescription {
   SourceLocation where;
-  std::variant<PathIntegratorDescription, DirectIntegratorDescription, DepthIntegratorDescription>
+  std::variant<PathIntegratorDescription, DirectIntegratorDescription, DepthIntegratorDescription,
+               BidirectionalIntegratorDescription>
       method;
   AovDescription aovs;   ///< layers asked for by an `aov` integrator
   bool image = true;     ///< false if an `aov` integrator has no nested integrator
