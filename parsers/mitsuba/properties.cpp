@@ -115,6 +115,10 @@ bool Properties::in_range(std::string_view name, double value) {
       return value >= -1 || fail("-1 or more");
     case NumberRange::degrees:
       return (value > 0 && value < 180) || fail("between 0 and 180");
+    case NumberRange::fraction:
+      return (value >= 0 && value <= 1) || fail("from 0 to 1");
+    case NumberRange::probability:
+      return (value > 0 && value <= 1) || fail("above 0 and at most 1");
   }
   return true;
 }

@@ -71,4 +71,14 @@ void read_depth(SceneReader&, Properties&, IntegratorDescription&);
 void read_aov(SceneReader&, Properties&, IntegratorDescription&);
 void read_moment(SceneReader&, Properties&, IntegratorDescription&);
 
+// read_bidirectional.cpp
+void read_ptracer(SceneReader&, Properties&, IntegratorDescription&);
+void read_bdpt(SceneReader&, Properties&, IntegratorDescription&);
+void read_reuse(SceneReader&, Properties&, IntegratorDescription&);
+void read_ppm(SceneReader&, Properties&, IntegratorDescription&);
+void read_sppm(SceneReader&, Properties&, IntegratorDescription&);
+void read_photonmapper(SceneReader&, Properties&, IntegratorDescription&);
+void read_bpm(SceneReader&, Properties&, IntegratorDescription&);
+void read_vcm(SceneReader&, Properties&, IntegratorDescription&);
+
 }  // namespace duet

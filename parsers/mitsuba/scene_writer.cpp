@@ -60,38 +60,6 @@ void SceneWriter::write() {
   for (const LightDescription& l : d_.lights) light(l);
 }
 
-void SceneWriter::integrator(const IntegratorDescription& i) {
-  if (!i.aovs.layers.empty() || !i.image) {
-    std::string layers;
-    for (const AovDescription::Layer& l : i.aovs.layers)
-      layers += fmt::format("{}{}:{}", layers.empty() ? "" : ", ", l.name, l.kind);
-    out_.open("integrator", "aov");
-    out_.string("aovs", layers);
-  }
-  if (i.moments) out_.open("integrator", "moment");
-  if (const auto* path = std::get_if<PathIntegratorDescription>(&i.method); path && i.image) {
-    out_.open("integrator", "path");
-    out_.integer("max_depth", path->max_depth);
-    out_.integer("rr_depth", path->rr_depth);
-    out_.boolean("hide_emitters", path->hide_emitters);
-    if (path->strict_normals) lose("\"strict_normals\" does not exist in Mitsuba 3");
-    out_.close();
-  } else if (const auto* direct = std::get_if<DirectIntegratorDescription>(&i.method);
-             direct && i.image) {
-    out_.open("integrator", "direct");
-    out_.integer("emitter_samples", direct->emitter_samples);
-    out_.integer("bsdf_samples", direct->bsdf_samples);
-    out_.boolean("hide_emitters", direct->hide_emitters);
-    if (direct->strict_normals) lose("\"strict_normals\" does not exist in Mitsuba 3");
-    out_.close();
-  } else if (i.image) {
-    out_.open("integrator", "depth");
-    out_.close();
-  }
-  if (i.moments) out_.close();
-  if (!i.aovs.layers.empty() || !i.image) out_.close();
-}
-
 void SceneWriter::fov(double degrees, FovAxis axis) {
   constexpr std::string_view axes[] = {"x", "y", "diagonal", "smaller", "larger"};
   out_.number("fov", degrees);

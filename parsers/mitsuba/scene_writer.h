@@ -49,8 +49,14 @@ class SceneWriter {
   void write_model(const NormalMapMaterial& m);
   void write_model(const NullMaterial&) {}
 
-  // scene_writer.cpp
+  // write_integrators.cpp
   void integrator(const IntegratorDescription& i);
+  void write_method(const PathIntegratorDescription& m);
+  void write_method(const DirectIntegratorDescription& m);
+  void write_method(const DepthIntegratorDescription& m);
+  void write_method(const BidirectionalIntegratorDescription& m);
+
+  // scene_writer.cpp
   void sensor(const SensorDescription& s);
   void film(const FilmDescription& f);
   void fov(double degrees, FovAxis axis);

@@ -1,5 +1,5 @@
-// Every plugin and parameter of Mitsuba 0.4 to 3: the one table that reading, messages, the list of
-// plugins and the documentation are made from.
+// Every plugin and parameter of Mitsuba 0.4 to 3, and Duet's own: the one table that reading,
+// messages, the list of plugins and the documentation are made from.
 #pragma once
 
 #include <cstdint>
@@ -57,7 +57,16 @@ enum class ParameterType : uint8_t {
 std::string_view type_name(ParameterType type);
 
 /// The values that a number may have.
-enum class NumberRange : uint8_t { any, positive, not_negative, size, depth, degrees };
+enum class NumberRange : uint8_t {
+  any,
+  positive,
+  not_negative,
+  size,
+  depth,
+  degrees,
+  fraction,     ///< from 0 to 1
+  probability,  ///< the same without 0
+};
 
 /// Which files know a name. It is understood in all files: people mix versions.
 enum class FileVersions : uint8_t { all, v0, v3 };

@@ -5,6 +5,9 @@ namespace duet::vocabulary {
 
 namespace {
 
+constexpr Parameter kMaxDepth{"max_depth", integer, "-1", "longest path in segments; -1: no limit",
+                              depth};
+constexpr Parameter kRrDepth{"rr_depth", integer, "5", "where Russian roulette begins", positive};
 constexpr Parameter kStrictNormals{
     .name = "strict_normals",
     .type = boolean,
@@ -14,11 +17,7 @@ constexpr Parameter kStrictNormals{
 constexpr Parameter kHideEmitters{"hide_emitters", boolean, "false",
                                   "lights cannot be seen directly"};
 
-constexpr Parameter kPath[] = {
-    {"max_depth", integer, "-1", "longest path in segments; -1: no limit", depth},
-    {"rr_depth", integer, "5", "where Russian roulette begins", positive},
-    kHideEmitters,
-    kStrictNormals};
+constexpr Parameter kPath[] = {kMaxDepth, kRrDepth, kHideEmitters, kStrictNormals};
 constexpr Parameter kDirect[] = {
     {"shading_samples", integer, "", "sets both of the following", positive},
     {.name = "emitter_samples",
@@ -29,6 +28,107 @@ constexpr Parameter kDirect[] = {
     {"bsdf_samples", integer, "1", "", not_negative},
     kHideEmitters,
     kStrictNormals};
+
+constexpr Parameter kDropPaths{"strict_normals", boolean, "false",
+                               "drop paths whose shading and geometric normals disagree"};
+constexpr Parameter kLightPaths{"light_paths", number, "1", "light sub-paths for each pixel",
+                                positive};
+constexpr Parameter kConnections{
+    "connections", integer, "-1",
+    "light vertices for each eye vertex; -1: those of one light sub-path", depth};
+
+constexpr Parameter kPtracer[] = {
+    kMaxDepth,
+    kRrDepth,
+    kHideEmitters,
+    kLightPaths,
+    {.name = "granularity", .type = integer, .versions = v0, .support = inert},
+    {.name = "brute_force",
+     .type = boolean,
+     .preset = "false",
+     .note = "the camera must be hit",
+     .versions = v0,
+     .support = planned}};
+constexpr Parameter kBdpt[] = {
+    kMaxDepth,
+    kRrDepth,
+    kHideEmitters,
+    kDropPaths,
+    {"light_image", boolean, "true", "connect light vertices to the camera"},
+    {"sample_direct", boolean, "true", "next event estimation"},
+    kLightPaths,
+    kConnections};
+constexpr Parameter kReuse[] = {
+    {"max_depth", integer, "-1",
+     "longest path in segments; -1: no limit, but max_eye_depth + max_light_depth + 1 with the "
+     "weights of the thesis",
+     depth},
+    kRrDepth,
+    kHideEmitters,
+    kDropPaths,
+    kLightPaths,
+    {"max_eye_depth", integer, "4", "longest eye sub-path in segments", not_negative},
+    {"max_light_depth", integer, "3", "longest light sub-path in segments", not_negative},
+    {"weights", string, "exact", "exact or thesis (of docs/references.md)"},
+    {"thesis_reading", string, "b", "a or b, what the weights of the thesis are taken to mean"},
+    {"continue_probability", number, "1", "that a sub-path goes on after a vertex", probability}};
+
+constexpr Parameter kRadius{
+    .name = "radius",
+    .type = number,
+    .preset = "0",
+    .note = "of merging in the first iteration, in world units; 0: from the size of a pixel",
+    .range = not_negative,
+    .aliases = "initial_radius"};
+constexpr Parameter kAlpha{"alpha", number, "0",
+                           "how fast the radius shrinks; 0: the method's default", fraction};
+constexpr Parameter kPpm[] = {
+    kMaxDepth,
+    {.name = "rr_depth",
+     .type = integer,
+     .preset = "5",
+     .note = "where Russian roulette begins",
+     .range = positive,
+     .preset_0x = "3"},
+    kHideEmitters,
+    kDropPaths,
+    kLightPaths,
+    kRadius,
+    {.name = "alpha",
+     .type = number,
+     .preset = "0",
+     .note = "how fast the radius shrinks; 0: the method's default",
+     .range = fraction,
+     .preset_0x = "0.7"},
+    {.name = "photon_count",
+     .type = integer,
+     .note = "light_paths decides",
+     .versions = v0,
+     .support = inert},
+    {.name = "max_passes",
+     .type = integer,
+     .note = "the sampler's sample_count decides",
+     .versions = v0,
+     .support = inert},
+    {.name = "granularity", .type = integer, .versions = v0, .support = inert}};
+constexpr Parameter kPhotonmapper[] = {
+    kMaxDepth,
+    kRrDepth,
+    kHideEmitters,
+    {.name = "direct_samples", .type = integer, .support = inert},
+    {.name = "glossy_samples", .type = integer, .support = inert},
+    {.name = "global_photons", .type = integer, .support = inert},
+    {.name = "caustic_photons", .type = integer, .support = inert},
+    {.name = "volume_photons", .type = integer, .support = inert},
+    {.name = "global_lookup_radius", .type = number, .support = inert},
+    {.name = "caustic_lookup_radius", .type = number, .support = inert},
+    {.name = "lookup_size", .type = integer, .support = inert},
+    {.name = "granularity", .type = integer, .support = inert}};
+constexpr Parameter kBpm[] = {kMaxDepth,   kRrDepth, kHideEmitters, kDropPaths,
+                              kLightPaths, kRadius,  kAlpha};
+constexpr Parameter kVcm[] = {kMaxDepth,   kRrDepth,     kHideEmitters, kDropPaths,
+                              kLightPaths, kConnections, kRadius,       kAlpha};
+
 constexpr Parameter kDepth[] = {{.name = "hide_emitters", .type = boolean, .support = inert}};
 constexpr Parameter kAov[] = {
     {.name = "aovs",
@@ -42,6 +142,17 @@ constexpr Parameter kMoment[] = {{.name = "hide_emitters", .type = boolean, .sup
 constexpr Plugin kIntegrators[] = {
     {"path", both, kPath, &read_path},
     {"direct", both, kDirect, &read_direct},
+    {"ptracer", both, kPtracer, &read_ptracer,
+     "light tracing: paths from the lights, connected to the camera"},
+    {"bdpt", v0, kBdpt, &read_bdpt, "bidirectional path tracing"},
+    {"reuse", both, kReuse, &read_reuse,
+     "Duet's own: bidirectional path tracing that reuses light sub-paths"},
+    {"ppm", both, kPpm, &read_ppm,
+     "Duet's own: progressive photon mapping; approximates that of 0.x"},
+    {"bpm", both, kBpm, &read_bpm, "Duet's own: bidirectional photon mapping"},
+    {"vcm", both, kVcm, &read_vcm, "Duet's own: vertex connection and merging"},
+    {"sppm", v0, kPpm, &read_sppm, "by ppm", approximated},
+    {"photonmapper", v0, kPhotonmapper, &read_photonmapper, "by ppm", approximated},
     {"depth", v3, kDepth, &read_depth},
     {"aov", v3, kAov, &read_aov, "may hold an integrator"},
     {"moment", v3, kMoment, &read_moment, "holds an integrator"},
@@ -53,10 +164,6 @@ constexpr Plugin kIntegrators[] = {
      .versions = v0,
      .support = planned,
      .planned_parameters = "shading_samples ray_length"},
-    {.name = "bdpt",
-     .versions = v0,
-     .support = planned,
-     .planned_parameters = "max_depth rr_depth light_image sample_direct"},
     {.name = "direct_projective",
      .versions = v3,
      .support = planned,
@@ -81,17 +188,6 @@ constexpr Plugin kIntegrators[] = {
                            "caustic_perturbation manifold_perturbation lambda"},
     {.name = "motion", .versions = v0, .support = planned},
     {.name = "multichannel", .versions = v0, .support = planned},
-    {.name = "photonmapper",
-     .versions = v0,
-     .support = planned,
-     .planned_parameters = "direct_samples glossy_samples max_depth global_photons caustic_photons "
-                           "volume_photons global_lookup_radius caustic_lookup_radius lookup_size "
-                           "granularity hide_emitters rr_depth"},
-    {.name = "ppm",
-     .versions = v0,
-     .support = planned,
-     .planned_parameters =
-         "max_depth photon_count initial_radius alpha granularity rr_depth max_passes"},
     {.name = "prb",
      .versions = v3,
      .support = planned,
@@ -113,20 +209,7 @@ constexpr Plugin kIntegrators[] = {
      .support = planned,
      .planned_parameters =
          "max_depth rr_depth direct_samples luminance_samples two_stage bidirectional p_large"},
-    {.name = "ptracer",
-     .support = planned,
-     .planned_parameters =
-         "max_depth rr_depth hide_emitters samples_per_pass granularity brute_force"},
-    {.name = "sppm",
-     .versions = v0,
-     .support = planned,
-     .planned_parameters =
-         "max_depth photon_count initial_radius alpha granularity rr_depth max_passes"},
     {.name = "stokes", .versions = v3, .support = planned},
-    {.name = "vcm",
-     .versions = v0,
-     .support = planned,
-     .planned_parameters = "max_depth rr_depth initial_radius alpha"},
     {.name = "volpath",
      .support = planned,
      .planned_parameters = "max_depth rr_depth hide_emitters strict_normals"},

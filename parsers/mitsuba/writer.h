@@ -10,13 +10,15 @@ namespace duet {
 
 struct MitsubaXml {
   std::string text;
-  /// What Mitsuba 3 cannot express and is therefore missing, one sentence each. The text lists it
-  /// in a comment, together with the description's approximations.
+  /// What Mitsuba 3 cannot express, one sentence each: it is missing, except for integrators, which
+  /// are written as only Duet reads them. The text lists it in a comment, together with the
+  /// description's approximations.
   std::vector<std::string> losses;
 };
 
-/// Mitsuba 3.9 can load the text. Read again, it yields an equal description, except for the
-/// losses. Meshes and images are named by their absolute paths.
+/// Mitsuba 3.9 can load the text, unless the integrator is one of Duet's own. Read again, it yields
+/// an equal description, except for what is missing. Meshes and images are named by their absolute
+/// paths.
 MitsubaXml write_mitsuba_xml(const SceneDescription& description);
 
 }  // namespace duet
