@@ -126,8 +126,8 @@ constexpr Parameter kPhotonmapper[] = {
     {.name = "granularity", .type = integer, .support = inert}};
 constexpr Parameter kBpm[] = {kMaxDepth,   kRrDepth, kHideEmitters, kDropPaths,
                               kLightPaths, kRadius,  kAlpha};
-constexpr Parameter kVcm[] = {kMaxDepth, kRrDepth, kHideEmitters, kDropPaths,
-                              kRadius,   kAlpha,   kLightPaths,   kConnections};
+constexpr Parameter kVcm[] = {kMaxDepth,   kRrDepth,     kHideEmitters, kDropPaths,
+                              kLightPaths, kConnections, kRadius,       kAlpha};
 
 constexpr Parameter kDepth[] = {{.name = "hide_emitters", .type = boolean, .support = inert}};
 constexpr Parameter kAov[] = {
