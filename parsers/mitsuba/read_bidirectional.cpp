@@ -70,7 +70,6 @@ void read_bdpt(SceneReader&, Properties& p, IntegratorDescription& out) {
   auto bdpt = read_paths(p, BidirectionalMethod::bdpt);
   bdpt.strict_normals = p.boolean("strict_normals");
   bdpt.light_image = p.boolean("light_image");
-  bdpt.sample_direct = p.boolean("sample_direct");
   bdpt.light_paths = read_light_paths(p);
   bdpt.connections = read_connections(p);
   out.method = bdpt;

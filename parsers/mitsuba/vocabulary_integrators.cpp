@@ -31,8 +31,9 @@ constexpr Parameter kDirect[] = {
 
 constexpr Parameter kDropPaths{"strict_normals", boolean, "false",
                                "drop paths whose shading and geometric normals disagree"};
-constexpr Parameter kLightPaths{"light_paths", number, "1", "light sub-paths for each pixel",
-                                positive};
+constexpr Parameter kLightPaths{
+    "light_paths", number, "0",
+    "light sub-paths for each pixel; 0: 1/4 for bdpt and vcm, 1 for the others", not_negative};
 constexpr Parameter kConnections{
     "connections", integer, "-1",
     "light vertices for each eye vertex; -1: those of one light sub-path", depth};
@@ -55,7 +56,7 @@ constexpr Parameter kBdpt[] = {
     kHideEmitters,
     kDropPaths,
     {"light_image", boolean, "true", "connect light vertices to the camera"},
-    {"sample_direct", boolean, "true", "next event estimation"},
+    {.name = "sample_direct", .type = boolean, .support = inert},
     kLightPaths,
     kConnections};
 constexpr Parameter kReuse[] = {
@@ -69,9 +70,10 @@ constexpr Parameter kReuse[] = {
     kLightPaths,
     {"max_eye_depth", integer, "4", "longest eye sub-path in segments", not_negative},
     {"max_light_depth", integer, "3", "longest light sub-path in segments", not_negative},
-    {"weights", string, "exact", "exact or thesis (of docs/references.md)"},
+    {"weights", string, "exact", "exact, or those of the thesis, which are biased (docs/mis.md)"},
     {"thesis_reading", string, "b", "a or b, what the weights of the thesis are taken to mean"},
-    {"continue_probability", number, "1", "that a sub-path goes on after a vertex", probability}};
+    {"continue_probability", number, "1", "that an eye sub-path goes on beyond its limit",
+     probability}};
 
 constexpr Parameter kRadius{
     .name = "radius",

@@ -52,7 +52,7 @@ void SceneWriter::write_method(const BidirectionalIntegratorDescription& m) {
   out_.integer("rr_depth", m.rr_depth);
   out_.boolean("hide_emitters", m.hide_emitters);
   if (m.method == ptracer) {
-    if (m.light_paths != 1) {
+    if (m.light_paths != 0) {
       lose("only Duet reads \"light_paths\" of the integrator \"ptracer\"");
       out_.number("light_paths", m.light_paths);
     }
@@ -65,7 +65,6 @@ void SceneWriter::write_method(const BidirectionalIntegratorDescription& m) {
   if (m.method == bdpt || m.method == vcm) out_.integer("connections", m.connections);
   if (m.method == bdpt) {
     out_.boolean("light_image", m.light_image);
-    out_.boolean("sample_direct", m.sample_direct);
   }
   if (m.method == ppm || m.method == bpm || m.method == vcm) {
     out_.number("radius", m.radius);

@@ -66,6 +66,7 @@ std::vector<std::pair<std::string, HeaderValue>> image_header(const RenderRecord
       {"threads", record.threads},
       {"renderSeconds", float(result.seconds)},
   };
+  if (!record.bias.empty()) fields.emplace_back("bias", record.bias);
   if (result.relative_rmse) {
     fields.emplace_back("relativeRmseEstimate", float(*result.relative_rmse));
     fields.emplace_back("relativeRmseIsUpperBound", int(result.rmse_is_upper_bound));

@@ -15,6 +15,7 @@ namespace duet {
 struct RenderRecord {
   std::string scene_file;
   uint64_t scene_hash = 0;
+  std::string bias;  ///< what is known to be wrong with the method, or ""
   std::string integrator, integrator_parameters;
   std::string sampler;
   uint64_t seed = 0;

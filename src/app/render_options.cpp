@@ -53,6 +53,12 @@ RenderOptionParser::RenderOptionParser(CLI::App& c) {
   c.add_option("--seed", seed_, "Seed of the random numbers");
   c.add_option("-t,--threads", threads_, "Number of threads (default: all)");
   c.add_option("--aov", layers_, layer_help())->delimiter(',')->allow_extra_args(false);
+  c.add_option("--techniques", techniques_,
+               "One layer per technique: its part of the image, or with --techniques=raw without "
+               "weights; EXR only")
+      ->expected(0, 1)
+      ->default_str("weighted")
+      ->check(CLI::IsMember({"weighted", "raw"}));
   c.add_option("--stats", o.stats_file, "Write statistics as JSON to this file");
   c.add_option("--exposure", exposure_, "Exposure of .png and .jpg, in stops");
   c.add_flag("--strict-sampler", o.strict_sampler,
@@ -132,6 +138,8 @@ RenderOptions RenderOptionParser::finish() {
   for (const std::string& p : integrator_parameters_)
     o.integrator.parameters.push_back(parse_assignment("-I", p));
   o.integrator.layers = layers_;
+  if (!techniques_.empty())
+    o.techniques = techniques_ == "raw" ? TechniqueOutput::raw : TechniqueOutput::weighted;
   o.progress = progress_ == "bar"     ? ProgressStyle::bar
                : progress_ == "plain" ? ProgressStyle::plain
                : progress_ == "none"  ? ProgressStyle::none

@@ -27,6 +27,7 @@ struct RenderOptions {
   std::optional<uint64_t> seed;
   int threads = 0;
   bool strict_sampler = false;
+  TechniqueOutput techniques = TechniqueOutput::none;
 
   std::string stats_file, log_file;
   bool quiet = false, verbose = false;
@@ -47,7 +48,7 @@ class RenderOptionParser {
 
   RenderOptions options_;
   std::string spp_, time_, target_, size_, crop_, exposure_ = "0", threads_, seed_, sensor_,
-                                                  progress_ = "auto";
+                                                  progress_ = "auto", techniques_;
   std::vector<std::string> integrator_parameters_, layers_;
 };
 

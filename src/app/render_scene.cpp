@@ -117,10 +117,12 @@ class SceneRenderer {
     layout_ = film_layout(options_, sensor.film);
     try {
       apply_override(description_.integrator, options_.integrator);
-      integrator_ = make_integrator(description_.integrator);
+      integrator_ = make_integrator(description_.integrator, options_.techniques);
     } catch (const std::invalid_argument& e) {
       throw UsageError(e.what());
     }
+    if (const std::string bias = integrator_->bias(); !bias.empty()) warn(bias);
+    record_.bias = integrator_->bias();
     view_ = sensor;
     make_request(sensor.sampler);
     planned_spp_ = request_.budget.spp.value_or(sensor.sampler.sample_count);

@@ -21,6 +21,7 @@ class BidirectionalIntegrator final : public CameraIntegrator {
   using Options = BidirectionalIntegratorDescription;
   BidirectionalIntegrator(const Options& options, const CameraOutput& output);
 
+  std::string bias() const override;
   void prepare(Film& film) const override;
   void render_pass(const Scene& scene, Film& film, const SampleRange& samples,
                    const PassControl& control, RenderCounters& counters) override;

@@ -41,6 +41,8 @@ class Integrator {
   virtual ~Integrator() = default;
   /// Names of the film channels that render_pass() fills, in order.
   virtual std::vector<std::string> channels() const = 0;
+  /// For people: why even the mean of many images is wrong, if it is.
+  virtual std::string bias() const { return ""; }
   /// Called once for each film, before its first pass.
   virtual void prepare(Film&) const {}
   /// Adds samples to every pixel of the film. A pass that is cancelled leaves a film whose mean is

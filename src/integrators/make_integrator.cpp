@@ -158,7 +158,8 @@ SurfaceNeeds integrator_needs(const IntegratorDescription& integrator) {
   return needs;
 }
 
-std::unique_ptr<Integrator> make_integrator(const IntegratorDescription& integrator) {
+std::unique_ptr<Integrator> make_integrator(const IntegratorDescription& integrator,
+                                            TechniqueOutput techniques) {
   struct Make {
     CameraOutput output;
     std::unique_ptr<Integrator> operator()(const PathIntegratorDescription& d) const {
@@ -176,7 +177,13 @@ std::unique_ptr<Integrator> make_integrator(const IntegratorDescription& integra
       return make_bidirectional(d, output);
     }
   };
-  return std::visit(Make{camera_output(integrator)}, integrator.method);
+  CameraOutput output = camera_output(integrator);
+  output.techniques = techniques;
+  if (techniques != TechniqueOutput::none &&
+      !std::holds_alternative<BidirectionalIntegratorDescription>(integrator.method))
+    throw std::invalid_argument(
+        fmt::format("integrator \"{}\" has no techniques to show", integrator_name(integrator)));
+  return std::visit(Make{output}, integrator.method);
 }
 
 }  // namespace duet

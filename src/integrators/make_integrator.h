@@ -34,7 +34,8 @@ std::string integrator_parameters(const IntegratorDescription& integrator);
 /// What the layers of the description ask of surfaces.
 SurfaceNeeds integrator_needs(const IntegratorDescription& integrator);
 
-/// Throws std::invalid_argument if a layer does not exist.
-std::unique_ptr<Integrator> make_integrator(const IntegratorDescription& integrator);
+/// Throws std::invalid_argument if a layer does not exist, or if there are no techniques to show.
+std::unique_ptr<Integrator> make_integrator(const IntegratorDescription& integrator,
+                                            TechniqueOutput techniques = TechniqueOutput::none);
 
 }  // namespace duet

@@ -112,12 +112,9 @@ Parameters parameters(BidirectionalIntegratorDescription& d) {
                  boolean("hide_emitters", d.hide_emitters)};
   const auto add = [&all](MethodParameter p) { all.push_back(std::move(p)); };
   if (d.method != ptracer) add(boolean("strict_normals", d.strict_normals));
-  add(real("light_paths", d.light_paths, false, kMost));
+  add(real("light_paths", d.light_paths, true, kMost));
   if (d.method == bdpt || d.method == vcm) add(integer("connections", d.connections, -1, kMost));
-  if (d.method == bdpt) {
-    add(boolean("light_image", d.light_image));
-    add(boolean("sample_direct", d.sample_direct));
-  }
+  if (d.method == bdpt) add(boolean("light_image", d.light_image));
   if (d.method == ppm || d.method == bpm || d.method == vcm) {
     add(real("radius", d.radius, true, double(std::numeric_limits<float>::max())));
     add(real("alpha", d.alpha, true, 1));

@@ -392,11 +392,10 @@ struct BidirectionalIntegratorDescription {
   int max_depth = -1;
   int rr_depth = 5;
   bool hide_emitters = false, strict_normals = false;
-  double light_paths = 1;  ///< light sub-paths per pixel
+  double light_paths = 0;  ///< light sub-paths per pixel; 0: the default of the method
   /// Light vertices to which each eye vertex is connected; −1: all of one light sub-path.
   int connections = -1;
-  bool light_image = true;    ///< bdpt: connect light vertices to the camera
-  bool sample_direct = true;  ///< bdpt: next event estimation
+  bool light_image = true;  ///< bdpt: connect light vertices to the camera
   double radius = 0;  ///< of merging in the first iteration, world units; 0: from the pixels' size
   double alpha = 0;   ///< how fast the radius shrinks; 0: the method's default
   int max_eye_depth = 4, max_light_depth = 3;  ///< reuse

@@ -71,12 +71,11 @@ TEST_CASE("bidirectional integrators take all of their parameters in files of ev
                            .strict_normals = true,
                            .light_paths = 0.25,
                            .connections = 3,
-                           .light_image = false,
-                           .sample_direct = false};
+                           .light_image = false};
     CHECK(method(version, "bdpt",
                  kPathsAndMore +
                      "<integer name='connections' value='3'/><boolean name='light_image' "
-                     "value='false'/><boolean name='sample_direct' value='false'/>") == expected);
+                     "value='false'/>") == expected);
     expected = {.method = vcm,
                 .max_depth = 7,
                 .rr_depth = 9,
@@ -116,11 +115,8 @@ TEST_CASE("bidirectional integrators: the old spelling, and initial_radius for r
   CHECK(method("0.6.0", "bdpt",
                "<boolean name='lightImage' value='false'/><boolean name='sampleDirect' "
                "value='false'/><integer name='maxDepth' value='3'/><integer name='rrDepth' "
-               "value='4'/>") == Bidirectional{.method = bdpt,
-                                               .max_depth = 3,
-                                               .rr_depth = 4,
-                                               .light_image = false,
-                                               .sample_direct = false});
+               "value='4'/>") ==
+        Bidirectional{.method = bdpt, .max_depth = 3, .rr_depth = 4, .light_image = false});
   for (const char* name : {"ppm", "bpm", "vcm", "sppm"})
     for (const char* parameter : {"initialRadius", "initial_radius", "radius"})
       CHECK(method("0.6.0", name, fmt::format("<float name='{}' value='2'/>", parameter)).radius ==
@@ -196,8 +192,7 @@ TEST_CASE("bidirectional integrators: values that make no sense are errors with 
     const char *type, *value, *message;
   };
   const Case cases[] = {
-      {"ptracer", "<float name='light_paths' value='0'/>", "must be positive, not 0"},
-      {"bdpt", "<float name='light_paths' value='-1'/>", "must be positive, not -1"},
+      {"bdpt", "<float name='light_paths' value='-1'/>", "must not be negative, not -1"},
       {"vcm", "<float name='light_paths' value='1e9'/>",
        "more than 65536 light sub-paths for each pixel are too many"},
       {"bdpt", "<float name='light_paths' value='nan'/>", "not a finite number"},
@@ -275,8 +270,7 @@ TEST_CASE("bidirectional integrators survive being written and read again") {
          .strict_normals = true,
          .light_paths = 0.1,
          .connections = 5,
-         .light_image = false,
-         .sample_direct = false},
+         .light_image = false},
         "only Duet reads the integrator \"bdpt\"");
   check({.method = ppm, .light_paths = 3, .radius = 0.01, .alpha = 0.7},
         "only Duet reads the integrator \"ppm\"");

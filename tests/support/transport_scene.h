@@ -19,7 +19,20 @@ struct TransportScene {
   explicit TransportScene(const std::string& content) {
     ReadResult read = read_text("<scene version='3.0.0'>" + content + "</scene>");
     REQUIRE_MESSAGE(read.scene, read.messages());
-    SceneDescription& d = read.scene->description;
+    prepare(read.scene->description);
+  }
+  /// A scene of the folder scenes/ in a size of its own.
+  TransportScene(const std::string& folder, int size) {
+    MitsubaOptions options;
+    options.defines = {{"size", std::to_string(size)}};
+    Diagnostics diagnostics;
+    auto read = read_mitsuba(std::string(DUET_SOURCE_DIR) + "/scenes/" + folder + "/scene.xml",
+                             options, diagnostics);
+    REQUIRE(read);
+    prepare(read->description);
+  }
+
+  void prepare(SceneDescription& d) {
     const FilmDescription& film = d.sensors.at(0).film;
     layout = {{film.width, film.height}, {0, 0, film.width, film.height}, film.filter};
     integrator = d.integrator;

@@ -1,0 +1,233 @@
+// Methods that are unbiased have one mean, whatever they do; those that merge come near it.
+#include "support/agreement.h"
+
+#include "support/statistics.h"
+#include "support/transport_scene.h"
+
+using namespace duet;
+using namespace duet::test;
+
+namespace {
+
+constexpr int kBatches = 16;
+
+struct Case {
+  std::string name;
+  std::function<TransportScene(int size)> make;
+  bool light_tracing = false;  ///< sees everything: no specular surface in view
+  int effort = 1;              ///< times as many samples, where some are rare and bright
+};
+
+std::string material(const std::string& type, const std::string& content = "") {
+  return "<bsdf type='" + type + "'>" + content + "</bsdf>";
+}
+
+/// Glass of the given indices.
+std::string glass(const std::string& inside, const std::string& outside,
+                  const std::string& type = "dielectric", const std::string& extra = "") {
+  return material(type, "<float name='int_ior' value='" + inside +
+                            "'/><float name='ext_ior' value='" + outside + "'/>" + extra);
+}
+
+std::vector<Case> cases() {
+  const auto text = [](const std::string& content) {
+    return [content](int size) {
+      return TransportScene(camera_xml("0, -3, 1", "0, 0, 1", size) + content);
+    };
+  };
+  const auto lens = [](const std::string& content) {
+    return [content](int size) {
+      return TransportScene(camera_xml("0.2, -3, 1.2", "0, 0, 1", size, "thinlens",
+                                       "<float name='aperture_radius' value='0.15'/>"
+                                       "<float name='focus_distance' value='3'/>") +
+                            content);
+    };
+  };
+  const std::string room = room_xml(grey("0.7, 0.6, 0.5")), lamp = lamp_xml("0.4", "8");
+  const std::string area = "<emitter type='area'><rgb name='radiance' value='";
+  const std::string unequal =
+      lamp_xml("0.05", "90") + sphere_xml("-0.6, 0.3, 0.6", "0.15", area + "1, 2, 3'/></emitter>") +
+      sphere_xml("0.7, -0.2, 0.3", "0.08", area + "6, 2, 1'/></emitter>") +
+      "<emitter type='constant'><rgb name='radiance' value='0.4'/></emitter>";
+  const std::string point =
+      "<emitter type='point'><point name='position' value='0.3, -0.2, 1.2'/>"
+      "<rgb name='intensity' value='1.5'/></emitter>"
+      "<emitter type='spot'><transform name='to_world'><lookat origin='-0.5,-0.5,1.8' "
+      "target='-0.3,0.4,0' up='1,0,0'/></transform><rgb name='intensity' value='4'/></emitter>"
+      "<emitter type='directional'><vector name='direction' value='0.3, 1, -0.5'/>"
+      "<rgb name='irradiance' value='0.7'/></emitter>";
+  const std::string bumps =
+      material("bumpmap",
+               "<texture type='checkerboard' name='arbitrary'><float name='color0' "
+               "value='0.2'/><float name='color1' value='0.8'/></texture>"
+               "<float name='scale' value='0.3'/>" +
+                   material("roughconductor", "<float name='alpha' value='0.3'/>"));
+  const std::string checker =
+      "<texture type='checkerboard' name='radiance'><rgb name='color0' value='0.9, 0.6, 0.3'/>"
+      "<rgb name='color1' value='0.05'/><transform name='to_uv'><scale value='3'/></transform>"
+      "</texture>";
+  const std::string group =
+      "<shape type='shapegroup' id='things'><shape type='cube'><transform name='to_world'>"
+      "<scale value='0.2'/></transform>" +
+      grey("0.3, 0.5, 0.8") +
+      "</shape><shape type='sphere'>"
+      "<point name='center' value='0, 0, 0.4'/><float name='radius' value='0.2'/>" +
+      material("roughplastic", "<float name='alpha' value='0.2'/>") + "</shape></shape>";
+  const auto instance = [](const std::string& transform) {
+    return "<shape type='instance'><ref id='things'/><transform name='to_world'>" + transform +
+           "</transform></shape>";
+  };
+  return {
+      {"the thesis's empty box", [](int n) { return TransportScene("thesis-empty", n); }, true},
+      {"the thesis's modified box", [](int n) { return TransportScene("thesis-modified", n); },
+       false, 8},
+      {"three unequal lights and a sky", text(room + unequal), true},
+      {"point, spot and parallel light", text(room + point), true},
+      {"glass in glass", text(room + lamp + sphere_xml("0, 0, 0.8", "0.7", glass("1.33", "1")) +
+                              sphere_xml("0, 0, 0.8", "0.4", glass("1.5", "1.33")))},
+      {"rough glass and plastic",
+       text(room + lamp +
+            sphere_xml("-0.4, 0, 0.6", "0.4",
+                       glass("1.5", "1", "roughdielectric", "<float name='alpha' value='0.25'/>")) +
+            sphere_xml("0.5, 0, 0.5", "0.35", material("plastic")))},
+      {"bumps", text(room_xml(material("twosided", bumps)) + lamp), true},
+      {"a textured lamp",
+       text(room +
+            "<shape type='rectangle'><transform name='to_world'><scale value='0.5'/>"
+            "<rotate x='1' angle='180'/><translate z='1.9'/></transform>"
+            "<emitter type='area'>" +
+            checker + "</emitter></shape>"),
+       true},
+      {"instances",
+       text(room + lamp + group + instance("<translate x='-0.4' z='0.3'/>") +
+            instance("<scale x='-1.3' y='0.8'/><rotate z='1' angle='30'/>"
+                     "<translate x='0.5' z='0.6'/>")),
+       true},
+      {"a thin lens",
+       lens(room + lamp + sphere_xml("0.3, -0.5, 0.5", "0.3", grey("0.2, 0.6, 0.3"))), true},
+      {"holes",
+       text(room + lamp +
+            sphere_xml("0, 0, 0.9", "0.5",
+                       material("mask",
+                                "<float name='opacity' "
+                                "value='0.6'/>" +
+                                    grey("0.6")))),
+       false, 8},
+  };
+}
+
+struct Method {
+  std::string name;
+  TransportScene::Parameters parameters;
+};
+
+const std::vector<Method>& unbiased() {
+  static const std::vector<Method> methods{
+      {"path", {}},
+      {"bdpt", {}},
+      {"bdpt", {{"connections", "2"}, {"light_paths", "0.7"}}},
+      {"bdpt", {{"light_paths", "1"}}},
+      {"reuse", {{"max_eye_depth", "2"}, {"max_light_depth", "1"}}},
+      {"reuse",
+       {{"max_eye_depth", "1"}, {"max_light_depth", "2"}, {"continue_probability", "0.6"}}},
+      {"ptracer", {}},
+  };
+  return methods;
+}
+
+TileBatches render(const TransportScene& scene, const Method& method, int max_depth, int spp) {
+  TransportScene::Parameters p = method.parameters;
+  p.emplace_back("max_depth", std::to_string(max_depth));
+  TileBatches batches;
+  static uint64_t seed = 100;
+  for (int b = 0; b < kBatches; ++b) batches.add(scene.render(method.name, p, spp, seed++).image);
+  return batches;
+}
+
+/// Compares all pairs of methods that see everything; the levels are those of the whole run.
+void check_agreement(const std::vector<Case>& all, const std::vector<int>& depths, int size,
+                     int spp) {
+  const int pairs = int(unbiased().size() * (unbiased().size() - 1) / 2);
+  const double level = sidak(0.01, int(all.size() * depths.size()) * pairs * 64);
+  for (const Case& c : all) {
+    const TransportScene scene = c.make(size);
+    for (const int depth : depths) {
+      std::vector<TileBatches> images;
+      for (const Method& m : unbiased())
+        if (m.name != "ptracer" || c.light_tracing)
+          images.push_back(render(scene, m, depth, c.effort * spp));
+      for (size_t i = 0; i < images.size(); ++i)
+        for (size_t j = 0; j < i; ++j) {
+          const TileComparison r = compare_tiles(images[i], images[j]);
+          CAPTURE(c.name);
+          CAPTURE(depth);
+          CAPTURE(unbiased()[i].name);
+          CAPTURE(unbiased()[j].name);
+          CAPTURE(r.ratio);
+          CHECK(r.mean_z2 < 1.6);
+          CHECK(r.least_p > level);
+        }
+    }
+  }
+}
+
+}  // namespace
+
+TEST_CASE("unbiased methods have the same mean") {
+  check_agreement(cases(), {4}, 16, 16);
+}
+
+TEST_CASE("merging comes near the mean, the nearer the smaller the radius") {
+  const TransportScene scene(camera_xml("0, -3, 1", "0, 0, 1", 16) + room_xml(grey("0.7")) +
+                             lamp_xml("0.4", "8") +
+                             sphere_xml("0, 0, 0.7", "0.4", glass("1.5", "1")));
+  const TileBatches exact = render(scene, {"bdpt", {}}, 5, 64);
+  for (const char* name : {"ppm", "bpm", "vcm"}) {
+    CAPTURE(name);
+    double bias2[2];  // mean square over tiles, without what noise adds to it
+    int i = 0;
+    for (const char* radius : {"0.2", "0.05"}) {
+      const TileBatches merged =
+          render(scene, {name, {{"radius", radius}, {"alpha", "1"}, {"light_paths", "4"}}}, 5, 16);
+      double sum = 0;
+      for (int t = 0; t < 64; ++t) {
+        const double d = merged.mean(t) - exact.mean(t);
+        sum += d * d - merged.error2(t) - exact.error2(t);
+      }
+      bias2[i++] = sum / 64 / (exact.total() * exact.total());
+    }
+    CAPTURE(bias2[0]);
+    CAPTURE(bias2[1]);
+    CHECK(bias2[0] > 4 * bias2[1]);
+    CHECK(bias2[1] < 0.01 * 0.01);
+  }
+}
+
+TEST_CASE("the test sees the bias of the thesis's weights") {
+  const TransportScene scene("thesis-modified", 32);
+  const TransportScene::Parameters limits{{"max_eye_depth", "4"}, {"max_light_depth", "3"}};
+  const TileBatches exact = render(scene, {"reuse", limits}, 8, 64);
+  TransportScene::Parameters thesis = limits;
+  thesis.emplace_back("weights", "thesis");
+  thesis.emplace_back("thesis_reading", "a");
+  const TileComparison r = compare_tiles(render(scene, {"reuse", thesis}, 8, 64), exact);
+  CHECK(r.least_p < sidak(0.01, 64));
+  CHECK(r.ratio < 0.98);
+}
+
+TEST_CASE("images of bidirectional methods do not depend on the number of threads") {
+  const TransportScene scene = cases()[5].make(24);
+  for (const char* name : {"ptracer", "bdpt", "reuse", "ppm", "bpm", "vcm"}) {
+    CAPTURE(name);
+    const auto one = scene.render(name, {{"max_depth", "6"}}, 3, 5, 1).image.data;
+    for (const int threads : {2, 7})
+      CHECK(scene.render(name, {{"max_depth", "6"}}, 3, 5, threads).image.data == one);
+    CHECK(scene.render(name, {{"max_depth", "6"}}, 3, 6, 2).image.data != one);
+  }
+}
+
+TEST_SUITE("agreement") {
+  TEST_CASE("unbiased methods have the same mean at all depths") {
+    check_agreement(cases(), {2, 3, 4, 5, 6, 7, 8}, 32, 32);
+  }
+}
