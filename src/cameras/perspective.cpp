@@ -45,7 +45,7 @@ std::optional<CameraSample> PerspectiveCamera::seen_from(const Point3f& origin,
                                                          const Point3f& from) const {
   const Vector3f v = from - origin;
   const float depth = axes_.depth(v);
-  if (!(depth > 0 && depth <= near_ + depth_)) return std::nullopt;
+  if (!(depth > near_ && depth <= near_ + depth_)) return std::nullopt;
   const Vector3f direction = v * (1 / depth), film = axes_.coordinates(direction + shift);
   const Point2f position{film.x + center_x_, film.y + center_y_};
   if (!on_film(position, film_)) return std::nullopt;

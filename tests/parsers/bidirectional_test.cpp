@@ -192,7 +192,7 @@ TEST_CASE("bidirectional integrators: values that make no sense are errors with 
     const char *type, *value, *message;
   };
   const Case cases[] = {
-      {"bdpt", "<float name='light_paths' value='-1'/>", "must not be negative, not -1"},
+      {"bdpt", "<float name='light_paths' value='-1'/>", "must be at least 0, not -1"},
       {"vcm", "<float name='light_paths' value='1e9'/>",
        "more than 65536 light sub-paths for each pixel are too many"},
       {"bdpt", "<float name='light_paths' value='nan'/>", "not a finite number"},
