@@ -145,7 +145,7 @@ void BidirectionalIntegrator::connect(const Weights& weights, const PathVertex& 
     thread_local std::vector<PathVertex> unpacked;
     unpacked.clear();
     for (const LightVertex& l : lights_.vertices().walk(eye.light_walk))
-      unpacked.push_back(l.unpack(eye.scene));
+      unpacked.emplace_back(Unpacked{l, eye.scene});
     eye.light_vertices = &unpacked;
   }
   int tried = 0;

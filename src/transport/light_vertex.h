@@ -25,6 +25,14 @@ struct LightVertex {
 };
 static_assert(sizeof(LightVertex) == 64);
 
+/// Converts to the PathVertex in the place where it is wanted: to copy one, with room for the
+/// largest BSDF, costs more than to make it.
+struct Unpacked {
+  const LightVertex& vertex;
+  const Scene& scene;
+  operator PathVertex() const { return vertex.unpack(scene); }
+};
+
 /// The connectible vertices of many light walks, walk after walk.
 struct LightVertices {
   std::vector<LightVertex> vertices;
