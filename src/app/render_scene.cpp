@@ -78,11 +78,12 @@ class SceneRenderer {
   void run() {
     read();
     prepare();
-    if (options_.skip_existing && all_exist(paths(planned_spp_))) {
-      log::info("{}: skipped, {} exists", file_, paths(planned_spp_)[0]);
+    const std::vector<std::string> planned = paths(planned_spp_);
+    if (options_.skip_existing && all_exist(planned)) {
+      log::info("{}: skipped, {} exists", file_, planned[0]);
       return;
     }
-    check_outputs();
+    check_outputs(planned);
     build();
     if (interrupt_exit_code() != 0) {
       log::warning("{}: interrupted before the first sample; there is no image", file_);
@@ -182,8 +183,8 @@ class SceneRenderer {
   }
 
   /// Finds out before rendering what would be a pity to find out afterwards.
-  void check_outputs() const {
-    for (const std::string& path : paths(planned_spp_)) {
+  void check_outputs(const std::vector<std::string>& planned) const {
+    for (const std::string& path : planned) {
       if (const std::string why = unwritable_reason(path); !why.empty())
         throw SceneFailure(fmt::format("cannot write {}: {}", path, why));
       if (is_display_format(path) && !has_colours())
@@ -198,9 +199,8 @@ class SceneRenderer {
     build.threads = options_.threads;
     build.layer_needs = integrator_needs(description_.integrator);
     Diagnostics diagnostics;
-    size_t printed = 0;
     scene_ = build_scene(std::move(description_), build, diagnostics);
-    if (report(diagnostics, options_.read.strict, printed) || !scene_) throw SceneFailure("");
+    if (report(diagnostics, options_.read.strict) || !scene_) throw SceneFailure("");
     seconds_.build = watch_.lap();
     log::detail("{}: read in {:.2f} s, built in {:.2f} s", file_, seconds_.parse, seconds_.build);
   }
