@@ -1,0 +1,150 @@
+// Finds the points that lie within a fixed radius: a hash grid, for merging photons.
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include "base/parallel.h"
+#include "math/hash.h"
+#include "math/vector.h"
+
+namespace duet {
+
+/// Space is divided into cubic cells, a little wider than two radii, so that a query looks at
+/// 2×2×2 of them. Cells are hashed into buckets, and the points are sorted by bucket, those of one
+/// bucket by index.
+class VertexGrid {
+ public:
+  /// Sorts `count` points; `position(i)` yields the i-th, and is called several times and on
+  /// several threads. Points that are not finite are left out. `radius` is positive, and its square
+  /// a normal number. The result is the same for any number of threads. Memory is kept for the next
+  /// build.
+  template <class Position>
+  void build(uint32_t count, const Position& position, float radius, int threads);
+
+  /// Calls `visit(index, distance_squared)` for each point whose distance to p is less than the
+  /// radius (in single precision), each once, in an order that depends only on the points and the
+  /// radius.
+  template <class Visit>
+  void query(const Point3f& p, Visit&& visit) const;
+
+  /// What is kept between builds: at most 16 bytes for every point and 8 for every bucket of the
+  /// largest build so far. There are as many buckets as points, rounded up to a power of two, and
+  /// at least 8.
+  size_t memory_bytes() const;
+  float radius() const { return radius_; }
+
+ private:
+  struct alignas(16) Entry {
+    Point3f position;
+    uint32_t index;
+  };
+  static_assert(sizeof(Entry) == 16);
+
+  /// While building, points are first distributed to parts (runs of buckets) small enough for a
+  /// cache, by blocks of points. Before the points of a block are moved, slots[block * parts +
+  /// part] says where the first of them goes that belongs to the part; afterwards, where they end.
+  struct Plan {
+    uint32_t count, blocks, parts;
+    std::vector<uint32_t> slots;
+    uint32_t begin(size_t block) const { return uint32_t(uint64_t(count) * block / blocks); }
+    uint32_t* row(size_t block) { return slots.data() + block * parts; }
+  };
+
+  /// Cell coordinates are clamped to ± this, and then wrapped to 32 bits, which only makes distant
+  /// cells share buckets.
+  static constexpr double kFarthest = 0x1p40;
+  /// Cells are wider than two radii by this factor. Cell coordinates are non-decreasing functions
+  /// of positions, and the errors of any two add up to less than 0x1p-10: points at most two radii
+  /// apart are in the same cell or in neighbouring ones.
+  static constexpr double kCellScale = 1 + 0x1p-10;
+
+  uint32_t cell(double x) const {
+    const double shifted = x * inverse_cell_size_ + kFarthest;
+    return uint32_t(int64_t(std::min(std::max(shifted, 0.0), 2 * kFarthest)));
+  }
+
+  /// The lowest three bits tell neighbouring cells apart, so that the 2×2×2 of a query are in
+  /// different buckets. Blocks of 8×8×8 cells remain together, in Morton order.
+  /// Source of the factors: Teschner et al., "Optimized Spatial Hashing for Collision Detection of
+  /// Deformable Objects", VMV 2003.
+  uint32_t bucket(uint32_t x, uint32_t y, uint32_t z) const {
+    const uint32_t block =
+        mix32((x >> 3) * 73856093u ^ (y >> 3) * 19349663u ^ (z >> 3) * 83492791u);
+    const uint32_t morton = (x & 2) << 2 | (y & 2) << 3 | (z & 2) << 4 |  //
+                            (x & 4) << 4 | (y & 4) << 5 | (z & 4) << 6;
+    const uint32_t parity = (x & 1) | (y & 1) << 1 | (z & 1) << 2;
+    return (((block ^ morton) & ~7u) | parity) & bucket_mask_;
+  }
+  uint32_t bucket(const Point3f& p) const {
+    return bucket(cell(double(p.x)), cell(double(p.y)), cell(double(p.z)));
+  }
+
+  /// Sizes everything for these points; the grid is empty until it is built.
+  Plan start(uint32_t count, float radius, int threads);
+  /// Turns the numbers of points per block and part into slots.
+  static void assign_slots(Plan& plan);
+  /// Sorts the points within their parts.
+  void sort_parts(const Plan& plan, int threads);
+  void sort_part(uint32_t part, uint32_t begin, uint32_t end);
+
+  float radius_ = 1;
+  double inverse_cell_size_ = 1;
+  uint32_t bucket_mask_ = 0;
+  int part_shift_ = 0;  ///< a bucket's part is its number without so many low bits
+  uint32_t size_ = 0;   ///< number of entries in use
+  size_t entry_capacity_ = 0, start_capacity_ = 0;
+  std::unique_ptr<Entry[]> entries_;
+  std::unique_ptr<uint32_t[]> starts_;  ///< bucket b is entries_[starts_[b]] to [starts_[b + 1]]
+};
+
+template <class Position>
+void VertexGrid::build(uint32_t count, const Position& position, float radius, int threads) {
+  Plan plan = start(count, radius, threads);
+  const auto for_each_in = [&](size_t block, const auto& use) {
+    for (uint32_t i = plan.begin(block), end = plan.begin(block + 1); i < end; ++i) {
+      const Point3f p = position(i);
+      if (is_finite(p)) use(p, i);
+    }
+  };
+  parallel_for(plan.blocks, threads, [&](size_t block) {
+    uint32_t* const counts = plan.row(block);
+    for_each_in(block, [&](const Point3f& p, uint32_t) { ++counts[bucket(p) >> part_shift_]; });
+  });
+  assign_slots(plan);
+  parallel_for(plan.blocks, threads, [&](size_t block) {
+    uint32_t* const slots = plan.row(block);
+    for_each_in(block, [&](const Point3f& p, uint32_t i) {
+      entries_[slots[bucket(p) >> part_shift_]++] = {p, i};
+    });
+  });
+  sort_parts(plan, threads);
+}
+
+template <class Visit>
+void VertexGrid::query(const Point3f& p, Visit&& visit) const {
+  if (size_ == 0 || !is_finite(p)) return;
+  // The lowest of 2×2×2 cells. A point beyond them is not taken for near: differences are rounded,
+  // but never from above the radius to below it.
+  const double r = double(radius_);
+  const uint32_t x = cell(double(p.x) - r), y = cell(double(p.y) - r), z = cell(double(p.z) - r);
+  const Entry* begin[8];
+  const Entry* end[8];
+  for (uint32_t k = 0; k < 8; ++k) {
+    const size_t b = bucket(x + (k & 1), y + (k >> 1 & 1), z + (k >> 2));
+    begin[k] = entries_.get() + starts_[b], end[k] = entries_.get() + starts_[b + 1];
+    if (begin[k] != end[k]) __builtin_prefetch(begin[k]);
+  }
+  const float radius_squared = sqr(radius_);
+  for (int k = 0; k < 8; ++k) {
+    for (const Entry* e = begin[k]; e != end[k]; ++e) {
+      const float distance_squared = length_squared(e->position - p);
+      if (distance_squared < radius_squared) visit(e->index, distance_squared);
+    }
+  }
+}
+
+}  // namespace duet
