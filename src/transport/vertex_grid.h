@@ -26,7 +26,8 @@ class VertexGrid {
   void build(uint32_t count, const Position& position, float radius, int threads);
 
   /// Calls `visit(index, distance_squared)` for each point whose distance to p is less than the
-  /// radius, each once, in an order that depends only on the points and the radius.
+  /// radius (in single precision), each once, in an order that depends only on the points and the
+  /// radius.
   template <class Visit>
   void query(const Point3f& p, Visit&& visit) const;
 
@@ -57,8 +58,8 @@ class VertexGrid {
   /// cells share buckets.
   static constexpr double kFarthest = 0x1p40;
   /// Cells are wider than two radii by this factor. Cell coordinates are non-decreasing functions
-  /// of positions, and wrong by at most 0x1p-12 each: points less than two radii apart are in the
-  /// same cell or in neighbouring ones.
+  /// of positions, and the errors of any two add up to less than 0x1p-10: points at most two radii
+  /// apart are in the same cell or in neighbouring ones.
   static constexpr double kCellScale = 1 + 0x1p-10;
 
   uint32_t cell(double x) const {
