@@ -111,8 +111,7 @@ int decode(const char* kind, const uint8_t* bytes, size_t size, DuetDecodedImage
                                std::to_string(spec.width) + " x " + std::to_string(spec.height));
     auto pixels = allocate(image_bytes);
     if (!input->read_image(0, 0, 0, spec.nchannels,
-                           is_byte ? OIIO::TypeDesc::UINT8 : OIIO::TypeDesc::FLOAT,
-                           pixels.get())) {
+                           is_byte ? OIIO::TypeDesc::UINT8 : OIIO::TypeDesc::FLOAT, pixels.get())) {
       check_end(source, kind);
       fail(input);
     }

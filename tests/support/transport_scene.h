@@ -44,16 +44,23 @@ struct TransportScene {
   }
 
   using Parameters = std::vector<std::pair<std::string, std::string>>;
-  RenderResult render(const std::string& method, const Parameters& parameters, int spp,
-                      uint64_t seed, int threads = 2) const {
+  std::unique_ptr<Integrator> method(const std::string& name, const Parameters& parameters,
+                                     TechniqueOutput techniques = TechniqueOutput::none) const {
     IntegratorDescription d = integrator;
-    apply_override(d, {method, parameters, {}});
-    const auto made = make_integrator(d);
+    apply_override(d, {name, parameters, {}});
+    return make_integrator(d, techniques);
+  }
+  RenderResult render(Integrator& made, const FilmLayout& film, int spp, uint64_t seed,
+                      int threads = 2) const {
     RenderRequest request;
     request.budget.spp = spp;
     request.seed = seed;
     request.threads = threads;
-    return duet::render(*scene, *made, layout, request);
+    return duet::render(*scene, made, film, request);
+  }
+  RenderResult render(const std::string& name, const Parameters& parameters, int spp, uint64_t seed,
+                      int threads = 2) const {
+    return render(*method(name, parameters), layout, spp, seed, threads);
   }
 };
 

@@ -218,17 +218,6 @@ TEST_CASE("the test sees the bias of the thesis's weights") {
   CHECK(r.ratio < 0.98);
 }
 
-TEST_CASE("images of bidirectional methods do not depend on the number of threads") {
-  const TransportScene scene = cases()[5].make(24);
-  for (const char* name : {"ptracer", "bdpt", "reuse", "ppm", "bpm", "vcm"}) {
-    CAPTURE(name);
-    const auto one = scene.render(name, {{"max_depth", "6"}}, 3, 5, 1).image.data;
-    for (const int threads : {2, 7})
-      CHECK(scene.render(name, {{"max_depth", "6"}}, 3, 5, threads).image.data == one);
-    CHECK(scene.render(name, {{"max_depth", "6"}}, 3, 6, 2).image.data != one);
-  }
-}
-
 TEST_SUITE("agreement") {
   TEST_CASE("unbiased methods have the same mean at all depths") {
     check_agreement(cases(), {2, 3, 4, 5, 6, 7, 8}, 32, 32);

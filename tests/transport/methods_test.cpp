@@ -1,0 +1,142 @@
+// What all bidirectional methods promise about their images, whatever is in them.
+#include <cmath>
+
+#include "support/statistics.h"
+#include "support/transport_scene.h"
+
+using namespace duet;
+using namespace duet::test;
+
+namespace {
+
+const char* const kMethods[] = {"ptracer", "bdpt", "reuse", "ppm", "bpm", "vcm"};
+
+TransportScene glass_room() {
+  const std::string lens =
+      "<float name='aperture_radius' value='0.1'/><float name='focus_distance' value='3'/>";
+  return TransportScene(
+      camera_xml("0, -3, 1", "0, 0, 1", 24, "thinlens", lens) + room_xml(grey("0.6")) +
+      lamp_xml("0.4", "5") +
+      "<emitter type='point'><point name='position' value='0.5, 0, 1.5'/></emitter>"
+      "<emitter type='constant'><rgb name='radiance' value='0.3'/></emitter>" +
+      sphere_xml("-0.4, 0, 0.6", "0.4", "<bsdf type='dielectric'/>") +
+      sphere_xml("0.5, 0, 0.5", "0.35", "<bsdf type='plastic'/>"));
+}
+
+}  // namespace
+
+TEST_CASE("images of bidirectional methods do not depend on the number of threads") {
+  const TransportScene scene = glass_room();
+  for (const char* name : kMethods) {
+    CAPTURE(name);
+    const auto one = scene.render(name, {{"max_depth", "6"}}, 3, 5, 1).image.data;
+    for (const int threads : {2, 7})
+      CHECK(scene.render(name, {{"max_depth", "6"}}, 3, 5, threads).image.data == one);
+    CHECK(scene.render(name, {{"max_depth", "6"}}, 3, 6, 2).image.data != one);
+  }
+}
+
+TEST_CASE("a crop window of a bidirectional method is cut out of the full image, splats and all") {
+  const TransportScene scene = glass_room();
+  const PixelBounds crop{5, 9, 17, 20};
+  for (const FilterKind kind : {FilterKind::box, FilterKind::gaussian, FilterKind::lanczos})
+    for (const char* name : kMethods) {
+      CAPTURE(name);
+      FilmLayout layout = scene.layout;
+      layout.filter = {};
+      layout.filter.kind = kind;
+      const auto integrator = scene.method(name, {{"max_depth", "4"}});
+      const Image full = scene.render(*integrator, layout, 4, 2).image;
+      layout.crop = crop;
+      const Image part = scene.render(*integrator, layout, 4, 2).image;
+      bool same = true;
+      for (int y = 0; y < part.height; ++y)
+        for (int x = 0; x < part.width; ++x)
+          for (int c = 0; c < 4; ++c)
+            same &= part.data[size_t(y * part.width + x) * 4 + size_t(c)] ==
+                    full.data[size_t((y + crop.y0) * full.width + x + crop.x0) * 4 + size_t(c)];
+      CHECK(same);
+    }
+}
+
+TEST_CASE("layers of techniques add up to the image") {
+  const TransportScene scene = glass_room();
+  for (const char* name : kMethods) {
+    CAPTURE(name);
+    const auto integrator = scene.method(name, {{"max_depth", "5"}}, TechniqueOutput::weighted);
+    const Image image = scene.render(*integrator, scene.layout, 4, 2).image;
+    const size_t stride = image.channels.size();
+    REQUIRE(stride > 7);
+    double worst = 0;
+    for (size_t i = 0; i < image.data.size(); i += stride)
+      for (size_t c = 0; c < 3; ++c) {
+        double sum = 0;
+        for (size_t k = 4 + c; k < stride; k += 3) sum += double(image.data[i + k]);
+        worst = std::max(
+            worst, std::abs(sum - double(image.data[i + c])) / (0.01 + double(image.data[i + c])));
+      }
+    CHECK(worst < 1e-4);
+  }
+  CHECK_THROWS_AS(scene.method("path", {}, TechniqueOutput::weighted), std::invalid_argument);
+  CHECK_THROWS_AS(scene.method("bdpt", {}, TechniqueOutput::weighted), std::invalid_argument);
+}
+
+TEST_CASE("splats are as bright at the border of the image as within it") {
+  // A white plane under a white sky: every pixel is 1.
+  const TransportScene scene(
+      camera_xml("0, 0, 3", "0, 0.001, 0", 24) +
+      "<shape type='rectangle'><transform name='to_world'><scale value='20'/>"
+      "</transform><bsdf type='diffuse'><rgb name='reflectance' value='1'/>"
+      "</bsdf></shape><emitter type='constant'/>");
+  for (const FilterKind kind : {FilterKind::box, FilterKind::gaussian, FilterKind::mitchell}) {
+    FilmLayout layout = scene.layout;
+    layout.filter = {};
+    layout.filter.kind = kind;
+    Moments border, interior;
+    for (uint64_t seed = 0; seed < 16; ++seed) {
+      const auto integrator = scene.method("ptracer", {{"max_depth", "3"}, {"light_paths", "400"}});
+      const Image image = scene.render(*integrator, layout, 1, seed).image;
+      double sums[2] = {}, counts[2] = {};
+      for (int y = 0; y < 24; ++y)
+        for (int x = 0; x < 24; ++x) {
+          const bool at_border = x < 2 || y < 2 || x > 21 || y > 21;
+          sums[at_border] += double(image.data[size_t(y * 24 + x) * 4]);
+          ++counts[at_border];
+        }
+      interior.add(sums[0] / counts[0]);
+      border.add(sums[1] / counts[1]);
+    }
+    CHECK(std::abs(border.mean() - 1) < 4 * border.error());
+    CHECK(std::abs(interior.mean() - 1) < 4 * interior.error());
+    CHECK(border.error() < 0.05);
+  }
+}
+
+TEST_CASE("time and error limits stop bidirectional methods") {
+  const TransportScene scene = glass_room();
+  for (const char* name : {"ptracer", "bdpt", "vcm"}) {
+    const auto integrator = scene.method(name, {{"max_depth", "4"}});
+    RenderRequest request;
+    request.threads = 2;
+    request.budget.target_error = 0.2;
+    const RenderResult result = render(*scene.scene, *integrator, scene.layout, request);
+    REQUIRE(result.relative_rmse);
+    CHECK(*result.relative_rmse <= 0.2);
+    request.budget = {};
+    request.budget.seconds = 0.2;
+    CHECK(render(*scene.scene, *integrator, scene.layout, request).spp > 0);
+  }
+}
+
+TEST_CASE("light walks find all the light that a sphere of lamps sends out") {
+  // Counters, not images: an open scene whose light walks all leave at once.
+  const TransportScene scene(camera_xml("0, -3, 0", "0, 0, 0", 8) +
+                             sphere_xml("0, 0, 0", "0.5",
+                                        "<emitter type='area'><rgb name='radiance' value='1'/>"
+                                        "</emitter>"));
+  const RenderResult r = scene.render("bdpt", {{"max_depth", "4"}, {"light_paths", "1"}}, 2, 1);
+  CHECK(r.counters.light_paths == 2 * 64);
+  CHECK(r.counters.connections.attempted() == 0);
+  CHECK(r.counters.nonfinite_samples == 0);
+  CHECK(r.image.data[(4 * 8 + 4) * 4] == doctest::Approx(1));
+}
