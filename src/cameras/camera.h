@@ -1,10 +1,20 @@
 // The doorway to cameras.
 #pragma once
 
+#include <optional>
+
 #include "math/transform.h"
 #include "math/vector.h"
 
 namespace duet {
+
+/// How a point of the scene is seen by the camera.
+struct CameraSample {
+  Point2f film;          ///< where, within the image
+  Vector3f direction;    ///< unit, from the point towards the camera
+  Point3f target;        ///< where the line to the camera meets the near clipping plane
+  float importance = 0;  ///< see Camera::importance()
+};
 
 /// A sensor in front of the scene. Film positions are in pixels of the full image, from the top
 /// left.
@@ -16,6 +26,15 @@ class Camera {
   /// It starts on the near and ends on the far clipping plane; its direction has unit length. Every
   /// ray carries the same weight.
   virtual Ray sample_ray(const Point2f& film, const Point2f& lens) const = 0;
+
+  /// The density per unit area across `ray`, at the distance `t` from its start, with which film
+  /// positions of density 1 per pixel area make rays through one point of the lens arrive there.
+  virtual float importance(const Ray& ray, float t) const = 0;
+
+  /// The line from a point to (a point of) the lens. Empty if the image does not show the point, or
+  /// not between the clipping planes.
+  virtual std::optional<CameraSample> sample_lens(const Point3f& from,
+                                                  const Point2f& lens) const = 0;
 
   /// Whether `lens` matters.
   virtual bool has_lens() const { return false; }

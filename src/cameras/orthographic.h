@@ -2,6 +2,7 @@
 #pragma once
 
 #include "cameras/camera.h"
+#include "cameras/film_axes.h"
 
 namespace duet {
 
@@ -16,12 +17,17 @@ class OrthographicCamera final : public Camera {
  public:
   explicit OrthographicCamera(const OrthographicView& view);
   Ray sample_ray(const Point2f& film, const Point2f& lens) const override;
+  float importance(const Ray&, float) const override { return importance_; }
+  std::optional<CameraSample> sample_lens(const Point3f& from, const Point2f& lens) const override;
 
  private:
   Point3f corner_;         ///< of the film's upper left, on the near plane
   Vector3f right_, down_;  ///< per pixel
   Vector3f direction_;
   float length_;
+  float importance_;
+  Point2i film_;
+  FilmAxes axes_;  ///< the third is `direction_`
 };
 
 }  // namespace duet

@@ -7,7 +7,8 @@ namespace duet {
 PerspectiveCamera::PerspectiveCamera(const PerspectiveView& view)
     : eye_(view.to_world(Point3f(0, 0, 0))),
       near_(float(view.near_clip)),
-      depth_(float(view.far_clip - view.near_clip)) {
+      depth_(float(view.far_clip - view.near_clip)),
+      film_(view.film) {
   const double half_width = std::tan(0.5 * view.horizontal_fov * 3.14159265358979323846 / 180);
   // Camera space has +x on the left of the image, film space on the right.
   const double pixel = -2 * half_width / view.film.x;
@@ -16,6 +17,7 @@ PerspectiveCamera::PerspectiveCamera(const PerspectiveView& view)
   forward_ = view.to_world(Vector3f(0, 0, 1));
   center_x_ = float(view.film.x * (0.5 - view.offset_x));
   center_y_ = float(view.film.y * (0.5 - view.offset_y));
+  axes_ = FilmAxes(right_, down_, forward_);
 }
 
 Vector3f PerspectiveCamera::film_direction(const Point2f& film) const {
@@ -31,6 +33,32 @@ Ray PerspectiveCamera::sample_ray(const Point2f& film, const Point2f&) const {
   return clipped_ray(eye_, film_direction(film));
 }
 
+float PerspectiveCamera::importance(const Ray& ray, float t) const {
+  // The depth per length: cos θ, unless the transform stretches. Rays start on the near plane.
+  const float slope = axes_.depth(ray.direction);
+  const float distance = t + near_ / slope;
+  return 1 / (axes_.volume() * slope * slope * slope * distance * distance);
+}
+
+std::optional<CameraSample> PerspectiveCamera::seen_from(const Point3f& origin,
+                                                         const Vector3f& shift,
+                                                         const Point3f& from) const {
+  const Vector3f v = from - origin;
+  const float depth = axes_.depth(v);
+  if (!(depth > near_ && depth <= near_ + depth_)) return std::nullopt;
+  const Vector3f direction = v * (1 / depth), film = axes_.coordinates(direction + shift);
+  const Point2f position{film.x + center_x_, film.y + center_y_};
+  if (!on_film(position, film_)) return std::nullopt;
+  const float distance = length(v);
+  return CameraSample{position, v * (-1 / distance), origin + direction * near_,
+                      distance / (axes_.volume() * depth * depth * depth)};
+}
+
+std::optional<CameraSample> PerspectiveCamera::sample_lens(const Point3f& from,
+                                                           const Point2f&) const {
+  return seen_from(eye_, Vector3f(0), from);
+}
+
 ThinLensCamera::ThinLensCamera(const PerspectiveView& view, double aperture_radius,
                                double focus_distance)
     : PerspectiveCamera(view),
@@ -38,10 +66,20 @@ ThinLensCamera::ThinLensCamera(const PerspectiveView& view, double aperture_radi
       lens_y_(view.to_world(Vector3f(0, float(aperture_radius), 0))),
       inv_focus_distance_(float(1 / focus_distance)) {}
 
-Ray ThinLensCamera::sample_ray(const Point2f& film, const Point2f& lens) const {
+inline Vector3f ThinLensCamera::lens_point(const Point2f& lens) const {
   const Point2f disk = square_to_disk(lens);
-  const Vector3f aside = lens_x_ * disk.x + lens_y_ * disk.y;
+  return lens_x_ * disk.x + lens_y_ * disk.y;
+}
+
+Ray ThinLensCamera::sample_ray(const Point2f& film, const Point2f& lens) const {
+  const Vector3f aside = lens_point(lens);
   return clipped_ray(eye_ + aside, film_direction(film) - aside * inv_focus_distance_);
+}
+
+std::optional<CameraSample> ThinLensCamera::sample_lens(const Point3f& from,
+                                                        const Point2f& lens) const {
+  const Vector3f aside = lens_point(lens);
+  return seen_from(eye_ + aside, aside * inv_focus_distance_, from);
 }
 
 }  // namespace duet

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "cameras/camera.h"
+#include "cameras/film_axes.h"
 
 namespace duet {
 
@@ -19,12 +20,18 @@ class PerspectiveCamera : public Camera {
  public:
   explicit PerspectiveCamera(const PerspectiveView& view);
   Ray sample_ray(const Point2f& film, const Point2f& lens) const override;
+  float importance(const Ray& ray, float t) const override;
+  std::optional<CameraSample> sample_lens(const Point3f& from, const Point2f& lens) const override;
 
  protected:
   /// From the eye to the point that is seen at a film position, at depth 1; in world space.
   Vector3f film_direction(const Point2f& film) const;
   /// A ray from `origin` between the clipping planes; `direction` spans a depth of 1.
   Ray clipped_ray(const Point3f& origin, const Vector3f& direction) const;
+  /// The line from a point to the point `origin` of the lens, whose rays have the direction of the
+  /// film less `shift`.
+  std::optional<CameraSample> seen_from(const Point3f& origin, const Vector3f& shift,
+                                        const Point3f& from) const;
 
   Point3f eye_;
 
@@ -33,6 +40,8 @@ class PerspectiveCamera : public Camera {
   Vector3f forward_;
   float center_x_, center_y_;
   float near_, depth_;
+  Point2i film_;
+  FilmAxes axes_;
 };
 
 /// Rays leave a disk-shaped aperture and meet in the plane of focus.
@@ -40,9 +49,13 @@ class ThinLensCamera final : public PerspectiveCamera {
  public:
   ThinLensCamera(const PerspectiveView& view, double aperture_radius, double focus_distance);
   Ray sample_ray(const Point2f& film, const Point2f& lens) const override;
+  std::optional<CameraSample> sample_lens(const Point3f& from, const Point2f& lens) const override;
   bool has_lens() const override { return true; }
 
  private:
+  /// From the centre of the lens to one of its points.
+  Vector3f lens_point(const Point2f& lens) const;
+
   Vector3f lens_x_, lens_y_;  ///< the aperture's radii
   float inv_focus_distance_;
 };
