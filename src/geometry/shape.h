@@ -77,7 +77,7 @@ struct Bounds {
   void extend(const Point3f& p);
   void extend(const Bounds& b) { extend(b.lower), extend(b.upper); }
   bool empty() const { return !(lower.x <= upper.x); }
-  Point3f center() const { return lower + (upper - lower) * 0.5f; }
+  Point3f center() const { return empty() ? Point3f(0) : lower + (upper - lower) * 0.5f; }
   /// Radius of a sphere around the centre that contains the box.
   float radius() const { return empty() ? 0.0f : 0.5f * length(upper - lower); }
 };

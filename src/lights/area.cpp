@@ -35,7 +35,7 @@ std::optional<Parallelogram> find_parallelogram(const TriangleMesh& m) {
 }  // namespace
 
 AreaLight::AreaLight(const Shape& shape, const ColorSlot& radiance)
-    : shape_(shape), radiance_(radiance), area_(surface_area(shape)) {
+    : shape_(shape), radiance_(radiance), area_(surface_area(shape)), uniform_{float(1 / area_)} {
   if (shape.kind != ShapeKind::mesh) {
     strategy_ = choose_cone() ? Strategy::cone : Strategy::surface;
   } else if (radiance.is_constant() && choose_parallelogram()) {
@@ -115,21 +115,24 @@ std::optional<LightSample> AreaLight::sample_parallelogram(const Point3f& from,
   sample->target = target;
   sample->weight = radiance_.constant * solid_angle;
   sample->pdf = PdfW{d2 * distance / projected};
+  sample->emission = uniform_.value * kInvPi;
   return sample;
 }
 
+Spectrum AreaLight::radiance(const ShapePoint& p) const {
+  if (!radiance_.texture) return radiance_.constant;
+  Surface s;
+  s.shape = &shape_;
+  s.position = p.position;
+  s.uv = p.uv;
+  s.barycentric = p.barycentric;
+  s.primitive = p.primitive;
+  return radiance_(s);
+}
+
 LightSample AreaLight::toward(const ShapePoint& p, PdfW pdf, const Vector3f& wi) const {
-  Spectrum radiance = radiance_.constant;
-  if (radiance_.texture) {
-    Surface s;
-    s.shape = &shape_;
-    s.position = p.position;
-    s.uv = p.uv;
-    s.barycentric = p.barycentric;
-    s.primitive = p.primitive;
-    radiance = radiance_(s);
-  }
-  return {wi, p.position + Vector3f(p.ng) * p.offset, radiance / pdf.value, pdf};
+  return {wi, p.position + Vector3f(p.ng) * p.offset, radiance(p) / pdf.value, pdf,
+          p.pdf.value * kInvPi};
 }
 
 namespace {
@@ -158,25 +161,67 @@ std::optional<LightSample> AreaLight::sample_cone(const Point3f& from, const Poi
   p.position = center_ + Vector3f(n) * radius_;
   p.ng = n;
   p.offset = kOffsetScale * (max_abs(center_) + radius_);
+  p.pdf = uniform_;
   if (radiance_.texture) p.uv = analytic_uv(shape_.kind, shape_.to_world.inverse(p.position));
   return toward(p, PdfW{1 / (2 * kPi * span)}, wi);
+}
+
+inline PdfW AreaLight::cone_pdf(const Point3f& from) const {
+  const float d2 = length_squared(center_ - from), r2 = radius_ * radius_;
+  return {d2 > r2 ? 1 / (2 * kPi * one_minus_cosine(r2 / d2)) : 0.0f};
+}
+
+inline PdfA AreaLight::point_pdf(const Surface& surface) const {
+  if (cells_) return cells_->pdf(surface.primitive, surface.barycentric);
+  if (strategy_ != Strategy::surface) return uniform_;
+  return pdf_analytic(shape_, normalize(shape_.to_world.inverse(surface.ng)));
 }
 
 PdfW AreaLight::pdf_direct(const Point3f& from, const Surface& surface, const Vector3f& wi,
                            float d2) const {
   const float cosine = -dot(surface.ng, wi);
   if (!(cosine > 0)) return {};
-  if (strategy_ == Strategy::cone) {
-    const float c2 = length_squared(center_ - from), r2 = radius_ * radius_;
-    return {c2 > r2 ? 1 / (2 * kPi * one_minus_cosine(r2 / c2)) : 0.0f};
+  return strategy_ == Strategy::cone ? cone_pdf(from)
+                                     : to_solid_angle(point_pdf(surface), d2, cosine);
+}
+
+ShapePoint AreaLight::sample_point(const Point2f& u) const {
+  if (cells_) return cells_->sample(u);
+  if (strategy_ != Strategy::parallelogram) {
+    ShapePoint p = sample_analytic(shape_, u);
+    if (strategy_ == Strategy::cone) p.pdf = uniform_;
+    return p;
   }
-  if (cells_)
-    return to_solid_angle(cells_->pdf(surface.primitive, surface.barycentric), d2, cosine);
-  if (strategy_ == Strategy::surface) {
-    const Normal3f local = normalize(shape_.to_world.inverse(surface.ng));
-    return to_solid_angle(pdf_analytic(shape_, local), d2, cosine);
-  }
-  return to_solid_angle(PdfA{float(1 / area_)}, d2, cosine);
+  ShapePoint p{};
+  p.position = corner_ + (edge_u_ * u.x + edge_v_ * u.y);
+  p.ng = p.ns = normal_;
+  p.pdf = uniform_;
+  return p;
+}
+
+std::optional<EmissionSample> AreaLight::sample_emission(const Point2f& position,
+                                                         const Point2f& direction) const {
+  const ShapePoint p = sample_point(position);
+  const Vector3f w = Frame(p.ng).to_world(square_to_cosine_hemisphere(direction));
+  if (!(dot(p.ng, w) > 0 && dot(p.ns, w) > 0)) return std::nullopt;
+  const Spectrum emitted = radiance(p);
+  if (emitted.is_black()) return std::nullopt;
+  // The cosine of the direction's density is that of the area across the ray.
+  const float density = p.pdf.value * kInvPi;
+  const Point3f origin = p.position + Vector3f(p.ng) * p.offset;
+  return EmissionSample{{origin, w, INFINITY}, emitted / density, density, p};
+}
+
+float AreaLight::emission_density(const Surface& surface, const Vector3f& w) const {
+  if (!(dot(surface.ng, w) > 0 && dot(surface.shading.n, w) > 0)) return 0;
+  return point_pdf(surface).value * kInvPi;
+}
+
+float AreaLight::direct_density(const EmissionSample& emission, const Point3f& at) const {
+  if (strategy_ == Strategy::cone) return cone_pdf(at).value;
+  const ShapePoint& p = emission.point;
+  return to_solid_angle(p.pdf, length_squared(p.position - at), dot(p.ng, emission.ray.direction))
+      .value;
 }
 
 }  // namespace duet

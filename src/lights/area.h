@@ -18,6 +18,12 @@ class AreaLight final : public SurfaceLight {
   PdfW pdf_direct(const Point3f& from, const Surface& surface, const Vector3f& wi,
                   float d2) const override;
   double power(double scene_radius) const override;
+  /// A point in proportion to what it emits, and a direction by its cosine with the geometric
+  /// normal.
+  std::optional<EmissionSample> sample_emission(const Point2f& position,
+                                                const Point2f& direction) const override;
+  float direct_density(const EmissionSample& emission, const Point3f& at) const override;
+  float emission_density(const Surface& surface, const Vector3f& w) const override;
   /// Total area of the surface.
   double area() const { return area_; }
 
@@ -26,20 +32,29 @@ class AreaLight final : public SurfaceLight {
   enum class Strategy {
     cells,          ///< a triangle by the light it emits, then a point of it
     parallelogram,  ///< two triangles that are one, taken as a whole to keep strata together
-    cone,           ///< a sphere: a direction within the cone that it fills
+    cone,           ///< a sphere: a direction within the cone that it fills; by area for emission
     surface,        ///< an analytic shape by its parameters
   };
 
   bool choose_cone();
   bool choose_parallelogram();
+  /// The radiance of a point on the side that shines.
+  Spectrum radiance(const ShapePoint& p) const;
   LightSample toward(const ShapePoint& p, PdfW pdf, const Vector3f& wi) const;
   std::optional<LightSample> sample_parallelogram(const Point3f& from, const Point2f& u) const;
   std::optional<LightSample> sample_cone(const Point3f& from, const Point2f& u) const;
+  /// The density of any direction that sample_cone() makes.
+  PdfW cone_pdf(const Point3f& from) const;
+  /// Where emitted rays start.
+  ShapePoint sample_point(const Point2f& u) const;
+  /// The density with which sample_point() makes a point of the surface.
+  PdfA point_pdf(const Surface& surface) const;
 
   const Shape& shape_;
   ColorSlot radiance_;
   Strategy strategy_;
   double area_;
+  PdfA uniform_;  ///< 1 / area
   std::optional<TriangleCells> cells_;
   Point3f corner_;  ///< of the parallelogram, just off its surface
   Vector3f edge_u_, edge_v_;

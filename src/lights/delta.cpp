@@ -1,23 +1,51 @@
 #include "lights/delta.h"
 
+#include "math/warp.h"
+
 namespace duet {
 
 namespace {
 
 constexpr double kPiD = 3.14159265358979323846;
 
-/// Light of the given intensity from a point.
-std::optional<LightSample> from_point(const Point3f& position, const Point3f& from,
-                                      const Spectrum& intensity) {
-  const Vector3f d = position - from;
-  const float d2 = length_squared(d);
+/// Light of the given intensity at a point that is `away` from an emitter at `position`, whose rays
+/// have the density `emission` there.
+std::optional<LightSample> from_point(const Point3f& position, const Vector3f& away,
+                                      const Spectrum& intensity, float emission) {
+  const float d2 = length_squared(away);
   if (!(d2 > 0)) return std::nullopt;
   LightSample s;
-  s.wi = d * (1 / std::sqrt(d2));
+  s.wi = -away * (1 / std::sqrt(d2));
   s.target = position;
   s.weight = intensity / d2;
+  s.emission = emission;
   s.delta = true;
   return s;
+}
+
+/// The ray by which light comes from an emitter at a point.
+std::optional<EmissionSample> reversed(const std::optional<LightSample>& s,
+                                       float distance_squared) {
+  if (!s || s->weight.is_black()) return std::nullopt;
+  const Spectrum intensity = s->weight * distance_squared;
+  return EmissionSample{
+      {s->target, -s->wi, INFINITY}, intensity / s->emission, s->emission, ShapePoint{}};
+}
+
+/// The ratio of two lengths, given squared, to the power of three: what a linear map does to solid
+/// angles in a direction that it stretches by that much, if its determinant is 1.
+float cubed_ratio(float a2, float b2) {
+  const float ratio = a2 / b2;
+  return ratio * std::sqrt(ratio);
+}
+
+double inverse_determinant(const Transform& t) {
+  const auto& r = t.rows();
+  const auto minor = [&](size_t i, size_t j) {
+    return double(r[1][i]) * double(r[2][j]) - double(r[1][j]) * double(r[2][i]);
+  };
+  return 1 / std::abs(double(r[0][0]) * minor(1, 2) - double(r[0][1]) * minor(0, 2) +
+                      double(r[0][2]) * minor(0, 1));
 }
 
 /// Looks up a texture on no surface.
@@ -30,7 +58,13 @@ Surface at_uv(const Point2f& uv) {
 }  // namespace
 
 std::optional<LightSample> PointEmitter::sample_direct(const Point3f& from, const Point2f&) const {
-  return from_point(position_, from, intensity_);
+  return from_point(position_, from - position_, intensity_, 0.25f * kInvPi);
+}
+
+std::optional<EmissionSample> PointEmitter::sample_emission(const Point2f&,
+                                                            const Point2f& direction) const {
+  const Vector3f away = square_to_sphere(direction);
+  return reversed(from_point(position_, away, intensity_, 0.25f * kInvPi), length_squared(away));
 }
 
 double PointEmitter::power(double) const {
@@ -39,19 +73,24 @@ double PointEmitter::power(double) const {
 
 SpotEmitter::SpotEmitter(const Transform& to_world, const Spectrum& intensity, double cutoff,
                          double beam_width, const Texture* texture)
-    : Light(LightKind::position),
+    : PositionEmitter(to_world(Point3f(0, 0, 0))),
       to_world_(to_world),
-      position_(to_world(Point3f(0, 0, 0))),
       intensity_(intensity),
       cutoff_(cutoff),
       beam_width_(std::min(beam_width, cutoff)),
       cutoff_angle_(float(cutoff)),
       inv_transition_(float(1 / std::max(cutoff_ - beam_width_, 1e-30))),
       uv_scale_(float(0.5 / std::tan(cutoff))),
+      span_(float(2 * std::sin(0.5 * cutoff) * std::sin(0.5 * cutoff))),
+      density_(float(inverse_determinant(to_world) / (2 * kPiD * double(span_)))),
       texture_(texture) {}
 
 std::optional<LightSample> SpotEmitter::sample_direct(const Point3f& from, const Point2f&) const {
-  const Vector3f local = to_world_.inverse(from - position_);
+  return send(from - position_);
+}
+
+inline std::optional<LightSample> SpotEmitter::send(const Vector3f& away) const {
+  const Vector3f local = to_world_.inverse(away);
   // By the arc tangent, because the arc cosine knows nothing about narrow cones.
   const float angle = std::atan2(std::sqrt(local.x * local.x + local.y * local.y), local.z);
   if (!(angle < cutoff_angle_)) return std::nullopt;
@@ -60,7 +99,14 @@ std::optional<LightSample> SpotEmitter::sample_direct(const Point3f& from, const
   if (texture_)
     intensity *= texture_->color(
         at_uv({0.5f + uv_scale_ * local.x / local.z, 0.5f + uv_scale_ * local.y / local.z}));
-  return from_point(position_, from, intensity);
+  const float stretch = cubed_ratio(length_squared(away), length_squared(local));
+  return from_point(position_, away, intensity, density_ * stretch);
+}
+
+std::optional<EmissionSample> SpotEmitter::sample_emission(const Point2f&,
+                                                           const Point2f& direction) const {
+  const Vector3f away = to_world_(square_to_cone(direction, span_));
+  return reversed(send(away), length_squared(away));
 }
 
 double SpotEmitter::power(double) const {
@@ -75,34 +121,48 @@ double SpotEmitter::power(double) const {
 
 ProjectorEmitter::ProjectorEmitter(const Transform& to_world, const ColorSlot& irradiance,
                                    float scale, double horizontal_fov, double aspect)
-    : Light(LightKind::position),
+    : PositionEmitter(to_world(Point3f(0, 0, 0))),
       to_world_(to_world),
-      position_(to_world(Point3f(0, 0, 0))),
       axis_(to_world(Vector3f(0, 0, 1))),
       irradiance_(irradiance),
       scale_(scale) {
   const double width = 2 * std::tan(0.5 * horizontal_fov * kPiD / 180);
   inv_width_ = float(1 / width);
   inv_height_ = float(aspect / width);
+  density_ = inv_width_ * inv_height_ * float(inverse_determinant(to_world));
 }
 
 std::optional<LightSample> ProjectorEmitter::sample_direct(const Point3f& from,
                                                            const Point2f&) const {
-  const Vector3f local = to_world_.inverse(from - position_);
-  if (!(local.z > 0)) return std::nullopt;
+  return send(from - position_);
+}
+
+inline std::optional<LightSample> ProjectorEmitter::send(const Vector3f& away) const {
+  const Vector3f local = to_world_.inverse(away);
+  // A sheared projector may turn its image's back on part of what lies before it.
+  const float facing = dot(axis_, away);
+  if (!(local.z > 0 && facing > 0)) return std::nullopt;
   // The image's first row is at the top; +x is at its left.
   const Point2f uv{0.5f - local.x / local.z * inv_width_, 0.5f - local.y / local.z * inv_height_};
   if (!(uv.x >= 0 && uv.x <= 1 && uv.y >= 0 && uv.y <= 1)) return std::nullopt;
   const Spectrum image = irradiance_(at_uv(uv)) * (kPi * scale_);
   // The distance along the axis counts in the projector's units, that to the light in the world's.
-  const Vector3f d = position_ - from;
-  const float inv_distance = 1 / std::sqrt(length_squared(d));
+  const float d2 = length_squared(away), z2 = local.z * local.z;
+  const float inv_distance = 1 / std::sqrt(d2);
   LightSample s;
-  s.wi = d * inv_distance;
+  s.wi = -away * inv_distance;
   s.target = position_;
-  s.weight = image / (local.z * local.z * -dot(axis_, s.wi));
+  s.weight = image / (z2 * facing * inv_distance);
+  s.emission = density_ * cubed_ratio(d2, z2);
   s.delta = true;
   return s;
+}
+
+std::optional<EmissionSample> ProjectorEmitter::sample_emission(const Point2f&,
+                                                                const Point2f& direction) const {
+  const Vector3f away =
+      to_world_(Vector3f((0.5f - direction.x) / inv_width_, (0.5f - direction.y) / inv_height_, 1));
+  return reversed(send(away), length_squared(away));
 }
 
 double ProjectorEmitter::power(double) const {
@@ -121,9 +181,21 @@ std::optional<LightSample> DirectionalEmitter::sample_direct(const Point3f&, con
   LightSample s;
   s.wi = toward_light_;
   s.weight = irradiance_;
+  s.emission = sphere_.density();
   s.finite = false;
   s.delta = true;
   return s;
+}
+
+std::optional<EmissionSample> DirectionalEmitter::sample_emission(const Point2f& position,
+                                                                  const Point2f&) const {
+  if (irradiance_.is_black()) return std::nullopt;
+  return EmissionSample{sphere_.enter(toward_light_, position), irradiance_ / sphere_.density(),
+                        sphere_.density(), ShapePoint{}};
+}
+
+float DirectionalEmitter::direct_density(const EmissionSample&, const Point3f&) const {
+  return 1;
 }
 
 double DirectionalEmitter::power(double scene_radius) const {

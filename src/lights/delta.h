@@ -2,26 +2,41 @@
 #pragma once
 
 #include "lights/light.h"
+#include "lights/scene_sphere.h"
 #include "textures/texture.h"
 
 namespace duet {
 
+/// What lights at a point have in common.
+class PositionEmitter : public Light {
+ public:
+  explicit PositionEmitter(const Point3f& position)
+      : Light(LightKind::position), position_(position) {}
+  float direct_density(const EmissionSample&, const Point3f& at) const override {
+    return length_squared(at - position_);
+  }
+
+ protected:
+  Point3f position_;
+};
+
 /// Sends the same radiant intensity (W/sr) into all directions.
-class PointEmitter final : public Light {
+class PointEmitter final : public PositionEmitter {
  public:
   PointEmitter(const Point3f& position, const Spectrum& intensity)
-      : Light(LightKind::position), position_(position), intensity_(intensity) {}
+      : PositionEmitter(position), intensity_(intensity) {}
   std::optional<LightSample> sample_direct(const Point3f& from, const Point2f& u) const override;
   double power(double scene_radius) const override;
+  std::optional<EmissionSample> sample_emission(const Point2f& position,
+                                                const Point2f& direction) const override;
 
  private:
-  Point3f position_;
   Spectrum intensity_;
 };
 
 /// A point that shines into a cone around its +z axis: with full intensity (W/sr) up to the angle
 /// `beam_width`, then fading linearly in the angle until `cutoff`. Radians.
-class SpotEmitter final : public Light {
+class SpotEmitter final : public PositionEmitter {
  public:
   /// `texture` (or null) multiplies the intensity; the square around the cone at z = 1 is its
   /// domain.
@@ -29,34 +44,47 @@ class SpotEmitter final : public Light {
               double beam_width, const Texture* texture);
   std::optional<LightSample> sample_direct(const Point3f& from, const Point2f& u) const override;
   double power(double scene_radius) const override;
+  /// A direction that is uniform in the cone, before the transform.
+  std::optional<EmissionSample> sample_emission(const Point2f& position,
+                                                const Point2f& direction) const override;
 
  private:
+  /// The light at the point that is `away` from the emitter.
+  std::optional<LightSample> send(const Vector3f& away) const;
+
   Transform to_world_;
-  Point3f position_;
   Spectrum intensity_;
   double cutoff_, beam_width_;
   float cutoff_angle_, inv_transition_, uv_scale_;
+  float span_;     ///< 1 − cos of the cutoff angle
+  float density_;  ///< of directions, where the transform leaves lengths as they are
   const Texture* texture_;
 };
 
 /// A pinhole camera turned around: throws an image through a frustum along +z such that a plane
 /// across the axis sees the image undistorted. `irradiance` times π is what a plane at z = 1
 /// receives.
-class ProjectorEmitter final : public Light {
+class ProjectorEmitter final : public PositionEmitter {
  public:
   /// `horizontal_fov` in degrees, of an image `aspect` times as wide as high.
   ProjectorEmitter(const Transform& to_world, const ColorSlot& irradiance, float scale,
                    double horizontal_fov, double aspect);
   std::optional<LightSample> sample_direct(const Point3f& from, const Point2f& u) const override;
   double power(double scene_radius) const override;
+  /// A direction by a uniform point of the image.
+  std::optional<EmissionSample> sample_emission(const Point2f& position,
+                                                const Point2f& direction) const override;
 
  private:
+  /// The light at the point that is `away` from the emitter.
+  std::optional<LightSample> send(const Vector3f& away) const;
+
   Transform to_world_;
-  Point3f position_;
   Vector3f axis_;  ///< as long as the transform makes it
   ColorSlot irradiance_;
   float scale_;
   float inv_width_, inv_height_;  ///< of the image at z = 1
+  float density_;                 ///< of directions, on the axis if the transform is a rotation
 };
 
 /// Parallel light from infinitely far away.
@@ -67,10 +95,15 @@ class DirectionalEmitter final : public Light {
   DirectionalEmitter(const Transform& to_world, const Spectrum& irradiance);
   std::optional<LightSample> sample_direct(const Point3f& from, const Point2f& u) const override;
   double power(double scene_radius) const override;
+  std::optional<EmissionSample> sample_emission(const Point2f& position,
+                                                const Point2f& direction) const override;
+  float direct_density(const EmissionSample& emission, const Point3f& at) const override;
+  void surround(const Point3f& center, float radius) override { sphere_ = {center, radius}; }
 
  private:
   Vector3f toward_light_;
   Spectrum irradiance_;
+  SceneSphere sphere_;
 };
 
 }  // namespace duet

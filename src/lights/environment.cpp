@@ -16,13 +16,23 @@ double sphere_power(double radius, double mean) {
   return 4 * kPiD * kPiD * radius * radius * mean;
 }
 
-LightSample from_afar(const Vector3f& wi, const Spectrum& radiance, PdfW pdf) {
+LightSample from_afar(const Vector3f& wi, const Spectrum& radiance, PdfW pdf,
+                      const SceneSphere& sphere) {
   LightSample s;
   s.wi = wi;
   s.weight = radiance / pdf.value;
   s.pdf = pdf;
+  s.emission = pdf.value * sphere.density();
   s.finite = false;
   return s;
+}
+
+/// A ray into the scene from where a sample says that light comes from.
+std::optional<EmissionSample> from_outside(const std::optional<LightSample>& s,
+                                           const SceneSphere& sphere, const Point2f& position) {
+  if (!s || s->weight.is_black()) return std::nullopt;
+  return EmissionSample{sphere.enter(s->wi, position), s->weight / sphere.density(), s->emission,
+                        ShapePoint{}};
 }
 
 /// The rotation (and mirroring) in a transform, by Gram and Schmidt.
@@ -46,7 +56,12 @@ Frame rotation(const Matrix4& m) {
 
 std::optional<LightSample> ConstantEnvironment::sample_direct(const Point3f&,
                                                               const Point2f& u) const {
-  return from_afar(square_to_sphere(u), radiance_, pdf_direct({}));
+  return from_afar(square_to_sphere(u), radiance_, pdf_direct({}), sphere_);
+}
+
+std::optional<EmissionSample> ConstantEnvironment::sample_emission(const Point2f& position,
+                                                                   const Point2f& direction) const {
+  return from_outside(sample_direct({}, direction), sphere_, position);
 }
 
 double ConstantEnvironment::power(double scene_radius) const {
@@ -120,7 +135,12 @@ std::optional<LightSample> EnvironmentMap::sample_direct(const Point3f&, const P
   const PdfW pdf = to_pdf(s.density, sin_theta);
   if (!(pdf.value > 0)) return std::nullopt;
   const Vector3f d(sin_phi * sin_theta, cos_theta, -cos_phi * sin_theta);
-  return from_afar(axes_.to_world(d), radiance(place), pdf);
+  return from_afar(axes_.to_world(d), radiance(place), pdf, sphere_);
+}
+
+std::optional<EmissionSample> EnvironmentMap::sample_emission(const Point2f& position,
+                                                              const Point2f& direction) const {
+  return from_outside(sample_direct({}, direction), sphere_, position);
 }
 
 double EnvironmentMap::power(double scene_radius) const {

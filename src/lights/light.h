@@ -12,12 +12,24 @@ namespace duet {
 
 /// A light seen from a point.
 struct LightSample {
-  Vector3f wi;         ///< unit direction towards the light
-  Point3f target;      ///< a point just before the light's surface; only if `finite`
-  Spectrum weight;     ///< incident radiance over the density, or irradiance for delta lights
-  PdfW pdf;            ///< at the lit point; zero for delta lights, which no BSDF sample can find
+  Vector3f wi;      ///< unit direction towards the light
+  Point3f target;   ///< a point just before the light's surface; only if `finite`
+  Spectrum weight;  ///< incident radiance over the density, or irradiance for delta lights
+  PdfW pdf;         ///< at the lit point; zero for delta lights, which no BSDF sample can find
+  /// EmissionSample::density of the path that leaves the light along this direction, the other way.
+  float emission = 0;
   bool finite = true;  ///< false if the light is infinitely far away
   bool delta = false;
+};
+
+/// A ray that starts at a light.
+struct EmissionSample {
+  Ray ray;            ///< unit direction; starts just off the light's surface, without end
+  Spectrum weight;    ///< emitted radiance (intensity, irradiance) over `density`
+  float density = 0;  ///< per unit area across the ray and per unit solid angle, so that it is the
+                      ///< density of position and direction over |cos θ|; for a light at a point
+                      ///< per solid angle alone, for parallel light per area alone
+  ShapePoint point;   ///< of an area light
 };
 
 /// Where light comes from when a ray finds it, or why no ray does.
@@ -51,6 +63,17 @@ class Light {
   /// holds the scene.
   virtual double power(double scene_radius) const = 0;
 
+  /// A ray into the scene, chosen in proportion to what the light emits as far as that is known.
+  /// Empty if the ray carries nothing.
+  virtual std::optional<EmissionSample> sample_emission(const Point2f& position,
+                                                        const Point2f& direction) const = 0;
+  /// The density per solid angle with which sample_direct(at, …) finds the start of an emitted ray
+  /// that has come to `at`. Where sample_direct has no choice, what stands in its place in ratios
+  /// of densities: the squared distance of a light at a point, 1 for parallel light.
+  virtual float direct_density(const EmissionSample& emission, const Point3f& at) const = 0;
+  /// Tells lights that are infinitely far away which sphere holds the scene, before any use.
+  virtual void surround(const Point3f&, float) {}
+
  private:
   LightKind kind_;
 };
@@ -65,6 +88,8 @@ class SurfaceLight : public Light {
   /// distance² `d2` in the unit direction `wi`.
   virtual PdfW pdf_direct(const Point3f& from, const Surface& surface, const Vector3f& wi,
                           float d2) const = 0;
+  /// EmissionSample::density of a ray that leaves the surface in the unit direction `w`.
+  virtual float emission_density(const Surface& surface, const Vector3f& w) const = 0;
 };
 
 /// A light that surrounds the scene.
@@ -74,6 +99,8 @@ class EnvironmentLight : public Light {
   /// Radiance that arrives from the unit direction `wi`.
   virtual Spectrum emitted(const Vector3f& wi) const = 0;
   virtual PdfW pdf_direct(const Vector3f& wi) const = 0;
+  /// EmissionSample::density of a ray that comes from the unit direction `wi`.
+  virtual float emission_density(const Vector3f& wi) const = 0;
 };
 
 }  // namespace duet

@@ -29,8 +29,9 @@ std::unique_ptr<Scene> SceneBuilder::build() {
   Scene& scene = *scene_;
   scene.accel = std::make_unique<Accel>(scene.shapes, scene.top, scene.groups, scene.instances,
                                         options_.threads);
-  scene.picker = LightPicker(
-      selection_weights(scene.lights, sampling_weights_, scene.accel->bounds().radius()));
+  const Bounds bounds = scene.accel->bounds();
+  for (const auto& light : scene.lights) light->surround(bounds.center(), bounds.radius());
+  scene.picker = LightPicker(selection_weights(scene.lights, sampling_weights_, bounds.radius()));
   return std::move(scene_);
 }
 

@@ -1,0 +1,54 @@
+// What a scene has once it is built.
+#include "scene/build.h"
+
+#include <doctest/doctest.h>
+
+#include "math/sampler.h"
+#include "support/memory_scene.h"
+
+using namespace duet;
+
+namespace {
+
+std::unique_ptr<Scene> build(const std::string& content) {
+  test::ReadResult r = test::read_scene("3.0.0", content);
+  REQUIRE(r.scene);
+  auto scene = build_scene(r.description(), {}, r.diagnostics);
+  REQUIRE(scene);
+  return scene;
+}
+
+const std::string kSky = "<emitter type='constant'/>";
+const std::string kSun = "<emitter type='directional'/>";
+
+}  // namespace
+
+TEST_CASE("lights that are infinitely far away know where the scene is") {
+  for (const std::string& light : {kSky, kSun}) {
+    const auto scene =
+        build("<shape type='sphere'><point name='center' x='9' y='-5' z='2'/></shape>" + light);
+    REQUIRE(scene->lights.size() == 1);
+    // Rays fill a disk of the size of the sphere around the box around the sphere.
+    const int n = 20000;
+    int hits = 0;
+    for (int i = 0; i < n; ++i) {
+      Sampler sampler(SampleSequence::independent, 1, 0, uint64_t(i));
+      sampler.start_sample(0);
+      const Point2f position = sampler.next_2d(), direction = sampler.next_2d();
+      const auto e = scene->lights[0]->sample_emission(position, direction);
+      REQUIRE(e);
+      hits += scene->accel->occluded(e->ray);
+    }
+    CHECK(hits / double(n) == doctest::Approx(1 / 3.0).epsilon(0.05));
+  }
+}
+
+TEST_CASE("lights around nothing emit finite rays") {
+  for (const std::string& light : {kSky, kSun}) {
+    const auto scene = build(light);
+    const auto e = scene->lights[0]->sample_emission({0.3f, 0.4f}, {0.1f, 0.2f});
+    REQUIRE(e);
+    CHECK(is_finite(e->ray.origin));
+    CHECK(is_finite(e->weight));
+  }
+}
