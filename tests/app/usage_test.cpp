@@ -91,7 +91,7 @@ TEST_SUITE("program") {
         {{"-I", "hide_emitters=maybe"}, "hide_emitters"},
         {{"-i", "direct", "-I", "bsdf_samples=1000000000"}, "bsdf_samples"},
         {{"-i", "direct", "-I", "bsdf_samples=0", "-I", "emitter_samples=0"}, "samples"},
-        {{"-i", "bdpt", "-I", "light_paths=0"}, "light_paths"},
+        {{"-i", "bdpt", "-I", "light_paths=-1"}, "light_paths"},
         {{"-i", "ptracer", "-I", "strict_normals=true"}, "strict_normals"},
         {{"-i", "vcm", "-I", "alpha=2"}, "alpha"},
         {{"-i", "bpm", "-I", "radius=-1"}, "radius"},
