@@ -203,11 +203,11 @@ TEST_CASE("merging hardly changes the mean of the image") {
 TEST_CASE("the test sees the bias of the thesis's weights") {
   const TransportScene scene("thesis-modified", 32);
   const TransportScene::Parameters limits{{"max_eye_depth", "4"}, {"max_light_depth", "3"}};
-  const TileBatches exact = render(scene, {"reuse", limits}, 8, 64);
+  const TileBatches exact = render(scene, {"reuse", limits}, 8, 32);
   TransportScene::Parameters thesis = limits;
   thesis.emplace_back("weights", "thesis");
   thesis.emplace_back("thesis_reading", "a");
-  const TileComparison r = compare_tiles(render(scene, {"reuse", thesis}, 8, 64), exact);
+  const TileComparison r = compare_tiles(render(scene, {"reuse", thesis}, 8, 32), exact);
   CHECK(r.least_p < sidak(0.01, 64));
   CHECK(r.ratio < 0.98);
 }
