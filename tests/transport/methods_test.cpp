@@ -83,11 +83,10 @@ TEST_CASE("layers of techniques add up to the image") {
 
 TEST_CASE("splats are as bright at the border of the image as within it") {
   // A white plane under a white sky: every pixel is 1.
-  const TransportScene scene(
-      camera_xml("0, 0, 3", "0, 0.001, 0", 24) +
-      "<shape type='rectangle'><transform name='to_world'><scale value='2'/>"
-      "</transform><bsdf type='diffuse'><rgb name='reflectance' value='1'/>"
-      "</bsdf></shape><emitter type='constant'/>");
+  const TransportScene scene(camera_xml("0, 0, 3", "0, 0.001, 0", 24) +
+                             "<shape type='rectangle'><transform name='to_world'><scale value='2'/>"
+                             "</transform><bsdf type='diffuse'><rgb name='reflectance' value='1'/>"
+                             "</bsdf></shape><emitter type='constant'/>");
   for (const FilterKind kind : {FilterKind::box, FilterKind::gaussian, FilterKind::mitchell}) {
     FilmLayout layout = scene.layout;
     layout.filter = {};
