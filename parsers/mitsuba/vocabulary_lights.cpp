@@ -57,40 +57,24 @@ constexpr Plugin kEmitters[] = {
     {"directional", both, kDirectional, &read_directional},
     {"constant", both, kConstant, &read_constant},
     {"envmap", both, kEnvmap, &read_envmap},
-    {.name = "collimated",
-     .versions = v0,
-     .support = planned,
-     .planned_parameters = "power to_world"},
-    {.name = "directionalarea",
-     .versions = v3,
-     .support = planned,
-     .planned_parameters = "radiance to_world"},
-    {.name = "sky",
-     .versions = v0,
-     .support = planned,
-     .planned_parameters = "turbidity albedo year month day hour minute second latitude longitude "
-                           "timezone sun_direction stretch resolution scale to_world extend"},
-    {.name = "sun",
-     .versions = v0,
-     .support = planned,
-     .planned_parameters = "turbidity year month day hour minute second latitude longitude "
-                           "timezone sun_direction resolution scale sun_radius_scale to_world"},
-    {.name = "sunsky",
-     .support = planned,
-     .planned_parameters = "turbidity albedo year month day hour minute second latitude longitude "
-                           "timezone sun_direction stretch resolution scale sun_scale sky_scale "
-                           "sun_radius_scale sun_aperture complex_sun to_world extend"},
-    {.name = "timed_sunsky",
-     .versions = v3,
-     .support = planned,
-     .planned_parameters =
-         "turbidity albedo start_year start_month start_day end_year end_month end_day "
-         "window_start_time window_end_time latitude longitude timezone sun_scale sky_scale "
-         "sun_aperture complex_sun shutter_open shutter_close to_world"},
-    {.name = "volumelight",
-     .versions = v3,
-     .support = planned,
-     .planned_parameters = "radiance to_world"},
+    planned_plugin("collimated", v0, "power to_world"),
+    planned_plugin("directionalarea", v3, "radiance to_world"),
+    planned_plugin("sky", v0,
+                   "turbidity albedo year month day hour minute second latitude longitude "
+                   "timezone sun_direction stretch resolution scale to_world extend"),
+    planned_plugin("sun", v0,
+                   "turbidity year month day hour minute second latitude longitude "
+                   "timezone sun_direction resolution scale sun_radius_scale to_world"),
+    planned_plugin("sunsky", both,
+                   "turbidity albedo year month day hour minute second latitude longitude "
+                   "timezone sun_direction stretch resolution scale sun_scale sky_scale "
+                   "sun_radius_scale sun_aperture complex_sun to_world extend"),
+    planned_plugin(
+        "timed_sunsky", v3,
+        "turbidity albedo start_year start_month start_day end_year end_month end_day "
+        "window_start_time window_end_time latitude longitude timezone sun_scale sky_scale "
+        "sun_aperture complex_sun shutter_open shutter_close to_world"),
+    planned_plugin("volumelight", v3, "radiance to_world"),
 };
 
 }  // namespace

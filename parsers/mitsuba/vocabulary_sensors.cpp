@@ -32,25 +32,15 @@ constexpr Plugin kSensors[] = {
     {"perspective", both, kPerspective, &read_perspective},
     {"thinlens", both, kThinlens, &read_thinlens},
     {"orthographic", both, kOrthographic, &read_orthographic},
-    {.name = "batch", .versions = v3, .support = planned},
-    {.name = "distant",
-     .versions = v3,
-     .support = planned,
-     .planned_parameters = "direction target to_world"},
-    {.name = "fluencemeter", .versions = v0, .support = planned, .planned_parameters = "to_world"},
-    {.name = "irradiancemeter", .support = planned},
-    {.name = "perspective_rdist",
-     .versions = v0,
-     .support = planned,
-     .planned_parameters = "kc fov fov_axis focal_length near_clip far_clip to_world"},
-    {.name = "radiancemeter",
-     .support = planned,
-     .planned_parameters = "origin direction to_world"},
-    {.name = "spherical", .versions = v0, .support = planned, .planned_parameters = "to_world"},
-    {.name = "telecentric",
-     .versions = v0,
-     .support = planned,
-     .planned_parameters = "aperture_radius focus_distance near_clip far_clip to_world"},
+    planned_plugin("batch", v3),
+    planned_plugin("distant", v3, "direction target to_world"),
+    planned_plugin("fluencemeter", v0, "to_world"),
+    planned_plugin("irradiancemeter", both),
+    planned_plugin("perspective_rdist", v0,
+                   "kc fov fov_axis focal_length near_clip far_clip to_world"),
+    planned_plugin("radiancemeter", both, "origin direction to_world"),
+    planned_plugin("spherical", v0, "to_world"),
+    planned_plugin("telecentric", v0, "aperture_radius focus_distance near_clip far_clip to_world"),
 };
 
 constexpr Parameter kHdrfilm[] = {
@@ -72,21 +62,17 @@ constexpr Parameter kLdrfilm[] = {
 constexpr Plugin kFilms[] = {
     {"hdrfilm", both, kHdrfilm, &read_hdrfilm},
     {"ldrfilm", v0, kLdrfilm, &read_ldrfilm, "tone mapping is for PNG and JPEG output"},
-    {.name = "mfilm",
-     .versions = v0,
-     .support = planned,
-     .planned_parameters = "width height crop_offset_x crop_offset_y crop_width crop_height "
-                           "file_format digits variable pixel_format high_quality_edges"},
+    planned_plugin("mfilm", v0,
+                   "width height crop_offset_x crop_offset_y crop_width crop_height "
+                   "file_format digits variable pixel_format high_quality_edges"),
     {.name = "specfilm",
      .versions = v3,
      .note = "light is computed as red, green and blue, not by wavelength",
      .support = refused,
      .planned_parameters = "component_format"},
-    {.name = "tiledhdrfilm",
-     .versions = v0,
-     .support = planned,
-     .planned_parameters = "width height crop_offset_x crop_offset_y crop_width crop_height "
-                           "pixel_format component_format"},
+    planned_plugin("tiledhdrfilm", v0,
+                   "width height crop_offset_x crop_offset_y crop_width crop_height "
+                   "pixel_format component_format"),
 };
 
 constexpr Parameter kBox[] = {

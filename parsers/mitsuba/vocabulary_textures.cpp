@@ -112,19 +112,10 @@ constexpr Plugin kTextures[] = {
     {"irregular", v3, kIrregular, &read_irregular},
     {"regular", v3, kRegular, &read_regular},
     {"blackbody", v3, kBlackbody, &read_blackbody},
-    {.name = "curvature",
-     .versions = v0,
-     .support = planned,
-     .planned_parameters = "curvature scale"},
-    {.name = "gridtexture",
-     .versions = v0,
-     .support = planned,
-     .planned_parameters = "color0 color1 line_width uscale vscale uoffset voffset"},
-    {.name = "volume", .versions = v3, .support = planned, .planned_parameters = "volume to_world"},
-    {.name = "wireframe",
-     .versions = v0,
-     .support = planned,
-     .planned_parameters = "interior_color edge_color line_width step_width"},
+    planned_plugin("curvature", v0, "curvature scale"),
+    planned_plugin("gridtexture", v0, "color0 color1 line_width uscale vscale uoffset voffset"),
+    planned_plugin("volume", v3, "volume to_world"),
+    planned_plugin("wireframe", v0, "interior_color edge_color line_width step_width"),
 };
 
 }  // namespace
