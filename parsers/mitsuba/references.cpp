@@ -1,7 +1,5 @@
 #include "mitsuba/references.h"
 
-#include <algorithm>
-
 #include "mitsuba/text.h"
 
 namespace duet {
@@ -31,12 +29,8 @@ const Node* References::find(const std::string& id, const SourceLocation& where)
     if (alias == aliases_.end()) break;
     name = alias->second.id;
   }
-  // With very many names the search for the nearest one would take too long.
-  std::vector<std::string> known;
-  if (!report_.is_full() && ids_.size() < 5000)
-    for (const auto& [key, node] : ids_) known.push_back(key);
-  std::sort(known.begin(), known.end());
-  report_.error(where, "nothing has the id {}{}", in_quotes(name), did_you_mean(name, known));
+  report_.error(where, "nothing has the id {}{}", in_quotes(name),
+                did_you_mean(name, report_.names_for_hint(ids_)));
   return nullptr;
 }
 

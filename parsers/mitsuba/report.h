@@ -1,8 +1,10 @@
 // Errors and warnings of one scene, limited in number.
 #pragma once
 
+#include <algorithm>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "base/diagnostics.h"
 
@@ -25,6 +27,17 @@ class Report {
   /// Whether further messages are held back, so that nobody needs to think of helpful ones.
   bool is_full() const { return errors_ >= kMost || warnings_ >= kMost; }
 
+  /// The keys of `names` for did_you_mean(). None if nobody will read the hint or if the search for
+  /// the nearest one among so many would take too long.
+  template <class Map>
+  std::vector<std::string> names_for_hint(const Map& names) const {
+    std::vector<std::string> keys;
+    if (is_full() || names.size() >= kMostNames) return keys;
+    for (const auto& [key, value] : names) keys.push_back(key);
+    std::sort(keys.begin(), keys.end());
+    return keys;
+  }
+
   /// Says how many messages were held back; `file` names the scene.
   void finish(const SourceLocation& file) {
     if (errors_ > kMost) diagnostics_.error(file, "and {} more errors", errors_ - kMost);
@@ -32,7 +45,7 @@ class Report {
   }
 
  private:
-  static constexpr size_t kMost = 100;
+  static constexpr size_t kMost = 100, kMostNames = 5000;
   Diagnostics& diagnostics_;
   size_t errors_ = 0, warnings_ = 0;
 };

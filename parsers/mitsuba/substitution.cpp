@@ -56,12 +56,8 @@ std::optional<std::string> Substitution::expand(std::string_view text, const Sou
       const auto is_name = [](unsigned char c) { return std::isalnum(c) || c == '_'; };
       const auto end = std::find_if_not(rest.begin(), rest.end(), is_name);
       const std::string name(rest.begin(), end);
-      std::vector<std::string> known;
-      // With very many names the search for the nearest one would take too long.
-      if (!report.is_full() && parameters_.size() < 5000)
-        for (const auto& [known_name, parameter] : parameters_) known.push_back(known_name);
       report.error(where, "undefined parameter {}{}", in_quotes("$" + name),
-                   did_you_mean(name, known));
+                   did_you_mean(name, report.names_for_hint(parameters_)));
       return std::nullopt;
     }
     mark(meant->second);
