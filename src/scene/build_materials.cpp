@@ -57,21 +57,27 @@ std::unique_ptr<Material> SceneBuilder::make(const PlasticMaterial& m, const Sou
   return std::make_unique<Plastic>(o);
 }
 
-std::unique_ptr<Material> SceneBuilder::make(const PrincipledMaterial& m, const SourceLocation&) {
-  PrincipledOptions o;
+template <class Options, class Description>
+Options SceneBuilder::principled_options(const Description& m) {
+  Options o;
   o.base_color = slot(m.base_color);
   o.roughness = slot(m.roughness);
   o.anisotropic = slot(m.anisotropic);
-  o.metallic = slot(m.metallic);
   o.spec_trans = slot(m.spec_trans);
-  o.eta = m.specular ? principled_eta(float(*m.specular), is_used(o.spec_trans)) : float(m.eta);
   o.spec_tint = slot(m.spec_tint);
   o.sheen = slot(m.sheen);
   o.sheen_tint = slot(m.sheen_tint);
   o.flatness = slot(m.flatness);
+  o.diffuse_reflectance_sampling_rate = float(m.diffuse_reflectance_sampling_rate);
+  return o;
+}
+
+std::unique_ptr<Material> SceneBuilder::make(const PrincipledMaterial& m, const SourceLocation&) {
+  auto o = principled_options<PrincipledOptions>(m);
+  o.metallic = slot(m.metallic);
+  o.eta = m.specular ? principled_eta(float(*m.specular), is_used(o.spec_trans)) : float(m.eta);
   o.clearcoat = slot(m.clearcoat);
   o.clearcoat_gloss = slot(m.clearcoat_gloss);
-  o.diffuse_reflectance_sampling_rate = float(m.diffuse_reflectance_sampling_rate);
   o.main_specular_sampling_rate = float(m.main_specular_sampling_rate);
   o.clearcoat_sampling_rate = float(m.clearcoat_sampling_rate);
   return std::make_unique<Principled>(o);
@@ -79,20 +85,11 @@ std::unique_ptr<Material> SceneBuilder::make(const PrincipledMaterial& m, const 
 
 std::unique_ptr<Material> SceneBuilder::make(const PrincipledThinMaterial& m,
                                              const SourceLocation&) {
-  PrincipledThinOptions o;
-  o.base_color = slot(m.base_color);
-  o.roughness = slot(m.roughness);
-  o.anisotropic = slot(m.anisotropic);
-  o.spec_trans = slot(m.spec_trans);
+  auto o = principled_options<PrincipledThinOptions>(m);
   o.eta = slot(m.eta);
-  o.spec_tint = slot(m.spec_tint);
-  o.sheen = slot(m.sheen);
-  o.sheen_tint = slot(m.sheen_tint);
-  o.flatness = slot(m.flatness);
   o.diff_trans = slot(m.diff_trans);
   o.spec_reflectance_sampling_rate = float(m.spec_reflectance_sampling_rate);
   o.spec_transmittance_sampling_rate = float(m.spec_transmittance_sampling_rate);
-  o.diffuse_reflectance_sampling_rate = float(m.diffuse_reflectance_sampling_rate);
   o.diffuse_transmittance_sampling_rate = float(m.diffuse_transmittance_sampling_rate);
   return std::make_unique<PrincipledThin>(o);
 }

@@ -52,6 +52,9 @@ class SceneBuilder {
   // build_materials.cpp
   const Material* material(MaterialId id);
   RoughnessOptions roughness(const Roughness& r);
+  /// What "principled" and "principledthin" have in common.
+  template <class Options, class Description>
+  Options principled_options(const Description& m);
   std::unique_ptr<Material> make(const DiffuseMaterial& m, const SourceLocation& where);
   std::unique_ptr<Material> make(const ConductorMaterial& m, const SourceLocation& where);
   std::unique_ptr<Material> make(const DielectricMaterial& m, const SourceLocation& where);
