@@ -34,8 +34,7 @@ Spectrum MeshAttributeMap::element(const MeshAttribute& data, uint32_t index) co
   return Spectrum(p[0], p[1], p[2]) * scale_;
 }
 
-Spectrum MeshAttributeMap::color(const Surface& s) const {
-  const Entry& e = find(s);
+Spectrum MeshAttributeMap::color(const Entry& e, const Surface& s) const {
   if (e.data->per_face) return element(*e.data, s.primitive);
   const auto& t = e.mesh->triangles[s.primitive];
   const Point2f& b = s.barycentric;
@@ -43,8 +42,14 @@ Spectrum MeshAttributeMap::color(const Surface& s) const {
          element(*e.data, t[2]) * b.y;
 }
 
+Spectrum MeshAttributeMap::color(const Surface& s) const {
+  return color(find(s), s);
+}
+
 float MeshAttributeMap::value(const Surface& s) const {
-  return find(s).data->channels == 1 ? color(s).r : color(s).luminance();
+  const Entry& e = find(s);
+  const Spectrum c = color(e, s);
+  return e.data->channels == 1 ? c.r : c.luminance();
 }
 
 Point2f MeshAttributeMap::gradient(const Surface& s) const {

@@ -32,6 +32,7 @@ class MeshAttributeMap final : public Texture {
     const MeshAttribute* data;
   };
   const Entry& find(const Surface& s) const;
+  Spectrum color(const Entry& e, const Surface& s) const;
   /// The value at a vertex or on a face.
   Spectrum element(const MeshAttribute& data, uint32_t index) const;
 
