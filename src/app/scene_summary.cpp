@@ -17,7 +17,11 @@ constexpr size_t kLongestList = 12;
 class Summary {
  public:
   Summary(const LoadedScene& loaded, bool all)
-      : loaded_(loaded), scene_(loaded.description), text_(loaded.description), all_(all) {}
+      : loaded_(loaded),
+        scene_(loaded.description),
+        features_(scene_features(loaded.description)),
+        text_(loaded.description),
+        all_(all) {}
 
   std::string write() {
     out_ = scene_.file + "\n";
@@ -29,7 +33,7 @@ class Summary {
     materials();
     list("textures", scene_.textures, [&](const auto& t) { return text_.texture(t); });
     lights();
-    line("modelled", describe(scene_features(scene_)));
+    line("modelled", describe(features_));
     if (scene_.approximations.empty()) line("approximated", "nothing");
     list("approximated", scene_.approximations,
          [](const Diagnostic& a) { return fmt::format("{}: {}", a.where.to_string(), a.message); });
@@ -57,6 +61,14 @@ class Summary {
     }
   }
 
+  /// Also those of the groups.
+  template <class Visit>
+  void for_each_shape(Visit visit) const {
+    for (const ShapeDescription& s : scene_.shapes) visit(s);
+    for (const ShapeGroupDescription& g : scene_.groups)
+      for (const ShapeDescription& s : g.shapes) visit(s);
+  }
+
   void integrator() {
     const IntegratorDescription& i = scene_.integrator;
     const std::string parameters = integrator_parameters(i);
@@ -75,7 +87,7 @@ class Summary {
   }
 
   void shapes() {
-    const SceneFeatures f = scene_features(scene_);
+    const SceneFeatures& f = features_;
     std::map<std::string, size_t> kinds;
     for (const ShapeDescription& s : scene_.shapes) ++kinds[text_.shape_kind(s)];
     std::string summary;
@@ -97,24 +109,18 @@ class Summary {
   /// Those that surfaces name; what is nested in them is part of their text.
   void materials() {
     std::set<MaterialId> used;
-    const auto note = [&](const ShapeDescription& s) {
+    for_each_shape([&](const ShapeDescription& s) {
       if (!std::holds_alternative<InstanceShape>(s.geometry)) used.insert(s.material);
-    };
-    for (const ShapeDescription& s : scene_.shapes) note(s);
-    for (const ShapeGroupDescription& g : scene_.groups)
-      for (const ShapeDescription& s : g.shapes) note(s);
+    });
     list("bsdfs", used,
          [&](MaterialId id) { return fmt::format("{}: {}", text_.name(id), text_.material(id)); });
   }
 
   void lights() {
     std::vector<std::string> all;
-    const auto note = [&](const ShapeDescription& s) {
+    for_each_shape([&](const ShapeDescription& s) {
       if (s.emission) all.push_back(text_.area_light(s));
-    };
-    for (const ShapeDescription& s : scene_.shapes) note(s);
-    for (const ShapeGroupDescription& g : scene_.groups)
-      for (const ShapeDescription& s : g.shapes) note(s);
+    });
     for (const LightDescription& l : scene_.lights) all.push_back(text_.light(l));
     if (all.empty()) line("lights", "none");
     list("lights", all, [](const std::string& text) { return text; });
@@ -122,6 +128,7 @@ class Summary {
 
   const LoadedScene& loaded_;
   const SceneDescription& scene_;
+  const SceneFeatures features_;
   DescriptionText text_;
   bool all_;
   std::string out_;
