@@ -35,6 +35,17 @@ SceneDescription again(const SceneDescription& scene, const std::vector<std::str
   return read_from_disk(folder.write("scene.xml", xml.text));
 }
 
+/// Part by part, so that a failure says where the scenes differ.
+void check_equal(const SceneDescription& a, const SceneDescription& b) {
+  CHECK(a.textures == b.textures);
+  CHECK(a.materials == b.materials);
+  CHECK(a.shapes == b.shapes);
+  CHECK(a.groups == b.groups);
+  CHECK(a.lights == b.lights);
+  CHECK(a.sensors == b.sensors);
+  CHECK(a == b);
+}
+
 const std::filesystem::path kScenes = std::filesystem::path(DUET_SOURCE_DIR) / "scenes";
 
 const CheckerboardTexture& board(const SceneDescription& scene, size_t i = 0) {
@@ -50,13 +61,7 @@ TEST_CASE("every scene of the project is read without a word and survives a roun
     CAPTURE(entry.path().string());
     ++count;
     const SceneDescription scene = read_from_disk(entry.path().string()), copy = again(scene);
-    CHECK(scene.textures == copy.textures);
-    CHECK(scene.materials == copy.materials);
-    CHECK(scene.shapes == copy.shapes);
-    CHECK(scene.groups == copy.groups);
-    CHECK(scene.lights == copy.lights);
-    CHECK(scene.sensors == copy.sensors);
-    CHECK(scene == copy);
+    check_equal(scene, copy);
   }
   CHECK(count >= 15);
 }
@@ -64,12 +69,7 @@ TEST_CASE("every scene of the project is read without a word and survives a roun
 TEST_CASE("the file of 0.6 and that of 3 in two-versions describe the same scene") {
   const SceneDescription a = read_from_disk((kScenes / "two-versions/scene.xml").string()),
                          b = read_from_disk((kScenes / "two-versions/scene-0.6.xml").string());
-  CHECK(a.textures == b.textures);
-  CHECK(a.materials == b.materials);
-  CHECK(a.shapes == b.shapes);
-  CHECK(a.lights == b.lights);
-  CHECK(a.sensors == b.sensors);
-  CHECK(a == b);
+  check_equal(a, b);
   CHECK(!a.shapes.empty());
 }
 

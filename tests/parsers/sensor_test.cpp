@@ -7,6 +7,15 @@
 using namespace duet;
 using namespace duet::test;
 
+namespace {
+
+/// Whether a message about such a scene contains the text.
+bool says(const std::string& content, const std::string& text) {
+  return read_text("<scene version='3.0.0'>" + content + "</scene>").has(text);
+}
+
+}  // namespace
+
 TEST_CASE("emitters") {
   const auto spot =
       light<SpotLight>("0.6.0", "spot",
@@ -97,9 +106,7 @@ TEST_CASE("sensors") {
 
   const auto bad = [](const std::string& type, const std::string& content,
                       const std::string& message) {
-    return read_text("<scene version='3.0.0'><sensor type='" + type + "'>" + content +
-                     "</sensor></scene>")
-        .has(message);
+    return says("<sensor type='" + type + "'>" + content + "</sensor>", message);
   };
   CHECK(bad("thinlens", "", "needs the parameter \"aperture_radius\""));
   CHECK(bad("perspective", "<float name='fov' value='180'/>", "must be between 0 and 180"));
@@ -157,9 +164,8 @@ TEST_CASE("films and filters") {
   CHECK(filter("lanczos", "<integer name='lobes' value='4'/>").lobes == 4);
 
   const auto bad = [](const std::string& content, const std::string& message) {
-    return read_text("<scene version='3.0.0'><sensor type='perspective'><film type='hdrfilm'>" +
-                     content + "</film></sensor></scene>")
-        .has(message);
+    return says("<sensor type='perspective'><film type='hdrfilm'>" + content + "</film></sensor>",
+                message);
   };
   CHECK(bad("<integer name='width' value='0'/>", "must be from 1 to 65536, not 0"));
   CHECK(bad("<integer name='width' value='1000000000'/>", "must be from 1 to 65536"));
@@ -222,8 +228,7 @@ TEST_CASE("integrators") {
              .image);
 
   const auto bad = [](const std::string& element, const std::string& message) {
-    return read_text("<scene version='3.0.0'><sensor type='perspective'/>" + element + "</scene>")
-        .has(message);
+    return says("<sensor type='perspective'/>" + element, message);
   };
   CHECK(bad("<integrator type='path'><integer name='max_depth' value='-2'/></integrator>",
             "must be -1 or more"));
