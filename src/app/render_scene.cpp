@@ -196,9 +196,8 @@ class SceneRenderer {
     build.threads = options_.threads;
     build.layer_needs = integrator_needs(description_.integrator);
     Diagnostics diagnostics;
-    size_t printed = 0;
     scene_ = build_scene(std::move(description_), build, diagnostics);
-    if (report(diagnostics, options_.read.strict, printed) || !scene_) throw SceneFailure("");
+    if (report(diagnostics, options_.read.strict) || !scene_) throw SceneFailure("");
     seconds_.build = watch_.lap();
     log::detail("{}: read in {:.2f} s, built in {:.2f} s", file_, seconds_.parse, seconds_.build);
   }

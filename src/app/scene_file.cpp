@@ -62,17 +62,15 @@ void check_defines(const ReadOptions& options) {
   }
 }
 
-bool report(const Diagnostics& diagnostics, bool strict, size_t& printed) {
-  const std::vector<Diagnostic>& all = diagnostics.all();
-  for (; printed < all.size(); ++printed) log::write(log::Level::quiet, all[printed].to_string());
-  return diagnostics.has_errors() || (strict && !all.empty());
+bool report(const Diagnostics& diagnostics, bool strict) {
+  for (const Diagnostic& d : diagnostics.all()) log::write(log::Level::quiet, d.to_string());
+  return diagnostics.has_errors() || (strict && !diagnostics.all().empty());
 }
 
 std::optional<LoadedScene> load_scene(const std::string& file, const ReadOptions& options) {
   Diagnostics diagnostics;
-  size_t printed = 0;
   auto scene = read_mitsuba(file, mitsuba_options(options), diagnostics);
-  if (report(diagnostics, options.strict, printed) || !scene) {
+  if (report(diagnostics, options.strict) || !scene) {
     if (options.strict && !diagnostics.has_errors())
       log::error("{}: warnings are errors because of --strict", file);
     return std::nullopt;

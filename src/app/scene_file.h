@@ -33,9 +33,8 @@ struct LoadedScene {
   std::vector<std::pair<std::string, std::string>> parameters;
 };
 
-/// Prints the messages that have not been printed yet; returns whether there is an error among all
-/// of them (or, if strict, a warning).
-bool report(const Diagnostics& diagnostics, bool strict, size_t& printed);
+/// Prints the messages; returns whether there is an error among them (or, if strict, a warning).
+bool report(const Diagnostics& diagnostics, bool strict);
 
 /// Reads one scene file and prints what is wrong with it. Empty if it cannot be used.
 std::optional<LoadedScene> load_scene(const std::string& file, const ReadOptions& options);
