@@ -91,11 +91,11 @@ Requirement parse_requirement(const std::string& text) {
   return r;
 }
 
-/// The image in linear values.
+/// The image in linear values; `file` keeps the rest of what was read.
 Image load(const std::string& path, ImageFile& file) {
   file = read_image(path);
-  if (!file.display_encoded) return file.image;
-  Image image = file.image;
+  Image image = std::move(file.image);
+  if (!file.display_encoded) return image;
   if (!file.bytes.empty()) {
     image.data.resize(file.bytes.size());
     for (size_t i = 0; i < file.bytes.size(); ++i) image.data[i] = float(file.bytes[i]) / 255;
