@@ -78,11 +78,12 @@ class SceneRenderer {
   void run() {
     read();
     prepare();
-    if (options_.skip_existing && all_exist(paths(planned_spp_))) {
-      log::info("{}: skipped, {} exists", file_, paths(planned_spp_)[0]);
+    const std::vector<std::string> planned = paths(planned_spp_);
+    if (options_.skip_existing && all_exist(planned)) {
+      log::info("{}: skipped, {} exists", file_, planned[0]);
       return;
     }
-    check_outputs();
+    check_outputs(planned);
     build();
     if (interrupt_exit_code() != 0) {
       log::warning("{}: interrupted before the first sample; there is no image", file_);
@@ -180,8 +181,8 @@ class SceneRenderer {
   }
 
   /// Finds out before rendering what would be a pity to find out afterwards.
-  void check_outputs() const {
-    for (const std::string& path : paths(planned_spp_)) {
+  void check_outputs(const std::vector<std::string>& planned) const {
+    for (const std::string& path : planned) {
       if (const std::string why = unwritable_reason(path); !why.empty())
         throw SceneFailure(fmt::format("cannot write {}: {}", path, why));
       if (is_display_format(path) && !has_colours())
