@@ -1,11 +1,14 @@
 // The subcommands of the program, one file each.
 #pragma once
 
-#include <CLI/CLI.hpp>
-
 #include <stdexcept>
 #include <string>
 #include <vector>
+
+// CLI11 is large: only files that add options include it.
+namespace CLI {
+class App;
+}
 
 namespace duet {
 

@@ -1,4 +1,5 @@
 // duet compare: how far an image is from a reference.
+#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>

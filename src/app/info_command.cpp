@@ -1,4 +1,6 @@
 // duet info: what a scene contains.
+#include <CLI/CLI.hpp>
+
 #include "app/commands.h"
 #include "app/scene_file.h"
 #include "app/scene_summary.h"

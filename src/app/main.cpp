@@ -1,6 +1,8 @@
 // The program: picks the subcommand and turns what went wrong into an exit code.
 #include <fmt/format.h>
 
+#include <CLI/CLI.hpp>
+
 #include <algorithm>
 #include <cstdio>
 #include <filesystem>

@@ -1,4 +1,5 @@
 // duet plugins: what is understood in scene files.
+#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <string_view>
 

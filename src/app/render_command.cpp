@@ -1,4 +1,6 @@
 // duet render: scenes in, images out.
+#include <CLI/CLI.hpp>
+
 #include "app/commands.h"
 #include "app/render_options.h"
 #include "app/render_scene.h"

@@ -1,8 +1,6 @@
 // The options of `duet render`.
 #pragma once
 
-#include <CLI/CLI.hpp>
-
 #include <optional>
 #include <string>
 #include <vector>
@@ -10,6 +8,10 @@
 #include "app/progress.h"
 #include "app/scene_file.h"
 #include "integrators/make_integrator.h"
+
+namespace CLI {
+class App;
+}
 
 namespace duet {
 

@@ -1,5 +1,6 @@
 #include "app/scene_file.h"
 
+#include <CLI/CLI.hpp>
 #include <set>
 
 #include "app/arguments.h"

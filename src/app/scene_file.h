@@ -1,14 +1,16 @@
 // Reads the scenes that are named on the command line.
 #pragma once
 
-#include <CLI/CLI.hpp>
-
 #include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "scene/description.h"
+
+namespace CLI {
+class App;
+}
 
 namespace duet {
 
