@@ -50,11 +50,14 @@ FilmLayout film_layout(const RenderOptions& options, FilmDescription& film) {
 }
 
 /// Refuses images that this machine has no room for, before they take all of it.
-void check_memory(const FilmLayout& layout, size_t channels, const RenderBudget& budget) {
+void check_memory(const FilmLayout& layout, const Integrator& integrator,
+                  const RenderBudget& budget) {
+  const size_t channels = integrator.channels().size();
   const double pixels = double(layout.crop.width()) * layout.crop.height();
   const double films = budget.target_error ? kErrorBatches : 1;
   const double bytes = pixels * films * double((channels + 1) * sizeof(double)) +
-                       pixels * (films + 1) * double(channels * sizeof(float));
+                       pixels * (films + 1) * double(channels * sizeof(float)) +
+                       integrator.memory_bytes(layout);
   const double memory = double(sysconf(_SC_PHYS_PAGES)) * double(sysconf(_SC_PAGESIZE));
   if (bytes > memory)
     throw SceneFailure(fmt::format(
@@ -89,7 +92,7 @@ class SceneRenderer {
       log::warning("{}: interrupted before the first sample; there is no image", file_);
       return;
     }
-    check_memory(layout_, integrator_->channels().size(), request_.budget);
+    check_memory(layout_, *integrator_, request_.budget);
     const RenderResult result = render_with_progress();
     seconds_.render = watch_.lap();
     write(result);

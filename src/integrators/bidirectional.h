@@ -22,6 +22,7 @@ class BidirectionalIntegrator final : public CameraIntegrator {
   BidirectionalIntegrator(const Options& options, const CameraOutput& output);
 
   std::string bias() const override;
+  double memory_bytes(const FilmLayout& film) const override;
   void prepare(Film& film) const override;
   void render_pass(const Scene& scene, Film& film, const SampleRange& samples,
                    const PassControl& control, RenderCounters& counters) override;
@@ -42,7 +43,7 @@ class BidirectionalIntegrator final : public CameraIntegrator {
   double radius(uint32_t iteration) const;
   /// Contributions below which joins are left to chance.
   float roulette_threshold() const { return float(kRouletteShare * pilot_->brightness); }
-  uint32_t light_walks(const Film& film) const;
+  uint32_t light_walks(Point2i film) const;
   bool has_technique(int s, int t) const;
   void splat(Film& film, std::span<const LightSplat> splats, int threads, RenderCounters& counters);
 

@@ -43,6 +43,8 @@ class Integrator {
   virtual std::vector<std::string> channels() const = 0;
   /// For people: why even the mean of many images is wrong, if it is.
   virtual std::string bias() const { return ""; }
+  /// What the method keeps in memory besides the film, in bytes, estimated before it is known.
+  virtual double memory_bytes(const FilmLayout&) const { return 0; }
   /// Called once for each film, before its first pass.
   virtual void prepare(Film&) const {}
   /// Adds samples to every pixel of the film. A pass that is cancelled leaves a film whose mean is

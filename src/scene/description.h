@@ -383,7 +383,7 @@ struct DepthIntegratorDescription {
 
 /// Methods that trace sub-paths from the lights, too.
 enum class BidirectionalMethod { ptracer, bdpt, reuse, ppm, bpm, vcm };
-/// How `reuse` weights its techniques: exactly, or as the thesis of docs/references.md does, in
+/// How `reuse` weights its techniques: exactly, or as the thesis does (docs/mis.md), in
 /// either of two readings of it.
 enum class ReuseWeights { exact, thesis_a, thesis_b };
 struct BidirectionalIntegratorDescription {

@@ -94,6 +94,7 @@ std::vector<Case> cases() {
             sphere_xml("-0.4, 0, 0.6", "0.4",
                        glass("1.5", "1", "roughdielectric", "<float name='alpha' value='0.25'/>")) +
             sphere_xml("0.5, 0, 0.5", "0.35", material("plastic")))},
+      {"smooth normals", [](int n) { return TransportScene("mesh-lumpy", n); }, false, 1, true},
       {"bumps", text(room_xml(material("twosided", bumps)) + lamp), true, 1, true},
       {"a textured lamp",
        text(room +
@@ -186,7 +187,7 @@ void check_agreement(const std::vector<Case>& all, const std::vector<int>& depth
 TEST_CASE("unbiased methods have the same mean") {
   std::vector<Case> some = cases();
   std::erase_if(some, [](const Case& c) { return !c.in_short; });
-  CHECK(some.size() == 4);
+  CHECK(some.size() == 5);
   check_agreement(some, {4}, 16, 16);
 }
 

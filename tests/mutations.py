@@ -1,0 +1,119 @@
+#!/usr/bin/env python3
+"""Plants bugs into a copy of the sources, one at a time, and checks that the named test fails for each.
+
+    tests/mutations.py [NAME...]      all of them, or those named; --list prints them
+
+Builds in a temporary folder (--work FOLDER keeps it for the next run). Exits with 1 if a bug goes unnoticed, or if a
+place to plant it is gone.
+"""
+import argparse
+import pathlib
+import shutil
+import subprocess
+import sys
+import tempfile
+
+ROOT = pathlib.Path(__file__).resolve().parent.parent
+WEIGHTS = "weights of*"
+SUMS = "running sums*"
+MEAN = "unbiased methods have the same mean"
+
+# name, file, what stands there, the bug, the test that must fail
+MUTATIONS = [
+    ("cosine dropped from the sums", "src/transport/walk.h",
+     "const float cosine_out = v.cosine(s->wi);", "const float cosine_out = 1;", WEIGHTS),
+    ("squared index dropped at refraction", "src/transport/walk.h",
+     "in / (out * s->eta * s->eta)", "in / out", WEIGHTS),
+    ("probability of the light dropped from emission", "src/transport/light_walk.h",
+     "e->weight * (1 / pick.probability)", "e->weight", MEAN),
+    ("probability of the light dropped from light samples", "src/transport/join.h",
+     "sample->weight * (1 / pick.probability)", "sample->weight", MEAN),
+    ("T off by one", "src/transport/window_weights.h",
+     "if (t <= eye + 1 && s <= light + 1)", "if (t <= eye && s <= light + 1)", MEAN),
+    ("S off by one", "src/transport/window_weights.h",
+     "if (t <= eye + 1 && s <= light + 1)", "if (t <= eye + 1 && s <= light)", MEAN),
+    ("number of light walks dropped from the weight of splats", "src/transport/weights.h",
+     "camera_scale_(set.connection_share / set.light_paths)", "camera_scale_(set.connection_share)",
+     SUMS),
+    ("number of light walks dropped from splats", "src/integrators/bidirectional.cpp",
+     "const float scale = 1 / set_.light_paths;", "const float scale = 1;", MEAN),
+    ("adjoint of shading normals dropped", "src/transport/path_vertex.h",
+     "if (shading == geometric) return 1;", "return 1;", MEAN),
+    ("photons count twice", "src/integrators/bidirectional_eye.cpp",
+     "const float kernel = 1 /", "const float kernel = 2 /", "merging hardly*"),
+    ("merges dropped from the sum of the eye", "src/transport/mis.h",
+     "eye.vcm * connection_term + eye_reverse * eye.vm", "eye.vcm * connection_term", SUMS),
+    ("connections see through walls", "src/transport/join.h",
+     "if (scene.accel->occluded(spawn_ray_to(eye.surface, target)))", "if (d2 < 0)", MEAN),
+    ("reverse densities per solid angle taken for areas", "src/transport/walk.h",
+     "reverse * trail.back().back", "reverse", WEIGHTS),
+    ("the tail's roulette is not made up for", "src/integrators/bidirectional_eye.cpp",
+     "walk.throughput *= 1 / q;", "", MEAN),
+    ("splats are not divided by the number of passes", "src/image/film.cpp",
+     "sum / (filter * splat_passes_)", "sum / filter", MEAN),
+    ("the filter is not cut off at the border for splats", "src/image/film.cpp",
+     "std::max(center - r, 0.0)", "center - r", "splats are as bright*"),
+    ("cached connections forget how many there are", "src/integrators/bidirectional_eye.cpp",
+     "double(set_.light_paths) * options_.connections", "double(set_.light_paths)", MEAN),
+]
+
+
+def run(command, **more):
+    return subprocess.run(command, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, **more)
+
+
+def build(work):
+    result = run(["cmake", "--build", str(work / "build"), "--target", "duet_tests"])
+    if result.returncode != 0:
+        raise SystemExit(result.stdout[-3000:])
+
+
+def fails(work, test):
+    return run([str(work / "build" / "duet_tests"), f"--test-case={test}",
+                "--test-suite-exclude=agreement,references,program"]).returncode != 0
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawTextHelpFormatter)
+    parser.add_argument("names", nargs="*")
+    parser.add_argument("--list", action="store_true")
+    parser.add_argument("--work", type=pathlib.Path)
+    options = parser.parse_args()
+    if options.list:
+        for name, file, _, _, test in MUTATIONS:
+            print(f"{name} ({file}): \"{test}\"")
+        return 0
+    work = options.work or pathlib.Path(tempfile.mkdtemp(prefix="duet-mutations-"))
+    for folder in ["src", "parsers", "tests", "scenes", "reference"]:
+        shutil.copytree(ROOT / folder, work / folder, dirs_exist_ok=True)
+    shutil.copy(ROOT / "CMakeLists.txt", work)
+    run(["cmake", "-S", str(work), "-B", str(work / "build"), "-G", "Ninja", "-DCMAKE_BUILD_TYPE=None",
+         "-DCMAKE_CXX_FLAGS=-O1 -DNDEBUG -Wno-error"])
+    build(work)
+    for test in {m[4] for m in MUTATIONS}:
+        if fails(work, test):
+            print(f"\"{test}\" fails without any bug")
+            return 1
+    unnoticed = 0
+    for name, file, there, bug, test in MUTATIONS:
+        if options.names and name not in options.names:
+            continue
+        path = work / file
+        text = path.read_text()
+        if text.count(there) != 1:
+            print(f"{name}: the place in {file} is gone")
+            unnoticed += 1
+            continue
+        path.write_text(text.replace(there, bug))
+        build(work)
+        caught = fails(work, test)
+        path.write_text(text)
+        print(f"{name}: {'caught by' if caught else 'NOT CAUGHT by'} \"{test}\"", flush=True)
+        unnoticed += not caught
+    if not options.work:
+        shutil.rmtree(work)
+    return 1 if unnoticed else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
