@@ -44,8 +44,11 @@ class PlainGrid {
       numbers_[--starts_[bucket(vertices[i].position)]] = i;
   }
 
+  struct Neighborhood {};
+  Neighborhood locate(const Point3f&) const { return {}; }
+
   template <class Visit>
-  void query(const Point3f& p, const Visit& visit) const {
+  void query(const Point3f& p, Neighborhood, const Visit& visit) const {
     const uint32_t x = cell(p.x - 0.5f / inverse_cell_size_),
                    y = cell(p.y - 0.5f / inverse_cell_size_),
                    z = cell(p.z - 0.5f / inverse_cell_size_);
@@ -134,7 +137,8 @@ double time_queries(const Grid& grid, const std::vector<Point3f>& queries, doubl
   float sum = 0;
   const double seconds = time_of(cpu_time, [&] {
     for (const Point3f& q : queries)
-      grid.query(q, [&](uint32_t index, float d) { ++count, sum += d + float(index & 1); });
+      grid.query(q, grid.locate(q),
+                 [&](uint32_t index, float d) { ++count, sum += d + float(index & 1); });
   });
   sink = sum;
   found = double(count) / double(queries.size());

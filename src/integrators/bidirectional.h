@@ -35,7 +35,7 @@ class BidirectionalIntegrator final : public CameraIntegrator {
   struct Eye;
   using Method = BidirectionalMethod;
   /// Of the mean pixel: too little to be seen in the noise of a sample.
-  static constexpr double kRouletteShare = 0.02;
+  static constexpr double kRouletteShare = 0.05;
 
   void iteration(const Scene& scene, Film& film, const SampleRange& samples,
                  const PassControl& control, RenderCounters& counters);
@@ -56,6 +56,7 @@ class BidirectionalIntegrator final : public CameraIntegrator {
   void connect(const Weights& weights, const PathVertex& v, Eye& eye) const;
   template <class Weights>
   void connect_to_cache(const Weights& weights, const PathVertex& v, Eye& eye) const;
+  void find_photons(const PathVertex& v, Eye& eye) const;
   template <class Weights>
   void merge(const Weights& weights, const PathVertex& v, Eye& eye) const;
   /// Vertices of the pixel's light walk that are near enough in length to be joined with `v`.

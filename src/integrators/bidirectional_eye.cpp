@@ -32,10 +32,12 @@ struct BidirectionalIntegrator::Eye {
   std::span<float> values;
   JoinRoulette roulette;
   uint64_t random;  ///< key of numbers that no dimension of the sampler is set aside for
+  std::vector<uint32_t>& photons;  ///< those near the vertex under way
   Spectrum sum{};
   size_t light_walk = 0;  ///< the one that belongs to the pixel
   /// Its vertices, once the walk has a vertex to join them with.
   const std::vector<PathVertex>* light_vertices = nullptr;
+  VertexGrid::Neighborhood around{};  ///< where photons near the vertex under way are looked for
 
   float draw() {
     random = mix64(random + 0x9e3779b97f4a7c15ull);
@@ -82,6 +84,7 @@ void BidirectionalIntegrator::walk(const Weights& weights, Trail* trail, Eye& ey
     }
     ++eye.counters.path_vertices;
     const Surface s = scene.surface(walk.ray, hit);
+    if (set_.merges) eye.around = grid_.locate(s.position);
     const float d2 = hit.t * hit.t, cosine = std::abs(dot(s.ng, walk.ray.direction));
     if (hits && s.shape->light != kNone)
       add(eye, 0, depth + 1, join_hit(scene, weights, walk, s, d2));
@@ -121,6 +124,9 @@ void BidirectionalIntegrator::join(const Weights& weights, const PathVertex& v, 
     if (eye.scene.picker.size() > 0)
       add(eye, 1, v.depth + 1,
           join_light(eye.scene, weights, v, options_.strict_normals, eye.sampler, eye.counters));
+  }
+  if (set_.merges) find_photons(v, eye);
+  if (set_.connections) {
     if (options_.connections < 0)
       connect(weights, v, eye);
     else if (options_.connections > 0)
@@ -177,21 +183,29 @@ void BidirectionalIntegrator::connect_to_cache(const Weights& weights, const Pat
   }
 }
 
+void BidirectionalIntegrator::find_photons(const PathVertex& v, Eye& eye) const {
+  const std::vector<LightVertex>& photons = lights_.vertices().vertices;
+  ++eye.counters.merge_queries;
+  eye.photons.clear();
+  grid_.query(v.position(), eye.around, [&](uint32_t index, float) {
+    __builtin_prefetch(&photons[index]);
+    eye.photons.push_back(index);
+  });
+}
+
 template <class Weights>
 void BidirectionalIntegrator::merge(const Weights& weights, const PathVertex& v, Eye& eye) const {
-  const std::vector<LightVertex>& photons = lights_.vertices().vertices;
   const float kernel = 1 / (set_.merge_area * set_.light_paths);
-  ++eye.counters.merge_queries;
-  grid_.query(v.position(), [&](uint32_t index, float) {
-    const LightVertex& photon = photons[index];
-    if (int(photon.depth) + v.depth > max_depth_) return;
+  for (const uint32_t index : eye.photons) {
+    const LightVertex& photon = lights_.vertices().vertices[index];
+    if (int(photon.depth) + v.depth > max_depth_) continue;
     const Join found = join_merge(weights, photon, v, kernel, options_.strict_normals);
-    if (found.value.is_black()) return;
+    if (found.value.is_black()) continue;
     ++eye.counters.merges;
     eye.sum += found.value * found.weight;
     if (const size_t layer = layers_.merge(int(photon.depth) + 1, v.depth + 1))
       add_to_layer(eye.values, layer, raw_techniques_ ? found.value : found.value * found.weight);
-  });
+  }
 }
 
 bool BidirectionalIntegrator::enter_tail(Walk& walk, Eye& eye) const {
@@ -246,7 +260,9 @@ Spectrum BidirectionalIntegrator::radiance(const Scene& scene, const CameraPath&
                                            std::span<float> values) const {
   if (max_depth_ == 0) return {};
   const uint64_t key = hash_combine(key_, path.pixel);
-  Eye eye{scene, path, sampler, counters, values, JoinRoulette(roulette_threshold(), ~key), key};
+  thread_local std::vector<uint32_t> photons;
+  Eye eye{scene, path,   sampler, counters, values, JoinRoulette(roulette_threshold(), ~key),
+          key,   photons};
   const size_t walks = lights_.vertices().ends.size();
   if (walks > 0) eye.light_walk = size_t(double(path.pixel) * options_.light_paths) % walks;
   if (options_.method == Method::reuse && options_.weights == ReuseWeights::exact) {

@@ -10,7 +10,7 @@ uint32_t quantize(float x) {
   return uint32_t(int32_t(std::clamp(double(x), -1.0, 1.0) * kScale));
 }
 float restore(uint32_t q) {
-  return float(int32_t(q) * (1 / kScale));
+  return float(int32_t(q)) * float(1 / kScale);
 }
 uint16_t quantize_unit(float x) {
   return uint16_t(std::clamp(x, 0.0f, 1.0f) * 65535.0f + 0.5f);

@@ -25,11 +25,21 @@ class VertexGrid {
   template <class Position>
   void build(uint32_t count, const Position& position, float radius, int threads);
 
+  /// The cells around a point.
+  class Neighborhood {
+    friend class VertexGrid;
+    uint32_t buckets_[8];
+  };
+
+  /// Finds the cells of a later query around `p`, and asks the memory for what it will read of
+  /// them, which is slow: there may be other things to do meanwhile.
+  Neighborhood locate(const Point3f& p) const;
+
   /// Calls `visit(index, distance_squared)` for each point whose distance to p is less than the
   /// radius (in single precision), each once, in an order that depends only on the points and the
-  /// radius.
+  /// radius. `around` is the point's.
   template <class Visit>
-  void query(const Point3f& p, Visit&& visit) const;
+  void query(const Point3f& p, const Neighborhood& around, Visit&& visit) const;
 
   /// What is kept between builds: at most 16 bytes for every point and 8 for every bucket of the
   /// largest build so far. There are as many buckets as points, rounded up to a power of two, and
@@ -64,7 +74,7 @@ class VertexGrid {
 
   uint32_t cell(double x) const {
     const double shifted = x * inverse_cell_size_ + kFarthest;
-    return uint32_t(int64_t(std::min(std::max(shifted, 0.0), 2 * kFarthest)));
+    return uint32_t(int64_t(std::min(std::max(0.0, shifted), 2 * kFarthest)));
   }
 
   /// The lowest three bits tell neighbouring cells apart, so that the 2×2×2 of a query are in
@@ -124,17 +134,26 @@ void VertexGrid::build(uint32_t count, const Position& position, float radius, i
   sort_parts(plan, threads);
 }
 
-template <class Visit>
-void VertexGrid::query(const Point3f& p, Visit&& visit) const {
-  if (size_ == 0 || !is_finite(p)) return;
+inline VertexGrid::Neighborhood VertexGrid::locate(const Point3f& p) const {
   // The lowest of 2×2×2 cells. A point beyond them is not taken for near: differences are rounded,
   // but never from above the radius to below it.
   const double r = double(radius_);
   const uint32_t x = cell(double(p.x) - r), y = cell(double(p.y) - r), z = cell(double(p.z) - r);
+  Neighborhood around;
+  for (uint32_t k = 0; k < 8; ++k) {
+    around.buckets_[k] = bucket(x + (k & 1), y + (k >> 1 & 1), z + (k >> 2));
+    if (size_ > 0) __builtin_prefetch(starts_.get() + around.buckets_[k]);
+  }
+  return around;
+}
+
+template <class Visit>
+void VertexGrid::query(const Point3f& p, const Neighborhood& around, Visit&& visit) const {
+  if (size_ == 0) return;
   const Entry* begin[8];
   const Entry* end[8];
-  for (uint32_t k = 0; k < 8; ++k) {
-    const size_t b = bucket(x + (k & 1), y + (k >> 1 & 1), z + (k >> 2));
+  for (int k = 0; k < 8; ++k) {
+    const uint32_t b = around.buckets_[k];
     begin[k] = entries_.get() + starts_[b], end[k] = entries_.get() + starts_[b + 1];
     if (begin[k] != end[k]) __builtin_prefetch(begin[k]);
   }

@@ -42,7 +42,7 @@ void build(VertexGrid& grid, const Points& points, float radius, int threads = 2
 
 std::vector<Found> ask(const VertexGrid& grid, const Point3f& p) {
   std::vector<Found> found;
-  grid.query(p, [&](uint32_t index, float d) { found.push_back({index, d}); });
+  grid.query(p, grid.locate(p), [&](uint32_t index, float d) { found.push_back({index, d}); });
   return found;
 }
 
