@@ -23,7 +23,9 @@ inline std::string source_path(const std::string& path) {
 /// A scene of the folder scenes/, ready to be rendered.
 class PreparedScene {
  public:
-  explicit PreparedScene(const std::string& name, const Defines& defines = {}) {
+  /// `method` and its parameters replace the scene's integrator if a name is given.
+  explicit PreparedScene(const std::string& name, const Defines& defines = {},
+                         const IntegratorOverride& method = {}) {
     Diagnostics diagnostics;
     MitsubaOptions options;
     options.defines = defines;
@@ -35,6 +37,7 @@ class PreparedScene {
     if (film.crop)
       layout.crop = {film.crop->x, film.crop->y, film.crop->x + film.crop->width,
                      film.crop->y + film.crop->height};
+    apply_override(d.integrator, method);
     integrator = make_integrator(d.integrator);
     BuildOptions build;
     build.threads = 2;
@@ -44,11 +47,12 @@ class PreparedScene {
   }
 
   Image render(int spp, int threads = 2) const { return render(spp, threads, layout.crop); }
-  Image render(int spp, int threads, const PixelBounds& crop) const {
+  Image render(int spp, int threads, const PixelBounds& crop, uint64_t seed = 0) const {
     FilmLayout part = layout;
     part.crop = crop;
     RenderRequest request;
     request.budget.spp = spp;
+    request.seed = seed;
     request.threads = threads;
     return duet::render(*scene, *integrator, part, request).image;
   }

@@ -34,4 +34,13 @@ struct TileComparison {
 };
 TileComparison compare_tiles(const TileBatches& a, const TileBatches& b);
 
+/// Tiles of a mean image of `spp` samples per pixel, whose errors follow from the variance of one
+/// sample. That of the three channels together is at most what they had if they varied as one.
+struct ReferenceTiles {
+  ReferenceTiles(const Image& mean, const Image& variance, double spp);
+  std::vector<double> means, error2;
+};
+/// The same against images whose noise is known.
+TileComparison compare_tiles(const TileBatches& a, const ReferenceTiles& b);
+
 }  // namespace duet::test

@@ -1,0 +1,82 @@
+// Every method against Mitsuba's references, by tiles of independent images.
+#include <algorithm>
+#include <string_view>
+
+#include "references/cases.h"
+#include "support/agreement.h"
+#include "support/statistics.h"
+
+using namespace duet;
+using namespace duet::test;
+
+namespace {
+
+constexpr int kBatches = 16, kSpp = 2;
+
+TileBatches render(const ReferenceCase& c, const std::string& name) {
+  IntegratorOverride method{name, {}, {}};
+  // The only scene that is not rendered by `path`.
+  if (c.reference == "hide-emitters") method.parameters.emplace_back("max_depth", "2");
+  const PreparedScene scene(c.scene, c.defines, method);
+  TileBatches batches;
+  for (int b = 0; b < kBatches; ++b)
+    batches.add(scene.render(kSpp, 2, scene.layout.crop, uint64_t(b)));
+  return batches;
+}
+
+/// Whether the light image alone shows the scene: no specular surfaces, and none so glossy that
+/// what it reflects is found too rarely for statistics.
+bool suits_light_tracing(const ReferenceCase& c) {
+  constexpr std::string_view kScenes[]{"camera",   "filters-tent", "filters-lanczos", "lights-area",
+                                       "textures", "lights-delta", "thesis-empty",    "shapes"};
+  return std::find(std::begin(kScenes), std::end(kScenes), c.reference) != std::end(kScenes);
+}
+
+double standard_error(const TileBatches& b) {
+  double error2 = 0;
+  for (int i = 0; i < TileBatches::kTiles * TileBatches::kTiles; ++i) error2 += b.error2(i);
+  return std::sqrt(error2) / (TileBatches::kTiles * TileBatches::kTiles) / b.total();
+}
+
+}  // namespace
+
+TEST_SUITE("references") {
+  TEST_CASE("unbiased methods agree with Mitsuba") {
+    const std::vector<ReferenceCase>& cases = reference_cases();
+    const double level = sidak(0.01, 3 * int(cases.size()) * 64);
+    for (const std::string name : {"bdpt", "reuse", "ptracer"}) {
+      CAPTURE(name);
+      double total = 0;
+      int count = 0;
+      for (const ReferenceCase& c : cases) {
+        if (name == "ptracer" && !suits_light_tracing(c)) continue;
+        const Reference reference(c.reference);
+        const TileComparison r = compare_tiles(
+            render(c, name), ReferenceTiles(reference.mean, reference.variance, reference.spp));
+        CAPTURE(c.reference);
+        CAPTURE(r.ratio);
+        CHECK(r.least_p > level);
+        CHECK(r.mean_z2 < 2.2);
+        total += r.mean_z2, ++count;
+      }
+      CHECK(total / count < 1.6);
+    }
+  }
+
+  // What merging does to the mean of an image of few iterations: photons of one surface count for
+  // another near it, and those beyond an edge are missing (docs/mis.md).
+  TEST_CASE("methods that merge come near Mitsuba") {
+    for (const auto& [name, bias] :
+         {std::pair<std::string, double>{"vcm", 0.005}, {"bpm", 0.025}, {"ppm", 0.025}}) {
+      for (const ReferenceCase& c : reference_cases()) {
+        const Reference reference(c.reference);
+        const TileBatches image = render(c, name);
+        const TileComparison r =
+            compare_tiles(image, ReferenceTiles(reference.mean, reference.variance, reference.spp));
+        CAPTURE(name);
+        CAPTURE(c.reference);
+        CHECK(std::abs(r.ratio - 1) < bias + 3.5 * standard_error(image));
+      }
+    }
+  }
+}
