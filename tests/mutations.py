@@ -50,7 +50,7 @@ MUTATIONS = [
     ("the tail's roulette is not made up for", "src/integrators/bidirectional_eye.cpp",
      "walk.throughput *= 1 / q;", "", MEAN),
     ("splats are not divided by the number of passes", "src/image/film.cpp",
-     "sum / (filter * splat_passes_)", "sum / filter", MEAN),
+     "sum / (filter * passes_)", "sum / filter", MEAN),
     ("the filter is not cut off at the border for splats", "src/image/film.cpp",
      "std::max(center - r, 0.0)", "center - r", "splats are as bright*"),
     ("cached connections forget how many there are", "src/integrators/bidirectional_eye.cpp",

@@ -122,7 +122,28 @@ Image Film::develop() const {
       for (int x = crop_.x0; x < crop_.x1; ++x, pixel += n)
         for (int c = 0; c < 3; ++c) pixel[c] += float(splat_mean(k, x, y, c));
   }
+  for (const size_t first : moment_channels_)
+    for (size_t i = 0; i < squares_.size(); ++i)
+      image.data[i / 3 * size_t(n) + first + i % 3] = float(squares_[i] / std::max(1, passes_));
   return image;
+}
+
+void Film::add_moments(size_t first_channel) {
+  moment_channels_.push_back(first_channel);
+  colour_sums_.resize(3 * size_t(crop_.width()) * size_t(crop_.height()));
+  squares_.resize(colour_sums_.size());
+}
+
+void Film::end_pass() {
+  ++passes_;
+  if (moment_channels_.empty()) return;
+  const Image now = develop();
+  for (size_t i = 0; i < squares_.size(); ++i) {
+    const double sum = double(now.data[i / 3 * channels_.size() + i % 3]) * passes_;
+    const double added = sum - colour_sums_[i];
+    squares_[i] += added * added;
+    colour_sums_[i] = sum;
+  }
 }
 
 size_t Film::add_splat_layer(size_t first_channel) {
@@ -136,12 +157,12 @@ size_t Film::add_splat_layer(size_t first_channel) {
 }
 
 double Film::splat_mean(size_t layer, int x, int y, int channel) const {
-  if (splat_passes_ == 0) return 0;
+  if (passes_ == 0) return 0;
   const size_t column = size_t(x - crop_.x0), row = size_t(y - crop_.y0);
   const double sum =
       splats_[layer].sums[3 * (row * size_t(crop_.width()) + column) + size_t(channel)];
   const double filter = filter_x_.empty() ? 1.0 : filter_x_[column] * filter_y_[row];
-  return filter > 0 ? sum / (filter * splat_passes_) : 0.0;
+  return filter > 0 ? sum / (filter * passes_) : 0.0;
 }
 
 void Film::add_splats(size_t layer, std::span<const Splat> splats, float scale, int threads) {
@@ -179,7 +200,8 @@ void Film::add(const Film& other) {
   for (size_t k = 0; k < splats_.size(); ++k)
     for (size_t i = 0; i < splats_[k].sums.size(); ++i)
       splats_[k].sums[i] += other.splats_[k].sums[i];
-  splat_passes_ += other.splat_passes_;
+  for (size_t i = 0; i < squares_.size(); ++i) squares_[i] += other.squares_[i];
+  passes_ += other.passes_;
 }
 
 }  // namespace duet

@@ -94,12 +94,15 @@ class Film {
   /// that a unit of light per pixel area adds one to each pixel. The sum does not depend on the
   /// number of threads.
   void add_splats(size_t layer, std::span<const Splat> splats, float scale, int threads);
-  /// To be called once for each pass whose splats are complete: splats are divided by their number.
-  void end_splat_pass() { ++splat_passes_; }
+  /// Makes three channels from `first_channel` on the mean of the squares of what each pass makes of
+  /// a pixel's first three channels, splats included: samples alone do not know of those.
+  void add_moments(size_t first_channel);
+  /// To be called after each pass with splats: these are divided by the number of passes.
+  void end_pass();
   /// What the splats of a layer add to a channel of a pixel of the window.
   double splat_mean(size_t layer, int x, int y, int channel) const;
   size_t splat_layer_count() const { return splats_.size(); }
-  int splat_passes() const { return splat_passes_; }
+  int passes() const { return passes_; }
 
   /// The weighted means of the window's pixels, with splats; a pixel that nothing reached is zero.
   Image develop() const;
@@ -118,7 +121,11 @@ class Film {
     std::vector<double> sums;  ///< three per pixel of the window
   };
   std::vector<SplatLayer> splats_;
-  int splat_passes_ = 0;
+  int passes_ = 0;
+  /// Where moments go. Sums over the passes of what each made of a pixel's colours, and of its
+  /// squares: three per pixel of the window, or none.
+  std::vector<size_t> moment_channels_;
+  std::vector<double> colour_sums_, squares_;
   /// Per column and row of the window: integral of the filter over the image.
   std::vector<double> filter_x_, filter_y_;
 };

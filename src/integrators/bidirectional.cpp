@@ -47,13 +47,6 @@ BidirectionalIntegrator::BidirectionalIntegrator(const Options& options, const C
       options_(options),
       max_depth_(depth_limit(options)),
       is_thesis_(options.method == Method::reuse && options.weights != ReuseWeights::exact) {
-  const bool splats = !merges(options.method) || connects(options.method);
-  for (const Layer& layer : output.layers)
-    if (splats && (layer.kind == LayerKind::moments || layer.kind == LayerKind::variance))
-      throw std::invalid_argument(
-          fmt::format("layer \"{}\" cannot be told where light walks add to all pixels; render "
-                      "several seeds instead",
-                      layer.name));
   if (!(options_.light_paths > 0)) options_.light_paths = default_light_paths(options.method);
   windows_.eye = options.max_eye_depth;
   windows_.light = options.max_light_depth;
@@ -108,6 +101,7 @@ void BidirectionalIntegrator::prepare(Film& film) const {
   const bool has_colours = !film.channels().empty() && film.channels()[0] == "R";
   if (!has_colours) return;
   film.add_splat_layer(0);
+  gather_moments(film);
   if (!layers_.enabled) return;
   for (int s = 2; s <= max_depth_; ++s)
     if (const size_t first = layers_.join(s, 1)) film.add_splat_layer(first);
@@ -198,7 +192,7 @@ void BidirectionalIntegrator::iteration(const Scene& scene, Film& film, const Sa
         control.threads);
   }
   CameraIntegrator::render_pass(scene, film, samples, control, counters);
-  film.end_splat_pass();
+  film.end_pass();
 }
 
 void BidirectionalIntegrator::splat(Film& film, std::span<const LightSplat> splats, int threads,

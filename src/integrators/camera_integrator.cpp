@@ -6,8 +6,12 @@ namespace duet {
 
 namespace {
 
+bool is_moment(LayerKind kind) {
+  return kind == LayerKind::moments || kind == LayerKind::variance;
+}
+
 bool is_statistic(LayerKind kind) {
-  return kind == LayerKind::moments || kind == LayerKind::variance || kind == LayerKind::samples;
+  return is_moment(kind) || kind == LayerKind::samples;
 }
 
 }  // namespace
@@ -27,6 +31,11 @@ size_t CameraIntegrator::add_colour_layer(const std::string& name) {
   return first;
 }
 
+void CameraIntegrator::gather_moments(Film& film) const {
+  for (const PlacedLayer& layer : layers_)
+    if (is_moment(layer.kind)) film.add_moments(layer.first);
+}
+
 void CameraIntegrator::sample(const Scene& scene, const CameraPath& path, Sampler& sampler,
                               RenderCounters& counters, std::span<float> values) const {
   const Ray& ray = path.ray;
@@ -43,7 +52,7 @@ void CameraIntegrator::sample(const Scene& scene, const CameraPath& path, Sample
   if (found) surface = scene.surface(ray, hit);
   for (const PlacedLayer& layer : layers_) {
     const std::span<float> out = values.subspan(layer.first);
-    if (layer.kind == LayerKind::moments || layer.kind == LayerKind::variance)
+    if (is_moment(layer.kind))
       out[0] = l.r * l.r, out[1] = l.g * l.g, out[2] = l.b * l.b;
     else if (found)
       evaluate_layer(layer.kind, scene, surface, -ray.direction, hit, out);

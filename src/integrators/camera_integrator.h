@@ -49,6 +49,9 @@ class CameraIntegrator : public Integrator {
                             RenderCounters& counters, std::span<float> values) const = 0;
   /// Adds a layer of three channels that radiance() fills; returns the first of them.
   size_t add_colour_layer(const std::string& name);
+  /// Has the film gather the moments that layers ask for, which a sample cannot tell where passes
+  /// also add splats.
+  void gather_moments(Film& film) const;
 
  private:
   void render_tile(const Scene& scene, const Film& film, FilmTile& tile, const SampleRange& samples,

@@ -50,7 +50,7 @@ PartialMeans::PartialMeans(const Film& film) : channels_(color_channels(film)) {
 void PartialMeans::add_part(const Film& film) {
   const size_t stride = film.channels().size() + 1;
   total_ = weight_ = pixels_ = 0;
-  const double passes = film.splat_passes(), new_passes = passes - passes_before_;
+  const double passes = film.passes(), new_passes = passes - passes_before_;
   // What the splats of this part alone add to a channel of a pixel; their mean is remembered.
   const auto splats_of_part = [&](int x, int y, int c, double& mean) {
     double& before = splats_before_[(size_t(y - film.crop().y0) * size_t(film.crop().width()) +
