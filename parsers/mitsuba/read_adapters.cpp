@@ -1,8 +1,10 @@
 // Materials made of other materials.
 #include <algorithm>
+#include <numeric>
 
 #include "mitsuba/readers.h"
 #include "mitsuba/scene_reader.h"
+#include "mitsuba/text.h"
 
 namespace duet {
 
@@ -36,12 +38,16 @@ bool transmits(const SceneDescription& d, MaterialId id) {
         if constexpr (std::is_same_v<M, DielectricMaterial> ||
                       std::is_same_v<M, ThinDielectricMaterial> ||
                       std::is_same_v<M, MaskMaterial> || std::is_same_v<M, NullMaterial> ||
-                      std::is_same_v<M, PrincipledThinMaterial>)
+                      std::is_same_v<M, PrincipledThinMaterial> ||
+                      std::is_same_v<M, DiffuseTransmitterMaterial>)
           return true;
         else if constexpr (std::is_same_v<M, PrincipledMaterial>)
           return !is_zero(m.spec_trans);
         else if constexpr (std::is_same_v<M, BlendMaterial>)
           return transmits(d, m.first) || transmits(d, m.second);
+        else if constexpr (std::is_same_v<M, MixtureMaterial>)
+          return std::any_of(m.parts.begin(), m.parts.end(),
+                             [&](const auto& part) { return transmits(d, part.second); });
         else if constexpr (std::is_same_v<M, BumpMapMaterial> ||
                            std::is_same_v<M, NormalMapMaterial>)
           return transmits(d, m.nested);
@@ -86,6 +92,22 @@ void read_blendbsdf(SceneReader& s, Properties& p, MaterialDescription& out) {
   const FloatInput weight = s.number_or_texture(p, "weight");
   if (const auto ids = nested(s, p, 2, 2); !ids.empty())
     out.model = BlendMaterial{weight, ids[0], ids[1]};
+}
+
+void read_mixturebsdf(SceneReader& s, Properties& p, MaterialDescription& out) {
+  MixtureMaterial m;
+  const std::string text = p.string("weights");
+  const auto weights = parse_numbers(text);
+  if (!weights || weights->empty() || *std::min_element(weights->begin(), weights->end()) < 0)
+    return p.error("weights", "{} are not weights: numbers that are not negative", in_quotes(text));
+  const double sum = std::accumulate(weights->begin(), weights->end(), 0.0);
+  const auto ids = nested(s, p, weights->size(), weights->size());
+  if (sum > 1)
+    s.report().warning(p.where("weights"), "the weights sum to {:.4g}: they are divided by that",
+                       sum);
+  for (size_t i = 0; i < ids.size(); ++i)
+    m.parts.emplace_back((*weights)[i] / std::max(sum, 1.0), ids[i]);
+  out.model = m;
 }
 
 void read_bumpmap(SceneReader& s, Properties& p, MaterialDescription& out) {

@@ -170,6 +170,61 @@ void read_principledthin(SceneReader& s, Properties& p, MaterialDescription& out
   out.model = m;
 }
 
+namespace {
+
+/// Mitsuba 0.6 scales the two lobes of a material that would reflect more light than there is.
+void conserve_energy(SceneReader& s, Properties& p, ColorInput& diffuse, ColorInput& specular) {
+  Spectrum* const a = std::get_if<Spectrum>(&diffuse);
+  Spectrum* const b = std::get_if<Spectrum>(&specular);
+  if (!a || !b) return;
+  const float sum = (*a + *b).max();
+  if (!(sum > 1)) return;
+  const float scale = 0.99f / sum;
+  *a *= scale, *b *= scale;
+  s.report().warning(p.node().where,
+                     "{} would reflect {:.3g} times the light that meets it: both of its lobes are "
+                     "scaled by {:.3g}",
+                     describe(p.node()), sum, scale);
+}
+
+}  // namespace
+
+void read_phong(SceneReader& s, Properties& p, MaterialDescription& out) {
+  PhongMaterial m;
+  m.exponent = s.number_or_texture(p, "exponent");
+  m.diffuse_reflectance = s.color(p, "diffuse_reflectance");
+  m.specular_reflectance = s.color(p, "specular_reflectance");
+  if (const double* exponent = std::get_if<double>(&m.exponent); exponent && *exponent < 0)
+    p.error("exponent", "an exponent must not be negative");
+  conserve_energy(s, p, m.diffuse_reflectance, m.specular_reflectance);
+  out.model = m;
+}
+
+void read_ward(SceneReader& s, Properties& p, MaterialDescription& out) {
+  WardMaterial m;
+  m.variant = p.choice<WardVariant>("variant", {{"ward", WardVariant::ward},
+                                                {"ward-duer", WardVariant::duer},
+                                                {"balanced", WardVariant::balanced}});
+  m.diffuse_reflectance = s.color(p, "diffuse_reflectance");
+  m.specular_reflectance = s.color(p, "specular_reflectance");
+  m.alpha_u = s.number_or_texture(p, "alpha_u");
+  m.alpha_v = s.number_or_texture(p, "alpha_v");
+  conserve_energy(s, p, m.diffuse_reflectance, m.specular_reflectance);
+  out.model = m;
+}
+
+void read_roughdiffuse(SceneReader& s, Properties& p, MaterialDescription& out) {
+  RoughDiffuseMaterial m;
+  m.reflectance = s.color(p, "reflectance");
+  m.alpha = s.number_or_texture(p, "alpha");
+  m.use_fast_approx = p.boolean("use_fast_approx");
+  out.model = m;
+}
+
+void read_difftrans(SceneReader& s, Properties& p, MaterialDescription& out) {
+  out.model = DiffuseTransmitterMaterial{s.color(p, "transmittance")};
+}
+
 void read_null(SceneReader&, Properties&, MaterialDescription& out) {
   out.model = NullMaterial{};
 }

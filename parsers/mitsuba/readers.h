@@ -13,11 +13,16 @@ void read_thindielectric(SceneReader&, Properties&, MaterialDescription&);
 void read_plastic(SceneReader&, Properties&, MaterialDescription&);
 void read_principled(SceneReader&, Properties&, MaterialDescription&);
 void read_principledthin(SceneReader&, Properties&, MaterialDescription&);
+void read_phong(SceneReader&, Properties&, MaterialDescription&);
+void read_ward(SceneReader&, Properties&, MaterialDescription&);
+void read_roughdiffuse(SceneReader&, Properties&, MaterialDescription&);
+void read_difftrans(SceneReader&, Properties&, MaterialDescription&);
 void read_null(SceneReader&, Properties&, MaterialDescription&);
 
 // read_adapters.cpp: materials made of others
 void read_twosided(SceneReader&, Properties&, MaterialDescription&);
 void read_mask(SceneReader&, Properties&, MaterialDescription&);
+void read_mixturebsdf(SceneReader&, Properties&, MaterialDescription&);
 void read_blendbsdf(SceneReader&, Properties&, MaterialDescription&);
 void read_bumpmap(SceneReader&, Properties&, MaterialDescription&);
 void read_normalmap(SceneReader&, Properties&, MaterialDescription&);

@@ -40,6 +40,11 @@ class SceneWriter {
   void write_model(const DielectricMaterial& m);
   void write_model(const ThinDielectricMaterial& m);
   void write_model(const PlasticMaterial& m);
+  void write_model(const PhongMaterial& m);
+  void write_model(const WardMaterial& m);
+  void write_model(const RoughDiffuseMaterial& m);
+  void write_model(const DiffuseTransmitterMaterial& m);
+  void write_model(const MixtureMaterial& m);
   void write_model(const PrincipledMaterial& m);
   void write_model(const PrincipledThinMaterial& m);
   void write_model(const TwoSidedMaterial& m);

@@ -36,6 +36,15 @@ class Marker {
     mark(m.base_color, m.roughness, m.anisotropic, m.spec_trans, m.eta, m.spec_tint, m.sheen,
          m.sheen_tint, m.flatness, m.diff_trans);
   }
+  void model(const PhongMaterial& m) {
+    mark(m.diffuse_reflectance, m.specular_reflectance, m.exponent);
+  }
+  void model(const WardMaterial& m) {
+    mark(m.diffuse_reflectance, m.specular_reflectance, m.alpha_u, m.alpha_v);
+  }
+  void model(const RoughDiffuseMaterial& m) { mark(m.reflectance, m.alpha); }
+  void model(const DiffuseTransmitterMaterial& m) { mark(m.transmittance); }
+  void model(const MixtureMaterial&) {}
   void model(const TwoSidedMaterial&) {}
   void model(const MaskMaterial& m) { mark(m.opacity); }
   void model(const BlendMaterial& m) { mark(m.weight); }

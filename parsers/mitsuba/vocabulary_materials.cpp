@@ -95,6 +95,21 @@ constexpr Parameter kPrincipledThin[] = {
     {"diffuse_transmittance_sampling_rate", number, "1", "", not_negative},
 };
 
+constexpr Parameter kDimSpecular{"specular_reflectance", reflectance, "0.2", "of the glossy lobe"};
+constexpr Parameter kGlossyBase{"diffuse_reflectance", reflectance, "0.5", "of the diffuse lobe"};
+constexpr Parameter kPhong[] = {{"exponent", number_or_texture, "30"}, kDimSpecular, kGlossyBase};
+constexpr Parameter kWard[] = {{"variant", string, "balanced", "ward, ward-duer or balanced"},
+                               {"alpha_u", number_or_texture, "0.1", "along the tangent"},
+                               {"alpha_v", number_or_texture, "0.1", "along the bitangent"},
+                               kDimSpecular,
+                               kGlossyBase};
+constexpr Parameter kRoughDiffuse[] = {
+    {"reflectance", reflectance, "0.5"},
+    {"alpha", number_or_texture, "0.2", "roughness as that of a Beckmann distribution"},
+    {"use_fast_approx", boolean, "false", "without interreflection"}};
+constexpr Parameter kDiffuseTransmitter[] = {{"transmittance", reflectance, "0.5"}};
+constexpr Parameter kMixture[] = {{"weights", string, "", "numbers, separated by commas"}};
+
 constexpr Parameter kTwoSided[] = {{.name = "allow_transmission",
                                     .type = boolean,
                                     .preset = "false",
@@ -150,9 +165,13 @@ constexpr Plugin kBsdfs[] = {
      .aliases = "bump"},
     {"normalmap", both, kNormalMap, &read_normalmap, "holds a BSDF"},
     {"null", both, {}, &read_null},
+    {"phong", both, kPhong, &read_phong, "Mitsuba 3 has none"},
+    {"ward", both, kWard, &read_ward, "Mitsuba 3 has none"},
+    {"roughdiffuse", both, kRoughDiffuse, &read_roughdiffuse, "Mitsuba 3 has none"},
+    {"difftrans", both, kDiffuseTransmitter, &read_difftrans, "Mitsuba 3 has none"},
+    {"mixturebsdf", both, kMixture, &read_mixturebsdf, "holds BSDFs; Mitsuba 3 has none"},
     planned_plugin("circular", v3, "transmittance left_handed"),
     planned_plugin("coating", v0, "int_ior ext_ior thickness sigma_a specular_reflectance"),
-    planned_plugin("difftrans", v0, "transmittance"),
     planned_plugin("hair", v3,
                    "longitudinal_roughness azimuthal_roughness scale_tilt int_ior ext_ior "
                    "sigma_a eumelanin pheomelanin"),
@@ -164,8 +183,6 @@ constexpr Plugin kBsdfs[] = {
      .note = "light has no polarisation here",
      .support = refused,
      .planned_parameters = "filename alpha_sample wavelength"},
-    planned_plugin("mixturebsdf", v0, "weights"),
-    planned_plugin("phong", v0, "exponent specular_reflectance diffuse_reflectance"),
     planned_plugin("polarizer", v3, "theta transmittance polarizing"),
     planned_plugin("pplastic", v3,
                    "diffuse_reflectance specular_reflectance int_ior ext_ior distribution "
@@ -174,9 +191,7 @@ constexpr Plugin kBsdfs[] = {
     planned_plugin("roughcoating", v0,
                    "int_ior ext_ior thickness sigma_a specular_reflectance distribution "
                    "alpha sample_visible"),
-    planned_plugin("roughdiffuse", v0, "reflectance alpha use_fast_approx"),
     planned_plugin("sssbrdf", v0, "material sigma_s sigma_a sigma_t albedo int_ior ext_ior alpha"),
-    planned_plugin("ward", v0, "variant alpha_u alpha_v specular_reflectance diffuse_reflectance"),
 };
 
 }  // namespace

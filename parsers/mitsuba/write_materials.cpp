@@ -11,10 +11,10 @@ std::string_view type_of(const TextureDescription& t) {
 }
 
 std::string type_of(const MaterialDescription& m) {
-  constexpr std::string_view names[] = {"diffuse", "conductor",  "dielectric",     "thindielectric",
-                                        "plastic", "principled", "principledthin", "twosided",
-                                        "mask",    "blendbsdf",  "bumpmap",        "normalmap",
-                                        "null"};
+  constexpr std::string_view names[] = {
+      "diffuse",        "conductor", "dielectric", "thindielectric", "plastic",   "principled",
+      "principledthin", "twosided",  "mask",       "blendbsdf",      "bumpmap",   "normalmap",
+      "null",           "phong",     "ward",       "roughdiffuse",   "difftrans", "mixturebsdf"};
   static_assert(std::size(names) == std::variant_size_v<decltype(m.model)>);
   const bool rough = std::visit(
       [](const auto& model) {
@@ -147,6 +147,38 @@ void SceneWriter::write_model(const PlasticMaterial& m) {
   color("specular_reflectance", m.specular_reflectance);
   out_.boolean("nonlinear", m.nonlinear);
   roughness(m.roughness, true);
+}
+
+void SceneWriter::write_model(const PhongMaterial& m) {
+  number("exponent", m.exponent);
+  color("diffuse_reflectance", m.diffuse_reflectance);
+  color("specular_reflectance", m.specular_reflectance);
+}
+
+void SceneWriter::write_model(const WardMaterial& m) {
+  constexpr std::string_view kVariants[] = {"ward", "ward-duer", "balanced"};
+  out_.string("variant", kVariants[size_t(m.variant)]);
+  number("alpha_u", m.alpha_u);
+  number("alpha_v", m.alpha_v);
+  color("diffuse_reflectance", m.diffuse_reflectance);
+  color("specular_reflectance", m.specular_reflectance);
+}
+
+void SceneWriter::write_model(const RoughDiffuseMaterial& m) {
+  color("reflectance", m.reflectance);
+  number("alpha", m.alpha);
+  out_.boolean("use_fast_approx", m.use_fast_approx);
+}
+
+void SceneWriter::write_model(const DiffuseTransmitterMaterial& m) {
+  color("transmittance", m.transmittance);
+}
+
+void SceneWriter::write_model(const MixtureMaterial& m) {
+  std::vector<double> weights;
+  for (const auto& [weight, id] : m.parts) weights.push_back(weight);
+  out_.string("weights", fmt::format("{}", fmt::join(weights, ", ")));
+  for (const auto& [weight, id] : m.parts) out_.reference({}, material_id(id));
 }
 
 void SceneWriter::write_model(const PrincipledMaterial& m) {

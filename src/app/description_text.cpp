@@ -104,6 +104,27 @@ std::string DescriptionText::material(MaterialId id) const {
             return fmt::format("principledthin {}, roughness {}", input(m.base_color),
                                input(m.roughness));
           },
+          [&](const PhongMaterial& m) {
+            return fmt::format("phong, exponent {}, diffuse {}, specular {}", input(m.exponent),
+                               input(m.diffuse_reflectance), input(m.specular_reflectance));
+          },
+          [&](const WardMaterial& m) {
+            return fmt::format("ward, alpha {} and {}, diffuse {}, specular {}", input(m.alpha_u),
+                               input(m.alpha_v), input(m.diffuse_reflectance),
+                               input(m.specular_reflectance));
+          },
+          [&](const RoughDiffuseMaterial& m) {
+            return fmt::format("roughdiffuse {}, alpha {}", input(m.reflectance), input(m.alpha));
+          },
+          [&](const DiffuseTransmitterMaterial& m) {
+            return "difftrans " + input(m.transmittance);
+          },
+          [&](const MixtureMaterial& m) {
+            std::vector<std::string> parts;
+            for (const auto& [weight, part] : m.parts)
+              parts.push_back(fmt::format("{:.4g} of {}", weight, material(part)));
+            return fmt::format("mixturebsdf [{}]", fmt::join(parts, "; "));
+          },
           [&](const TwoSidedMaterial& m) {
             return m.front == m.back ? fmt::format("twosided [{}]", material(m.front))
                                      : fmt::format("twosided [front {}; back {}]",

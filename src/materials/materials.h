@@ -172,6 +172,84 @@ class RoughPlastic final : public SingleModelMaterial<RoughPlastic> {
   RoughTransmittance tables_;
 };
 
+/// Of two reflectances, the share of the first: how often its lobe is sampled.
+inline float share_of_first(const Spectrum& first, const Spectrum& second) {
+  const float a = first.luminance(), b = second.luminance();
+  return a + b > 0 ? a / (a + b) : 0.0f;
+}
+
+/// `exponent` ≥ 0.
+struct PhongOptions {
+  ColorSlot diffuse_reflectance{Spectrum(0.5f)}, specular_reflectance{Spectrum(0.2f)};
+  FloatSlot exponent{30};
+};
+
+class Phong final : public SingleModelMaterial<Phong> {
+ public:
+  explicit Phong(const PhongOptions& options);
+  PhongModel model(const Surface& s) const;
+  SurfaceNeeds needs() const override;
+  bool transmits() const override { return false; }
+  Spectrum local_albedo(const Surface& s, const Vector3f&) const override {
+    return options_.diffuse_reflectance(s);
+  }
+
+ private:
+  PhongOptions options_;
+};
+
+/// Roughness below Microfacet::kMinAlpha is raised to it.
+struct WardOptions {
+  ColorSlot diffuse_reflectance{Spectrum(0.5f)}, specular_reflectance{Spectrum(0.2f)};
+  FloatSlot alpha_u{0.1f}, alpha_v{0.1f};
+  WardVariant variant = WardVariant::balanced;
+};
+
+class Ward final : public SingleModelMaterial<Ward> {
+ public:
+  explicit Ward(const WardOptions& options);
+  WardModel model(const Surface& s) const;
+  SurfaceNeeds needs() const override;
+  bool transmits() const override { return false; }
+  Spectrum local_albedo(const Surface& s, const Vector3f&) const override {
+    return options_.diffuse_reflectance(s);
+  }
+
+ private:
+  WardOptions options_;
+};
+
+/// `alpha` is the roughness of a Beckmann distribution with the same slopes.
+class RoughDiffuse final : public SingleModelMaterial<RoughDiffuse> {
+ public:
+  RoughDiffuse(const ColorSlot& reflectance, const FloatSlot& alpha, bool fast);
+  RoughDiffuseModel model(const Surface& s) const;
+  SurfaceNeeds needs() const override;
+  bool transmits() const override { return false; }
+  Spectrum local_albedo(const Surface& s, const Vector3f&) const override {
+    return reflectance_(s);
+  }
+
+ private:
+  ColorSlot reflectance_;
+  FloatSlot alpha_;
+  bool fast_;
+};
+
+class DiffuseTransmitter final : public SingleModelMaterial<DiffuseTransmitter> {
+ public:
+  explicit DiffuseTransmitter(const ColorSlot& transmittance);
+  DiffuseTransmitterModel model(const Surface& s) const { return {transmittance_(s)}; }
+  SurfaceNeeds needs() const override;
+  bool transmits() const override { return true; }
+  Spectrum local_albedo(const Surface& s, const Vector3f&) const override {
+    return transmittance_(s);
+  }
+
+ private:
+  ColorSlot transmittance_;
+};
+
 /// Weights outside [0, 1] are clamped. A material that transmits and has eta = 1 gets 1.001, as in
 /// Mitsuba.
 struct PrincipledOptions {

@@ -6,11 +6,15 @@
 #include "materials/conductor.h"
 #include "materials/dielectric.h"
 #include "materials/diffuse.h"
+#include "materials/diffuse_transmitter.h"
 #include "materials/null.h"
+#include "materials/phong.h"
 #include "materials/plastic.h"
 #include "materials/principled.h"
 #include "materials/principledthin.h"
+#include "materials/rough_diffuse.h"
 #include "materials/thindielectric.h"
+#include "materials/ward.h"
 
 /// X(enumerator, type) for each model.
 #define DUET_BSDF_MODELS(X)                 \
@@ -24,7 +28,11 @@
   X(plastic, PlasticModel)                  \
   X(rough_plastic, RoughPlasticModel)       \
   X(principled, PrincipledModel)            \
-  X(principled_thin, PrincipledThinModel)
+  X(principled_thin, PrincipledThinModel)   \
+  X(phong, PhongModel)                      \
+  X(ward, WardModel)                        \
+  X(rough_diffuse, RoughDiffuseModel)       \
+  X(diffuse_transmitter, DiffuseTransmitterModel)
 
 namespace duet {
 

@@ -55,6 +55,39 @@ void Blend::add_components(const Surface& surface, BsdfBuilder& builder) const {
   builder.with_share(weight, [&](BsdfBuilder& b) { second_.bind(surface, b); });
 }
 
+SurfaceNeeds Mixture::needs() const {
+  SurfaceNeeds needs;
+  for (const Part& p : parts_) needs = needs | p.material->needs();
+  return needs;
+}
+
+int Mixture::component_count() const {
+  int count = 0;
+  for (const Part& p : parts_) count += p.material->component_count();
+  return count;
+}
+
+bool Mixture::transmits() const {
+  return std::any_of(parts_.begin(), parts_.end(),
+                     [](const Part& p) { return p.material->transmits(); });
+}
+
+bool Mixture::perturbs() const {
+  return std::any_of(parts_.begin(), parts_.end(),
+                     [](const Part& p) { return p.material->perturbs(); });
+}
+
+Spectrum Mixture::local_albedo(const Surface& surface, const Vector3f& wo) const {
+  Spectrum sum;
+  for (const Part& p : parts_) sum += p.material->local_albedo(surface, wo) * p.weight;
+  return sum;
+}
+
+void Mixture::add_components(const Surface& surface, BsdfBuilder& builder) const {
+  for (const Part& p : parts_)
+    builder.with_share(p.weight, [&](BsdfBuilder& b) { p.material->bind(surface, b); });
+}
+
 void Perturbed::add_components(const Surface& surface, BsdfBuilder& builder) const {
   assert(!nested_.perturbs());
   Normal3f n = normal(surface);

@@ -1,6 +1,8 @@
 // Materials made of other materials, which must outlive them.
 #pragma once
 
+#include <vector>
+
 #include "materials/bsdf.h"
 #include "textures/texture.h"
 
@@ -63,6 +65,27 @@ class Blend final : public Material {
  private:
   FloatSlot weight_;
   const Material &first_, &second_;
+};
+
+/// Σ weight · material; weights are positive, and their sum is at most one.
+class Mixture final : public Material {
+ public:
+  struct Part {
+    float weight;
+    const Material* material;
+  };
+  explicit Mixture(std::vector<Part> parts) : parts_(std::move(parts)) {}
+  SurfaceNeeds needs() const override;
+  int component_count() const override;
+  bool transmits() const override;
+  bool perturbs() const override;
+  Spectrum local_albedo(const Surface& surface, const Vector3f& wo) const override;
+
+ protected:
+  void add_components(const Surface& surface, BsdfBuilder& builder) const override;
+
+ private:
+  std::vector<Part> parts_;
 };
 
 /// What the two maps of perturbed normals have in common: see Tilt. Mitsuba 0.x has neither.

@@ -57,6 +57,26 @@ std::unique_ptr<Material> SceneBuilder::make(const PlasticMaterial& m, const Sou
   return std::make_unique<Plastic>(o);
 }
 
+std::unique_ptr<Material> SceneBuilder::make(const PhongMaterial& m, const SourceLocation&) {
+  return std::make_unique<Phong>(
+      PhongOptions{slot(m.diffuse_reflectance), slot(m.specular_reflectance), slot(m.exponent)});
+}
+
+std::unique_ptr<Material> SceneBuilder::make(const WardMaterial& m, const SourceLocation&) {
+  return std::make_unique<Ward>(WardOptions{slot(m.diffuse_reflectance),
+                                            slot(m.specular_reflectance), slot(m.alpha_u),
+                                            slot(m.alpha_v), m.variant});
+}
+
+std::unique_ptr<Material> SceneBuilder::make(const RoughDiffuseMaterial& m, const SourceLocation&) {
+  return std::make_unique<RoughDiffuse>(slot(m.reflectance), slot(m.alpha), m.use_fast_approx);
+}
+
+std::unique_ptr<Material> SceneBuilder::make(const DiffuseTransmitterMaterial& m,
+                                             const SourceLocation&) {
+  return std::make_unique<DiffuseTransmitter>(slot(m.transmittance));
+}
+
 template <class Options, class Description>
 Options SceneBuilder::principled_options(const Description& m) {
   Options o;
@@ -115,6 +135,16 @@ std::unique_ptr<Material> SceneBuilder::make(const BlendMaterial& m, const Sourc
   const FloatSlot weight = slot(m.weight);
   const Material *first = material(m.first), *second = material(m.second);
   return first && second ? std::make_unique<Blend>(weight, *first, *second) : nullptr;
+}
+
+std::unique_ptr<Material> SceneBuilder::make(const MixtureMaterial& m, const SourceLocation&) {
+  std::vector<Mixture::Part> parts;
+  for (const auto& [weight, id] : m.parts) {
+    const Material* part = material(id);
+    if (!part) return nullptr;
+    parts.push_back({float(weight), part});
+  }
+  return std::make_unique<Mixture>(std::move(parts));
 }
 
 const Material* SceneBuilder::perturbed(MaterialId id, const SourceLocation& where) {

@@ -60,6 +60,11 @@ class SceneBuilder {
   std::unique_ptr<Material> make(const DielectricMaterial& m, const SourceLocation& where);
   std::unique_ptr<Material> make(const ThinDielectricMaterial& m, const SourceLocation& where);
   std::unique_ptr<Material> make(const PlasticMaterial& m, const SourceLocation& where);
+  std::unique_ptr<Material> make(const PhongMaterial& m, const SourceLocation& where);
+  std::unique_ptr<Material> make(const WardMaterial& m, const SourceLocation& where);
+  std::unique_ptr<Material> make(const RoughDiffuseMaterial& m, const SourceLocation& where);
+  std::unique_ptr<Material> make(const DiffuseTransmitterMaterial& m, const SourceLocation& where);
+  std::unique_ptr<Material> make(const MixtureMaterial& m, const SourceLocation& where);
   std::unique_ptr<Material> make(const PrincipledMaterial& m, const SourceLocation& where);
   std::unique_ptr<Material> make(const PrincipledThinMaterial& m, const SourceLocation& where);
   std::unique_ptr<Material> make(const TwoSidedMaterial& m, const SourceLocation& where);

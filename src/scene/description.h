@@ -15,6 +15,7 @@
 #include "geometry/mesh.h"
 #include "image/filter.h"
 #include "materials/microfacet_kind.h"
+#include "materials/ward_variant.h"
 #include "math/fov.h"
 #include "math/spectrum.h"
 #include "math/transform.h"
@@ -141,6 +142,31 @@ struct PrincipledThinMaterial {
   bool operator==(const PrincipledThinMaterial&) const = default;
 };
 
+struct PhongMaterial {
+  ColorInput diffuse_reflectance = Spectrum(0.5f), specular_reflectance = Spectrum(0.2f);
+  FloatInput exponent = 30.0;
+  bool operator==(const PhongMaterial&) const = default;
+};
+
+struct WardMaterial {
+  WardVariant variant = WardVariant::balanced;
+  ColorInput diffuse_reflectance = Spectrum(0.5f), specular_reflectance = Spectrum(0.2f);
+  FloatInput alpha_u = 0.1, alpha_v = 0.1;
+  bool operator==(const WardMaterial&) const = default;
+};
+
+struct RoughDiffuseMaterial {
+  ColorInput reflectance = Spectrum(0.5f);
+  FloatInput alpha = 0.2;
+  bool use_fast_approx = false;
+  bool operator==(const RoughDiffuseMaterial&) const = default;
+};
+
+struct DiffuseTransmitterMaterial {
+  ColorInput transmittance = Spectrum(0.5f);
+  bool operator==(const DiffuseTransmitterMaterial&) const = default;
+};
+
 struct TwoSidedMaterial {
   MaterialId front{}, back{};
   bool operator==(const TwoSidedMaterial&) const = default;
@@ -157,6 +183,12 @@ struct BlendMaterial {
   FloatInput weight = 0.5;
   MaterialId first{}, second{};
   bool operator==(const BlendMaterial&) const = default;
+};
+
+/// Σ weight · material; the weights are positive and sum to at most one.
+struct MixtureMaterial {
+  std::vector<std::pair<double, MaterialId>> parts;
+  bool operator==(const MixtureMaterial&) const = default;
 };
 
 struct BumpMapMaterial {
@@ -183,7 +215,9 @@ struct MaterialDescription {
   Label label;
   std::variant<DiffuseMaterial, ConductorMaterial, DielectricMaterial, ThinDielectricMaterial,
                PlasticMaterial, PrincipledMaterial, PrincipledThinMaterial, TwoSidedMaterial,
-               MaskMaterial, BlendMaterial, BumpMapMaterial, NormalMapMaterial, NullMaterial>
+               MaskMaterial, BlendMaterial, BumpMapMaterial, NormalMapMaterial, NullMaterial,
+               PhongMaterial, WardMaterial, RoughDiffuseMaterial, DiffuseTransmitterMaterial,
+               MixtureMaterial>
       model;
   bool operator==(const MaterialDescription&) const = default;
 };

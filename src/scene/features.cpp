@@ -66,9 +66,16 @@ class Survey {
     ++features_.diffuse, ++features_.rough_reflection;
     features_.rough_refraction += is_used(m.spec_trans);
   }
+  void operator()(const PhongMaterial&) { ++features_.diffuse, ++features_.rough_reflection; }
+  void operator()(const WardMaterial&) { ++features_.diffuse, ++features_.rough_reflection; }
+  void operator()(const RoughDiffuseMaterial&) { ++features_.diffuse; }
+  void operator()(const DiffuseTransmitterMaterial&) { ++features_.diffuse; }
   void operator()(const TwoSidedMaterial& m) { add(m.front), add(m.back); }
   void operator()(const MaskMaterial& m) { ++features_.masks, add(m.nested); }
   void operator()(const BlendMaterial& m) { add(m.first), add(m.second); }
+  void operator()(const MixtureMaterial& m) {
+    for (const auto& [weight, id] : m.parts) add(id);
+  }
   void operator()(const BumpMapMaterial& m) { ++features_.bumps, add(m.nested); }
   void operator()(const NormalMapMaterial& m) { ++features_.bumps, add(m.nested); }
   void operator()(const NullMaterial&) { ++features_.masks; }

@@ -22,6 +22,48 @@ TEST_CASE("bsdf: presets") {
   }
 }
 
+TEST_CASE("bsdf: models of 0.6 that Mitsuba 3 has not") {
+  for (const char* version : {"0.6.0", "3.0.0"}) {
+    CHECK(bsdf<PhongMaterial>(version, "phong") == PhongMaterial{});
+    CHECK(bsdf<WardMaterial>(version, "ward") == WardMaterial{});
+    CHECK(bsdf<RoughDiffuseMaterial>(version, "roughdiffuse") == RoughDiffuseMaterial{});
+    CHECK(bsdf<DiffuseTransmitterMaterial>(version, "difftrans") == DiffuseTransmitterMaterial{});
+  }
+  const auto ward = bsdf<WardMaterial>("0.6.0", "ward",
+                                       "<string name='variant' value='ward-duer'/>"
+                                       "<float name='alphaU' value='0.3'/>");
+  CHECK(ward.variant == WardVariant::duer);
+  CHECK(ward.alpha_u == FloatInput(0.3));
+  CHECK(bsdf<RoughDiffuseMaterial>("0.6.0", "roughdiffuse",
+                                   "<boolean name='useFastApprox' value='true'/>")
+            .use_fast_approx);
+  // Lobes that reflect more than there is are scaled, as 0.6 does.
+  const std::string bright =
+      "<bsdf type='phong'><spectrum name='specularReflectance' value='0.8'/>"
+      "<spectrum name='diffuseReflectance' value='0.7'/></bsdf>";
+  const ReadResult phong = read_scene("0.6.0", bright);
+  CHECK(phong.has("<bsdf type=\"phong\"> would reflect 1.5 times the light"));
+  const auto& scaled = std::get<PhongMaterial>(phong.description().materials[0].model);
+  CHECK(std::get<Spectrum>(scaled.specular_reflectance).r == doctest::Approx(0.8 * 0.66));
+  CHECK(fails("0.6.0", "<bsdf type='phong'><float name='exponent' value='-1'/></bsdf>",
+              "an exponent must not be negative"));
+
+  const std::string two = "<bsdf type='diffuse'/><bsdf type='phong'/></bsdf>";
+  const std::string mixture = "<bsdf type='mixturebsdf'><string name='weights' value=";
+  const auto parts = bsdf<MixtureMaterial>("0.6.0", "mixturebsdf",
+                                           "<string name='weights' value='0.6, 1.4'/>"
+                                           "<bsdf type='diffuse'/><bsdf type='phong'/>")
+                         .parts;
+  REQUIRE(parts.size() == 2);
+  CHECK(parts[0].first == doctest::Approx(0.3));
+  CHECK(parts[1].first == doctest::Approx(0.7));
+  CHECK(fails("0.6.0", mixture + "'0.5'/>" + two, "needs 1 nested BSDF, not 2"));
+  CHECK(fails("0.6.0", mixture + "'0.5, -1'/>" + two, "are not weights"));
+  CHECK(fails("0.6.0", mixture + "''/>" + two, "are not weights"));
+  CHECK(fails("0.6.0", "<bsdf type='twosided'><bsdf type='difftrans'/></bsdf>",
+              "cannot hold a BSDF that lets light through"));
+}
+
 TEST_CASE("bsdf: roughness") {
   const auto r = [](const std::string& version, const std::string& content) {
     return *bsdf<ConductorMaterial>(version, "roughconductor", content).roughness;

@@ -128,6 +128,36 @@ const Material& TestMaterial::make(const json& j) {
     set(reflectance, j, "reflectance");
     return keep(new Diffuse(reflectance));
   }
+  if (type == "phong") {
+    PhongOptions o;
+    set(o.diffuse_reflectance, j, "diffuse_reflectance");
+    set(o.specular_reflectance, j, "specular_reflectance");
+    set(o.exponent, j, "exponent");
+    return keep(new Phong(o));
+  }
+  if (type == "ward") {
+    WardOptions o;
+    set(o.diffuse_reflectance, j, "diffuse_reflectance");
+    set(o.specular_reflectance, j, "specular_reflectance");
+    set(o.alpha_u, j, "alpha_u");
+    set(o.alpha_v, j, "alpha_v");
+    if (j.contains("variant"))
+      o.variant = j["variant"] == "ward" ? WardVariant::ward : WardVariant::duer;
+    return keep(new Ward(o));
+  }
+  if (type == "roughdiffuse") {
+    ColorSlot reflectance{Spectrum(0.5f)};
+    set(reflectance, j, "reflectance");
+    return keep(new RoughDiffuse(reflectance, {number(j, "alpha", 0.2f)}, flag(j, "fast", false)));
+  }
+  if (type == "difftrans")
+    return keep(new DiffuseTransmitter({Spectrum(number(j, "transmittance", 0.5f))}));
+  if (type == "mixturebsdf") {
+    std::vector<Mixture::Part> parts;
+    for (size_t i = 0; i < nested.size(); ++i)
+      parts.push_back({j["weights"][i].get<float>(), nested[i]});
+    return keep(new Mixture(std::move(parts)));
+  }
   if (type == "null") return keep(new Null);
   if (type == "conductor") return keep(new Conductor(conductor(j)));
   if (type == "roughconductor") return keep(new RoughConductor(conductor(j), roughness(j)));
