@@ -21,6 +21,7 @@
 #include <cstring>
 #include <stdexcept>
 
+#include "image/half.h"
 #include "image/image_limits.h"
 
 namespace duet {
@@ -198,8 +199,7 @@ struct InsertAttribute {
 };
 
 half to_half(float x) {
-  if (std::isfinite(x)) x = std::clamp(x, -float(HALF_MAX), float(HALF_MAX));
-  return half(x);
+  return half(half::FromBits, half_bits(x));
 }
 
 }  // namespace

@@ -7,30 +7,21 @@
 #include <cstdint>
 #include <stdexcept>
 
+#include "image/colours.h"
+
 namespace duet {
 
-namespace {
+double brightest_share(std::vector<double> values) {
+  const size_t kept = trimmed_count(values.size());
+  std::nth_element(values.begin(), values.begin() + std::ptrdiff_t(kept), values.end());
+  double rest = 0, bright = 0;
+  for (size_t i = 0; i < values.size(); ++i) (i < kept ? rest : bright) += values[i];
+  return rest + bright > 0 ? bright / (rest + bright) : 0;
+}
 
-/// Reads the three colours of a pixel wherever they stand among its channels.
-class Colours {
- public:
-  explicit Colours(const Image& image) : image_(image) {
-    const int y = image.find_channel("Y");
-    index_ = {image.find_channel("R"), image.find_channel("G"), image.find_channel("B")};
-    if (index_[0] < 0 && index_[1] < 0 && index_[2] < 0 && y >= 0) index_ = {y, y, y};
-    if (index_[0] < 0 || index_[1] < 0 || index_[2] < 0)
-      throw std::invalid_argument("the image has no channels R, G, B");
-  }
-  double operator()(size_t pixel, int channel) const {
-    return image_.data[pixel * image_.channels.size() + size_t(index_[channel])];
-  }
-
- private:
-  const Image& image_;
-  std::array<int, 3> index_;
-};
-
-}  // namespace
+size_t trimmed_count(size_t pixels) {
+  return std::max<size_t>(1, size_t(double(pixels) * (1 - kOutlierShare)));
+}
 
 ImageMetrics compare_images(const Image& image, const Image& reference,
                             const std::optional<NoiseModel>& noise) {
@@ -47,7 +38,9 @@ ImageMetrics compare_images(const Image& image, const Image& reference,
   const size_t pixels = size_t(image.width) * image.height;
   ImageMetrics m;
   std::vector<double> relative;  // per pixel: mean over the channels of the relative squared error
+  std::vector<double> luminances;  // of the image
   relative.reserve(pixels);
+  luminances.reserve(pixels);
   double squares = 0, absolute = 0;
   std::array<double, 3> sum_a{}, sum_b{}, sum_variance{};
   for (size_t i = 0; i < pixels; ++i) {
@@ -70,6 +63,7 @@ ImageMetrics compare_images(const Image& image, const Image& reference,
       if (variance) sum_variance[c] += std::max(0.0, (*variance)(i, c));
     }
     relative.push_back(r);
+    luminances.push_back(a.luminance(i));
   }
   if (relative.empty()) return m;
   const double values = 3.0 * double(relative.size());
@@ -79,11 +73,14 @@ ImageMetrics compare_images(const Image& image, const Image& reference,
   m.mae = absolute / values;
   for (int c = 0; c < 3; ++c) m.mean_ratio[c] = sum_a[c] / sum_b[c];
   std::sort(relative.begin(), relative.end());
-  for (const double r : relative) m.relmse += r;
-  m.relmse /= double(relative.size());
-  const size_t kept = std::max<size_t>(1, size_t(double(relative.size()) * 0.999));
-  for (size_t i = 0; i < kept; ++i) m.relmse_trimmed += relative[i];
-  m.relmse_trimmed /= double(kept);
+  const size_t kept = trimmed_count(relative.size());
+  double kept_sum = 0, total_sum = 0;
+  for (size_t i = 0; i < relative.size(); ++i) (i < kept ? kept_sum : total_sum) += relative[i];
+  total_sum += kept_sum;
+  m.relmse = total_sum / double(relative.size());
+  m.relmse_trimmed = kept_sum / double(kept);
+  m.worst = total_sum > 0 ? 1 - kept_sum / total_sum : 0;
+  m.firefly = brightest_share(std::move(luminances));
   if (!variance) return m;
 
   // The noise of both images, in units of the variance of one sample.
@@ -122,10 +119,7 @@ std::vector<uint8_t> difference_image(const Image& image, const Image& reference
   const size_t pixels = size_t(image.width) * image.height;
   std::vector<uint8_t> bytes(3 * pixels);
   for (size_t i = 0; i < pixels; ++i) {
-    const auto luminance = [&](const Colours& c) {
-      return 0.212671 * c(i, 0) + 0.715160 * c(i, 1) + 0.072169 * c(i, 2);
-    };
-    const double d = luminance(a) - luminance(b);
+    const double d = a.luminance(i) - b.luminance(i);
     if (!std::isfinite(d)) {  // green: no number
       bytes[3 * i + 1] = 255;
       continue;
@@ -137,6 +131,41 @@ std::vector<uint8_t> difference_image(const Image& image, const Image& reference
     bytes[3 * i + 2] = t <= 0 ? 255 : fade;
   }
   return bytes;
+}
+
+std::vector<uint8_t> false_colours(const std::vector<float>& values) {
+  static constexpr uint8_t stops[][3] = {{0, 0, 0},      {40, 16, 84},    {100, 26, 128},
+                                         {160, 44, 116}, {212, 68, 84},   {242, 110, 60},
+                                         {252, 164, 64}, {252, 214, 118}, {255, 250, 210}};
+  constexpr int last = int(std::size(stops)) - 1;
+  std::vector<uint8_t> bytes(3 * values.size());
+  for (size_t i = 0; i < values.size(); ++i) {
+    if (std::isnan(values[i])) {
+      bytes[3 * i + 1] = 255;
+      continue;
+    }
+    const float t = std::clamp(values[i], 0.0f, 1.0f) * float(last);
+    const int k = std::min(int(t), last - 1);
+    for (int c = 0; c < 3; ++c) {
+      const float low = stops[k][c], high = stops[k + 1][c];
+      bytes[3 * i + size_t(c)] = uint8_t(std::lround(low + (t - float(k)) * (high - low)));
+    }
+  }
+  return bytes;
+}
+
+std::vector<float> relative_differences(const Image& image, const Image& reference) {
+  const Colours a(image), b(reference);
+  double sum = 0;
+  for (size_t i = 0; i < b.pixels(); ++i)
+    if (std::isfinite(b.luminance(i))) sum += b.luminance(i);
+  const double floor = 0.01 * sum / double(std::max<size_t>(1, b.pixels()));
+  std::vector<float> values(b.pixels());
+  for (size_t i = 0; i < values.size(); ++i) {
+    const double d = std::abs(a.luminance(i) - b.luminance(i));
+    values[i] = d == 0 ? 0.0f : float(d / (std::abs(b.luminance(i)) + floor));
+  }
+  return values;
 }
 
 }  // namespace duet

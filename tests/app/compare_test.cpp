@@ -155,4 +155,146 @@ TEST_SUITE("program") {
         CHECK(g.compare({"good.exr", "reference.exr", "--variance", "variance.exr", option, value})
                   .code == 2);
   }
+
+  TEST_CASE("FLIP and the share of fireflies") {
+    const Gallery g;
+    const Outcome o = g.compare({"good.exr", "reference.exr", "--json"});
+    const auto j = nlohmann::json::parse(o.out);
+    CHECK(double(j["flip"]) > 0.01);
+    CHECK(double(j["flip"]) < 1);
+    CHECK(double(j["hdrflip"]) > 0.01);
+    CHECK(double(j["firefly"]) == doctest::Approx(0.0015).epsilon(0.3));
+    CHECK(double(j["worst"]) > 0.001);
+    CHECK(j["tiles"].is_null());
+    CHECK(g.compare({"good.exr", "reference.exr", "--require", "flip<0.001"}).code == 3);
+    CHECK(g.compare({"good.exr", "reference.exr", "--require", "hdrflip<0.9", "--require",
+                     "firefly<0.01", "--require", "worst<0.1"})
+              .code == 0);
+    // Of images for display the display's range is all there is.
+    CHECK(g.compare({"good.exr", "reference.exr", "--diff", "d.png"}).code == 0);
+    const auto display = nlohmann::json::parse(g.compare({"d.png", "d.png", "--json"}).out);
+    CHECK(display["hdrflip"].is_null());
+    CHECK(display["flip"] == 0);
+  }
+
+  TEST_CASE("false-colour images and FLIP maps") {
+    const Gallery g;
+    CHECK(g.compare(
+               {"shifted.exr", "reference.exr", "--false-colour", "c.png", "--flip-map", "f.png"})
+              .code == 0);
+    CHECK(read_image(g.path("c.png")).image.width == 64);
+    CHECK(read_image(g.path("f.png")).image.height == 64);
+    CHECK(g.compare({"good.exr", "reference.exr", "--flip-map", "f.exr"}).code == 2);
+    CHECK(g.compare({"good.exr", "reference.exr", "--false-colour", "nowhere/c.png"}).code == 2);
+  }
+
+  TEST_CASE("sets of independent images") {
+    const Gallery g;
+    for (unsigned i = 0; i < 16; ++i) {
+      write_noise(g.path("a-" + std::to_string(i) + ".exr"), 0.2, 0, 100 + i, 32);
+      write_noise(g.path("b-" + std::to_string(i) + ".exr"), 0.3, 0, 200 + i, 32);
+      write_noise(g.path("c-" + std::to_string(i) + ".exr"), 0.2, 0.02, 300 + i, 32);
+    }
+    const std::vector<std::string> limits{"--require", "tiles<1", "--require", "tilez2<1.6"};
+    const auto batches = [&](const std::string& a, const std::string& b,
+                             std::vector<std::string> more) {
+      more.insert(more.begin(), {"--batches", a, b});
+      return g.compare(more);
+    };
+    const Outcome equal = batches("a-*.exr", "b-*.exr", limits);
+    CHECK(equal.code == 0);
+    CHECK(verdict(equal) == "PASS");
+    CHECK(contains(equal.out, "would have been noticed"));
+    const Outcome biased = batches("c-*.exr", "b-*.exr", limits);
+    CHECK(biased.code == 3);
+    CHECK(verdict(biased) == "BIASED");
+    const auto j = nlohmann::json::parse(batches("c-*.exr", "a-*.exr", {"--json"}).out);
+    CHECK(double(j["tile_test"]["ratio"]) == doctest::Approx(1.02).epsilon(0.001));
+    CHECK(double(j["tile_test"]["visible_bias"]) > 0.005);
+    CHECK(double(j["tile_test"]["visible_bias"]) < 0.03);
+    CHECK(int(j["tiles"]) == int(j["tile_test"]["rejected"]));
+    // Names with commas and directories are as good; few images are worth a warning.
+    const Outcome few = batches("a-1.exr,a-2.exr", "b-1.exr,b-2.exr,b-3.exr", {});
+    CHECK(few.code == 0);
+    CHECK(contains(few.err, "say little"));
+    for (const char* side : {"left", "right"}) {
+      std::filesystem::create_directory(g.path(side));
+      for (int i = 0; i < 3; ++i)
+        std::filesystem::copy(g.path("a-" + std::to_string(i) + ".exr"),
+                              g.path(std::string(side) + "/" + std::to_string(i) + ".exr"));
+    }
+    CHECK(batches("left", "right", {"--html", "r.html"}).code == 0);
+    CHECK(contains(read_file(g.path("r.html")), "tiles differ"));
+    CHECK(batches("a-1.exr", "b-*.exr", {}).code == 2);
+    CHECK(batches("z-*.exr", "b-*.exr", {}).code == 2);
+    CHECK(batches("a-1.exr,small.exr,good.exr", "b-*.exr", {}).code == 1);
+    CHECK(batches("a-1.exr,missing.exr", "b-*.exr", {}).code == 1);
+    CHECK(batches("good.exr,shifted.exr", "b-*.exr", {}).code == 1);
+    CHECK(batches("a-*.exr", "b-*.exr", {"--variance", "variance.exr"}).code == 2);
+    CHECK(g.compare({"good.exr", "reference.exr", "--require", "tiles<1"}).code == 2);
+    write_noise(g.path("a-99.exr"), 0.2, NAN, 7, 32);
+    const Outcome holes = batches("a-*.exr", "b-*.exr", limits);
+    CHECK(holes.code == 3);
+    CHECK(verdict(holes) == "FAIL");
+  }
+
+  TEST_CASE("directories, with reports") {
+    const Gallery g;
+    for (const char* d : {"a", "b", "a/deep", "b/deep", "v"})
+      std::filesystem::create_directory(g.path(d));
+    const auto copy = [&](const char* from, const char* to) {
+      std::filesystem::copy(g.path(from), g.path(to));
+    };
+    copy("good.exr", "a/one.exr");
+    copy("reference.exr", "b/one.exr");
+    copy("shifted.exr", "a/deep/<two>.exr");
+    copy("reference.exr", "b/deep/<two>.exr");
+    const Outcome fine =
+        g.compare({"a", "b", "--require", "relrmse<0.25", "--html", "r.html", "--junit", "j.xml"});
+    CHECK(fine.code == 0);
+    CHECK(contains(fine.out, "deep/<two>.exr  PASS"));
+    const std::string page = read_file(g.path("r.html"));
+    CHECK(contains(page, "deep/&lt;two&gt;.exr"));
+    CHECK_FALSE(contains(page, "<two>"));
+    CHECK_FALSE(contains(page, "http:"));
+    CHECK_FALSE(contains(page, "https:"));
+    CHECK_FALSE(contains(page, " src="));
+    size_t viewers = 0;
+    for (size_t at = 0; (at = page.find("class=\"viewer\"><script", at)) != std::string::npos; ++at)
+      ++viewers;
+    CHECK(viewers == 2);
+    CHECK(contains(read_file(g.path("j.xml")), "tests=\"2\" failures=\"0\" errors=\"0\""));
+
+    const Outcome missed = g.compare({"a", "b", "--require", "ratio<0.02", "--junit", "j.xml"});
+    CHECK(missed.code == 3);
+    CHECK(contains(missed.out, "missed: ratio<0.02"));
+    const std::string junit = read_file(g.path("j.xml"));
+    CHECK(contains(junit, "tests=\"2\" failures=\"1\" errors=\"0\""));
+    CHECK(contains(junit, "ratio&lt;0.02 is not met: 0.05"));
+
+    copy("good.exr", "a/extra.exr");
+    copy("good.exr", "b/lost.exr");
+    const Outcome lost = g.compare({"a", "b", "--json", "--junit", "j.xml", "--html", "r.html"});
+    CHECK(lost.code == 1);
+    CHECK(contains(lost.err, "extra.exr has no reference"));
+    const auto j = nlohmann::json::parse(lost.out);
+    CHECK(j.size() == 3);
+    CHECK(j[1]["name"] == "lost.exr");
+    CHECK(contains(j[1]["error"], "lost.exr"));
+    CHECK(contains(read_file(g.path("j.xml")), "errors=\"1\""));
+    CHECK(contains(read_file(g.path("r.html")), "badge error"));
+
+    copy("variance.exr", "v/one.exr");
+    const auto with = nlohmann::json::parse(
+        g.compare({"a", "b", "--json", "--variance", "v", "--spp", "16", "--reference-spp", "16"})
+            .out);
+    CHECK_FALSE(with[2]["bias"].is_null());
+    CHECK(contains(with[0]["error"], "v/deep/<two>.exr"));
+    CHECK(g.compare({"a", "v"}).code == 0);
+    std::filesystem::create_directory(g.path("empty"));
+    CHECK(g.compare({"a", "empty"}).code == 1);
+    CHECK(g.compare({"a", "b", "--diff", "d.png"}).code == 2);
+    CHECK(g.compare({"a", "b", "--variance", "variance.exr"}).code == 2);
+    CHECK(g.compare({"a", "b", "--html", "nowhere/r.html"}).code == 2);
+  }
 }

@@ -60,6 +60,44 @@ TEST_CASE("the trimmed error leaves out the worst thousandth of the pixels") {
   CHECK(compare_images(a, b, std::nullopt).relmse_trimmed > 0);
 }
 
+TEST_CASE("fireflies and the worst pixels have a share") {
+  const Image b = constant(100, 20, 1);
+  Image a = b;
+  for (int i = 0; i < 3; ++i) a.data[i] = 500;  // one firefly among 2000 pixels
+  for (int i = 3; i < 600; i += 3) a.data[i] = 2;
+  const ImageMetrics m = compare_images(a, b, std::nullopt);
+  // The two brightest pixels are left out: the firefly and one with red doubled.
+  const double total = 500 + 1999 + 199 * 0.212671;
+  CHECK(m.firefly == doctest::Approx((500 + 1.212671) / total).epsilon(1e-5));
+  CHECK(m.worst == doctest::Approx((499.0 * 499 * 3 + 1) / (499.0 * 499 * 3 + 199)).epsilon(1e-5));
+  CHECK(compare_images(b, b, std::nullopt).worst == 0);
+  CHECK(compare_images(b, b, std::nullopt).firefly == doctest::Approx(0.001));
+}
+
+TEST_CASE("false colours grow lighter and mark what is no number") {
+  std::vector<float> values;
+  for (int i = -1; i <= 33; ++i) values.push_back(float(i) / 32);
+  values.push_back(NAN);
+  const std::vector<uint8_t> bytes = false_colours(values);
+  double before = -1;
+  for (size_t i = 0; i + 1 < values.size(); ++i) {
+    const double y = 0.2126 * bytes[3 * i] + 0.7152 * bytes[3 * i + 1] + 0.0722 * bytes[3 * i + 2];
+    if (values[i] > 0 && values[i] <= 1)
+      CHECK(y > before);
+    else
+      CHECK(y >= before);
+    before = y;
+  }
+  const size_t last = 3 * (values.size() - 1);
+  CHECK(bytes[last] == 0);
+  CHECK(bytes[last + 1] == 255);
+  Image dark = constant(2, 1, 1), bright = constant(2, 1, 1);
+  for (int c = 0; c < 3; ++c) dark.data[size_t(c)] = 0, bright.data[size_t(c)] = 0.01f;
+  const std::vector<float> d = relative_differences(bright, dark);
+  CHECK(d[0] == doctest::Approx(0.01 / 0.005));  // the mean is 0.5
+  CHECK(d[1] == 0);
+}
+
 TEST_CASE("noise of the stated variance passes the z-test, a shift does not") {
   const Image b = constant(64, 64, 0.5f), variance = constant(64, 64, 0.04f);
   const NoiseModel noise{&variance, 16, 1e9};  // standard error 0.05

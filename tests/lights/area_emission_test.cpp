@@ -80,7 +80,7 @@ void check_answers(const Lamp& lamp, float reach, bool concave = false) {
 /// That one over the density is the measure of all that there is: area times projected solid angle.
 void check_norm(const Lamp& lamp) {
   Sampler sampler(SampleSequence::independent, 4, 0, 0);
-  test::Moments measure;
+  Moments measure;
   for (int i = 0; i < 20000; ++i) {
     sampler.start_sample(uint32_t(i));
     const Point2f position = sampler.next_2d(), direction = sampler.next_2d();

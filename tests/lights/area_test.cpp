@@ -44,7 +44,7 @@ void check_lamp(const Lamp& lamp, const Point3f& from, const std::string& name,
   }
   // Both ways to estimate the light that arrives agree.
   Sampler sampler(SampleSequence::independent, 9, 0, 0);
-  test::Moments by_light, by_direction;
+  Moments by_light, by_direction;
   for (int i = 0; i < 200000; ++i) {
     sampler.start_sample(uint32_t(i));
     const Vector3f w = square_to_sphere(sampler.next_2d());
@@ -115,7 +115,7 @@ TEST_CASE("textured area lights are sampled where they shine") {
   check_lamp(Lamp(analytic(ShapeKind::sphere, Matrix4{}), slot), {0.5f, 0.9f, 1.2f}, "sphere");
   check_lamp(Lamp(analytic(ShapeKind::disk, Matrix4{}), slot), {0.5f, 0.9f, 1.2f}, "disk");
   Sampler sampler(SampleSequence::independent, 9, 0, 0);
-  test::Moments m;
+  Moments m;
   for (int i = 0; i < 20000; ++i) {
     sampler.start_sample(uint32_t(i));
     const auto s = screen.light->sample_direct(from, sampler.next_2d());
@@ -164,7 +164,7 @@ TEST_CASE("cells cover a mesh once, whatever it shows") {
   }
   CHECK(total == doctest::Approx(1).epsilon(1e-3));
   Sampler sampler(SampleSequence::independent, 2, 0, 0);
-  test::Moments area;
+  Moments area;
   int at_edges = 0;
   for (int i = 0; i < 50000; ++i) {
     sampler.start_sample(uint32_t(i));

@@ -57,7 +57,7 @@ void check_position(const Light& light, const Point3f& position, const Vector3f&
   CHECK_MESSAGE(result.pass, result.message);
   Sampler sampler(SampleSequence::independent, 3, 0, 0);
   int empty = 0, wrong = 0;
-  test::Moments solid_angle, reached;
+  Moments solid_angle, reached;
   for (int i = 0; i < 20000; ++i) {
     sampler.start_sample(uint32_t(i));
     const Point2f u = sampler.next_2d(), v = sampler.next_2d();

@@ -40,7 +40,7 @@ void check_environment(EnvironmentLight& light, double tolerance, const std::str
       {.nx = 36, .ny = 24, .sub = 16, .samples = 100000});
   CHECK_MESSAGE(result.pass, result.message);
   Sampler sampler(SampleSequence::independent, 3, 0, 0);
-  test::Moments measure, square;
+  Moments measure, square;
   for (int i = 0; i < 20000; ++i) {
     sampler.start_sample(uint32_t(i));
     const Point2f position = sampler.next_2d(), direction = sampler.next_2d();

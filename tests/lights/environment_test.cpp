@@ -108,7 +108,7 @@ TEST_CASE("a light that shines only from the pole is found there") {
   for (size_t i = 0; i < 64; ++i) texels[i] = Spectrum(1000);
   const EnvironmentMap light(64, 32, texels, Matrix4{});
   Sampler sampler(SampleSequence::independent, 1, 0, 0);
-  test::Moments moments;
+  Moments moments;
   for (int i = 0; i < 20000; ++i) {
     sampler.start_sample(uint32_t(i));
     const auto s = light.sample_direct({}, sampler.next_2d());

@@ -70,7 +70,7 @@ TEST_CASE("numbers depend on seed, batch, pixel, index and dimension, and on not
 
 TEST_CASE("both sequences are uniform and uncorrelated between pixels and dimensions") {
   for (const auto sequence : {SampleSequence::independent, SampleSequence::sobol}) {
-    test::Moments product, mean;
+    Moments product, mean;
     for (uint64_t pixel = 0; pixel < 4000; ++pixel) {
       Sampler a(sequence, 5, 0, pixel), b(sequence, 5, 0, pixel + 1);
       a.start_sample(0);

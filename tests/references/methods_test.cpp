@@ -2,9 +2,7 @@
 #include <algorithm>
 #include <string_view>
 
-#include "references/cases.h"
-#include "support/agreement.h"
-#include "support/statistics.h"
+#include "references/reference_tiles.h"
 
 using namespace duet;
 using namespace duet::test;
@@ -32,12 +30,6 @@ bool suits_light_tracing(const ReferenceCase& c) {
   return std::find(std::begin(kScenes), std::end(kScenes), c.reference) != std::end(kScenes);
 }
 
-double standard_error(const TileBatches& b) {
-  double error2 = 0;
-  for (int i = 0; i < TileBatches::kTiles * TileBatches::kTiles; ++i) error2 += b.error2(i);
-  return std::sqrt(error2) / (TileBatches::kTiles * TileBatches::kTiles) / b.total();
-}
-
 }  // namespace
 
 TEST_SUITE("references") {
@@ -51,8 +43,7 @@ TEST_SUITE("references") {
       for (const ReferenceCase& c : cases) {
         if (name == "ptracer" && !suits_light_tracing(c)) continue;
         const Reference reference(c.reference);
-        const TileComparison r = compare_tiles(
-            render(c, name), ReferenceTiles(reference.mean, reference.variance, reference.spp));
+        const ReferenceComparison r = compare_tiles(render(c, name), reference);
         CAPTURE(c.reference);
         CAPTURE(r.ratio);
         CHECK(r.least_p > level);
@@ -70,12 +61,10 @@ TEST_SUITE("references") {
          {std::pair<std::string, double>{"vcm", 0.005}, {"bpm", 0.025}, {"ppm", 0.025}}) {
       for (const ReferenceCase& c : reference_cases()) {
         const Reference reference(c.reference);
-        const TileBatches image = render(c, name);
-        const TileComparison r =
-            compare_tiles(image, ReferenceTiles(reference.mean, reference.variance, reference.spp));
+        const ReferenceComparison r = compare_tiles(render(c, name), reference);
         CAPTURE(name);
         CAPTURE(c.reference);
-        CHECK(std::abs(r.ratio - 1) < bias + 3.5 * standard_error(image));
+        CHECK(std::abs(r.ratio - 1) < bias + 3.5 * r.ratio_error);
       }
     }
   }

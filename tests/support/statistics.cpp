@@ -34,12 +34,6 @@ double gamma_q(double a, double x) {
 double chi2_p_value(double statistic, int dof) {
   return gamma_q(0.5 * dof, 0.5 * statistic);
 }
-double normal_p_value(double z) {
-  return std::erfc(std::abs(z) / std::sqrt(2.0));
-}
-double sidak(double alpha, int n) {
-  return 1 - std::pow(1 - alpha, 1.0 / n);
-}
 
 Chi2Result chi2_test(const std::vector<double>& observed, const std::vector<double>& expected,
                      double level) {

@@ -1,4 +1,4 @@
-// Statistical tests: whether samples follow a density, whether two means agree.
+// Statistical tests: whether samples follow a density.
 #pragma once
 
 #include <cstdint>
@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "math/statistics.h"
 #include "math/vector.h"
 
 namespace duet::test {
@@ -14,11 +15,6 @@ namespace duet::test {
 double gamma_q(double a, double x);
 /// Probability that a χ² variate with `dof` degrees of freedom exceeds `statistic`.
 double chi2_p_value(double statistic, int dof);
-/// Probability that a normal variate is further from zero than |z|.
-double normal_p_value(double z);
-/// The level of each of n independent tests so that all of them together have level `alpha`.
-double sidak(double alpha, int n);
-
 /// Outcome of a χ² test. `pass` is false also if samples fell where the density is zero.
 struct Chi2Result {
   bool pass = false;
@@ -50,25 +46,5 @@ Chi2Result chi2_square(const std::function<bool(Point2f u, Point2f& position)>& 
 Chi2Result chi2_sphere(const std::function<bool(float u, Point2f v, Vector3f& direction)>& sample,
                        const std::function<double(const Vector3f&)>& density,
                        const SquareTest& options = {});
-
-/// Running mean and variance.
-class Moments {
- public:
-  void add(double x) {
-    ++n_;
-    const double d = x - mean_;
-    mean_ += d / double(n_);
-    m2_ += d * (x - mean_);
-  }
-  double mean() const { return mean_; }
-  double variance() const { return n_ > 1 ? m2_ / double(n_ - 1) : 0; }
-  /// Standard error of the mean.
-  double error() const { return n_ > 1 ? std::sqrt(variance() / double(n_)) : 0; }
-  int64_t count() const { return n_; }
-
- private:
-  int64_t n_ = 0;
-  double mean_ = 0, m2_ = 0;
-};
 
 }  // namespace duet::test

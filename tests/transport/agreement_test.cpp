@@ -1,6 +1,5 @@
 // Methods that are unbiased have one mean, whatever they do; those that merge come near it.
-#include "support/agreement.h"
-
+#include "image/tile_test.h"
 #include "support/statistics.h"
 #include "support/transport_scene.h"
 
@@ -194,10 +193,10 @@ TEST_CASE("unbiased methods have the same mean") {
 TEST_CASE("merging hardly changes the mean of the image") {
   const TransportScene scene(camera_xml("0, -3, 1", "0, 0, 1", 16) + room_xml(grey("0.7")) +
                              lamp_xml("0.4", "8"));
-  const double exact = render(scene, {"bdpt", {}}, 4, 16).total();
+  const double exact = render(scene, {"bdpt", {}}, 4, 16).total().mean();
   for (const char* name : {"ppm", "bpm", "vcm"}) {
     const Method method{name, {{"radius", "0.05"}, {"light_paths", "8"}}};
-    CHECK(render(scene, method, 4, 4, 1).total() == doctest::Approx(exact).epsilon(0.02));
+    CHECK(render(scene, method, 4, 4, 1).total().mean() == doctest::Approx(exact).epsilon(0.02));
   }
 }
 
@@ -231,10 +230,11 @@ TEST_SUITE("agreement") {
             scene, {name, {{"radius", radius}, {"alpha", "1"}, {"light_paths", "100"}}}, 5, 16, 1);
         double sum = 0;
         for (int t = 0; t < 64; ++t) {
-          const double d = merged.mean(t) - exact.mean(t);
-          sum += d * d - merged.error2(t) - exact.error2(t);
+          const double d = merged.tile(t).mean() - exact.tile(t).mean();
+          const double error = std::hypot(merged.tile(t).error(), exact.tile(t).error());
+          sum += d * d - error * error;
         }
-        bias2[i++] = sum / 64 / (exact.total() * exact.total());
+        bias2[i++] = sum / 64 / (exact.total().mean() * exact.total().mean());
       }
       CAPTURE(bias2[0]);
       CAPTURE(bias2[1]);

@@ -1,0 +1,76 @@
+// What `duet compare` does with one image and its reference, with two sets, or with two
+// directories.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "app/compare_figures.h"
+#include "app/web_page.h"
+
+namespace duet {
+
+struct CompareOptions {
+  std::string image, reference, variance;
+  std::string diff, false_colour, flip_map, html, junit;
+  std::string spp, reference_spp;
+  std::vector<std::string> require;
+  bool json = false, batches = false;
+  int threads = 1;
+  std::vector<Requirement> requirements;  ///< what `require` says
+};
+
+/// The outcome of one comparison.
+struct Comparison {
+  std::string name;
+  std::string failure;  ///< why there is none, or ""
+  Measurements measurements;
+  std::vector<Requirement> missed;
+  Verdict verdict = Verdict::fail;
+  bool tells_noise = false;  ///< whether noise and bias could be told apart
+  /// For the report.
+  std::vector<ViewedImage> images;
+  /// Whether every requirement is met; an image with holes meets none.
+  bool met(const CompareOptions& options) const {
+    return failure.empty() && missed.empty() &&
+           (options.requirements.empty() || verdict != Verdict::fail);
+  }
+};
+
+/// An image file in linear values. Throws ReadError.
+struct LinearImage {
+  Image image;
+  bool display_encoded = false;
+  std::string spp;  ///< that its header says, or ""
+};
+LinearImage load_linear(const std::string& path);
+/// Throws std::runtime_error if colours are not finite: a reference with holes would let everything
+/// pass there.
+void check_finite(const Image& image, const std::string& path);
+
+/// Measures everything of an image. `longest` is the longest side of the images for the report, 0
+/// for none.
+void measure(const LinearImage& image, const LinearImage& reference,
+             const std::optional<NoiseModel>& noise, const CompareOptions& options, int longest,
+             Comparison& comparison);
+/// Writes the images of differences that the options ask for.
+void write_differences(const CompareOptions& options, const Image& image, const Image& reference,
+                       const ImageMetrics& metrics);
+
+/// One image and its reference. Throws if one cannot be read, or UsageError.
+Comparison compare_pair(const CompareOptions& options, int longest);
+/// Several images of each of two sides. Each side is a pattern with * or ?, a directory, or names
+/// with commas between them. Throws as above.
+Comparison compare_batches(const CompareOptions& options);
+/// Every image of a directory with the one of the same name in the other; a failure is part of its
+/// Comparison. Throws if the reference has no images.
+std::vector<Comparison> compare_directories(const CompareOptions& options);
+
+/// Image files in a directory and those below it, as sorted paths relative to it.
+std::vector<std::string> images_in(const std::string& directory);
+
+/// The outcomes as a page, and as JUnit's XML, which continuous integration servers read.
+std::string compare_page(const CompareOptions& options, const std::vector<Comparison>& all);
+std::string junit_report(const CompareOptions& options, const std::vector<Comparison>& all);
+
+}  // namespace duet

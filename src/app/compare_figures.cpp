@@ -1,0 +1,131 @@
+#include "app/compare_figures.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "app/arguments.h"
+#include "app/commands.h"
+#include "base/diagnostics.h"
+
+namespace duet {
+
+namespace {
+
+/// Whether a figure tells a bias from noise.
+bool shows_bias(const std::string& figure) {
+  return figure == "bias" || figure == "z" || figure == "zrms" || figure.starts_with("tile");
+}
+
+template <class T>
+std::optional<double> of_tiles(const Measurements& m, T TileComparison::*member) {
+  return m.tiles ? std::optional(double((*m.tiles).*member)) : std::nullopt;
+}
+
+}  // namespace
+
+std::vector<Figure> figures(const Measurements& measurements) {
+  const ImageMetrics& m = measurements.metrics;
+  double ratio = 0;
+  for (const double r : m.mean_ratio) ratio = std::max(ratio, std::abs(r - 1));
+  return {
+      {"rmse", m.rmse, "square root of the mean of (a - b)^2", ""},
+      {"relrmse", m.relative_rmse, "rmse / mean(b)", ""},
+      {"relmse", m.relmse, "mean of (a - b)^2 / (b^2 + 0.01)", ""},
+      {"trimmed", m.relmse_trimmed, "relmse without the worst 0.1 % of the pixels", ""},
+      {"worst", m.worst, "share of relmse that is in these worst pixels", ""},
+      {"mae", m.mae, "mean of |a - b|", ""},
+      {"ratio", ratio, "largest |mean(a) / mean(b) - 1| of the channels", ""},
+      {"firefly", m.firefly, "share of a's luminance that is in its brightest 0.1 % of pixels", ""},
+      {"flip", measurements.flip, "mean LDR-FLIP of the values from 0 to 1, 67 pixels per degree",
+       ""},
+      {"hdrflip", measurements.hdr_flip,
+       "mean HDR-FLIP, over exposures chosen from b; not of .png and the like", ""},
+      {"bias", m.bias ? std::optional(std::abs(*m.bias)) : std::nullopt,
+       "|mean(a) - mean(b)| in standard errors, worst channel; needs --variance", "--variance"},
+      {"z", m.z_share,
+       "share of values that noise explains at significance 0.01 (Sidak); needs --variance",
+       "--variance"},
+      {"zrms", m.z_rms, "root mean square of (a - b) / standard error; needs --variance",
+       "--variance"},
+      {"tiles", of_tiles(measurements, &TileComparison::rejected),
+       "tiles of 8x8 whose means differ, Welch's t, 0.01 (Sidak); needs --batches", "--batches"},
+      {"tilez2", of_tiles(measurements, &TileComparison::mean_z2),
+       "mean z^2 of the tiles, 1 if only noise differs; needs --batches", "--batches"},
+      {"nan", double(m.nan_pixels), "pixels with a NaN", ""},
+      {"infinite", double(m.infinite_pixels), "pixels with an infinity", ""},
+      {"negative", double(m.negative_pixels), "pixels with a negative value", ""},
+  };
+}
+
+Requirement parse_requirement(const std::string& text) {
+  const size_t at = text.find_first_of("<>");
+  if (at == std::string::npos || at == 0)
+    throw UsageError(fmt::format("--require \"{}\" is not like rmse<0.02", text));
+  Requirement r;
+  r.text = text;
+  r.figure = text.substr(0, at);
+  r.less = text[at] == '<';
+  r.limit = parse_amount("--require " + text, text.substr(at + 1), {{"", 1}},
+                         -std::numeric_limits<double>::max(), std::numeric_limits<double>::max());
+  std::vector<std::string> known;
+  for (const Figure& f : figures({})) known.push_back(f.name);
+  if (std::find(known.begin(), known.end(), r.figure) == known.end())
+    throw UsageError(fmt::format("--require: there is no figure \"{}\"{}; there are {}", r.figure,
+                                 did_you_mean(r.figure, known), fmt::join(known, " ")));
+  return r;
+}
+
+std::vector<Requirement> missed_of(const std::vector<Requirement>& requirements,
+                                   const Measurements& measurements) {
+  const std::vector<Figure> all = figures(measurements);
+  std::vector<Requirement> missed;
+  for (const Requirement& r : requirements) {
+    const auto f =
+        std::find_if(all.begin(), all.end(), [&](const Figure& x) { return x.name == r.figure; });
+    // Written so that a value that is not a number misses every limit.
+    if (f->value && (r.less ? *f->value < r.limit : *f->value > r.limit)) continue;
+    missed.push_back(r);
+  }
+  return missed;
+}
+
+const char* name_of(Verdict v) {
+  switch (v) {
+    case Verdict::pass:
+      return "PASS";
+    case Verdict::noisy:
+      return "NOISY";
+    case Verdict::biased:
+      return "BIASED";
+    case Verdict::fail:
+      return "FAIL";
+  }
+  return "";
+}
+
+Verdict judge(const Measurements& measurements, const std::vector<Requirement>& missed) {
+  const ImageMetrics& m = measurements.metrics;
+  if (m.nan_pixels > 0 || m.infinite_pixels > 0) return Verdict::fail;
+  if ((m.z_share && *m.z_share < kRequiredZShare) || (m.bias && std::abs(*m.bias) > kNotableBias))
+    return Verdict::biased;
+  if (measurements.tiles && !measurements.tiles->equal()) return Verdict::biased;
+  for (const Requirement& r : missed)
+    if (shows_bias(r.figure)) return Verdict::biased;
+  return missed.empty() ? Verdict::pass : Verdict::noisy;
+}
+
+std::string figures_help() {
+  std::string text = "Figures, over the channels R, G, B of all pixels:\n";
+  for (const Figure& f : figures({})) text += fmt::format("  {:9} {}\n", f.name, f.formula);
+  text +=
+      "Verdicts: PASS; NOISY, a required figure is missed but noise explains all differences;\n"
+      "BIASED, noise does not explain them (z below 0.9975, |bias| above 4, or with --batches a "
+      "tile\n"
+      "that differs or a tilez2 of 1.6); FAIL, not finite.\n";
+  return text;
+}
+
+}  // namespace duet

@@ -1,0 +1,134 @@
+// Comparisons of several images: two sets of renders, or two directories.
+#include <fmt/format.h>
+#include <glob.h>
+
+#include <algorithm>
+#include <filesystem>
+
+#include "app/commands.h"
+#include "app/compare.h"
+#include "base/log.h"
+#include "image/colours.h"
+
+namespace duet {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+/// Longest side of an image in the report of directories: pages of hundreds of images should open.
+constexpr int kLongestOfMany = 512;
+constexpr int kLongestOfOne = 1024;
+/// Fewer images of a side than this leave their variance uncertain.
+constexpr size_t kFewBatches = 8;
+
+std::vector<std::string> split(const std::string& text) {
+  std::vector<std::string> parts;
+  for (size_t from = 0; from <= text.size();) {
+    const size_t to = std::min(text.find(',', from), text.size());
+    if (to > from) parts.push_back(text.substr(from, to - from));
+    from = to + 1;
+  }
+  return parts;
+}
+
+/// The files that an operand of --batches means.
+std::vector<std::string> batch_files(const std::string& operand) {
+  std::error_code ignored;
+  std::vector<std::string> files;
+  if (fs::is_directory(operand, ignored)) {
+    for (const std::string& name : images_in(operand))
+      files.push_back((fs::path(operand) / name).string());
+  } else if (operand.find_first_of("*?") != std::string::npos && !fs::exists(operand, ignored)) {
+    glob_t found{};
+    if (glob(operand.c_str(), 0, nullptr, &found) == 0)
+      files.assign(found.gl_pathv, found.gl_pathv + found.gl_pathc);
+    globfree(&found);
+  } else {
+    files = split(operand);
+  }
+  if (files.size() < 2)
+    throw UsageError(
+        fmt::format("--batches: \"{}\" means {}; it must mean two images at least, as a pattern in "
+                    "quotes such as "
+                    "'a-*.exr', a directory, or names with commas between them",
+                    operand, files.empty() ? "no image" : files[0] + " alone"));
+  return files;
+}
+
+/// One side of a tile test.
+struct Side {
+  TileBatches batches;
+  LinearImage mean;
+};
+
+Side load_side(const std::string& operand, const char* what) {
+  Side side;
+  std::vector<double> sums;
+  const std::vector<std::string> files = batch_files(operand);
+  for (const std::string& file : files) {
+    LinearImage image = load_linear(file);
+    try {
+      side.batches.add(image.image);
+    } catch (const std::invalid_argument& e) {
+      throw std::runtime_error(fmt::format("{}: {}", file, e.what()));
+    }
+    const Colours colours(image.image);
+    sums.resize(3 * colours.pixels());
+    for (size_t i = 0; i < colours.pixels(); ++i)
+      for (size_t c = 0; c < 3; ++c) sums[3 * i + c] += colours(i, int(c));
+    side.mean.display_encoded |= image.display_encoded;
+    side.mean.image = Image(image.image.width, image.image.height, {"R", "G", "B"});
+  }
+  for (size_t i = 0; i < sums.size(); ++i)
+    side.mean.image.data[i] = float(sums[i] / double(files.size()));
+  if (files.size() < kFewBatches)
+    log::warning(
+        "--batches: {} images of the {} say little about its variance; {} or more are better",
+        files.size(), what, 2 * kFewBatches);
+  return side;
+}
+
+}  // namespace
+
+Comparison compare_batches(const CompareOptions& o) {
+  const Side a = load_side(o.image, "image"), b = load_side(o.reference, "reference");
+  check_finite(b.mean.image, o.reference);
+  if (a.mean.image.width != b.mean.image.width || a.mean.image.height != b.mean.image.height)
+    throw std::runtime_error(fmt::format("the images are {}x{}, the references {}x{}",
+                                         a.mean.image.width, a.mean.image.height,
+                                         b.mean.image.width, b.mean.image.height));
+  Comparison c;
+  c.name = o.image;
+  c.measurements.tiles = compare_tiles(a.batches, b.batches);
+  measure(a.mean, b.mean, std::nullopt, o, o.html.empty() ? 0 : kLongestOfOne, c);
+  write_differences(o, a.mean.image, b.mean.image, c.measurements.metrics);
+  return c;
+}
+
+std::vector<Comparison> compare_directories(const CompareOptions& o) {
+  const std::vector<std::string> names = images_in(o.reference);
+  if (names.empty()) throw std::runtime_error(fmt::format("{} has no images", o.reference));
+  std::vector<Comparison> all;
+  for (const std::string& name : names) {
+    CompareOptions pair = o;
+    pair.image = (fs::path(o.image) / name).string();
+    pair.reference = (fs::path(o.reference) / name).string();
+    if (!o.variance.empty()) pair.variance = (fs::path(o.variance) / name).string();
+    try {
+      all.push_back(compare_pair(pair, o.html.empty() ? 0 : kLongestOfMany));
+    } catch (const UsageError&) {
+      throw;
+    } catch (const std::exception& e) {
+      all.emplace_back();
+      all.back().failure = e.what();
+    }
+    all.back().name = name;
+  }
+  for (const std::string& name : images_in(o.image))
+    if (!std::binary_search(names.begin(), names.end(), name))
+      log::warning("{} has no reference in {}", name, o.reference);
+  return all;
+}
+
+}  // namespace duet
