@@ -127,19 +127,6 @@ TEST_CASE("time and error limits stop bidirectional methods") {
   }
 }
 
-TEST_CASE("statistics of single samples are refused where there are none") {
-  const TransportScene scene = glass_room();
-  IntegratorDescription d = scene.integrator;
-  d.moments = true;
-  for (const char* name : {"ptracer", "bdpt", "reuse", "vcm"}) {
-    IntegratorDescription with = d;
-    apply_override(with, {name, {}, {}});
-    CHECK_THROWS_AS(make_integrator(with), std::invalid_argument);
-  }
-  apply_override(d, {"ppm", {}, {}});
-  CHECK(make_integrator(d));
-}
-
 TEST_CASE("light walks find all the light that a sphere of lamps sends out") {
   // Counters, not images: an open scene whose light walks all leave at once.
   const TransportScene scene(camera_xml("0, -3, 0", "0, 0, 0", 8) +
