@@ -167,6 +167,26 @@ SurfaceNeeds integrator_needs(const IntegratorDescription& integrator) {
   return needs;
 }
 
+void check_support(const SceneDescription& scene, Diagnostics& diagnostics) {
+  if (!scene.integrator.image ||
+      !std::holds_alternative<BidirectionalIntegratorDescription>(scene.integrator.method))
+    return;
+  const auto refuse = [&](const SourceLocation& where) {
+    diagnostics.error(where,
+                      "integrator \"{}\" cannot render participating media yet; \"volpath\" can",
+                      integrator_name(scene.integrator));
+  };
+  const auto check = [&](const std::vector<ShapeDescription>& shapes) {
+    for (const ShapeDescription& s : shapes)
+      if (const auto medium = s.interior ? s.interior : s.exterior)
+        return refuse(scene.media[size_t(*medium)].where);
+  };
+  for (const SensorDescription& s : scene.sensors)
+    if (s.medium) return refuse(scene.media[size_t(*s.medium)].where);
+  for (const ShapeGroupDescription& g : scene.groups) check(g.shapes);
+  check(scene.shapes);
+}
+
 std::unique_ptr<Integrator> make_integrator(const IntegratorDescription& integrator,
                                             TechniqueOutput techniques) {
   struct Make {

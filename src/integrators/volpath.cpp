@@ -114,7 +114,7 @@ Spectrum VolumePathIntegrator::radiance(const Scene& scene, const CameraPath& st
       }
     }
     if (!found) {
-      if (!scene.environment || (path.depth == 0 && options_.hide_emitters)) break;
+      if (!scene.environment || hides_lights(path.depth)) break;
       const Vector3f& w = path.ray.direction;
       path.add(scene.environment->emitted(w),
                path.competes ? scene.environment->pdf_direct(w).value *
@@ -125,7 +125,8 @@ Spectrum VolumePathIntegrator::radiance(const Scene& scene, const CameraPath& st
     }
     ++counters.path_vertices;
     const Surface s = scene.surface(path.ray, hit);
-    if (const SurfaceLight* light = scene.light_on(*s.shape)) {
+    if (const SurfaceLight* light = scene.light_on(*s.shape);
+        light && !hides_lights(path.depth)) {
       const Vector3f& w = path.ray.direction;
       const Spectrum emitted = light->emitted(s, -w);
       const Vector3f way = s.position - path.from;

@@ -34,6 +34,9 @@ class VolumePathIntegrator final : public CameraIntegrator {
   /// Whether the next point of scattering would be one too many.
   bool at_limit(int depth) const { return options_.max_depth >= 0 && depth >= options_.max_depth; }
 
+  /// Whether lights that are met now are not to be seen.
+  bool hides_lights(int depth) const { return depth == 0 && options_.hide_emitters; }
+
   PathOptions options_;
 };
 

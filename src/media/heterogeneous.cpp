@@ -36,7 +36,7 @@ float HeterogeneousMedium::walk(const Ray& ray, float u, RandomStream& random,
   const Vector3f direction = sigma_t_.to_local(ray.direction);
   float depth = -std::log1p(-u);  // optical, in terms of the majorant, to the next collision
   float scattered = INFINITY;
-  majorants_.traverse(origin, direction, ray.tmax, [&](float t, float end, float majorant) {
+  majorants_.traverse(ray, origin, direction, [&](float t, float end, float majorant) {
     for (;;) {
       const float left = (end - t) * majorant;
       if (!(depth < left)) {
@@ -71,7 +71,7 @@ void HeterogeneousMedium::transmit(const Ray& ray, RandomStream& random, Spectra
   const Point3f origin = sigma_t_.to_local(ray.origin);
   const Vector3f direction = sigma_t_.to_local(ray.direction);
   float depth = -std::log1p(-random.next());
-  majorants_.traverse(origin, direction, ray.tmax, [&](float t, float end, float majorant) {
+  majorants_.traverse(ray, origin, direction, [&](float t, float end, float majorant) {
     for (;;) {
       const float left = (end - t) * majorant;
       if (!(depth < left)) {

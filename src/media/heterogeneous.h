@@ -8,7 +8,8 @@ namespace duet {
 
 /// Distances are sampled by delta tracking (Woodcock et al. 1965) and transmittances estimated by
 /// ratio tracking (Novák, Selle & Jarosz 2014), both against a coarse grid of majorants, so that
-/// empty space costs little. Outside of the grid's unit cube there is nothing.
+/// empty space costs little. Outside of the box
+/// around the grid there is nothing.
 class HeterogeneousMedium final : public Medium {
  public:
   /// The extinction is `scale` times the grid's values, times that of the phase function.

@@ -7,34 +7,40 @@
 
 namespace duet {
 
-/// Upper bounds of a volume over the cells of a coarse grid of its unit cube.
+/// Upper bounds of a volume over the cells of a coarse grid. It covers the volume's box in the
+/// world (GridVolume::world_box), which is more than its unit cube if the volume is turned.
 class MajorantGrid {
  public:
   /// The bounds are those of the volume times `scale`.
   MajorantGrid(const GridVolume& volume, float scale);
 
-  /// Calls visit(t0, t1, majorant) for the stretches of a ray that lie in the cells of the unit
-  /// cube, in order, until it returns false. `origin` and `direction` are given in the volume's own
-  /// space; t keeps its meaning.
+  /// Calls visit(t0, t1, majorant) for the stretches of a ray up to ray.tmax that lie in the
+  /// volume's box in the world, cell by cell, until it returns false. `origin` and `direction` are
+  /// those of the ray in the volume's own space.
   template <class Visit>
-  void traverse(const Point3f& origin, const Vector3f& direction, float tmax, Visit visit) const;
+  void traverse(const Ray& ray, const Point3f& origin, const Vector3f& direction,
+                Visit visit) const;
 
  private:
+  /// In the world, and in the volume's own space.
+  Point3f world_lower_, world_upper_, lower_;
+  Vector3f cell_;  ///< its size
   std::array<int, 3> size_;
   std::vector<float> majorants_;
 };
 
 /// Source: Amanatides & Woo, "A fast voxel traversal algorithm for ray tracing", 1987.
 template <class Visit>
-inline void MajorantGrid::traverse(const Point3f& origin, const Vector3f& direction, float tmax,
+inline void MajorantGrid::traverse(const Ray& ray, const Point3f& origin, const Vector3f& direction,
                                    Visit visit) const {
-  float t = 0, end = tmax;
+  float t = 0, end = ray.tmax;
   for (int i = 0; i < 3; ++i) {
-    const float inverse = 1 / direction[i];
-    float a = -origin[i] * inverse, b = (1 - origin[i]) * inverse;
+    const float inverse = 1 / ray.direction[i];
+    float a = (world_lower_[i] - ray.origin[i]) * inverse;
+    float b = (world_upper_[i] - ray.origin[i]) * inverse;
     if (a > b) std::swap(a, b);
-    if (direction[i] == 0) {
-      if (!(origin[i] >= 0 && origin[i] <= 1)) return;
+    if (ray.direction[i] == 0) {
+      if (!(ray.origin[i] >= world_lower_[i] && ray.origin[i] <= world_upper_[i])) return;
       continue;
     }
     t = std::max(t, a);
@@ -45,16 +51,16 @@ inline void MajorantGrid::traverse(const Point3f& origin, const Vector3f& direct
   float next[3], delta[3];
   for (int i = 0; i < 3; ++i) {
     const int n = size_[size_t(i)];
-    const float x = (origin[i] + direction[i] * t) * float(n);
+    const float x = (origin[i] + direction[i] * t - lower_[i]) / cell_[i];
     cell[i] = std::clamp(int(x), 0, n - 1);
     step[i] = direction[i] < 0 ? -1 : 1;
     if (direction[i] == 0) {
       next[i] = delta[i] = INFINITY;
       continue;
     }
-    const float border = float(cell[i] + (step[i] > 0)) / float(n);
+    const float border = lower_[i] + float(cell[i] + (step[i] > 0)) * cell_[i];
     next[i] = (border - origin[i]) / direction[i];
-    delta[i] = 1 / (std::abs(direction[i]) * float(n));
+    delta[i] = cell_[i] / std::abs(direction[i]);
   }
   for (;;) {
     const int axis = next[0] < next[1] ? (next[0] < next[2] ? 0 : 2) : (next[1] < next[2] ? 1 : 2);
@@ -68,7 +74,8 @@ inline void MajorantGrid::traverse(const Point3f& origin, const Vector3f& direct
     }
     if (!(t < end)) return;
     cell[axis] += step[axis];
-    if (cell[axis] < 0 || cell[axis] >= size_[size_t(axis)]) return;
+    // Only rounding can lead beyond the last cell while there is some way left.
+    cell[axis] = std::clamp(cell[axis], 0, size_[size_t(axis)] - 1);
     next[axis] += delta[axis];
   }
 }

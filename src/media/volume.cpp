@@ -80,6 +80,18 @@ SymmetricMatrix GridVolume::matrix(const Point3f& p) const {
   return sum;
 }
 
+void GridVolume::world_box(Point3f& lower, Point3f& upper) const {
+  lower = Point3f(INFINITY), upper = Point3f(-INFINITY);
+  for (int corner = 0; corner < 8; ++corner) {
+    const Point3f p =
+        to_world_(Point3f(float(corner & 1), float(corner >> 1 & 1), float(corner >> 2)));
+    for (int i = 0; i < 3; ++i) {
+      lower[i] = std::min(lower[i], p[i]);
+      upper[i] = std::max(upper[i], p[i]);
+    }
+  }
+}
+
 float GridVolume::maximum(const Point3f& lower, const Point3f& upper) const {
   int first[3], last[3];
   for (int i = 0; i < 3; ++i) {
@@ -87,8 +99,8 @@ float GridVolume::maximum(const Point3f& lower, const Point3f& upper) const {
     first[i] = int(std::floor(node_coordinate(lower[i], i))) - 1;
     last[i] = int(std::floor(node_coordinate(upper[i], i))) + 2;
     if (wrap_ == VolumeWrap::clamp || nodes_on_faces_) {
-      first[i] = std::max(first[i], 0);
-      last[i] = std::min(last[i], grid_->size[size_t(i)] - 1);
+      first[i] = std::clamp(first[i], 0, grid_->size[size_t(i)] - 1);
+      last[i] = std::clamp(last[i], 0, grid_->size[size_t(i)] - 1);
     }
   }
   const size_t channels = size_t(grid_->channels);

@@ -35,10 +35,13 @@ class GridVolume {
   Spectrum color(const Point3f& p) const { return local_color(to_local(p)); }
   SymmetricMatrix matrix(const Point3f& p) const;
 
+  /// The box in the world outside of which there is nothing, whatever a lookup says: around the
+  /// unit cube, as in Mitsuba 3. With `nodes_on_faces` lookups are zero outside of the cube anyway.
+  void world_box(Point3f& lower, Point3f& upper) const;
+
   /// The greatest value of any channel that local_value() and local_color() yield in the box
   /// between two points of the grid's own space.
   float maximum(const Point3f& lower, const Point3f& upper) const;
-  float maximum() const { return maximum({0, 0, 0}, {1, 1, 1}); }
 
  private:
   /// The eight nodes around a point, or one if nothing is interpolated, and what each counts.

@@ -26,33 +26,61 @@ std::shared_ptr<const VolumeGrid> ramp(const Spectrum& first, const Spectrum& la
   return std::make_shared<VolumeGrid>(grid);
 }
 
-/// What a walk finds in expectation must not depend on the channel that decides: the share of each
-/// channel that gets through, and the light that is scattered where it is not absorbed.
+/// What walks find in expectation, whichever channel decides: the share of each channel that gets
+/// through, and the light that is scattered where it is not absorbed.
 void check_walk(const Medium& medium, const Ray& ray, const Spectrum& transmittance,
                 const Spectrum& albedo) {
-  for (int channel = 0; channel < 3; ++channel) {
-    CAPTURE(channel);
-    Moments through[3], scattered[3], shadow[3];
-    RandomStream random(17 + uint64_t(channel));
+  Moments through[3], scattered[3], shadow[3];
+  RandomStream random(17);
+  for (int i = 0; i < kSamples; ++i) {
+    SpectralWeights w, s;
+    w.channel = s.channel = i % 3;
+    const float t = medium.walk(ray, random.next(), random, w);
+    medium.transmit(ray, random, s);
+    CHECK(t >= 0);
+    const Spectrum value = w.mean_over_channels();
+    for (int c = 0; c < 3; ++c) {
+      through[c].add(t < ray.tmax ? 0 : double(value[c]));
+      scattered[c].add(t < ray.tmax ? double(value[c]) : 0);
+      shadow[c].add(double(s.value[c]));
+    }
+  }
+  for (int c = 0; c < 3; ++c) {
+    CAPTURE(c);
+    const double t = double(transmittance[c]);
+    const double s = double(albedo[c]) * (1 - t);
+    // Beyond five standard errors; none where the value is exact.
+    CHECK(std::abs(through[c].mean() - t) < 5 * through[c].error() + 1e-5);
+    CHECK(std::abs(scattered[c].mean() - s) < 5 * scattered[c].error() + 1e-5);
+    CHECK(std::abs(shadow[c].mean() - t) < 5 * shadow[c].error() + 1e-5);
+    // Estimates that prove something.
+    CHECK(through[c].error() < 0.02);
+    CHECK(scattered[c].error() < 0.02);
+    CHECK(shadow[c].error() < 0.02);
+  }
+}
+
+/// The densities are those of walks and light samples: what both find must not depend on how the
+/// two are weighed, so that weights sum to one.
+void check_weights(const Medium& medium, const Ray& ray, const Spectrum& transmittance) {
+  for (const float light_pdf : {0.2f, 3.0f}) {
+    Moments both[3];
+    RandomStream random(23);
     for (int i = 0; i < kSamples; ++i) {
       SpectralWeights w, s;
-      w.channel = s.channel = channel;
-      const float t = medium.walk(ray, random.next(), random, w);
+      w.channel = s.channel = i % 3;
+      Spectrum found;
+      if (medium.walk(ray, random.next(), random, w) == INFINITY)
+        found += w.value * (1 / (w.walk + w.light * light_pdf).mean());
       medium.transmit(ray, random, s);
-      CHECK(t >= 0);
-      for (int c = 0; c < 3; ++c) {
-        through[c].add(t < ray.tmax ? 0 : double(w.value[c]));
-        scattered[c].add(t < ray.tmax ? double(w.value[c]) : 0);
-        shadow[c].add(double(s.value[c]));
-      }
+      if (!s.value.is_black()) found += s.value * (1 / (s.walk * (1 / light_pdf) + s.light).mean());
+      for (int c = 0; c < 3; ++c) both[c].add(double(found[c]));
     }
     for (int c = 0; c < 3; ++c) {
-      const double t = double(transmittance[c]);
-      const double s = double(albedo[c]) * (1 - t);
-      // Beyond five standard errors; none where the value is exact.
-      CHECK(std::abs(through[c].mean() - t) < 5 * through[c].error() + 1e-5);
-      CHECK(std::abs(scattered[c].mean() - s) < 5 * scattered[c].error() + 1e-5);
-      CHECK(std::abs(shadow[c].mean() - t) < 5 * shadow[c].error() + 1e-5);
+      CAPTURE(c);
+      CAPTURE(light_pdf);
+      CHECK(std::abs(both[c].mean() - double(transmittance[c])) < 5 * both[c].error() + 1e-5);
+      CHECK(both[c].error() < 0.01);
     }
   }
 }
@@ -68,6 +96,7 @@ TEST_CASE("light gets as far in a homogeneous medium as its extinction allows") 
   const HomogeneousMedium medium(sigma, {albedo}, kIsotropic);
   const Ray ray{{1, 2, 3}, {0, 0, 1}, 1.2f};
   check_walk(medium, ray, exp_minus(sigma * 1.2f), albedo);
+  check_weights(medium, ray, exp_minus(sigma * 1.2f));
   // Endless rays end in the medium, except in channels without extinction.
   SpectralWeights w;
   RandomStream random(1);
@@ -84,12 +113,15 @@ TEST_CASE("light gets as far in a grid as the integral over its values allows") 
     // Half a cell at each end is flat where the nodes lie inside: the mean stays the same.
     const GridVolume grey(ramp(Spectrum(0.4f), Spectrum(0.1f), 1), placed, VolumeFilter::trilinear,
                           VolumeWrap::clamp, on_faces);
-    check_walk(HeterogeneousMedium(grey, 2, {albedo}, kIsotropic),
-               {{-3, .5f, .5f}, {1, 0, 0}, INFINITY}, exp_minus(Spectrum(4 * 2 * 0.25f)), albedo);
+    const Ray ray{{-3, .5f, .5f}, {1, 0, 0}, 10};
+    const HeterogeneousMedium plain(grey, 2, {albedo}, kIsotropic);
+    check_walk(plain, ray, exp_minus(Spectrum(4 * 2 * 0.25f)), albedo);
+    check_weights(plain, ray, exp_minus(Spectrum(4 * 2 * 0.25f)));
     const GridVolume color(ramp({0.4f, 0, 0.2f}, {0, 0.2f, 0.2f}, 3), placed,
                            VolumeFilter::trilinear, VolumeWrap::clamp, on_faces);
-    check_walk(HeterogeneousMedium(color, 2, {albedo}, kIsotropic),
-               {{-3, .5f, .5f}, {1, 0, 0}, 10}, exp_minus(Spectrum(0.2f, 0.1f, 0.2f) * 8), albedo);
+    const HeterogeneousMedium coloured(color, 2, {albedo}, kIsotropic);
+    check_walk(coloured, ray, exp_minus(Spectrum(0.2f, 0.1f, 0.2f) * 8), albedo);
+    check_weights(coloured, ray, exp_minus(Spectrum(0.2f, 0.1f, 0.2f) * 8));
   }
 }
 

@@ -28,6 +28,41 @@ std::shared_ptr<const VolumeGrid> noise(std::array<int, 3> size, int channels, u
   return std::make_shared<VolumeGrid>(grid);
 }
 
+void check_traversal(const GridVolume& v) {
+  const MajorantGrid majorants(v, 2);
+  Point3f lower, upper;
+  v.world_box(lower, upper);
+  RandomStream random(5);
+  for (int i = 0; i < 500; ++i) {
+    const Point3f o(random.next() * 3 - 1, random.next() * 3 - 1, random.next() * 3 - 1);
+    Vector3f d(random.next() * 2 - 1, random.next() * 2 - 1, random.next() * 2 - 1);
+    if (i % 5 == 0) d[i % 3] = 0;
+    float last = -1, inside = 0;
+    const Point3f local_o = v.to_local(o);
+    const Vector3f local_d = v.to_local(d);
+    majorants.traverse({o, d, INFINITY}, local_o, local_d, [&](float t0, float t1, float majorant) {
+      if (last >= 0) CHECK(t0 == last);
+      CHECK(t1 > t0);
+      last = t1;
+      inside += t1 - t0;
+      for (const float f : {0.1f, 0.5f, 0.9f})
+        CHECK(2 * v.local_value(local_o + local_d * lerp(t0, t1, f)) <= majorant * 1.001f);
+      return true;
+    });
+    // The length in the box, by its three slabs.
+    float a = 0, b = INFINITY;
+    for (int k = 0; k < 3; ++k) {
+      if (d[k] == 0) {
+        if (o[k] < lower[k] || o[k] > upper[k]) b = -1;
+        continue;
+      }
+      const float x = (lower[k] - o[k]) / d[k], y = (upper[k] - o[k]) / d[k];
+      a = std::max(a, std::min(x, y)), b = std::min(b, std::max(x, y));
+    }
+    CHECK(inside == doctest::Approx(std::max(b - a, 0.0f)).epsilon(1e-3));
+  }
+}
+
 }  // namespace
 
 TEST_CASE("grids of Mitsuba 3 have their nodes half a cell inside, and wrap as there") {
@@ -99,33 +134,10 @@ TEST_CASE("no value in a box is above its maximum, whatever the filter and wrap 
 
 TEST_CASE("a ray meets the cells of a majorant grid in order and without gaps") {
   const auto grid = noise({32, 20, 9}, 1, 4);
-  const GridVolume v(grid, Matrix4{}, VolumeFilter::trilinear, VolumeWrap::clamp, false);
-  const MajorantGrid majorants(v, 2);
-  RandomStream random(5);
-  for (int i = 0; i < 500; ++i) {
-    const Point3f o(random.next() * 3 - 1, random.next() * 3 - 1, random.next() * 3 - 1);
-    Vector3f d(random.next() * 2 - 1, random.next() * 2 - 1, random.next() * 2 - 1);
-    if (i % 5 == 0) d[i % 3] = 0;
-    float last = -1, inside = 0;
-    majorants.traverse(o, d, INFINITY, [&](float t0, float t1, float majorant) {
-      if (last >= 0) CHECK(t0 == last);
-      CHECK(t1 > t0);
-      last = t1;
-      inside += t1 - t0;
-      for (const float f : {0.1f, 0.5f, 0.9f})
-        CHECK(2 * v.local_value(o + d * lerp(t0, t1, f)) <= majorant * 1.001f);
-      return true;
-    });
-    // The length in the cube, by its three slabs.
-    float a = 0, b = INFINITY;
-    for (int k = 0; k < 3; ++k) {
-      if (d[k] == 0) {
-        if (o[k] < 0 || o[k] > 1) b = -1;
-        continue;
-      }
-      const float x = -o[k] / d[k], y = (1 - o[k]) / d[k];
-      a = std::max(a, std::min(x, y)), b = std::min(b, std::max(x, y));
-    }
-    CHECK(inside == doctest::Approx(std::max(b - a, 0.0f)).epsilon(1e-3));
+  // As it is, and turned: then its box in the world is larger than itself.
+  for (const double degrees : {0.0, 40.0}) {
+    const GridVolume v(grid, Matrix4::rotate(degrees, 1, 2, 3), VolumeFilter::trilinear,
+                       VolumeWrap::clamp, false);
+    check_traversal(v);
   }
 }
