@@ -57,6 +57,45 @@ def height_field():
     return 0.5 + 0.2 * np.sin(3 * tau * u) * np.cos(2 * tau * v) + 0.2 * np.cos(tau * (u + 2 * v))
 
 
+def write_volume(path, values):
+    """Writes an array (z, y, x[, channels]) as 32-bit numbers in a box of its own."""
+    values = np.asarray(values, np.float32)
+    depth, height, width = values.shape[:3]
+    channels = values.shape[3] if values.ndim == 4 else 1
+    path.write_bytes(b'VOL\3' + struct.pack('<5i6f', 1, width, height, depth, channels, -0.5, -0.5, -0.5, 0.5, 0.5, 0.5) +
+                     values.tobytes())
+
+
+def space(width, height, depth):
+    """Coordinates of nodes in [0, 1) as arrays (z, y, x)."""
+    z, y, x = np.meshgrid((np.arange(depth) + 0.5) / depth, (np.arange(height) + 0.5) / height,
+                          (np.arange(width) + 0.5) / width, indexing='ij')
+    return x, y, z
+
+
+def smoke_volume():
+    """Swirls in a ball, and nothing in the corners."""
+    x, y, z = space(20, 24, 16)
+    r = np.sqrt((x - 0.5) ** 2 + (y - 0.5) ** 2 + (z - 0.5) ** 2)
+    swirl = 0.6 + 0.4 * np.sin(14 * x + 9 * y * y) * np.cos(11 * z + 5 * x)
+    return np.maximum(0, 1 - 2 * r) * swirl
+
+
+def colour_volume():
+    """Each channel grows along an axis of its own."""
+    x, y, z = space(6, 5, 4)
+    return np.stack([0.2 + 0.75 * x, 0.2 + 0.75 * y, 0.9 - 0.6 * z], axis=-1)
+
+
+def flake_volume():
+    """Fibres that turn around the z axis on the way along x; every matrix is positive definite."""
+    x, _, _ = space(8, 1, 1)
+    angle = np.pi * x
+    along = np.stack([np.cos(angle), np.sin(angle), 0 * x], axis=-1)
+    matrix = 0.9 * (np.eye(3) - along[..., :, None] * along[..., None, :]) + 0.05 * np.eye(3)
+    return np.stack([matrix[..., i, j] for i, j in ((0, 0), (1, 1), (2, 2), (0, 1), (0, 2), (1, 2))], axis=-1)
+
+
 def bump_texture():
     return to_bytes(height_field())
 
@@ -147,6 +186,14 @@ def main():
         write_png(SCENES / scene / 'holes.png', mask_texture())
     write_attribute_ply(SCENES / 'textures' / 'attributes.ply')
     write_serialized(SCENES / 'mesh-lumpy' / 'lumpy.serialized', *lumpy_sphere(120))
+
+    folder = SCENES / 'media-heterogeneous'
+    write_volume(folder / 'smoke.vol', smoke_volume())
+    write_volume(folder / 'colours.vol', colour_volume())
+    folder = SCENES / 'media-phase'
+    write_volume(folder / 'weight.vol', colour_volume()[..., 0])
+    write_volume(folder / 'flakes.vol', flake_volume())
+    write_volume(folder / 'ones.vol', np.ones((2, 2, 2)))
 
     import mitsuba as mi
     mi.set_variant('scalar_rgb')

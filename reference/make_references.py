@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Renders the references of the scenes with Mitsuba 3: mean, variance and provenance.
 
-    make_references.py [NAME...] [--error 0.01] [--minutes 30]
+    make_references.py [NAME...] [--error 0.01] [--minutes 30] [--pass-samples 4000000]
 
 For each entry of REFERENCES (all, or those named) it renders passes of the scene's own integrator and
 film with Mitsuba (llvm_ad_rgb, single precision) until the trimmed relative RMSE of the mean itself is
@@ -36,7 +36,7 @@ TRIM = 0.001            # share of the worst pixels left out of the error, as in
 REFERENCES = {name: (name, {}) for name in (
     'bsdf-conductors', 'bsdf-dielectrics', 'bsdf-plastics', 'bsdf-principled', 'bsdf-wrappers', 'camera',
     'depth-of-field', 'environment-map', 'hide-emitters', 'instances', 'lights-area', 'lights-delta',
-    'orthographic', 'shapes', 'spectra', 'textures', 'two-versions')}
+    'media-heterogeneous', 'media-homogeneous', 'media-nested', 'media-phase', 'orthographic', 'shapes', 'spectra', 'textures', 'two-versions')}
 REFERENCES.update({name: (name, {'size': '128'}) for name in (
     'cornell-box', 'mesh-lumpy', 'thesis-empty', 'thesis-modified')})
 REFERENCES.update({f'filters-{kind}': ('filters', {'filter': kind}) for kind in (
@@ -49,12 +49,12 @@ def trimmed_relative_rmse(mean, variance_of_mean):
     return float(np.sqrt(relative[:max(1, int(len(relative) * (1 - TRIM)))].mean()))
 
 
-def render_reference(name, target, minutes):
+def render_reference(name, target, minutes, pass_samples):
     folder, definitions = REFERENCES[name]
     scene_file = ROOT / 'scenes' / folder / 'scene.xml'
     scene = mi.load_file(str(scene_file), **definitions)
     width, height = scene.sensors()[0].film().crop_size()
-    spp = max(16, 2 ** int(np.log2(4_000_000 / (width * height))))
+    spp = max(16, 2 ** int(np.log2(pass_samples / (width * height))))
     start, passes, total, squares = time.monotonic(), 0, 0.0, 0.0
     while True:
         image = np.array(mi.render(scene, spp=spp, seed=FIRST_SEED + passes))[..., :3].astype(np.float64)
@@ -94,11 +94,12 @@ def main():
     parser.add_argument('names', nargs='*', help='references to make (default: all)')
     parser.add_argument('--error', type=float, default=0.01, help='trimmed relative RMSE to reach')
     parser.add_argument('--minutes', type=float, default=30, help='time per reference')
+    parser.add_argument('--pass-samples', type=float, default=4e6, help='samples of one pass')
     args = parser.parse_args()
     for name in args.names or REFERENCES:
         if name not in REFERENCES:
             parser.error(f'no reference {name}; there are: ' + ' '.join(REFERENCES))
-        render_reference(name, args.error, args.minutes)
+        render_reference(name, args.error, args.minutes, args.pass_samples)
 
 
 if __name__ == '__main__':

@@ -10,6 +10,7 @@
 #include "base/diagnostics.h"
 #include "mesh/mesh_file.h"
 #include "scene/description.h"
+#include "volume/vol_file.h"
 
 namespace duet {
 
@@ -24,6 +25,8 @@ struct FileAccess {
   std::function<TriangleMesh(const std::string& plugin, const std::string& path,
                              const MeshOptions& options)>
       read_mesh;
+  /// Reads a volume file; throws ReadError.
+  std::function<VolumeFile(const std::string& path)> read_volume;
 };
 
 struct MitsubaOptions {

@@ -18,10 +18,11 @@ std::string_view kind_of_value(const PropertyValue& value) {
   return names[value.index()];
 }
 
-/// Children that are not parameters have a meaning by their kind alone, except textures.
+/// Children that are not parameters have a meaning by their kind alone, except textures and
+/// volumes.
 bool is_parameter_kind(const Property& p) {
   const Node* const* node = std::get_if<const Node*>(&p.value);
-  return !node || (*node)->kind == PluginKind::texture;
+  return !node || (*node)->kind == PluginKind::texture || (*node)->kind == PluginKind::volume;
 }
 
 }  // namespace

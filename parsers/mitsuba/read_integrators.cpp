@@ -49,6 +49,16 @@ void read_path(SceneReader&, Properties& p, IntegratorDescription& out) {
   out.method = path;
 }
 
+void read_volpath(SceneReader&, Properties& p, IntegratorDescription& out) {
+  VolumePathIntegratorDescription path;
+  if (p.node().type == "volpathmis") path.name = VolumePathName::volpathmis;
+  path.max_depth = p.integer("max_depth");
+  path.rr_depth = p.integer("rr_depth");
+  path.hide_emitters = p.boolean("hide_emitters");
+  path.strict_normals = p.boolean("strict_normals");
+  out.method = path;
+}
+
 void read_direct(SceneReader&, Properties& p, IntegratorDescription& out) {
   DirectIntegratorDescription direct;
   if (p.has("shading_samples")) {

@@ -13,11 +13,19 @@ void check_not_both(Properties& p, std::string_view a, std::string_view b) {
   if (p.has(a) && p.has(b)) p.error(b, "either \"{}\" or \"{}\" can be given", a, b);
 }
 
+/// What all lights that are not surfaces have.
+void read_common(SceneReader& s, Properties& p, LightDescription& out) {
+  out.sampling_weight = p.number("sampling_weight");
+  if (const Node* medium = p.child(PluginKind::medium)) out.medium = s.medium(*medium);
+}
+
 }  // namespace
 
 void read_area(SceneReader& s, Properties& p, AreaEmission& out) {
   out.radiance = s.color(p, "radiance");
   out.sampling_weight = p.number("sampling_weight");
+  // Rays that leave a surface know what is beyond it.
+  p.child(PluginKind::medium);
 }
 
 void read_point(SceneReader& s, Properties& p, LightDescription& out) {
@@ -29,7 +37,7 @@ void read_point(SceneReader& s, Properties& p, LightDescription& out) {
     position = {m[0][3], m[1][3], m[2][3]};
   }
   out.to_world = Matrix4::translate(position[0], position[1], position[2]);
-  out.sampling_weight = p.number("sampling_weight");
+  read_common(s, p, out);
 }
 
 void read_spot(SceneReader& s, Properties& p, LightDescription& out) {
@@ -43,7 +51,7 @@ void read_spot(SceneReader& s, Properties& p, LightDescription& out) {
   light.texture = s.texture(p, "texture");
   out.model = light;
   out.to_world = p.transform("to_world");
-  out.sampling_weight = p.number("sampling_weight");
+  read_common(s, p, out);
 }
 
 void read_projector(SceneReader& s, Properties& p, LightDescription& out) {
@@ -53,7 +61,7 @@ void read_projector(SceneReader& s, Properties& p, LightDescription& out) {
   std::tie(light.fov, light.fov_axis) = read_fov(p);
   out.model = light;
   out.to_world = p.transform("to_world");
-  out.sampling_weight = p.number("sampling_weight");
+  read_common(s, p, out);
 }
 
 void read_directional(SceneReader& s, Properties& p, LightDescription& out) {
@@ -69,12 +77,12 @@ void read_directional(SceneReader& s, Properties& p, LightDescription& out) {
     else
       p.error("direction", "the direction of a light cannot be zero");
   }
-  out.sampling_weight = p.number("sampling_weight");
+  read_common(s, p, out);
 }
 
 void read_constant(SceneReader& s, Properties& p, LightDescription& out) {
   out.model = ConstantLight{s.constant_color(p, "radiance")};
-  out.sampling_weight = p.number("sampling_weight");
+  read_common(s, p, out);
 }
 
 void read_envmap(SceneReader& s, Properties& p, LightDescription& out) {
@@ -86,7 +94,7 @@ void read_envmap(SceneReader& s, Properties& p, LightDescription& out) {
     p.error("gamma", "a gamma is positive, or -1 for sRGB, not {}", *light.gamma);
   out.model = light;
   out.to_world = p.transform("to_world");
-  out.sampling_weight = p.number("sampling_weight");
+  read_common(s, p, out);
 }
 
 }  // namespace duet

@@ -33,6 +33,7 @@ void read_common(SceneReader& s, Properties& p, SensorDescription& out) {
     p.error(p.has("far_clip") ? "far_clip" : "near_clip",
             "the near clip distance {} is not smaller than the far one {}", out.near_clip,
             out.far_clip);
+  if (const Node* medium = p.child(PluginKind::medium)) out.medium = s.medium(*medium);
   out.film.where = p.node().where;
   if (const Node* film = p.child(PluginKind::film)) {
     out.film.where = film->where;

@@ -17,6 +17,23 @@ std::optional<MaterialId> attached_material(SceneReader& s, Properties& p) {
   return node ? s.material(*node) : std::nullopt;
 }
 
+void attach_media(SceneReader& s, Properties& p, ShapeDescription& out) {
+  for (const Properties::Child& child : p.children(PluginKind::medium)) {
+    const std::string& name = child.property->name;
+    if (name != "interior" && name != "exterior") {
+      s.report().error(child.property->where,
+                       "a medium of a shape is called \"interior\" or \"exterior\", not {}",
+                       in_quotes(name));
+      continue;
+    }
+    std::optional<MediumId>& side = name == "interior" ? out.interior : out.exterior;
+    if (side)
+      s.report().error(child.property->where, "the {} of {} is given twice", name,
+                       describe(p.node()));
+    side = s.medium(*child.node);
+  }
+}
+
 /// What all surfaces have: transform, orientation, light and material.
 void attach(SceneReader& s, Properties& p, ShapeDescription& out) {
   out.to_world = p.transform("to_world") * out.to_world;
@@ -24,7 +41,12 @@ void attach(SceneReader& s, Properties& p, ShapeDescription& out) {
   const Node* light = p.child(PluginKind::emitter);
   const auto material = attached_material(s, p);
   if (light) out.emission = s.emission(*light);
-  out.material = material ? *material : s.grey_material(light ? 0.0f : 0.5f, p.node().where);
+  attach_media(s, p, out);
+  // Where only media meet, Mitsuba 0.x sees no surface; Mitsuba 3 does.
+  const bool invisible = p.is_0x() && !light && (out.interior || out.exterior);
+  out.material = material    ? *material
+                 : invisible ? s.null_material(p.node().where)
+                             : s.grey_material(light ? 0.0f : 0.5f, p.node().where);
 }
 
 /// Mitsuba 0.x can give the parts of an OBJ file different materials. That is understood as far as

@@ -15,6 +15,8 @@ ColorMeaning meaning_of(ParameterType type) {
     case ParameterType::emission:
       return ColorMeaning::emission;
     case ParameterType::unbounded:
+    case ParameterType::coefficient:
+    case ParameterType::number_or_volume:
       return ColorMeaning::unbounded;
     default:
       return ColorMeaning::reflectance;
@@ -70,6 +72,10 @@ std::optional<ColorInput> SceneReader::color_of(Properties& p, std::string_view 
     return spectrum_to_rgb(blackbody_spectrum(body->kelvin, body->scale), meaning);
   if (const Node* const* node = std::get_if<const Node*>(&v)) {
     if (!(*node)->plugin) return std::nullopt;
+    if ((*node)->kind != PluginKind::texture) {
+      p.wrong_type(name, property);
+      return std::nullopt;
+    }
     if (std::holds_alternative<ReadInto<MeantColor>>((*node)->plugin->reader)) {
       MeantColor color{meaning, {}};
       read_into(**node, color);
@@ -88,6 +94,28 @@ ColorInput SceneReader::color(Properties& p, std::string_view name) {
   const Property* property = p.find(name);
   if (!property) return preset;
   return color_of(p, name, *property, meaning_of(parameter.type)).value_or(preset);
+}
+
+ColorVolume SceneReader::color_volume(Properties& p, std::string_view name) {
+  const Parameter& parameter = *find_parameter(p.node().kind, *p.node().plugin, name);
+  const Spectrum preset(float(parse_number(p.preset(name)).value_or(0)));
+  const Property* property = p.find(name);
+  if (!property) return preset;
+  const ColorMeaning meaning = meaning_of(parameter.type);
+  if (const Node* const* node = std::get_if<const Node*>(&property->value);
+      node && (*node)->kind == PluginKind::volume)
+    return volume(**node, meaning).value_or(preset);
+  const auto color = color_of(p, name, *property, meaning);
+  if (!color) return preset;
+  if (const Spectrum* constant = std::get_if<Spectrum>(&*color)) return *constant;
+  p.error(name, "the parameter \"{}\" of {} cannot be a texture", name, describe(p.node()));
+  return preset;
+}
+
+FloatVolume SceneReader::float_volume(Properties& p, std::string_view name) {
+  const ColorVolume value = color_volume(p, name);
+  if (const VolumeId* id = std::get_if<VolumeId>(&value)) return *id;
+  return double(std::get<Spectrum>(value).luminance());
 }
 
 Spectrum SceneReader::constant_color(Properties& p, std::string_view name) {

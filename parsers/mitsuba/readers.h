@@ -60,6 +60,23 @@ void read_directional(SceneReader&, Properties&, LightDescription&);
 void read_constant(SceneReader&, Properties&, LightDescription&);
 void read_envmap(SceneReader&, Properties&, LightDescription&);
 
+// read_media.cpp
+void read_homogeneous(SceneReader&, Properties&, MediumDescription&);
+void read_heterogeneous(SceneReader&, Properties&, MediumDescription&);
+void read_constvolume(SceneReader&, Properties&, MeantVolume&);
+void read_gridvolume(SceneReader&, Properties&, MeantVolume&);
+void read_volcache(SceneReader&, Properties&, MeantVolume&);
+
+// read_phases.cpp
+void read_isotropic(SceneReader&, Properties&, PhaseDescription&);
+void read_hg(SceneReader&, Properties&, PhaseDescription&);
+void read_rayleigh(SceneReader&, Properties&, PhaseDescription&);
+void read_blendphase(SceneReader&, Properties&, PhaseDescription&);
+void read_mixturephase(SceneReader&, Properties&, PhaseDescription&);
+void read_sggx(SceneReader&, Properties&, PhaseDescription&);
+void read_tabphase(SceneReader&, Properties&, PhaseDescription&);
+void read_fibre_phase(SceneReader&, Properties&, PhaseDescription&);
+
 // read_sensors.cpp
 void read_perspective(SceneReader&, Properties&, SensorDescription&);
 void read_thinlens(SceneReader&, Properties&, SensorDescription&);
@@ -71,6 +88,7 @@ void read_sampler(SceneReader&, Properties&, SamplerDescription&);
 
 // read_integrators.cpp
 void read_path(SceneReader&, Properties&, IntegratorDescription&);
+void read_volpath(SceneReader&, Properties&, IntegratorDescription&);
 void read_direct(SceneReader&, Properties&, IntegratorDescription&);
 void read_depth(SceneReader&, Properties&, IntegratorDescription&);
 void read_aov(SceneReader&, Properties&, IntegratorDescription&);

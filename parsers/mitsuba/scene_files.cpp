@@ -44,6 +44,7 @@ FileAccess with_disk(FileAccess access) {
     };
   if (!access.read) access.read = read_text;
   if (!access.read_mesh) access.read_mesh = read_mesh_file;
+  if (!access.read_volume) access.read_volume = read_vol;
   return access;
 }
 

@@ -51,6 +51,60 @@ std::optional<MaterialId> SceneReader::material(const Node& node) {
   return id ? std::optional(MaterialId{*id}) : std::nullopt;
 }
 
+std::optional<MediumId> SceneReader::medium(const Node& node) {
+  const auto id = once(node, [&]() -> std::optional<uint32_t> {
+    MediumDescription medium;
+    medium.where = node.where;
+    medium.label = {node.id};
+    if (!read_into(node, medium)) return std::nullopt;
+    description_.media.push_back(std::move(medium));
+    return uint32_t(description_.media.size() - 1);
+  });
+  return id ? std::optional(MediumId{*id}) : std::nullopt;
+}
+
+std::optional<PhaseId> SceneReader::phase(const Node& node) {
+  const auto id = once(node, [&]() -> std::optional<uint32_t> {
+    PhaseDescription phase{node.where, {node.id}, IsotropicPhase{}};
+    if (!read_into(node, phase)) return std::nullopt;
+    return uint32_t(add_phase(std::move(phase)));
+  });
+  return id ? std::optional(PhaseId{*id}) : std::nullopt;
+}
+
+PhaseId SceneReader::add_phase(PhaseDescription phase) {
+  description_.phases.push_back(std::move(phase));
+  return PhaseId{uint32_t(description_.phases.size() - 1)};
+}
+
+VolumeId SceneReader::add_volume(VolumeDescription volume) {
+  description_.volumes.push_back(std::move(volume));
+  return VolumeId{uint32_t(description_.volumes.size() - 1)};
+}
+
+std::optional<ColorVolume> SceneReader::volume(const Node& node, ColorMeaning meaning) {
+  const auto [entry, is_new] = volumes_.try_emplace({&node, meaning});
+  if (is_new) {
+    MeantVolume volume{meaning, {}};
+    if (read_into(node, volume)) volumes_[{&node, meaning}] = volume.value;
+  }
+  return volumes_[{&node, meaning}];
+}
+
+std::shared_ptr<const VolumeGrid> SceneReader::volume_grid(const std::string& file,
+                                                           const SourceLocation& where,
+                                                           bool& is_float32) {
+  const auto [entry, is_new] = volume_files_.try_emplace(file);
+  if (is_new) try {
+      entry->second = std::make_shared<VolumeFile>(access_.read_volume(file));
+    } catch (const ReadError& error) {
+      report_.error(where, "{}", error.what());
+    }
+  if (!entry->second) return nullptr;
+  is_float32 = entry->second->is_float32;
+  return {entry->second, &entry->second->grid};
+}
+
 std::optional<uint32_t> SceneReader::shape_group(const Node& node) {
   return once(node, [&]() -> std::optional<uint32_t> {
     ShapeGroupDescription group{node.where, {node.id}, {}};
@@ -67,6 +121,14 @@ MaterialId SceneReader::grey_material(float reflectance, const SourceLocation& w
     description_.materials.push_back({where, {}, DiffuseMaterial{Spectrum(reflectance)}});
   }
   return entry->second;
+}
+
+MaterialId SceneReader::null_material(const SourceLocation& where) {
+  if (!null_) {
+    null_ = MaterialId{uint32_t(description_.materials.size())};
+    description_.materials.push_back({where, {}, NullMaterial{}});
+  }
+  return *null_;
 }
 
 std::shared_ptr<const TriangleMesh> SceneReader::mesh(const std::string& plugin,
@@ -107,8 +169,9 @@ void SceneReader::top_level(const Node& scene) {
   Properties p(scene, report_);
   // Everything is read in the order of the file, also what nobody refers to: Mitsuba does it, too.
   const Node* integrator = p.child(PluginKind::integrator);
-  for (PluginKind kind : {PluginKind::texture, PluginKind::bsdf, PluginKind::shape,
-                          PluginKind::emitter, PluginKind::sensor})
+  for (PluginKind kind :
+       {PluginKind::texture, PluginKind::bsdf, PluginKind::shape, PluginKind::emitter,
+        PluginKind::sensor, PluginKind::medium, PluginKind::phase, PluginKind::volume})
     p.children(kind);
   for (const Property& property : scene.properties) {
     const Node* const* child = std::get_if<const Node*>(&property.value);
@@ -125,6 +188,12 @@ void SceneReader::top_level(const Node& scene) {
       case PluginKind::bsdf:
         material(node);
         break;
+      case PluginKind::medium:
+        medium(node);
+        break;
+      case PluginKind::phase:
+        phase(node);
+        break;
       case PluginKind::shape:
         shape(node, description_.shapes, false);
         break;
@@ -132,7 +201,7 @@ void SceneReader::top_level(const Node& scene) {
         // One that belongs to a surface may stand here to be referred to.
         if (std::holds_alternative<ReadInto<AreaEmission>>(node.plugin->reader))
           surface_lights_.try_emplace(&node, false);
-        else if (LightDescription light{node.where, {node.id}, PointLight{}, {}, 1};
+        else if (LightDescription light{node.where, {node.id}, PointLight{}, {}, 1, {}};
                  read_into(node, light))
           description_.lights.push_back(std::move(light));
         break;

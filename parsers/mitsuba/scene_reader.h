@@ -30,6 +30,9 @@ class SceneReader {
   Spectrum constant_color(Properties& p, std::string_view name);
   FloatInput number_or_texture(Properties& p, std::string_view name);
   std::optional<TextureId> texture(Properties& p, std::string_view name);
+  /// A colour or volume, and a number or volume.
+  ColorVolume color_volume(Properties& p, std::string_view name);
+  FloatVolume float_volume(Properties& p, std::string_view name);
   /// An index of refraction by number or name.
   double index_of_refraction(Properties& p, std::string_view name);
   /// The path of a file that exists; "" after an error.
@@ -40,6 +43,17 @@ class SceneReader {
   std::optional<MaterialId> material(const Node& node);
   /// A diffuse grey; all that ask for the same share it.
   MaterialId grey_material(float reflectance, const SourceLocation& where);
+  /// Surfaces that let everything pass share one material.
+  MaterialId null_material(const SourceLocation& where);
+  std::optional<MediumId> medium(const Node& node);
+  std::optional<PhaseId> phase(const Node& node);
+  /// What a volume yields; nothing after an error.
+  std::optional<ColorVolume> volume(const Node& node, ColorMeaning meaning);
+  PhaseId add_phase(PhaseDescription phase);
+  VolumeId add_volume(VolumeDescription volume);
+  /// The file read once; null after an error.
+  std::shared_ptr<const VolumeGrid> volume_grid(const std::string& file,
+                                                const SourceLocation& where, bool& is_float32);
   std::optional<uint32_t> shape_group(const Node& node);
   std::shared_ptr<const TriangleMesh> mesh(const std::string& plugin, const std::string& file,
                                            const MeshOptions& options, const SourceLocation& where);
@@ -77,6 +91,10 @@ class SceneReader {
   /// Lights at the top of the scene that belong to surfaces, and whether a shape refers to them.
   std::unordered_map<const Node*, bool> surface_lights_;
   std::map<float, MaterialId> greys_;
+  std::optional<MaterialId> null_;
+  /// Volumes that have been read, by the meaning that was asked for.
+  std::map<std::pair<const Node*, ColorMeaning>, std::optional<ColorVolume>> volumes_;
+  std::map<std::string, std::shared_ptr<const VolumeFile>> volume_files_;
   std::map<std::string, std::shared_ptr<const TriangleMesh>> meshes_;
 
   template <class Read>

@@ -41,12 +41,14 @@ void SceneWriter::name_things() {
   };
   name(d_.textures, texture_ids_, "texture");
   name(d_.materials, material_ids_, "material");
+  name(d_.media, medium_ids_, "medium");
   name(d_.groups, group_ids_, "group");
 }
 
 void SceneWriter::write() {
   name_things();
   integrator(d_.integrator);
+  for (size_t i = 0; i < d_.media.size(); ++i) medium(d_.media[i], medium_ids_[i]);
   for (const SensorDescription& s : d_.sensors) sensor(s);
   for (size_t i = 0; i < d_.textures.size(); ++i) texture(i);
   for (size_t i = 0; i < d_.materials.size(); ++i) material(d_.materials[i], material_ids_[i]);
@@ -81,6 +83,7 @@ void SceneWriter::sensor(const SensorDescription& s) {
     out_.number("aperture_radius", s.aperture_radius);
     out_.number("focus_distance", s.focus_distance);
   }
+  if (s.medium) out_.reference({}, medium_id(*s.medium));
   film(s.film);
   const bool known = s.sampler.name == "independent" || s.sampler.name == "stratified" ||
                      s.sampler.name == "multijitter" || s.sampler.name == "orthogonal" ||
@@ -162,6 +165,8 @@ void SceneWriter::shape(const ShapeDescription& s, const std::string& id) {
   }
   if (s.flip_normals) out_.boolean("flip_normals", true);
   out_.reference({}, material_id(s.material));
+  if (s.interior) out_.reference("interior", medium_id(*s.interior));
+  if (s.exterior) out_.reference("exterior", medium_id(*s.exterior));
   if (s.emission) {
     out_.open("emitter", "area");
     color("radiance", s.emission->radiance);
@@ -202,6 +207,7 @@ void SceneWriter::light(const LightDescription& l) {
   }
   if (!std::holds_alternative<ConstantLight>(l.model)) out_.transform("to_world", l.to_world);
   sampling_weight(l.sampling_weight);
+  if (l.medium) out_.reference({}, medium_id(*l.medium));
   out_.close();
 }
 

@@ -54,9 +54,16 @@ class SceneWriter {
   void write_model(const NormalMapMaterial& m);
   void write_model(const NullMaterial&) {}
 
+  // write_media.cpp
+  void volume(std::string_view name, VolumeId id);
+  void volume(std::string_view name, const ColorVolume& input);
+  void phase(PhaseId id);
+  void medium(const MediumDescription& m, const std::string& id);
+
   // write_integrators.cpp
   void integrator(const IntegratorDescription& i);
   void write_method(const PathIntegratorDescription& m);
+  void write_method(const VolumePathIntegratorDescription& m);
   void write_method(const DirectIntegratorDescription& m);
   void write_method(const DepthIntegratorDescription& m);
   void write_method(const BidirectionalIntegratorDescription& m);
@@ -71,6 +78,7 @@ class SceneWriter {
   void sampling_weight(double weight);
 
   const std::string& texture_id(TextureId id) const { return texture_ids_[size_t(id)]; }
+  const std::string& medium_id(MediumId id) const { return medium_ids_[size_t(id)]; }
   const std::string& material_id(MaterialId id) const { return material_ids_[size_t(id)]; }
 
   const SceneDescription& d_;
@@ -78,7 +86,7 @@ class SceneWriter {
   XmlPrinter out_;
   std::vector<std::string> losses_;
   std::set<std::string> ids_;
-  std::vector<std::string> texture_ids_, material_ids_, group_ids_;
+  std::vector<std::string> texture_ids_, material_ids_, medium_ids_, group_ids_;
 };
 
 }  // namespace duet

@@ -136,6 +136,13 @@ std::string_view type_name(ParameterType type) {
     case ParameterType::unbounded:
     case ParameterType::emission:
       return "colour or texture";
+    case ParameterType::volume_only:
+      return "volume";
+    case ParameterType::number_or_volume:
+      return "float or volume";
+    case ParameterType::albedo:
+    case ParameterType::coefficient:
+      return "colour or volume";
   }
   return "";
 }

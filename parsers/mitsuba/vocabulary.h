@@ -53,6 +53,10 @@ enum class ParameterType : uint8_t {
   reflectance,  ///< a colour from 0 to 1, or a texture
   unbounded,    ///< a colour without upper bound, or a texture
   emission,     ///< radiance or power, or a texture
+  volume_only,
+  number_or_volume,
+  albedo,       ///< a colour from 0 to 1, or a volume
+  coefficient,  ///< a colour without upper bound, or a volume
 };
 std::string_view type_name(ParameterType type);
 
@@ -103,6 +107,11 @@ struct MeantColor {
   ColorMeaning meaning;
   Spectrum value;
 };
+/// What a volume yields in the meaning that its user asks for.
+struct MeantVolume {
+  ColorMeaning meaning;
+  ColorVolume value;
+};
 /// Turns the properties of a plugin into a part of the description.
 template <class T>
 using ReadInto = void (*)(SceneReader&, Properties&, T&);
@@ -110,6 +119,7 @@ using PluginReader =
     std::variant<std::monostate, ReadInto<MaterialDescription>, ReadInto<TextureDescription>,
                  ReadInto<MeantColor>, ReadInto<ShapeDescription>, ReadInto<ShapeGroupDescription>,
                  ReadInto<AreaEmission>, ReadInto<LightDescription>, ReadInto<SensorDescription>,
+                 ReadInto<MediumDescription>, ReadInto<PhaseDescription>, ReadInto<MeantVolume>,
                  ReadInto<FilmDescription>, ReadInto<FilterDescription>,
                  ReadInto<SamplerDescription>, ReadInto<IntegratorDescription>>;
 

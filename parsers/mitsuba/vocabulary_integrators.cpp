@@ -18,6 +18,20 @@ constexpr Parameter kHideEmitters{"hide_emitters", boolean, "false",
                                   "lights cannot be seen directly"};
 
 constexpr Parameter kPath[] = {kMaxDepth, kRrDepth, kHideEmitters, kStrictNormals};
+constexpr Parameter kVolumeDepth{
+    "max_depth", integer, "-1",
+    "longest path in segments; surfaces that light passes straight do not count; -1: no limit",
+    depth};
+constexpr Parameter kVolpath[] = {kVolumeDepth, kRrDepth, kHideEmitters, kStrictNormals};
+constexpr Parameter kVolpathmis[] = {kVolumeDepth,
+                                     kRrDepth,
+                                     kHideEmitters,
+                                     kStrictNormals,
+                                     {.name = "use_spectral_mis",
+                                      .type = boolean,
+                                      .preset = "true",
+                                      .versions = v3,
+                                      .support = inert}};
 constexpr Parameter kDirect[] = {
     {"shading_samples", integer, "", "sets both of the following", positive},
     {.name = "emitter_samples",
@@ -143,6 +157,9 @@ constexpr Parameter kMoment[] = {{.name = "hide_emitters", .type = boolean, .sup
 
 constexpr Plugin kIntegrators[] = {
     {"path", both, kPath, &read_path},
+    {"volpath", both, kVolpath, &read_volpath, "path tracing through participating media"},
+    {"volpath_simple", v0, kVolpath, &read_volpath, "by volpath"},
+    {"volpathmis", v3, kVolpathmis, &read_volpath, "by volpath, which has spectral MIS as well"},
     {"direct", both, kDirect, &read_direct},
     {"ptracer", both, kPtracer, &read_ptracer,
      "light tracing: paths from the lights, connected to the camera"},
@@ -212,17 +229,6 @@ constexpr Plugin kIntegrators[] = {
      .planned_parameters =
          "max_depth rr_depth direct_samples luminance_samples two_stage bidirectional p_large"},
     {.name = "stokes", .versions = v3, .support = planned},
-    {.name = "volpath",
-     .support = planned,
-     .planned_parameters = "max_depth rr_depth hide_emitters strict_normals"},
-    {.name = "volpath_simple",
-     .versions = v0,
-     .support = planned,
-     .planned_parameters = "max_depth rr_depth hide_emitters strict_normals"},
-    {.name = "volpathmis",
-     .versions = v3,
-     .support = planned,
-     .planned_parameters = "max_depth rr_depth hide_emitters use_spectral_mis"},
     {.name = "volprim_rf_basic",
      .versions = v3,
      .support = planned,

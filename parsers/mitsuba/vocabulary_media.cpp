@@ -1,36 +1,157 @@
+#include "mitsuba/readers.h"
 #include "mitsuba/vocabulary_tables.h"
 
 namespace duet::vocabulary {
 
 namespace {
 
-constexpr Plugin kMedia[] = {
-    planned_plugin("homogeneous", both,
-                   "albedo sigma_t sigma_a sigma_s scale material sample_emitters "
-                   "has_spectral_extinction strategy"),
-    planned_plugin("heterogeneous", both,
-                   "albedo sigma_t density orientation method scale sample_emitters "
-                   "has_spectral_extinction")};
+constexpr Parameter kScale{.name = "scale",
+                           .type = number,
+                           .preset = "1",
+                           .note = "multiplies the extinction",
+                           .range = not_negative,
+                           .aliases = "density_multiplier size_multiplier"};
+/// How light is sampled, which does not change what it does.
+constexpr Parameter kSampleEmitters{
+    .name = "sample_emitters", .type = boolean, .versions = v3, .support = inert};
+constexpr Parameter kSpectralExtinction{
+    .name = "has_spectral_extinction", .type = boolean, .versions = v3, .support = inert};
+
+constexpr Parameter kHomogeneous[] = {
+    {.name = "sigma_t",
+     .type = coefficient,
+     .preset = "1",
+     .note = "extinction per unit of length",
+     .preset_0x = "(of the material)"},
+    {.name = "albedo",
+     .type = albedo,
+     .preset = "0.75",
+     .note = "share of it that is scattered",
+     .preset_0x = "(of the material)"},
+    {.name = "sigma_a",
+     .type = coefficient,
+     .preset = "(of the material)",
+     .note = "absorption; with sigma_s instead of sigma_t and albedo",
+     .versions = v0},
+    {.name = "sigma_s",
+     .type = coefficient,
+     .preset = "(of the material)",
+     .note = "scattering",
+     .versions = v0},
+    {.name = "material",
+     .type = string,
+     .preset = "skin1",
+     .note = "coefficients by the name of a material",
+     .versions = v0},
+    {.name = "g",
+     .type = coefficient,
+     .preset = "(of the material)",
+     .note = "scattering counts 1 - g times",
+     .versions = v0},
+    kScale,
+    kSampleEmitters,
+    kSpectralExtinction,
+    {.name = "strategy", .type = string, .versions = v0, .support = inert},
+    {.name = "channel", .type = integer, .versions = v0, .support = inert},
+    {.name = "monochromatic",
+     .type = boolean,
+     .preset = "false",
+     .versions = v0,
+     .support = planned},
+    {.name = "sampling_density", .type = number, .versions = v0, .support = inert},
+    {.name = "medium_sampling_weight", .type = number, .versions = v0, .support = inert},
+};
+constexpr Parameter kHeterogeneous[] = {
+    {"sigma_t", coefficient, "1", "extinction per unit of length"},
+    {.name = "density", .type = coefficient, .note = "the same in 0.x", .versions = v0},
+    {"albedo", albedo, "0.75", "share of it that is scattered"},
+    {.name = "orientation",
+     .type = coefficient,
+     .note = "has no effect: phase functions that need it are approximated",
+     .versions = v0,
+     .support = approximated},
+    kScale,
+    kSampleEmitters,
+    kSpectralExtinction,
+    {.name = "method", .type = string, .versions = v0, .support = inert},
+    {.name = "step_size", .type = number, .versions = v0, .support = inert},
+};
+
+constexpr Plugin kMedia[] = {{"homogeneous", both, kHomogeneous, &read_homogeneous},
+                             {"heterogeneous", both, kHeterogeneous, &read_heterogeneous}};
+
+constexpr Parameter kHg[] = {{"g", number, "0.8", "mean cosine of the deflection"}};
+constexpr Parameter kBlendphase[] = {
+    {"weight", number_or_volume, "0.5", "share of the second phase function"}};
+constexpr Parameter kSggx[] = {{.name = "S",
+                                .type = volume_only,
+                                .note = "6 channels: xx, yy, zz, xy, xz, yz",
+                                .required = true}};
+constexpr Parameter kTabphase[] = {{.name = "values",
+                                    .type = string,
+                                    .note = "at equidistant cosines of the deflection from -1 to 1",
+                                    .required = true}};
+constexpr Parameter kMixturephase[] = {
+    {.name = "weights", .type = string, .note = "one for each phase function", .required = true}};
+constexpr Parameter kKkay[] = {{.name = "ks", .type = number, .support = approximated},
+                               {.name = "kd", .type = number, .support = approximated},
+                               {.name = "exponent", .type = number, .support = approximated}};
+constexpr Parameter kMicroflake[] = {{.name = "stddev", .type = number, .support = approximated}};
 
 constexpr Plugin kPhases[] = {
-    planned_plugin("isotropic", both),
-    planned_plugin("hg", both, "g"),
-    planned_plugin("rayleigh", both),
-    planned_plugin("blendphase", v3, "weight"),
-    planned_plugin("sggx", v3, "S"),
-    planned_plugin("tabphase", v3, "values"),
-    planned_plugin("kkay", v0, "ks kd exponent"),
-    planned_plugin("microflake", v0, "stddev"),
-    planned_plugin("mixturephase", v0, "weights"),
+    {"isotropic", both, {}, &read_isotropic},
+    {"hg", both, kHg, &read_hg},
+    {"rayleigh", both, {}, &read_rayleigh},
+    {"blendphase", v3, kBlendphase, &read_blendphase, "holds two phase functions"},
+    {"sggx", v3, kSggx, &read_sggx},
+    {"tabphase", v3, kTabphase, &read_tabphase},
+    {"kkay", v0, kKkay, &read_fibre_phase, "by isotropic", approximated},
+    {"microflake", v0, kMicroflake, &read_fibre_phase, "by isotropic", approximated},
+    {"mixturephase", v0, kMixturephase, &read_mixturephase, "holds phase functions"},
+};
+
+constexpr Parameter kConstvolume[] = {{"value", coefficient, "1"},
+                                      {.name = "to_world", .type = transform, .support = inert}};
+constexpr Parameter kGridvolume[] = {
+    {.name = "filename", .type = file, .required = true},
+    {"to_world", transform},
+    {.name = "filter_type",
+     .type = string,
+     .preset = "trilinear",
+     .note = "trilinear or nearest",
+     .versions = v3},
+    {.name = "wrap_mode",
+     .type = string,
+     .preset = "clamp",
+     .note = "clamp, repeat or mirror",
+     .versions = v3},
+    {.name = "use_grid_bbox",
+     .type = boolean,
+     .preset = "false",
+     .note = "place the grid in the box of the file; 0.x always does",
+     .versions = v3},
+    {.name = "min",
+     .type = point,
+     .preset = "0 0 0",
+     .note = "with max: another box than the file's",
+     .versions = v0},
+    {.name = "max", .type = point, .preset = "1 1 1", .versions = v0},
+    {.name = "raw", .type = boolean, .versions = v3, .support = inert},
+    {.name = "accel", .type = boolean, .versions = v3, .support = inert},
+    {.name = "max_value", .type = number, .versions = v3, .support = inert},
+    {.name = "send_data", .type = boolean, .versions = v0, .support = inert},
+};
+constexpr Parameter kVolcache[] = {
+    {.name = "block_size", .type = integer, .support = inert},
+    {.name = "voxel_width", .type = number, .support = inert},
+    {.name = "memory_limit", .type = integer, .support = inert, .aliases = "cache_size"},
 };
 
 constexpr Plugin kVolumes[] = {
-    planned_plugin("constvolume", both, "value to_world"),
-    planned_plugin("gridvolume", both,
-                   "filename grid data filter_type wrap_mode raw accel use_grid_bbox "
-                   "max_value to_world min max send_data"),
+    {"constvolume", both, kConstvolume, &read_constvolume},
+    {"gridvolume", both, kGridvolume, &read_gridvolume},
     planned_plugin("hgridvolume", v0, "filename prefix postfix to_world"),
-    planned_plugin("volcache", v0, "cache_size voxel_width block_size"),
+    {"volcache", v0, kVolcache, &read_volcache, "holds a volume"},
 };
 
 constexpr Plugin kSubsurfaces[] = {

@@ -29,6 +29,15 @@ void SceneWriter::write_method(const PathIntegratorDescription& m) {
   out_.close();
 }
 
+void SceneWriter::write_method(const VolumePathIntegratorDescription& m) {
+  out_.open("integrator", m.name == VolumePathName::volpath ? "volpath" : "volpathmis");
+  out_.integer("max_depth", m.max_depth);
+  out_.integer("rr_depth", m.rr_depth);
+  out_.boolean("hide_emitters", m.hide_emitters);
+  if (m.strict_normals) lose("\"strict_normals\" does not exist in Mitsuba 3");
+  out_.close();
+}
+
 void SceneWriter::write_method(const DirectIntegratorDescription& m) {
   out_.open("integrator", "direct");
   out_.integer("emitter_samples", m.emitter_samples);

@@ -57,6 +57,41 @@ std::string DescriptionText::name(MaterialId id) const {
   return label.empty() ? fmt::format("#{}", size_t(id)) : label;
 }
 
+std::string DescriptionText::name(MediumId id) const {
+  const std::string& label = scene_.media[size_t(id)].label.text;
+  return label.empty() ? fmt::format("medium #{}", size_t(id)) : label;
+}
+
+std::string DescriptionText::input(const ColorVolume& input) const {
+  if (const auto* constant = std::get_if<Spectrum>(&input)) return text(*constant);
+  const VolumeDescription& v = scene_.volumes[size_t(std::get<VolumeId>(input))];
+  const auto& n = v.grid->size;
+  return fmt::format("{} ({}x{}x{})", v.file.empty() ? "grid" : file_name(v.file), n[0], n[1],
+                     n[2]);
+}
+
+std::string DescriptionText::phase(PhaseId id) const {
+  return std::visit(
+      Overloaded{
+          [](const IsotropicPhase&) { return std::string("isotropic"); },
+          [](const HenyeyGreensteinPhase& f) { return fmt::format("hg, g {:.4g}", f.g); },
+          [](const RayleighPhase&) { return std::string("rayleigh"); },
+          [](const TabulatedPhase& f) {
+            return fmt::format("tabphase of {} values", f.values.size());
+          },
+          [](const SggxPhase&) { return std::string("sggx"); },
+          [this](const BlendPhase& f) {
+            return fmt::format("blendphase [{}; {}]", phase(f.first), phase(f.second));
+          },
+      },
+      scene_.phases[size_t(id)].model);
+}
+
+std::string DescriptionText::medium(const MediumDescription& m) const {
+  return fmt::format("sigma_t {}, scale {:g}, albedo {}, phase {}", input(m.sigma_t), m.scale,
+                     input(m.albedo), phase(m.phase));
+}
+
 std::string DescriptionText::texture_name(TextureId id) const {
   const TextureDescription& t = scene_.textures[size_t(id)];
   if (!t.label.text.empty()) return t.label.text;
@@ -192,6 +227,8 @@ std::string DescriptionText::shape(const ShapeDescription& s) const {
     t += fmt::format(", {} triangles", m->mesh->triangles.size());
   }
   t += ", bsdf " + name(s.material);
+  if (s.interior) t += ", inside " + name(*s.interior);
+  if (s.exterior) t += ", outside " + name(*s.exterior);
   if (s.emission) t += ", emits " + input(s.emission->radiance);
   return t;
 }
@@ -237,6 +274,7 @@ std::string DescriptionText::sensor(const SensorDescription& s) const {
     t += fmt::format(", fov {:.4g} along {}", s.fov, axes[size_t(s.fov_axis)]);
   if (s.kind == SensorKind::thinlens)
     t += fmt::format(", aperture radius {:g}, focus at {:g}", s.aperture_radius, s.focus_distance);
+  if (s.medium) t += ", in " + name(*s.medium);
   return t;
 }
 

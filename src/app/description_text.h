@@ -14,8 +14,10 @@ class DescriptionText {
   explicit DescriptionText(const SceneDescription& scene) : scene_(scene) {}
 
   std::string name(MaterialId id) const;
+  std::string name(MediumId id) const;
   /// With all that is nested in it.
   std::string material(MaterialId id) const;
+  std::string medium(const MediumDescription& medium) const;
   std::string texture(const TextureDescription& texture) const;
   /// The plugin: obj, sphere, instance …
   std::string shape_kind(const ShapeDescription& shape) const;
@@ -27,9 +29,11 @@ class DescriptionText {
 
   std::string input(const ColorInput& input) const;
   std::string input(const FloatInput& input) const;
+  std::string input(const ColorVolume& input) const;
 
  private:
   std::string texture_name(TextureId id) const;
+  std::string phase(PhaseId id) const;
   const SceneDescription& scene_;
 };
 

@@ -125,6 +125,9 @@ class SceneRenderer {
     } catch (const std::invalid_argument& e) {
       throw UsageError(e.what());
     }
+    Diagnostics diagnostics;
+    check_support(description_, diagnostics);
+    if (report(diagnostics, options_.read.strict)) throw SceneFailure("");
     if (const std::string bias = integrator_->bias(); !bias.empty()) warn(bias);
     record_.bias = integrator_->bias();
     view_ = sensor;

@@ -32,6 +32,7 @@ class Summary {
     shapes();
     materials();
     list("textures", scene_.textures, [&](const auto& t) { return text_.texture(t); });
+    media();
     lights();
     line("modelled", describe(features_));
     if (scene_.approximations.empty()) line("approximated", "nothing");
@@ -114,6 +115,18 @@ class Summary {
     });
     list("bsdfs", used,
          [&](MaterialId id) { return fmt::format("{}: {}", text_.name(id), text_.material(id)); });
+  }
+
+  void media() {
+    std::set<MediumId> used;
+    const auto use = [&](std::optional<MediumId> id) {
+      if (id) used.insert(*id);
+    };
+    for_each_shape([&](const ShapeDescription& s) { use(s.interior), use(s.exterior); });
+    for (const SensorDescription& s : scene_.sensors) use(s.medium);
+    list("media", used, [&](MediumId id) {
+      return fmt::format("{}: {}", text_.name(id), text_.medium(scene_.media[size_t(id)]));
+    });
   }
 
   void lights() {

@@ -38,10 +38,14 @@ struct Shape {
   SurfaceNeeds needs;
   uint32_t material = kNone;
   uint32_t light = kNone;
+  /// Media behind and before the surface, if it separates any.
+  uint32_t interior = kNone, exterior = kNone;
 
   std::shared_ptr<const TriangleMesh> mesh;  ///< in world space; for meshes only
   Transform to_world;                        ///< for analytic shapes only
   Matrix4 to_local;                          ///< its inverse in double precision
+
+  bool separates_media() const { return (interior & exterior) != kNone; }
 };
 
 /// An affine copy of a group of shapes.

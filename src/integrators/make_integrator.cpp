@@ -12,6 +12,7 @@
 #include "integrators/direct.h"
 #include "integrators/parameters.h"
 #include "integrators/path.h"
+#include "integrators/volpath.h"
 
 namespace duet {
 
@@ -27,6 +28,9 @@ constexpr std::array<const char*, 6> kBidirectionalNames{"ptracer", "bdpt", "reu
 /// camera rays, which any method that starts at the camera has.
 std::optional<Method> find_method(const std::string& name) {
   if (name == "path" || name == "aov") return PathIntegratorDescription{};
+  if (name == "volpath") return VolumePathIntegratorDescription{};
+  if (name == "volpathmis")
+    return VolumePathIntegratorDescription{.name = VolumePathName::volpathmis};
   if (name == "direct") return DirectIntegratorDescription{};
   if (name == "depth") return DepthIntegratorDescription{};
   for (size_t i = 0; i < kBidirectionalNames.size(); ++i)
@@ -104,6 +108,8 @@ CameraOutput camera_output(const IntegratorDescription& integrator) {
 const std::vector<IntegratorName>& integrator_names() {
   static const std::vector<IntegratorName> names{
       {"path", "path tracing with next event estimation"},
+      {"volpath", "path tracing through participating media"},
+      {"volpathmis", "the same by its second name in Mitsuba"},
       {"direct", "light seen directly or after one scattering"},
       {"ptracer", "light tracing: paths from the lights, connected to the camera"},
       {"bdpt", "bidirectional path tracing"},
@@ -136,6 +142,9 @@ std::string integrator_name(const IntegratorDescription& integrator) {
     const char* operator()(const PathIntegratorDescription&) const { return "path"; }
     const char* operator()(const DirectIntegratorDescription&) const { return "direct"; }
     const char* operator()(const DepthIntegratorDescription&) const { return "depth"; }
+    const char* operator()(const VolumePathIntegratorDescription& d) const {
+      return d.name == VolumePathName::volpath ? "volpath" : "volpathmis";
+    }
     const char* operator()(const BidirectionalIntegratorDescription& d) const {
       return kBidirectionalNames[size_t(d.method)];
     }
@@ -158,6 +167,26 @@ SurfaceNeeds integrator_needs(const IntegratorDescription& integrator) {
   return needs;
 }
 
+void check_support(const SceneDescription& scene, Diagnostics& diagnostics) {
+  if (!scene.integrator.image ||
+      !std::holds_alternative<BidirectionalIntegratorDescription>(scene.integrator.method))
+    return;
+  const auto refuse = [&](const SourceLocation& where) {
+    diagnostics.error(where,
+                      "integrator \"{}\" cannot render participating media yet; \"volpath\" can",
+                      integrator_name(scene.integrator));
+  };
+  const auto check = [&](const std::vector<ShapeDescription>& shapes) {
+    for (const ShapeDescription& s : shapes)
+      if (const auto medium = s.interior ? s.interior : s.exterior)
+        return refuse(scene.media[size_t(*medium)].where);
+  };
+  for (const SensorDescription& s : scene.sensors)
+    if (s.medium) return refuse(scene.media[size_t(*s.medium)].where);
+  for (const ShapeGroupDescription& g : scene.groups) check(g.shapes);
+  check(scene.shapes);
+}
+
 std::unique_ptr<Integrator> make_integrator(const IntegratorDescription& integrator,
                                             TechniqueOutput techniques) {
   struct Make {
@@ -165,6 +194,10 @@ std::unique_ptr<Integrator> make_integrator(const IntegratorDescription& integra
     std::unique_ptr<Integrator> operator()(const PathIntegratorDescription& d) const {
       const PathOptions o{d.max_depth, d.rr_depth, d.hide_emitters, d.strict_normals};
       return std::make_unique<PathIntegrator>(o, output);
+    }
+    std::unique_ptr<Integrator> operator()(const VolumePathIntegratorDescription& d) const {
+      const PathOptions o{d.max_depth, d.rr_depth, d.hide_emitters, d.strict_normals};
+      return std::make_unique<VolumePathIntegrator>(o, output);
     }
     std::unique_ptr<Integrator> operator()(const DirectIntegratorDescription& d) const {
       const DirectOptions o{d.emitter_samples, d.bsdf_samples, d.hide_emitters, d.strict_normals};

@@ -89,10 +89,20 @@ MethodParameter thesis_reading(ReuseWeights& value) {
           }};
 }
 
-Parameters parameters(PathIntegratorDescription& d) {
+/// Also of VolumePathIntegratorDescription.
+template <class PathDescription>
+Parameters path_parameters(PathDescription& d) {
   return {integer("max_depth", d.max_depth, -1, kMaxDepth),
           integer("rr_depth", d.rr_depth, 1, kMaxDepth), boolean("hide_emitters", d.hide_emitters),
           boolean("strict_normals", d.strict_normals)};
+}
+
+Parameters parameters(PathIntegratorDescription& d) {
+  return path_parameters(d);
+}
+
+Parameters parameters(VolumePathIntegratorDescription& d) {
+  return path_parameters(d);
 }
 
 Parameters parameters(DirectIntegratorDescription& d) {

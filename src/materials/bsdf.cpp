@@ -155,6 +155,19 @@ BsdfPair Bsdf::eval_both_ways(const Vector3f& wi_world, Transport transport) con
   return {e.value, e.pdf, reverse_pdf_all(wi, transport)};
 }
 
+Spectrum Bsdf::straight_through() const {
+  Spectrum sum;
+  for (int i = 0; i < count_; ++i) {
+    const BsdfComponent& c = components_[i];
+    if (c.kind == ModelKind::null) sum += Spectrum(c.share);
+    if (c.kind != ModelKind::thin_dielectric) continue;
+    const Vector3f wo =
+        c.tilt < 0 ? wo_ : tilts_[c.tilt].to_local(wo_, tilts_[c.tilt].turned_for(wo_));
+    sum += c.model.thin_dielectric.straight_through(wo) * c.share;
+  }
+  return sum;
+}
+
 PdfW Bsdf::reverse_pdf(const Vector3f& wi_world, Transport transport) const {
   const Vector3f wi = frame_.to_local(wi_world);
   if (is_plain_diffuse()) [[likely]] {

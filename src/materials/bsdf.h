@@ -65,6 +65,9 @@ class Bsdf {
   BsdfPair eval_both_ways(const Vector3f& wi, Transport transport) const;
   /// `u` picks the component and the lobe, `v` the direction.
   std::optional<BsdfSample> sample(float u, const Point2f& v, Transport transport) const;
+  /// What passes straight through, as if there were no surface, including the probability of the
+  /// lobes that let it pass.
+  Spectrum straight_through() const;
   /// Whether any lobe can be met by a connection or a light sample.
   bool has_smooth() const { return has_smooth_; }
   bool has_delta() const { return has_delta_; }
@@ -221,6 +224,8 @@ class Material {
   virtual int component_count() const = 0;
   /// Whether light can pass to the other side.
   virtual bool transmits() const = 0;
+  /// Whether light may pass straight through, as if there were no surface.
+  virtual bool passes_straight() const { return false; }
   /// Whether there is a bump or normal map in it: these cannot be nested in one another.
   virtual bool perturbs() const { return false; }
   /// Reflectance for the albedo layer, seen from the unit world direction `wo`; as in Mitsuba 3

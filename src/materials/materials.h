@@ -63,6 +63,7 @@ class Null final : public SingleModelMaterial<Null> {
   NullModel model(const Surface&) const { return {}; }
   SurfaceNeeds needs() const override { return {}; }
   bool transmits() const override { return true; }
+  bool passes_straight() const override { return true; }
 };
 
 /// `eta` and `k` are relative to the outside; eta = 0 is a perfect mirror.
@@ -129,6 +130,7 @@ class ThinDielectric final : public SingleModelMaterial<ThinDielectric> {
   ThinDielectricModel model(const Surface& s) const;
   SurfaceNeeds needs() const override;
   bool transmits() const override { return true; }
+  bool passes_straight() const override { return true; }
 
  private:
   DielectricOptions options_;

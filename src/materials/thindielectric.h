@@ -17,6 +17,12 @@ struct ThinDielectricModel {
 
   ModelEval eval(const Vector3f&, const Vector3f&, Transport) const { return {}; }
 
+  /// The share of the light that passes.
+  Spectrum straight_through(const Vector3f& wo) const {
+    const float once = fresnel_dielectric(std::abs(wo.z), eta).reflectance;
+    return specular_transmittance * (1 - 2 * once / (1 + once));
+  }
+
   std::optional<ModelSample> sample(const Vector3f& wo, float u, const Point2f&, Transport) const {
     if (wo.z == 0) return std::nullopt;
     const float once = fresnel_dielectric(std::abs(wo.z), eta).reflectance;

@@ -33,6 +33,7 @@ class Mask final : public Material {
   SurfaceNeeds needs() const override;
   int component_count() const override { return nested_.component_count() + 1; }
   bool transmits() const override;
+  bool passes_straight() const override { return true; }
   bool perturbs() const override { return nested_.perturbs(); }
   Spectrum local_albedo(const Surface& surface, const Vector3f& wo) const override {
     return nested_.local_albedo(surface, wo);
@@ -56,6 +57,9 @@ class Blend final : public Material {
     return first_.component_count() + second_.component_count();
   }
   bool transmits() const override { return first_.transmits() || second_.transmits(); }
+  bool passes_straight() const override {
+    return first_.passes_straight() || second_.passes_straight();
+  }
   bool perturbs() const override { return first_.perturbs() || second_.perturbs(); }
   Spectrum local_albedo(const Surface& surface, const Vector3f& wo) const override;
 
@@ -99,6 +103,7 @@ class Perturbed : public Material {
  public:
   int component_count() const override { return nested_.component_count(); }
   bool transmits() const override { return nested_.transmits(); }
+  bool passes_straight() const override { return nested_.passes_straight(); }
   bool perturbs() const override { return true; }
   Spectrum local_albedo(const Surface& surface, const Vector3f& wo) const override {
     return nested_.local_albedo(surface, wo);

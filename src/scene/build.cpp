@@ -18,7 +18,10 @@ SceneBuilder::SceneBuilder(SceneDescription description, const BuildOptions& opt
       diagnostics_(diagnostics),
       scene_(std::make_unique<Scene>()),
       textures_(description_.textures.size()),
-      materials_(description_.materials.size()) {}
+      materials_(description_.materials.size()),
+      volumes_(description_.volumes.size()),
+      phases_(description_.phases.size()),
+      media_(description_.media.size()) {}
 
 std::unique_ptr<Scene> SceneBuilder::build() {
   const size_t errors = diagnostics_.error_count();
@@ -27,6 +30,7 @@ std::unique_ptr<Scene> SceneBuilder::build() {
   camera();
   if (diagnostics_.error_count() > errors) return nullptr;
   Scene& scene = *scene_;
+  for (const auto& m : scene.materials) scene.has_passable_surfaces |= m->passes_straight();
   scene.accel = std::make_unique<Accel>(scene.shapes, scene.top, scene.groups, scene.instances,
                                         options_.threads);
   const Bounds bounds = scene.accel->bounds();
@@ -48,6 +52,8 @@ bool SceneBuilder::check_transform(const Matrix4& m, const SourceLocation& where
 void SceneBuilder::camera() {
   const SensorDescription& d = description_.sensors.at(options_.sensor);
   if (!check_transform(d.to_world, d.where)) return;
+  if (const uint32_t m = medium(d.medium); m != kNone)
+    scene_->camera_medium = scene_->media[m].get();
   const Point2i film{d.film.width, d.film.height};
   if (d.kind == SensorKind::orthographic) {
     scene_->camera = std::make_unique<OrthographicCamera>(

@@ -95,6 +95,8 @@ void SceneBuilder::add_shape(ShapeDescription& d) {
   shape.needs = options_.layer_needs;
   if (made) shape.needs = shape.needs | made->needs();
   shape.material = materials_[size_t(d.material)].index;
+  shape.interior = medium(d.interior);
+  shape.exterior = medium(d.exterior);
   if (d.emission) {
     const ColorSlot radiance = slot(d.emission->radiance);
     shape.needs.uv |= radiance.needs_uv();

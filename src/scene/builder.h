@@ -7,6 +7,7 @@
 #include <string>
 #include <tuple>
 
+#include "media/phase_functions.h"
 #include "scene/build.h"
 #include "textures/bitmap.h"
 #include "textures/mesh_attribute.h"
@@ -76,6 +77,21 @@ class SceneBuilder {
   /// The material inside a bump or normal map.
   const Material* perturbed(MaterialId id, const SourceLocation& where);
 
+  // build_media.cpp
+  const GridVolume* volume(VolumeId id);
+  ColorVolumeSlot slot(const ColorVolume& input);
+  FloatVolumeSlot slot(const FloatVolume& input);
+  const PhaseFunction* phase(PhaseId id);
+  std::unique_ptr<PhaseFunction> make(const IsotropicPhase& f, const SourceLocation& where);
+  std::unique_ptr<PhaseFunction> make(const HenyeyGreensteinPhase& f, const SourceLocation& where);
+  std::unique_ptr<PhaseFunction> make(const RayleighPhase& f, const SourceLocation& where);
+  std::unique_ptr<PhaseFunction> make(const TabulatedPhase& f, const SourceLocation& where);
+  std::unique_ptr<PhaseFunction> make(const SggxPhase& f, const SourceLocation& where);
+  std::unique_ptr<PhaseFunction> make(const BlendPhase& f, const SourceLocation& where);
+  /// The index of the medium in the scene; kNone for none or after an error.
+  uint32_t medium(std::optional<MediumId> id);
+  std::unique_ptr<Medium> make(const MediumDescription& m);
+
   // build_shapes.cpp
   void shapes();
   void add_shape(ShapeDescription& d);
@@ -105,6 +121,9 @@ class SceneBuilder {
   std::unique_ptr<Scene> scene_;
   std::vector<Made<Texture>> textures_;
   std::vector<Made<Material>> materials_;
+  std::vector<Made<GridVolume>> volumes_;
+  std::vector<Made<PhaseFunction>> phases_;
+  std::vector<Made<Medium>> media_;
   /// Of what is being made.
   AttributeSet attributes_;
   /// Images by file and by how they are decoded; null after an error.

@@ -5,6 +5,7 @@
 // Two descriptions compare equal if they describe the same scene; places and names do not count.
 #pragma once
 
+#include <array>
 #include <memory>
 #include <optional>
 #include <string>
@@ -19,6 +20,7 @@
 #include "math/fov.h"
 #include "math/spectrum.h"
 #include "math/transform.h"
+#include "media/volume_grid.h"
 #include "textures/bitmap_options.h"
 
 namespace duet {
@@ -26,6 +28,9 @@ namespace duet {
 /// Indices into the arrays of a SceneDescription.
 enum class TextureId : uint32_t {};
 enum class MaterialId : uint32_t {};
+enum class VolumeId : uint32_t {};
+enum class PhaseId : uint32_t {};
+enum class MediumId : uint32_t {};
 
 /// A parameter that is either a constant or a texture.
 using ColorInput = std::variant<Spectrum, TextureId>;
@@ -222,6 +227,81 @@ struct MaterialDescription {
   bool operator==(const MaterialDescription&) const = default;
 };
 
+// ---- Media -------------------------------------------------------------------------------------
+
+/// A parameter that is either the same everywhere or varies in space.
+using ColorVolume = std::variant<Spectrum, VolumeId>;
+using FloatVolume = std::variant<double, VolumeId>;
+
+/// A grid that fills the unit cube of its own space.
+struct VolumeDescription {
+  SourceLocation where;
+  Label label;
+  std::string file;  ///< resolved path, or "" for a grid made by the program
+  std::shared_ptr<const VolumeGrid> grid;
+  /// Whether Mitsuba 3 can read the file: it knows only 32-bit floating-point numbers.
+  bool is_float32 = true;
+  Matrix4 to_world;
+  VolumeFilter filter = VolumeFilter::trilinear;
+  VolumeWrap wrap = VolumeWrap::clamp;
+  /// The outermost nodes lie on the cube's faces (0.x), not half a cell inside them (3.x).
+  bool nodes_on_faces = false;
+  friend bool operator==(const VolumeDescription& a, const VolumeDescription& b) {
+    return a.to_world == b.to_world && a.filter == b.filter && a.wrap == b.wrap &&
+           a.nodes_on_faces == b.nodes_on_faces &&
+           (a.grid == b.grid || (a.grid && b.grid && *a.grid == *b.grid));
+  }
+};
+
+struct IsotropicPhase {
+  bool operator==(const IsotropicPhase&) const = default;
+};
+/// Henyey & Greenstein 1941; g is the mean cosine of the deflection.
+struct HenyeyGreensteinPhase {
+  double g = 0.8;
+  bool operator==(const HenyeyGreensteinPhase&) const = default;
+};
+struct RayleighPhase {
+  bool operator==(const RayleighPhase&) const = default;
+};
+/// Values at equidistant cosines of the deflection from −1 (back) to 1 (straight on), linear in
+/// between; of any scale.
+struct TabulatedPhase {
+  std::vector<double> values;
+  bool operator==(const TabulatedPhase&) const = default;
+};
+/// Microflakes whose normals are those of an ellipsoid, given by the matrix xx, yy, zz, xy, xz, yz
+/// (Heitz et al. 2015). Scales the extinction by the flakes' projected area.
+struct SggxPhase {
+  std::variant<std::array<double, 6>, VolumeId> matrix = std::array<double, 6>{1, 1, 1, 0, 0, 0};
+  bool operator==(const SggxPhase&) const = default;
+};
+/// (1 − weight) · first + weight · second.
+struct BlendPhase {
+  FloatVolume weight = 0.5;
+  PhaseId first{}, second{};
+  bool operator==(const BlendPhase&) const = default;
+};
+
+struct PhaseDescription {
+  SourceLocation where;
+  Label label;
+  std::variant<IsotropicPhase, HenyeyGreensteinPhase, RayleighPhase, TabulatedPhase, SggxPhase,
+               BlendPhase>
+      model;
+  bool operator==(const PhaseDescription&) const = default;
+};
+
+/// Scatters and absorbs: extinction σ_t · scale per unit of length, of which `albedo` is scattered.
+struct MediumDescription {
+  SourceLocation where;
+  Label label;
+  ColorVolume sigma_t = Spectrum(1.0f), albedo = Spectrum(0.75f);
+  double scale = 1;
+  PhaseId phase{};
+  bool operator==(const MediumDescription&) const = default;
+};
+
 // ---- Shapes -----------------------------------------------------------------------------------
 
 /// Where a mesh came from, so that a description can be written out again.
@@ -282,6 +362,9 @@ struct ShapeDescription {
   bool flip_normals = false;
   MaterialId material{};  ///< not used by instances
   std::optional<AreaEmission> emission;
+  /// What fills the space behind and before the surface. A surface with neither of them changes
+  /// nothing; one with either stands between the two, and the one that is absent is empty space.
+  std::optional<MediumId> interior, exterior;
   bool operator==(const ShapeDescription&) const = default;
 };
 
@@ -341,6 +424,7 @@ struct LightDescription {
   Matrix4 to_world;
   /// Multiplies the light's share in the choice of a light (`sampling_weight`).
   double sampling_weight = 1;
+  std::optional<MediumId> medium;  ///< that the light stands in
   bool operator==(const LightDescription&) const = default;
 };
 
@@ -393,6 +477,7 @@ struct SensorDescription {
   double principal_point_offset_x = 0, principal_point_offset_y = 0;  ///< in image sizes
   double near_clip = 1e-2, far_clip = 1e4;
   double aperture_radius = 0, focus_distance = 0;  ///< thinlens
+  std::optional<MediumId> medium;                  ///< that the sensor stands in
   FilmDescription film;
   SamplerDescription sampler;
   bool operator==(const SensorDescription&) const = default;
@@ -405,6 +490,17 @@ struct PathIntegratorDescription {
   int rr_depth = 5;
   bool hide_emitters = false, strict_normals = false;
   bool operator==(const PathIntegratorDescription&) const = default;
+};
+/// Mitsuba's two names for path tracing through media; Duet has one method for both.
+enum class VolumePathName { volpath, volpathmis };
+struct VolumePathIntegratorDescription {
+  VolumePathName name = VolumePathName::volpath;
+  /// In segments between points where light is scattered; −1 is no limit. What passes straight
+  /// through a surface does not count.
+  int max_depth = -1;
+  int rr_depth = 5;
+  bool hide_emitters = false, strict_normals = false;
+  bool operator==(const VolumePathIntegratorDescription&) const = default;
 };
 struct DirectIntegratorDescription {
   int emitter_samples = 1, bsdf_samples = 1;
@@ -451,7 +547,7 @@ struct AovDescription {
 struct IntegratorDescription {
   SourceLocation where;
   std::variant<PathIntegratorDescription, DirectIntegratorDescription, DepthIntegratorDescription,
-               BidirectionalIntegratorDescription>
+               BidirectionalIntegratorDescription, VolumePathIntegratorDescription>
       method;
   AovDescription aovs;   ///< layers asked for by an `aov` integrator
   bool image = true;     ///< false if an `aov` integrator has no nested integrator
@@ -465,6 +561,9 @@ struct SceneDescription {
   std::string file;  ///< the main file
   std::vector<TextureDescription> textures;
   std::vector<MaterialDescription> materials;
+  std::vector<VolumeDescription> volumes;
+  std::vector<PhaseDescription> phases;
+  std::vector<MediumDescription> media;
   std::vector<ShapeDescription> shapes;
   std::vector<ShapeGroupDescription> groups;
   std::vector<LightDescription> lights;
@@ -475,7 +574,8 @@ struct SceneDescription {
 
   /// Compares what is described; the order of things counts.
   friend bool operator==(const SceneDescription& a, const SceneDescription& b) {
-    return a.textures == b.textures && a.materials == b.materials && a.shapes == b.shapes &&
+    return a.textures == b.textures && a.materials == b.materials && a.volumes == b.volumes &&
+           a.phases == b.phases && a.media == b.media && a.shapes == b.shapes &&
            a.groups == b.groups && a.lights == b.lights && a.sensors == b.sensors &&
            a.integrator == b.integrator;
   }

@@ -31,8 +31,10 @@ class Survey {
     group_ = nullptr;
     for (const ShapeDescription& s : scene.shapes) add(s, features_.bounds);
     for (const LightDescription& l : scene.lights) std::visit(*this, l.model);
-    for (const SensorDescription& s : scene.sensors)
+    for (const SensorDescription& s : scene.sensors) {
       features_.depth_of_field |= s.kind == SensorKind::thinlens && s.aperture_radius > 0;
+      add(s.medium);
+    }
     features_.textures = scene.textures.size();
   }
   SceneFeatures result() const { return features_; }
@@ -90,6 +92,19 @@ class Survey {
     if (materials_.insert(id).second) std::visit(*this, scene_.materials[size_t(id)].model);
   }
 
+  void add(std::optional<MediumId> id) {
+    if (!id || !media_.insert(*id).second) return;
+    const MediumDescription& m = scene_.media[size_t(*id)];
+    ++features_.media;
+    if (const auto* grid = std::get_if<VolumeId>(&m.sigma_t)) {
+      ++features_.heterogeneous_media;
+      features_.coloured_media |= scene_.volumes[size_t(*grid)].grid->channels == 3;
+    } else {
+      const Spectrum& s = std::get<Spectrum>(m.sigma_t);
+      features_.coloured_media |= s.r != s.g || s.g != s.b;
+    }
+  }
+
   void add_triangles(size_t count) {
     features_.triangles += count;
     if (group_)
@@ -113,6 +128,7 @@ class Survey {
       return;
     }
     add(s.material);
+    add(s.interior), add(s.exterior);
     if (s.emission) {
       ++features_.area_lights;
       features_.textured_area_lights += std::holds_alternative<TextureId>(s.emission->radiance);
@@ -151,6 +167,7 @@ class Survey {
   std::vector<Group> groups_;
   Group* group_ = nullptr;  ///< the one whose shapes are looked at
   std::set<MaterialId> materials_;
+  std::set<MediumId> media_;
 };
 
 /// Joins "3 things" for all counts but zero.
@@ -205,6 +222,12 @@ std::string describe(const SceneFeatures& f) {
                      .add(f.bumps > 0, "bump or normal maps")
                      .add(f.textures, "texture", "textures")
                      .text("no materials");
+  if (f.media > 0)
+    text += "; " + List()
+                       .add(f.media, f.coloured_media ? "coloured medium" : "medium",
+                            f.coloured_media ? "media, some coloured" : "media")
+                       .add(f.heterogeneous_media, "of them a grid", "of them grids")
+                       .text("");
   if (f.depth_of_field) text += "; depth of field";
   return text;
 }

@@ -30,6 +30,10 @@ struct SceneFeatures {
   size_t bumps = 0;                                   ///< bump and normal maps
   size_t textures = 0;
 
+  size_t media = 0;                ///< that shapes or sensors name
+  size_t heterogeneous_media = 0;  ///< of them, those whose extinction is a grid
+  bool coloured_media = false;     ///< any whose extinction is a colour
+
   bool depth_of_field = false;  ///< of any sensor
 };
 

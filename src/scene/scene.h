@@ -10,6 +10,7 @@
 #include "lights/light.h"
 #include "lights/picker.h"
 #include "materials/bsdf.h"
+#include "media/medium.h"
 #include "textures/texture.h"
 
 namespace duet {
@@ -28,6 +29,13 @@ struct Scene {
   const EnvironmentLight* environment = nullptr;
   uint32_t environment_index = kNone;
   std::unique_ptr<Camera> camera;
+  std::vector<std::unique_ptr<GridVolume>> volumes;
+  std::vector<std::unique_ptr<PhaseFunction>> phases;
+  std::vector<std::unique_ptr<Medium>> media;
+  /// The medium that the camera stands in, or null.
+  const Medium* camera_medium = nullptr;
+  /// Whether light may pass straight through any surface.
+  bool has_passable_surfaces = false;
   std::unique_ptr<Accel> accel;
 
   Scene() = default;
@@ -45,6 +53,11 @@ struct Scene {
   const SurfaceLight* light_on(const Shape& shape) const {
     return shape.light == kNone ? nullptr
                                 : static_cast<const SurfaceLight*>(lights[shape.light].get());
+  }
+  /// The medium into which a ray leaves a surface that separates_media(), or null.
+  const Medium* medium_beyond(const Surface& s, const Vector3f& direction) const {
+    const uint32_t m = dot(s.ng, direction) > 0 ? s.shape->exterior : s.shape->interior;
+    return m == kNone ? nullptr : media[m].get();
   }
 };
 

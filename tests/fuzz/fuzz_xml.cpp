@@ -23,7 +23,7 @@ std::vector<std::string> split(const uint8_t* data, size_t size) {
   return texts;
 }
 
-/// Files by their last name; images and meshes of all names exist.
+/// Files by their last name; images, meshes and volumes of all names exist.
 FileAccess in_memory(std::vector<std::string> texts) {
   const auto find = [](const std::vector<std::string>& all,
                        const std::string& path) -> std::optional<std::string> {
@@ -33,7 +33,9 @@ FileAccess in_memory(std::vector<std::string> texts) {
       if (name == std::string(1, char('a' + i - 1)) + ".xml") return all[i];
     if (name.ends_with(".spd")) return "# wavelengths\n400 0.5\n550 1\n700 0.25\n";
     if (name.ends_with(".obj")) return "usemtl a\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
-    if (name.ends_with(".png") || name.ends_with(".ply") || name.ends_with(".exr")) return "";
+    if (name.ends_with(".png") || name.ends_with(".ply") || name.ends_with(".exr") ||
+        name.ends_with(".vol"))
+      return "";
     return std::nullopt;
   };
   FileAccess access;
@@ -42,6 +44,13 @@ FileAccess in_memory(std::vector<std::string> texts) {
   access.read_mesh = [](const std::string&, const std::string& path, const MeshOptions&) {
     if (path.find("broken") != path.npos) throw ReadError("broken");
     return make_rectangle();
+  };
+  access.read_volume = [](const std::string& path) {
+    if (path.find("broken") != path.npos) throw ReadError("broken");
+    VolumeFile file;
+    file.grid.channels = path.find("six") != path.npos ? 6 : 1;
+    file.grid.values.assign(size_t(file.grid.channels), 1);
+    return file;
   };
   return access;
 }

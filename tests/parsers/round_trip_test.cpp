@@ -39,6 +39,9 @@ SceneDescription again(const SceneDescription& scene, const std::vector<std::str
 void check_equal(const SceneDescription& a, const SceneDescription& b) {
   CHECK(a.textures == b.textures);
   CHECK(a.materials == b.materials);
+  CHECK(a.volumes == b.volumes);
+  CHECK(a.phases == b.phases);
+  CHECK(a.media == b.media);
   CHECK(a.shapes == b.shapes);
   CHECK(a.groups == b.groups);
   CHECK(a.lights == b.lights);

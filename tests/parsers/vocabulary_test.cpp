@@ -82,6 +82,9 @@ TEST_CASE("presets have the type of their parameter") {
               case ParameterType::reflectance:
               case ParameterType::unbounded:
               case ParameterType::emission:
+              case ParameterType::number_or_volume:
+              case ParameterType::albedo:
+              case ParameterType::coefficient:
                 CHECK(parse_number(preset));
                 break;
               case ParameterType::point:

@@ -20,6 +20,11 @@ FileAccess MemoryFiles::access() const {
     if (options.face_normals) mesh.normals.clear();
     return mesh;
   };
+  access.read_volume = [texts_copy](const std::string& path) {
+    const std::string& bytes = texts_copy.at(path);
+    ByteReader in(path, {reinterpret_cast<const uint8_t*>(bytes.data()), bytes.size()});
+    return parse_vol(in);
+  };
   return access;
 }
 

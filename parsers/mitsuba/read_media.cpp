@@ -1,0 +1,165 @@
+// Media and the volumes in them.
+#include "mitsuba/medium_presets.h"
+#include "mitsuba/readers.h"
+#include "mitsuba/scene_reader.h"
+#include "mitsuba/text.h"
+
+namespace duet {
+
+namespace {
+
+PhaseId phase_of(SceneReader& s, Properties& p) {
+  const Node* node = p.child(PluginKind::phase);
+  const auto phase = node ? s.phase(*node) : std::nullopt;
+  return phase ? *phase : s.add_phase({p.node().where, {}, IsotropicPhase{}});
+}
+
+Spectrum quotient(const Spectrum& a, const Spectrum& b) {
+  Spectrum q;
+  for (int c = 0; c < 3; ++c) q[c] = b[c] > 0 ? a[c] / b[c] : 0.0f;
+  return q;
+}
+
+/// A preset of Mitsuba 0.6. It multiplies the published numbers by 100.
+void read_preset(Properties& p, Spectrum& sigma_s, Spectrum& sigma_a, Spectrum& g) {
+  const std::string name = p.string("material");
+  const MediumPreset* preset = find_medium_preset(name);
+  if (!preset) {
+    p.error("material", "no medium is known by the name {}{}", in_quotes(name),
+            did_you_mean(to_lower(name), medium_preset_names()));
+    return;
+  }
+  constexpr float kScale = 100;
+  sigma_s = preset->sigma_s * kScale;
+  sigma_a = preset->sigma_a * kScale;
+  g = preset->g;
+}
+
+bool any(Properties& p, std::string_view a, std::string_view b) {
+  return p.has(a) || p.has(b);
+}
+
+/// A coefficient that is constant; `otherwise` if the file does not give it.
+Spectrum coefficient(SceneReader& s, Properties& p, std::string_view name,
+                     const Spectrum& otherwise) {
+  if (!p.has(name)) return otherwise;
+  const ColorVolume value = s.color_volume(p, name);
+  if (const Spectrum* constant = std::get_if<Spectrum>(&value)) return *constant;
+  p.error(name, "the parameter \"{}\" of {} cannot be a grid", name, describe(p.node()));
+  return otherwise;
+}
+
+/// Mitsuba 0.x: coefficients in pairs, or a material's.
+void read_coefficients(SceneReader& s, Properties& p, MediumDescription& out) {
+  const bool pair = any(p, "sigma_s", "sigma_a"), other_pair = any(p, "sigma_t", "albedo");
+  if (pair && other_pair)
+    p.error(p.has("sigma_a") ? "sigma_a" : "sigma_s",
+            "either \"sigmaS\" and \"sigmaA\" or \"sigmaT\" and \"albedo\" can be given");
+  if ((pair || other_pair) && p.has("material"))
+    p.error("material", "either a material or coefficients can be given");
+  Spectrum sigma_s, sigma_a, g;
+  read_preset(p, sigma_s, sigma_a, g);
+  if (pair) {
+    sigma_s = coefficient(s, p, "sigma_s", sigma_s);
+    sigma_a = coefficient(s, p, "sigma_a", sigma_a);
+  } else if (other_pair) {
+    const Spectrum sum = sigma_s + sigma_a;
+    const Spectrum sigma_t = coefficient(s, p, "sigma_t", sum);
+    sigma_s = sigma_t * coefficient(s, p, "albedo", quotient(sigma_s, sum));
+    sigma_a = sigma_t - sigma_s;
+  }
+  g = coefficient(s, p, "g", g);
+  if (!(g.max() < 1)) p.error("g", "the anisotropy must be less than 1");
+  // Anisotropy is not modelled here, only that light which goes straight on is not scattered.
+  sigma_s *= Spectrum(1) - g;
+  const Spectrum sigma_t = sigma_s + sigma_a;
+  out.sigma_t = sigma_t;
+  out.albedo = quotient(sigma_s, sigma_t);
+}
+
+Matrix4 box_to_world(const VolumeGrid& grid) {
+  const auto& a = grid.lower;
+  const auto& b = grid.upper;
+  return Matrix4::translate(double(a[0]), double(a[1]), double(a[2])) *
+         Matrix4::scale(double(b[0]) - double(a[0]), double(b[1]) - double(a[1]),
+                        double(b[2]) - double(a[2]));
+}
+
+}  // namespace
+
+void read_homogeneous(SceneReader& s, Properties& p, MediumDescription& out) {
+  out.scale = p.number("scale");
+  // Files that use the coefficients of 0.x mean them, whatever their version says.
+  if (p.is_0x() || any(p, "sigma_s", "sigma_a") || any(p, "material", "g")) {
+    read_coefficients(s, p, out);
+  } else {
+    out.sigma_t = s.color_volume(p, "sigma_t");
+    out.albedo = s.color_volume(p, "albedo");
+  }
+  out.phase = phase_of(s, p);
+}
+
+void read_heterogeneous(SceneReader& s, Properties& p, MediumDescription& out) {
+  out.scale = p.number("scale");
+  const bool density = p.has("density");
+  if (density && p.has("sigma_t"))
+    p.error("sigma_t", "either \"density\" or \"sigma_t\" can be given");
+  if (p.is_0x() && !density && !p.has("sigma_t"))
+    s.report().error(p.node().where, "{} needs the parameter \"density\"", describe(p.node()));
+  if (p.is_0x() && !p.has("albedo"))
+    s.report().error(p.node().where, "{} needs the parameter \"albedo\"", describe(p.node()));
+  out.sigma_t = s.color_volume(p, density ? "density" : "sigma_t");
+  out.albedo = s.color_volume(p, "albedo");
+  if (p.has("orientation")) s.color_volume(p, "orientation");
+  out.phase = phase_of(s, p);
+}
+
+void read_constvolume(SceneReader& s, Properties& p, MeantVolume& out) {
+  const Property* value = p.find("value");
+  if (const Triple* triple = value ? std::get_if<Triple>(&value->value) : nullptr) {
+    out.value = Spectrum(float((*triple)[0]), float((*triple)[1]), float((*triple)[2]));
+    return;
+  }
+  out.value = s.color_volume(p, "value");
+}
+
+void read_gridvolume(SceneReader& s, Properties& p, MeantVolume& out) {
+  VolumeDescription v;
+  v.where = p.node().where;
+  v.label = {p.node().id};
+  v.file = s.file(p, "filename");
+  v.to_world = p.transform("to_world");
+  v.filter = p.choice<VolumeFilter>(
+      "filter_type", {{"trilinear", VolumeFilter::trilinear}, {"nearest", VolumeFilter::nearest}});
+  v.wrap = p.choice<VolumeWrap>("wrap_mode", {{"clamp", VolumeWrap::clamp},
+                                              {"repeat", VolumeWrap::repeat},
+                                              {"mirror", VolumeWrap::mirror}});
+  v.nodes_on_faces = p.is_0x();
+  const bool use_box = p.boolean("use_grid_bbox");
+  const bool own_box = p.has("min") && p.has("max");
+  VolumeGrid box;
+  const Triple lower = p.triple("min"), upper = p.triple("max");
+  for (size_t i = 0; i < 3 && own_box; ++i) {
+    box.lower[i] = float(lower[i]), box.upper[i] = float(upper[i]);
+    if (!(box.upper[i] > box.lower[i])) p.error("max", "the box from \"min\" to \"max\" is flat");
+  }
+  if (v.file.empty()) return;
+  v.grid = s.volume_grid(v.file, p.where("filename"), v.is_float32);
+  if (!v.grid) return;
+  if (own_box)
+    v.to_world = v.to_world * box_to_world(box);
+  else if (p.is_0x() || use_box)
+    v.to_world = v.to_world * box_to_world(*v.grid);
+  out.value = s.add_volume(std::move(v));
+}
+
+void read_volcache(SceneReader& s, Properties& p, MeantVolume& out) {
+  const Node* nested = p.child(PluginKind::volume);
+  if (!nested) {
+    s.report().error(p.node().where, "{} needs a volume", describe(p.node()));
+    return;
+  }
+  if (const auto value = s.volume(*nested, out.meaning)) out.value = *value;
+}
+
+}  // namespace duet

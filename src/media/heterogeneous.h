@@ -1,0 +1,32 @@
+// A medium whose extinction is given by a grid.
+#pragma once
+
+#include "media/majorant_grid.h"
+#include "media/medium.h"
+
+namespace duet {
+
+/// Distances are sampled by delta tracking (Woodcock et al. 1965) and transmittances estimated by
+/// ratio tracking (Novák, Selle & Jarosz 2014), both against a coarse grid of majorants, so that
+/// empty space costs little. Outside of the box
+/// around the grid there is nothing.
+class HeterogeneousMedium final : public Medium {
+ public:
+  /// The extinction is `scale` times the grid's values, times that of the phase function.
+  HeterogeneousMedium(const GridVolume& sigma_t, float scale, const ColorVolumeSlot& albedo,
+                      const PhaseFunction& phase);
+  float walk(const Ray& ray, float u, RandomStream& random, SpectralWeights& w) const override;
+  void transmit(const Ray& ray, RandomStream& random, SpectralWeights& w) const override;
+
+ private:
+  /// The extinction at a point, given in the grid's space and in the world.
+  Spectrum extinction(const Point3f& local, const Ray& ray, float t) const;
+
+  const GridVolume& sigma_t_;
+  float scale_;
+  ColorVolumeSlot albedo_;
+  MajorantGrid majorants_;
+  bool is_grey_, is_microflake_;
+};
+
+}  // namespace duet

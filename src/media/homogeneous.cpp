@@ -1,0 +1,49 @@
+#include "media/homogeneous.h"
+
+namespace duet {
+
+namespace {
+
+/// Transmittances relative to that of a channel with extinction `chosen`. Equal extinctions stay
+/// exactly equal, however long the way.
+Spectrum relative_transmittance(const Spectrum& sigma_t, float chosen, float distance) {
+  Spectrum t(1);
+  for (int c = 0; c < 3; ++c)
+    if (sigma_t[c] != chosen) t[c] = std::exp((chosen - sigma_t[c]) * distance);
+  return t;
+}
+
+}  // namespace
+
+inline Spectrum HomogeneousMedium::extinction(const Ray& ray) const {
+  return is_microflake_ ? sigma_t_ * phase().extinction(ray.origin, -ray.direction) : sigma_t_;
+}
+
+float HomogeneousMedium::walk(const Ray& ray, float u, RandomStream&, SpectralWeights& w) const {
+  const Spectrum sigma_t = extinction(ray);
+  const float chosen = sigma_t[w.channel];
+  const float t = chosen > 0 ? -std::log1p(-u) / chosen : INFINITY;
+  if (t < ray.tmax) {
+    const Spectrum density = relative_transmittance(sigma_t, chosen, t) * sigma_t / chosen;
+    w.walk *= density;
+    w.value *= density * albedo_(ray.origin + ray.direction * t);
+    return t;
+  }
+  const Spectrum density = relative_transmittance(sigma_t, chosen, ray.tmax);
+  w.walk *= density;
+  w.value *= density;
+  // A light sample would have got here without fail.
+  w.light *= chosen > 0 ? std::exp(chosen * ray.tmax) : 1.0f;
+  return INFINITY;
+}
+
+void HomogeneousMedium::transmit(const Ray& ray, RandomStream&, SpectralWeights& w) const {
+  const Spectrum sigma_t = extinction(ray);
+  Spectrum t(1);
+  for (int c = 0; c < 3; ++c)
+    if (sigma_t[c] > 0) t[c] = std::exp(-sigma_t[c] * ray.tmax);
+  w.value *= t;
+  w.walk *= t;
+}
+
+}  // namespace duet

@@ -1,0 +1,44 @@
+#include "media/majorant_grid.h"
+
+namespace duet {
+
+namespace {
+
+/// Cells this many nodes wide: small enough to hug the volume, large enough that stepping through
+/// them costs less than the collisions it saves.
+constexpr int kNodesPerCell = 8;
+constexpr int kMostCells = 64;
+
+}  // namespace
+
+MajorantGrid::MajorantGrid(const GridVolume& volume, float scale) {
+  volume.world_box(world_lower_, world_upper_);
+  Point3f upper(-INFINITY);
+  lower_ = Point3f(INFINITY);
+  for (int corner = 0; corner < 8; ++corner) {
+    Point3f p;
+    for (int i = 0; i < 3; ++i) p[i] = corner >> i & 1 ? world_upper_[i] : world_lower_[i];
+    p = volume.to_local(p);
+    for (int i = 0; i < 3; ++i) {
+      lower_[i] = std::min(lower_[i], p[i]);
+      upper[i] = std::max(upper[i], p[i]);
+    }
+  }
+  for (int i = 0; i < 3; ++i) {
+    int& n = size_[size_t(i)];
+    const float extent = upper[i] - lower_[i];
+    n = std::clamp(int(extent * float(volume.grid().size[size_t(i)]) / kNodesPerCell), 1,
+                   kMostCells);
+    cell_[i] = extent / float(n);
+  }
+  majorants_.reserve(size_t(size_[0]) * size_t(size_[1]) * size_t(size_[2]));
+  for (int z = 0; z < size_[2]; ++z)
+    for (int y = 0; y < size_[1]; ++y)
+      for (int x = 0; x < size_[0]; ++x) {
+        const Point3f a =
+            lower_ + Vector3f(float(x) * cell_.x, float(y) * cell_.y, float(z) * cell_.z);
+        majorants_.push_back(volume.maximum(a, a + cell_) * scale);
+      }
+}
+
+}  // namespace duet

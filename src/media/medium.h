@@ -1,0 +1,30 @@
+// The doorway to media: how far light gets in them and where it is scattered.
+#pragma once
+
+#include "media/phase.h"
+#include "media/random_stream.h"
+#include "media/spectral_weights.h"
+#include "media/volume.h"
+
+namespace duet {
+
+/// Scatters and absorbs light, and does not shine. Rays have unit directions.
+class Medium {
+ public:
+  explicit Medium(const PhaseFunction& phase) : phase_(phase) {}
+  virtual ~Medium() = default;
+  const PhaseFunction& phase() const { return phase_; }
+
+  /// Walks along the ray to where it is scattered next and returns the distance, or INFINITY if it
+  /// comes to ray.tmax before. The weights then include everything up to there: transmittance, the
+  /// scattering coefficient, the densities of each channel. `u` is used first, then `random`.
+  virtual float walk(const Ray& ray, float u, RandomStream& random, SpectralWeights& w) const = 0;
+  /// Multiplies the weights of a shadow ray by an estimate of the transmittance up to ray.tmax, and
+  /// by the densities of a walk that would have gone all the way.
+  virtual void transmit(const Ray& ray, RandomStream& random, SpectralWeights& w) const = 0;
+
+ private:
+  const PhaseFunction& phase_;
+};
+
+}  // namespace duet

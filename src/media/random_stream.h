@@ -1,0 +1,22 @@
+// Random numbers for walks that need nobody knows how many.
+#pragma once
+
+#include "math/hash.h"
+
+namespace duet {
+
+/// Independent numbers in [0, 1): a counter that is hashed.
+/// Source: Steele et al., "Fast Splittable Pseudorandom Number Generators", 2014 (SplitMix64).
+class RandomStream {
+ public:
+  explicit RandomStream(uint64_t seed) : state_(seed) {}
+  float next() {
+    state_ += 0x9e3779b97f4a7c15ull;
+    return to_unit_float(uint32_t(mix64(state_) >> 32));
+  }
+
+ private:
+  uint64_t state_;
+};
+
+}  // namespace duet
