@@ -177,6 +177,16 @@ def write_attribute_ply(path):
     path.write_text('\n'.join(lines) + '\n')
 
 
+def knot_distances():
+    """Roughly the distances to a trefoil knot in the unit cube, negative inside."""
+    z, y, x = np.meshgrid(*(np.linspace(0, 1, n) for n in (16, 26, 24)), indexing='ij')
+    t = np.linspace(0, 2 * np.pi, 600, endpoint=False)
+    curve = np.stack([np.sin(t) + 2 * np.sin(2 * t), np.cos(t) - 2 * np.cos(2 * t), -np.sin(3 * t)], axis=-1)
+    curve = 0.5 + curve * [0.125, 0.125, 0.25]
+    nodes = np.stack([x, y, z], axis=-1)[..., None, :]
+    return np.sqrt(((nodes - curve) ** 2).sum(axis=-1)).min(axis=-1) - 0.1
+
+
 def main():
     for scene in ('textures', 'two-versions', 'lights-area', 'lights-delta', 'bsdf-wrappers', 'bsdf-plastics'):
         write_png(SCENES / scene / 'colours.png', colour_texture())
@@ -194,6 +204,8 @@ def main():
     write_volume(folder / 'weight.vol', colour_volume()[..., 0])
     write_volume(folder / 'flakes.vol', flake_volume())
     write_volume(folder / 'ones.vol', np.ones((2, 2, 2)))
+
+    write_volume(SCENES / 'sdf-grid' / 'knot.vol', knot_distances())
 
     import mitsuba as mi
     mi.set_variant('scalar_rgb')

@@ -1,5 +1,7 @@
 // Shapes, with the materials and lights on them.
+#include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "mitsuba/obj_materials.h"
 #include "mitsuba/property_values.h"
@@ -121,6 +123,36 @@ void read_cube(SceneReader& s, Properties& p, ShapeDescription& out) {
 void read_disk(SceneReader& s, Properties& p, ShapeDescription& out) {
   out.geometry = DiskShape{};
   attach(s, p, out);
+}
+
+void read_sdfgrid(SceneReader& s, Properties& p, ShapeDescription& out) {
+  enum class Normals { smooth, analytic };
+  const auto normals =
+      p.choice<Normals>("normals", {{"smooth", Normals::smooth}, {"analytic", Normals::analytic}});
+  const std::string file = s.file(p, "filename");
+  attach(s, p, out);
+  if (out.emission)
+    s.report().error(out.emission->where, "{} cannot emit light", describe(p.node()));
+  if (file.empty()) return;
+  const SourceLocation where = p.where("filename");
+  bool is_float32;
+  const auto volume = s.volume_grid(file, where, is_float32);
+  if (!volume) return;
+  if (volume->channels != 1)
+    return s.report().error(where, "{} has {} channels: distances have one", in_quotes(file),
+                            volume->channels);
+  if (*std::min_element(volume->size.begin(), volume->size.end()) < 2)
+    return s.report().error(where, "{} needs two nodes at least along each axis", in_quotes(file));
+  if (volume->node_count() > size_t(std::numeric_limits<int>::max()))
+    return s.report().error(where, "{} has too many nodes", in_quotes(file));
+  auto grid = std::make_shared<SdfGrid>();
+  grid->size = volume->size;
+  grid->values = volume->values;
+  grid->smooth_normals = normals == Normals::smooth;
+  grid->cells = surface_cells(*grid);
+  if (grid->cells.empty())
+    return s.report().error(where, "{} is nowhere zero: it has no surface", in_quotes(file));
+  out.geometry = SdfGridShape{std::move(grid), file};
 }
 
 void read_sphere(SceneReader& s, Properties& p, ShapeDescription& out) {

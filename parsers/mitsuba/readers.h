@@ -47,6 +47,7 @@ void read_rectangle(SceneReader&, Properties&, ShapeDescription&);
 void read_cube(SceneReader&, Properties&, ShapeDescription&);
 void read_sphere(SceneReader&, Properties&, ShapeDescription&);
 void read_disk(SceneReader&, Properties&, ShapeDescription&);
+void read_sdfgrid(SceneReader&, Properties&, ShapeDescription&);
 void read_cylinder(SceneReader&, Properties&, ShapeDescription&);
 void read_instance(SceneReader&, Properties&, ShapeDescription&);
 void read_shapegroup(SceneReader&, Properties&, ShapeGroupDescription&);

@@ -151,12 +151,16 @@ void SceneWriter::mesh(const MeshShape& m) {
 }
 
 void SceneWriter::shape(const ShapeDescription& s, const std::string& id) {
-  constexpr std::string_view types[] = {"",     "rectangle", "cube",    "sphere",
-                                        "disk", "cylinder",  "instance"};
+  constexpr std::string_view types[] = {"",     "rectangle", "cube",     "sphere",
+                                        "disk", "cylinder",  "instance", "sdfgrid"};
   static_assert(std::size(types) == std::variant_size_v<decltype(s.geometry)>);
   const MeshShape* m = std::get_if<MeshShape>(&s.geometry);
   out_.open("shape", m ? std::string_view(m->source.plugin) : types[s.geometry.index()], {}, id);
   if (m) mesh(*m);
+  if (const auto* sdf = std::get_if<SdfGridShape>(&s.geometry)) {
+    out_.string("filename", sdf->file);
+    if (sdf->grid && !sdf->grid->smooth_normals) out_.string("normals", "analytic");
+  }
   out_.transform("to_world", s.to_world);
   if (const auto* instance = std::get_if<InstanceShape>(&s.geometry)) {
     out_.reference({}, group_ids_[instance->group]);

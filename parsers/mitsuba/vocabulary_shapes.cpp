@@ -55,6 +55,14 @@ constexpr Parameter kCylinder[] = {{"p0", point, "0 0 0"},
                                    {"radius", number, "1", "", positive},
                                    kFlipNormals};
 
+constexpr Parameter kSdfGrid[] = {
+    {"filename", string, "", "a volume with one channel: distances"},
+    {"normals", string, "smooth", "smooth or analytic, of shading"},
+    kFlipNormals,
+    {.name = "watertight", .type = boolean, .preset = "true", .support = inert},
+    {.name = "grid", .type = string, .support = refused},
+};
+
 constexpr Plugin kShapes[] = {
     {"obj", both, kObj, &read_mesh},
     {"ply", both, kPly, &read_mesh},
@@ -64,6 +72,7 @@ constexpr Plugin kShapes[] = {
     {"sphere", both, kSphere, &read_sphere},
     {"disk", both, kDisk, &read_disk},
     {"cylinder", both, kCylinder, &read_cylinder},
+    {"sdfgrid", v3, kSdfGrid, &read_sdfgrid},
     {"shapegroup", both, {}, &read_shapegroup, "holds shapes"},
     {"instance", both, {}, &read_instance, "refers to a shapegroup"},
     planned_plugin("animatedinstance", v0, "filename to_world"),
@@ -85,7 +94,6 @@ constexpr Plugin kShapes[] = {
                    "filename control_point_count control_points segment_indices to_world "
                    "silhouette_sampling_weight"),
     planned_plugin("merge", v3),
-    planned_plugin("sdfgrid", v3, "filename grid normals to_world"),
 };
 
 }  // namespace

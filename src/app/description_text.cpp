@@ -210,6 +210,7 @@ std::string DescriptionText::shape_kind(const ShapeDescription& s) const {
                         [](const SphereShape&) { return std::string("sphere"); },
                         [](const DiskShape&) { return std::string("disk"); },
                         [](const CylinderShape&) { return std::string("cylinder"); },
+                        [](const SdfGridShape& m) { return "sdfgrid " + m.file; },
                         [](const InstanceShape&) { return std::string("instance"); },
                     },
                     s.geometry);

@@ -24,7 +24,7 @@ void check(RTCDevice device, const char* doing) {
 }
 
 void analytic_bounds_callback(const RTCBoundsFunctionArguments* args) {
-  const Bounds b = analytic_bounds(*static_cast<const Shape*>(args->geometryUserPtr));
+  const Bounds b = analytic_bounds(*static_cast<const Shape*>(args->geometryUserPtr), args->primID);
   args->bounds_o->lower_x = b.lower.x;
   args->bounds_o->lower_y = b.lower.y;
   args->bounds_o->lower_z = b.lower.z;
@@ -42,7 +42,8 @@ void analytic_intersect_callback(const RTCIntersectFunctionNArguments* args) {
   auto* ray_hit = reinterpret_cast<RTCRayHit*>(args->rayhit);
   const Shape& shape = *static_cast<const Shape*>(args->geometryUserPtr);
   double t[2];
-  if (!intersect_analytic(shape, to_ray(ray_hit->ray), ray_hit->ray.tnear, ray_hit->ray.tfar, t))
+  if (!intersect_analytic(shape, args->primID, to_ray(ray_hit->ray), ray_hit->ray.tnear,
+                          ray_hit->ray.tfar, t))
     return;
   ray_hit->ray.tfar = float(t[0]);
   ray_hit->hit.u = ray_hit->hit.v = 0;
@@ -56,13 +57,14 @@ void analytic_occluded_callback(const RTCOccludedFunctionNArguments* args) {
   auto* ray = reinterpret_cast<RTCRay*>(args->ray);
   const Shape& shape = *static_cast<const Shape*>(args->geometryUserPtr);
   double t[2];
-  if (intersect_analytic(shape, to_ray(*ray), ray->tnear, ray->tfar, t)) ray->tfar = -INFINITY;
+  if (intersect_analytic(shape, args->primID, to_ray(*ray), ray->tnear, ray->tfar, t))
+    ray->tfar = -INFINITY;
 }
 
 RTCGeometry make_geometry(RTCDevice device, const Shape& shape) {
   if (shape.kind != ShapeKind::mesh) {
     RTCGeometry g = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_USER);
-    rtcSetGeometryUserPrimitiveCount(g, 1);
+    rtcSetGeometryUserPrimitiveCount(g, shape.analytic_parts());
     rtcSetGeometryUserData(g, const_cast<Shape*>(&shape));
     rtcSetGeometryBoundsFunction(g, analytic_bounds_callback, nullptr);
     rtcSetGeometryIntersectFunction(g, analytic_intersect_callback);

@@ -40,7 +40,8 @@ bool unit_quadric_roots(const Local& o, const Local& d, bool use_z, double t[2])
 
 }  // namespace
 
-int intersect_analytic(const Shape& shape, const Ray& ray, double tnear, double tfar, double t[2]) {
+int intersect_analytic(const Shape& shape, uint32_t part, const Ray& ray, double tnear, double tfar,
+                       double t[2]) {
   const Local o = to_local(shape.to_local, ray.origin);
   const Local d = to_local(shape.to_local, ray.direction);
   int n = 0;
@@ -65,6 +66,9 @@ int intersect_analytic(const Shape& shape, const Ray& ray, double tnear, double 
       if (x * x + y * y <= 1) accept(s);
       break;
     }
+    case ShapeKind::sdf_grid:
+      return intersect_cell(*shape.sdf, shape.sdf->cells[part], {o.x, o.y, o.z}, {d.x, d.y, d.z},
+                            tnear, tfar, t[0]);
     case ShapeKind::mesh:
       break;
   }
@@ -76,16 +80,32 @@ void Bounds::extend(const Point3f& p) {
   upper = {std::max(upper.x, p.x), std::max(upper.y, p.y), std::max(upper.z, p.z)};
 }
 
-Bounds analytic_bounds(const Shape& shape) {
+namespace {
+
+Bounds placed_box(const Shape& shape, const Point3f& lower, const Point3f& upper) {
   Bounds b;
-  const float z0 = shape.kind == ShapeKind::sphere ? -1.0f : 0.0f;
-  const float z1 = shape.kind == ShapeKind::disk ? 0.0f : 1.0f;
   for (int i = 0; i < 8; ++i)
-    b.extend(shape.to_world(Point3f(i & 1 ? 1.f : -1.f, i & 2 ? 1.f : -1.f, i & 4 ? z1 : z0)));
+    b.extend(shape.to_world(
+        Point3f(i & 1 ? upper.x : lower.x, i & 2 ? upper.y : lower.y, i & 4 ? upper.z : lower.z)));
   // The box of a box is larger than that of the shape, but never smaller: pad for rounding only.
   const float pad = kOffsetScale * std::max(max_abs(b.lower), max_abs(b.upper));
   b.lower = b.lower - Vector3f(pad), b.upper = b.upper + Vector3f(pad);
   return b;
+}
+
+}  // namespace
+
+Bounds analytic_bounds(const Shape& shape) {
+  if (shape.kind == ShapeKind::sdf_grid) return placed_box(shape, Point3f(0), Point3f(1));
+  return placed_box(shape, {-1, -1, shape.kind == ShapeKind::sphere ? -1.0f : 0.0f},
+                    {1, 1, shape.kind == ShapeKind::disk ? 0.0f : 1.0f});
+}
+
+Bounds analytic_bounds(const Shape& shape, uint32_t part) {
+  if (shape.kind != ShapeKind::sdf_grid) return analytic_bounds(shape);
+  Point3f lower, upper;
+  cell_bounds(*shape.sdf, shape.sdf->cells[part], lower, upper);
+  return placed_box(shape, lower, upper);
 }
 
 float area_stretch(const Shape& shape, const Normal3f& local_normal) {
@@ -203,6 +223,19 @@ Surface make_analytic_surface(const Shape& shape, const Ray& ray, const Hit& hit
   double x = o.x + hit.t * d.x, y = o.y + hit.t * d.y, z = o.z + hit.t * d.z;
   Surface s;
   s.shape = &shape;
+  s.primitive = hit.primitive;
+  if (shape.kind == ShapeKind::sdf_grid) {
+    const SdfPoint p = surface_point(*shape.sdf, shape.sdf->cells[hit.primitive], {x, y, z});
+    s.position = shape.to_world(p.position);
+    s.ng = world_normal(shape, p.geometric);
+    s.offset = rounding_offset(shape, s.position);
+    const Normal3f ns = world_normal(shape, p.shading);
+    if (dot(s.ng, ns) < 0) s.ng = -s.ng;
+    s.uv = {0, 0};
+    s.shading = Frame(ns);
+    s.dp_du = s.shading.s, s.dp_dv = s.shading.t;
+    return s;
+  }
   Normal3f n;
   // Back onto the surface, to remove the rounding error of the distance.
   switch (shape.kind) {

@@ -1,10 +1,11 @@
-// Shapes as they are rendered: triangle meshes in world space and three analytic surfaces.
+// Shapes as they are rendered: triangle meshes in world space, and surfaces given by formulas.
 #pragma once
 
 #include <cstdint>
 #include <memory>
 
 #include "geometry/mesh.h"
+#include "geometry/sdf_grid.h"
 #include "math/measure.h"
 #include "math/transform.h"
 
@@ -15,6 +16,7 @@ enum class ShapeKind : uint8_t {
   sphere,    ///< unit sphere around the origin
   disk,      ///< unit disk in the plane z = 0, facing +z
   cylinder,  ///< radius 1 around the z axis, from z = 0 to 1, facing outwards, without caps
+  sdf_grid,  ///< see sdf_grid.h: in the unit cube
 };
 
 /// What the materials and lights on a surface ask of a hit. What nobody asks for is not computed.
@@ -42,9 +44,14 @@ struct Shape {
   uint32_t interior = kNone, exterior = kNone;
 
   std::shared_ptr<const TriangleMesh> mesh;  ///< in world space; for meshes only
-  Transform to_world;                        ///< for analytic shapes only
-  Matrix4 to_local;                          ///< its inverse in double precision
+  std::shared_ptr<const SdfGrid> sdf;
+  Transform to_world;  ///< for analytic shapes only
+  Matrix4 to_local;    ///< its inverse in double precision
 
+  /// Into how many parts an analytic shape is divided to be found by rays.
+  uint32_t analytic_parts() const {
+    return kind == ShapeKind::sdf_grid ? uint32_t(sdf->cells.size()) : 1;
+  }
   bool separates_media() const { return (interior & exterior) != kNone; }
 };
 
@@ -70,10 +77,11 @@ struct Hit {
   uint32_t instance;  ///< kNone outside of instances
 };
 
-/// The intersections of a ray with an analytic shape in (tnear, tfar), nearest first: their number
-/// is returned and the distances are stored in `t`. Works in double precision and on directions of
-/// any length.
-int intersect_analytic(const Shape& shape, const Ray& ray, double tnear, double tfar, double t[2]);
+/// The intersections of a ray with a part of an analytic shape in (tnear, tfar), nearest first:
+/// their number is returned and the distances are stored in `t`; of cells only the nearest. Works
+/// in double precision and on directions of any length.
+int intersect_analytic(const Shape& shape, uint32_t part, const Ray& ray, double tnear, double tfar,
+                       double t[2]);
 
 /// Lower and upper corner of an analytic shape's box in world space.
 struct Bounds {
@@ -86,6 +94,8 @@ struct Bounds {
   float radius() const { return empty() ? 0.0f : 0.5f * length(upper - lower); }
 };
 Bounds analytic_bounds(const Shape& shape);
+/// The same of one of its parts.
+Bounds analytic_bounds(const Shape& shape, uint32_t part);
 
 /// A point of a shape, chosen or parametrised by a uniform pair of numbers.
 struct ShapePoint {

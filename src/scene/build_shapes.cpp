@@ -109,6 +109,9 @@ void SceneBuilder::add_shape(ShapeDescription& d) {
     shape.kind = ShapeKind::disk;
   } else if (std::holds_alternative<CylinderShape>(d.geometry)) {
     shape.kind = ShapeKind::cylinder;
+  } else if (const auto* sdf = std::get_if<SdfGridShape>(&d.geometry)) {
+    shape.kind = ShapeKind::sdf_grid;
+    shape.sdf = sdf->grid;
   } else {
     auto mesh = world_mesh(d);
     if (!has_finite_positions(*mesh))

@@ -14,6 +14,7 @@
 
 #include "base/diagnostics.h"
 #include "geometry/mesh.h"
+#include "geometry/sdf_grid.h"
 #include "image/filter.h"
 #include "materials/microfacet_kind.h"
 #include "materials/ward_variant.h"
@@ -338,6 +339,14 @@ struct DiskShape {
 struct CylinderShape {
   bool operator==(const CylinderShape&) const = default;
 };
+/// A surface of zero distance.
+struct SdfGridShape {
+  std::shared_ptr<const SdfGrid> grid;
+  std::string file;
+  friend bool operator==(const SdfGridShape& a, const SdfGridShape& b) {
+    return a.grid == b.grid || (a.grid && b.grid && *a.grid == *b.grid);
+  }
+};
 /// A copy of SceneDescription::groups[group].
 struct InstanceShape {
   uint32_t group = 0;
@@ -356,7 +365,7 @@ struct ShapeDescription {
   SourceLocation where;
   Label label;
   std::variant<MeshShape, RectangleShape, CubeShape, SphereShape, DiskShape, CylinderShape,
-               InstanceShape>
+               InstanceShape, SdfGridShape>
       geometry;
   Matrix4 to_world;
   bool flip_normals = false;

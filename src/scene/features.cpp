@@ -154,9 +154,10 @@ class Survey {
     const auto to_local = s.to_world.inverse();
     if (!to_local) return;  // the build stage refuses it
     Shape shape;
-    shape.kind = std::holds_alternative<SphereShape>(s.geometry) ? ShapeKind::sphere
-                 : std::holds_alternative<DiskShape>(s.geometry) ? ShapeKind::disk
-                                                                 : ShapeKind::cylinder;
+    shape.kind = std::holds_alternative<SphereShape>(s.geometry)    ? ShapeKind::sphere
+                 : std::holds_alternative<DiskShape>(s.geometry)    ? ShapeKind::disk
+                 : std::holds_alternative<SdfGridShape>(s.geometry) ? ShapeKind::sdf_grid
+                                                                    : ShapeKind::cylinder;
     shape.to_world = Transform(s.to_world);
     shape.to_local = *to_local;
     bounds.extend(analytic_bounds(shape));
