@@ -65,6 +65,7 @@ int run(std::vector<std::string> arguments) {
   add_render_command(app, exit_code);
   add_info_command(app, exit_code);
   add_compare_command(app, exit_code);
+  add_chart_command(app, exit_code);
   add_plugins_command(app, exit_code);
   try {
     if (names_no_command(arguments, app)) arguments.insert(arguments.begin(), "render");

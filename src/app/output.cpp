@@ -9,6 +9,7 @@
 #include <stdexcept>
 
 #include "app/commands.h"
+#include "app/placeholders.h"
 
 namespace duet {
 
@@ -26,32 +27,6 @@ std::string extension_of(const std::string& path) {
 bool is_directory(const std::string& path) {
   std::error_code ignored;
   return path.ends_with('/') || fs::is_directory(path, ignored);
-}
-
-std::string fill_in(const std::string& pattern, const OutputNames& names) {
-  const std::pair<const char*, const std::string*> known[] = {{"scene", &names.scene},
-                                                              {"folder", &names.folder},
-                                                              {"integrator", &names.integrator},
-                                                              {"spp", &names.spp},
-                                                              {"seed", &names.seed}};
-  std::string out;
-  for (size_t i = 0; i < pattern.size(); ++i) {
-    if (pattern[i] != '{') {
-      out += pattern[i];
-      continue;
-    }
-    const size_t end = pattern.find('}', i);
-    const std::string key = end == std::string::npos ? "" : pattern.substr(i + 1, end - i - 1);
-    const auto* const meant = std::find_if(std::begin(known), std::end(known),
-                                           [&](const auto& k) { return k.first == key; });
-    if (meant == std::end(known))
-      throw UsageError(fmt::format(
-          "-o {}: only {{scene}}, {{folder}}, {{integrator}}, {{spp}} and {{seed}} are filled in",
-          pattern));
-    out += *meant->second;
-    i = end;
-  }
-  return out;
 }
 
 bool has_alpha(PixelFormat f) {
@@ -102,7 +77,12 @@ bool is_display_format(const std::string& path) {
 }
 
 std::string output_path(const std::string& pattern, const OutputNames& names) {
-  std::string path = fill_in(pattern, names);
+  std::string path = fill_in("-o", pattern,
+                             {{"scene", names.scene},
+                              {"folder", names.folder},
+                              {"integrator", names.integrator},
+                              {"spp", names.spp},
+                              {"seed", names.seed}});
   if (path.empty())
     path = names.scene + ".exr";
   else if (is_directory(path))

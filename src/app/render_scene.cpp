@@ -6,6 +6,7 @@
 #include <filesystem>
 
 #include "app/commands.h"
+#include "app/film_layout.h"
 #include "app/output.h"
 #include "app/signals.h"
 #include "base/log.h"
@@ -29,25 +30,6 @@ class Stopwatch {
  private:
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
 };
-
-/// The image's size and window, with what the command line says instead of the scene.
-FilmLayout film_layout(const RenderOptions& options, FilmDescription& film) {
-  if (options.size) {
-    film.width = options.size->x, film.height = options.size->y;
-    film.crop.reset();
-  }
-  PixelBounds crop{0, 0, film.width, film.height};
-  if (film.crop)
-    crop = {film.crop->x, film.crop->y, film.crop->x + film.crop->width,
-            film.crop->y + film.crop->height};
-  if (options.crop) {
-    crop = *options.crop;
-    if (crop.x1 > film.width || crop.y1 > film.height)
-      throw UsageError(fmt::format("--crop: the window reaches beyond the image of {}x{}",
-                                   film.width, film.height));
-  }
-  return {{film.width, film.height}, crop, film.filter};
-}
 
 /// Refuses images that this machine has no room for, before they take all of it.
 void check_memory(const FilmLayout& layout, const Integrator& integrator,
@@ -118,7 +100,7 @@ class SceneRenderer {
       throw UsageError(fmt::format("-s {}: {} has {} sensor{}", options_.sensor, file_, sensors,
                                    sensors == 1 ? "" : "s"));
     SensorDescription& sensor = description_.sensors[options_.sensor];
-    layout_ = film_layout(options_, sensor.film);
+    layout_ = film_layout(sensor.film, options_.size, options_.crop);
     try {
       apply_override(description_.integrator, options_.integrator);
       integrator_ = make_integrator(description_.integrator, options_.techniques);

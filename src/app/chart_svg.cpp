@@ -1,0 +1,283 @@
+#include "app/chart_svg.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+
+#include "app/web_page.h"
+
+namespace duet {
+
+namespace {
+
+constexpr double kLeft = 76, kTop = 58, kPlotWidth = 560, kPlotHeight = 400, kLegend = 232;
+constexpr double kRight = kLeft + kPlotWidth, kBottom = kTop + kPlotHeight;
+constexpr double kWidth = kRight + kLegend, kHeight = kBottom + 60;
+
+/// From values to places along one direction.
+struct LogAxis {
+  double low, high;  ///< values
+  double from, to;   ///< places
+  double operator()(double value) const {
+    const double t = std::log(value / low) / std::log(high / low);
+    return from + t * (to - from);
+  }
+  bool contains(double v) const { return v >= low * 0.9999 && v <= high * 1.0001; }
+};
+
+/// Room on both sides of values that are all above zero.
+LogAxis axis_around(const std::vector<double>& values, double from, double to, double margin) {
+  double low = INFINITY, high = 0;
+  for (const double v : values) low = std::min(low, v), high = std::max(high, v);
+  if (!(high > 0)) low = 0.5, high = 2;
+  if (high < 4 * low) {  // at least this much, so that a single point has a chart
+    const double middle = std::sqrt(low * high);
+    low = middle / 2, high = middle * 2;
+  }
+  const double extra = std::pow(high / low, margin);
+  return {low / extra, high * extra, from, to};
+}
+
+struct Tick {
+  double value;
+  bool labelled;
+};
+
+/// Powers of ten with 2 and 5 times them; labels for all of them if there is room.
+std::vector<Tick> ticks(const LogAxis& axis) {
+  const double decades = std::log10(axis.high / axis.low);
+  std::vector<Tick> list;
+  for (int p = int(std::floor(std::log10(axis.low))); p <= int(std::ceil(std::log10(axis.high)));
+       ++p)
+    for (const int digit : {1, 2, 5}) {
+      const double v = digit * std::pow(10, p);
+      if (axis.contains(v)) list.push_back({v, digit == 1 || decades < 2.6});
+    }
+  return list;
+}
+
+std::string number(double v) {
+  return v >= 1e5 || v < 1e-3 ? fmt::format("{:.0e}", v) : fmt::format("{:g}", v);
+}
+
+std::string percent(double v) {
+  return number(100 * v) + " %";
+}
+
+double x_of(const ChartPoint& p, ChartAxis axis) {
+  return axis == ChartAxis::spp ? double(p.spp) : p.cpu_seconds;
+}
+
+const CurveFit& fit_of(const ChartLine& line, ChartAxis axis) {
+  return axis == ChartAxis::spp ? line.by_spp : line.by_time;
+}
+
+std::string marker(size_t index, double x, double y, const std::string& colour) {
+  const auto polygon = [&](const std::string& points) {
+    return fmt::format("<polygon class=\"point\" points=\"{}\" fill=\"{}\"/>", points, colour);
+  };
+  switch (index % 4) {
+    case 1:
+      return fmt::format(
+          "<rect class=\"point\" x=\"{:.1f}\" y=\"{:.1f}\" width=\"6.4\" height=\"6.4\" "
+          "fill=\"{}\"/>",
+          x - 3.2, y - 3.2, colour);
+    case 2:
+      return polygon(fmt::format("{:.1f},{:.1f} {:.1f},{:.1f} {:.1f},{:.1f}", x, y - 4.4, x + 4,
+                                 y + 3, x - 4, y + 3));
+    case 3:
+      return polygon(fmt::format("{:.1f},{:.1f} {:.1f},{:.1f} {:.1f},{:.1f} {:.1f},{:.1f}", x,
+                                 y - 4.4, x + 4.4, y, x, y + 4.4, x - 4.4, y));
+    default:
+      return fmt::format(
+          "<circle class=\"point\" cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"3.6\" fill=\"{}\"/>", x, y,
+          colour);
+  }
+}
+
+/// Draws one chart.
+class Drawing {
+ public:
+  Drawing(const ChartScene& scene, ChartAxis axis) : scene_(scene), axis_(axis) {
+    std::vector<double> xs, ys;
+    for (const ChartLine& line : scene.lines)
+      for (const ChartPoint& p : line.points)
+        if (p.trimmed > 0 && x_of(p, axis) > 0)
+          xs.push_back(x_of(p, axis)), ys.push_back(std::sqrt(p.trimmed));
+    x_ = axis_around(xs, kLeft, kRight, 0.03);
+    y_ = axis_around(ys, kBottom, kTop, 0.06);
+  }
+
+  std::string run() {
+    open();
+    grid();
+    guides();
+    noise();
+    for (size_t i = 0; i < scene_.lines.size(); ++i) line(i);
+    legend();
+    return svg_ + "</svg>\n";
+  }
+
+ private:
+  template <class... Args>
+  void add(fmt::format_string<Args...> text, Args&&... args) {
+    svg_ += fmt::format(text, std::forward<Args>(args)...) + "\n";
+  }
+
+  void open() {
+    const char* against = axis_ == ChartAxis::spp ? "samples per pixel" : "CPU seconds";
+    const std::string title = fmt::format("{}: error against {}", scene_.name, against);
+    add("<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {:.0f} {:.0f}\" role=\"img\" "
+        "font-family=\"system-ui, 'Segoe UI', Helvetica, Arial, sans-serif\" font-size=\"13\" "
+        "fill=\"#333a41\">",
+        kWidth, kHeight);
+    add("<title>{}</title>", escape_markup(title));
+    add("<desc>Relative RMSE without the worst 0.1 % of the pixels, on logarithmic axes</desc>");
+    add("<clipPath id=\"{}\"><rect x=\"{}\" y=\"{}\" width=\"{}\" height=\"{}\"/></clipPath>",
+        clip_, kLeft, kTop, kPlotWidth, kPlotHeight);
+    add("<rect width=\"100%\" height=\"100%\" rx=\"8\" fill=\"#ffffff\"/>");
+    add("<text x=\"{}\" y=\"26\" font-size=\"17\" font-weight=\"600\" fill=\"#1d2126\">{}</text>",
+        kLeft, escape_markup(scene_.name));
+    add("<text x=\"{}\" y=\"45\" fill=\"#667078\">relative RMSE (trimmed) against {}, {}×{}, {} "
+        "thread{}</text>",
+        kLeft, against, scene_.width, scene_.height, scene_.threads,
+        scene_.threads == 1 ? "" : "s");
+    add("<text x=\"{}\" y=\"{}\" text-anchor=\"middle\">{}</text>", kLeft + kPlotWidth / 2,
+        kBottom + 44, against);
+  }
+
+  void grid() {
+    add("<g class=\"grid\" stroke=\"#e4e7ea\">");
+    for (const Tick& t : ticks(x_))
+      add("<line x1=\"{0:.1f}\" x2=\"{0:.1f}\" y1=\"{1}\" y2=\"{2}\"/>", x_(t.value), kTop,
+          kBottom);
+    for (const Tick& t : ticks(y_))
+      add("<line x1=\"{1}\" x2=\"{2}\" y1=\"{0:.1f}\" y2=\"{0:.1f}\"/>", y_(t.value), kLeft,
+          kRight);
+    add("<rect x=\"{}\" y=\"{}\" width=\"{}\" height=\"{}\" fill=\"none\" stroke=\"#b9c0c6\"/>",
+        kLeft, kTop, kPlotWidth, kPlotHeight);
+    add("</g>\n<g class=\"ticks\">");
+    for (const Tick& t : ticks(x_))
+      if (t.labelled)
+        add("<text x=\"{:.1f}\" y=\"{}\" text-anchor=\"middle\">{}</text>", x_(t.value),
+            kBottom + 20, number(t.value));
+    for (const Tick& t : ticks(y_))
+      if (t.labelled)
+        add("<text x=\"{}\" y=\"{:.1f}\" text-anchor=\"end\">{}</text>", kLeft - 8,
+            y_(t.value) + 4.5, percent(t.value));
+    add("</g>");
+  }
+
+  /// Lines of known slopes through the upper left of the plot.
+  void guides() {
+    const double x0 = x_.low, x1 = x_.high;
+    const double y0 = std::pow(y_.high, 0.97) * std::pow(y_.low, 0.03);
+    add("<g class=\"guides\" clip-path=\"url(#{})\" stroke=\"#9aa3ab\" stroke-dasharray=\"5 5\" "
+        "fill=\"#7d868e\" font-size=\"12\">",
+        clip_);
+    for (const auto& [name, slope] : {std::pair("−1/2", -0.5), std::pair("−1/3", -1.0 / 3)}) {
+      const double y1 = y0 * std::pow(x1 / x0, slope);
+      add("<line class=\"guide\" data-slope=\"{:.4f}\" x1=\"{:.1f}\" y1=\"{:.1f}\" x2=\"{:.1f}\" "
+          "y2=\"{:.1f}\"/>",
+          slope, x_(x0), y_(y0), x_(x1), y_(y1));
+      // Its name stands near the end that is in view.
+      double xe = x0 * std::pow(x1 / x0, 0.93), ye = y0 * std::pow(xe / x0, slope);
+      if (ye < y_.low)
+        ye = y_.low * std::pow(y_.high / y_.low, 0.06), xe = x0 * std::pow(ye / y0, 1 / slope);
+      add("<text stroke=\"none\" x=\"{:.1f}\" y=\"{:.1f}\">{}</text>", x_(xe) + 4, y_(ye) - 6,
+          name);
+    }
+    add("</g>");
+  }
+
+  /// The reference's own noise, which has been subtracted.
+  void noise() {
+    const double level = std::sqrt(scene_.reference_noise);
+    if (!(level > 0) || !y_.contains(level)) return;
+    add("<g class=\"noise\"><line x1=\"{}\" x2=\"{}\" y1=\"{:.1f}\" y2=\"{:.1f}\" "
+        "stroke=\"#c3a46b\" "
+        "stroke-dasharray=\"2 4\"/><text x=\"{}\" y=\"{:.1f}\" font-size=\"11\" "
+        "fill=\"#8a6d33\">noise of the reference, subtracted</text></g>",
+        kLeft, kRight, y_(level), y_(level), kLeft + 6, y_(level) - 5);
+  }
+
+  void line(size_t index) {
+    const ChartLine& l = scene_.lines[index];
+    const std::string colour = chart_colour(index);
+    add("<g class=\"line\" data-name=\"{}\" clip-path=\"url(#{})\">", escape_markup(l.name), clip_);
+    std::string upper, lower, path;
+    const CurveFit& fit = fit_of(l, axis_);
+    for (size_t i = 0; i < l.points.size(); ++i) {
+      const ChartPoint& p = l.points[i];
+      if (!(p.trimmed > 0)) continue;
+      const double x = x_(x_of(p, axis_));
+      path += fmt::format("{:.1f},{:.1f} ", x, y_(std::sqrt(p.trimmed)));
+      const double low = std::sqrt(std::max(fit.value_95[i].low, 1e-4 * p.trimmed));
+      upper += fmt::format("{:.1f},{:.1f} ", x, y_(std::sqrt(fit.value_95[i].high)));
+      lower = fmt::format("{:.1f},{:.1f} ", x, y_(low)) + lower;
+    }
+    if (!path.empty()) {
+      add("<polygon class=\"band\" points=\"{}{}\" fill=\"{}\" fill-opacity=\"0.13\"/>", upper,
+          lower, colour);
+      add("<polyline points=\"{}\" fill=\"none\" stroke=\"{}\" stroke-width=\"2\"/>", path, colour);
+    }
+    for (const ChartPoint& p : l.points) {
+      if (!(p.trimmed > 0)) continue;
+      svg_ += marker(index, x_(x_of(p, axis_)), y_(std::sqrt(p.trimmed)), colour);
+    }
+    add("\n</g>");
+  }
+
+  void legend() {
+    add("<g class=\"legend\">");
+    double y = kTop + 10;
+    const double x = kRight + 20;
+    for (size_t i = 0; i < scene_.lines.size(); ++i) {
+      const ChartLine& l = scene_.lines[i];
+      add("<g class=\"entry\"><line x1=\"{}\" x2=\"{}\" y1=\"{}\" y2=\"{}\" stroke=\"{}\" "
+          "stroke-width=\"2\"/>{}",
+          x - 6, x + 12, y, y, chart_colour(i), marker(i, x + 3, y, chart_colour(i)));
+      constexpr size_t longest = 26;
+      const std::string name =
+          l.name.size() > longest ? l.name.substr(0, longest - 1) + "…" : l.name;
+      add("<text x=\"{}\" y=\"{}\" font-weight=\"600\">{}</text>", x + 20, y + 4.5,
+          escape_markup(name));
+      add("<text x=\"{}\" y=\"{}\" font-size=\"12\" fill=\"#667078\">{}</text></g>", x + 20, y + 21,
+          slope_text(fit_of(l, axis_)));
+      y += 46;
+    }
+    add("</g>");
+  }
+
+  static std::string slope_text(const CurveFit& fit) {
+    if (!fit.slope) return "too few points for a slope";
+    const auto number = [](double v) {
+      return (v < 0 ? "−" : "") + fmt::format("{:.2f}", std::abs(v));
+    };
+    return fmt::format("slope {} [{}, {}]", number(fit.slope->slope),
+                       number(fit.slope->slope_95.low), number(fit.slope->slope_95.high));
+  }
+
+  const ChartScene& scene_;
+  const ChartAxis axis_;
+  /// Pages hold several charts: a name of its own, as far as they differ.
+  const char* const clip_ = axis_ == ChartAxis::spp ? "plot-spp" : "plot-time";
+  LogAxis x_{}, y_{};
+  std::string svg_;
+};
+
+}  // namespace
+
+std::string chart_colour(size_t index) {
+  static constexpr const char* colours[] = {"#0b6fb8", "#d9541a", "#12906a", "#a64ca6",
+                                            "#c99700", "#4aa8dd", "#6a51a3", "#7a5230"};
+  return colours[index % std::size(colours)];
+}
+
+std::string chart_svg(const ChartScene& scene, ChartAxis axis) {
+  return Drawing(scene, axis).run();
+}
+
+}  // namespace duet
