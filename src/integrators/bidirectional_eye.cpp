@@ -10,6 +10,9 @@ namespace {
 /// lobe of the BSDF, roulette.
 constexpr uint32_t kDimensionsPerVertex = 8;
 constexpr uint32_t kBsdfDimension = 4;
+/// Photons in the cells around a vertex from which on only some of them are merged: all light on
+/// one spot must not make the time grow with the square of the photons.
+constexpr size_t kCrowd = 4096;
 
 /// Weights of path tracing alone, for the tail of the thesis.
 struct TailWeights {
@@ -182,16 +185,19 @@ void BidirectionalIntegrator::merge(const Weights& weights, const PathVertex& v,
   const std::vector<LightVertex>& photons = lights_.vertices().vertices;
   const float kernel = 1 / (set_.merge_area * set_.light_paths);
   ++eye.counters.merge_queries;
-  grid_.query(v.position(), [&](uint32_t index, float) {
+  const auto visit = [&](uint32_t index, float, size_t share) {
     const LightVertex& photon = photons[index];
     if (int(photon.depth) + v.depth > max_depth_) return;
-    const Join found = join_merge(weights, photon, v, kernel, options_.strict_normals);
+    const Join found =
+        join_merge(weights, photon, v, kernel * float(share), options_.strict_normals);
     if (found.value.is_black()) return;
     ++eye.counters.merges;
     eye.sum += found.value * found.weight;
     if (const size_t layer = layers_.merge(int(photon.depth) + 1, v.depth + 1))
       add_to_layer(eye.values, layer, raw_techniques_ ? found.value : found.value * found.weight);
-  });
+  };
+  grid_.sample(
+      v.position(), kCrowd, [&] { return eye.draw(); }, visit);
 }
 
 bool BidirectionalIntegrator::enter_tail(Walk& walk, Eye& eye) const {
