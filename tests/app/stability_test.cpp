@@ -3,6 +3,7 @@
 #include <doctest/doctest.h>
 
 #include <nlohmann/json.hpp>
+#include <set>
 
 #include "app/workplace.h"
 
@@ -144,6 +145,18 @@ TEST_SUITE("program") {
     const Outcome o = c.run({"stability", "--catalogue", "nowhere"});
     CHECK(o.code == 2);
     CHECK(contains(o.err, "nowhere"));
+  }
+
+  TEST_CASE("stability: the catalogue has all 42 failures and can be read") {
+    const Workplace place;
+    CHECK(place.run({"stability", "--list"}).code == 0);
+    const json rows = json::parse(read_file(DUET_SOURCE_DIR "/scenes/stability/catalogue.json"));
+    std::set<int> numbers;
+    for (const json& row : rows) numbers.insert(row.value("number", 0));
+    for (int n = 1; n <= 42; ++n) {
+      CAPTURE(n);
+      CHECK(numbers.contains(n));
+    }
   }
 
   TEST_CASE("stability: mistakes in a catalogue are named") {
