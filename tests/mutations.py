@@ -40,7 +40,7 @@ MUTATIONS = [
     ("adjoint of shading normals dropped", "src/transport/path_vertex.h",
      "if (shading == geometric) return 1;", "return 1;", MEAN),
     ("photons count twice", "src/integrators/bidirectional_eye.cpp",
-     "const float kernel = 1 /", "const float kernel = 2 /", "merging hardly*"),
+     "const float kernel = eye.photon_share", "const float kernel = 2 * eye.photon_share", "merging hardly*"),
     ("merges dropped from the sum of the eye", "src/transport/mis.h",
      "eye.vcm * connection_term + eye_reverse * eye.vm", "eye.vcm * connection_term", SUMS),
     ("connections see through walls", "src/transport/join.h",

@@ -37,5 +37,6 @@ void add_info_command(CLI::App& app, int& exit_code);
 void add_compare_command(CLI::App& app, int& exit_code);
 void add_chart_command(CLI::App& app, int& exit_code);
 void add_plugins_command(CLI::App& app, int& exit_code);
+void add_stability_command(CLI::App& app, int& exit_code);
 
 }  // namespace duet

@@ -67,6 +67,7 @@ int run(std::vector<std::string> arguments) {
   add_compare_command(app, exit_code);
   add_chart_command(app, exit_code);
   add_plugins_command(app, exit_code);
+  add_stability_command(app, exit_code);
   try {
     if (names_no_command(arguments, app)) arguments.insert(arguments.begin(), "render");
     const std::string help = arguments.empty() ? "duet --help" : "duet " + arguments[0] + " --help";

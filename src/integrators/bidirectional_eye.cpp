@@ -10,6 +10,9 @@ namespace {
 /// lobe of the BSDF, roulette.
 constexpr uint32_t kDimensionsPerVertex = 8;
 constexpr uint32_t kBsdfDimension = 4;
+/// Photons in the cells around a vertex from which on only some of them are merged: all light on
+/// one spot must not make the time grow with the square of the photons.
+constexpr size_t kCrowd = 4096;
 
 /// Weights of path tracing alone, for the tail of the thesis.
 struct TailWeights {
@@ -37,6 +40,7 @@ struct BidirectionalIntegrator::Eye {
   size_t light_walk = 0;  ///< the one that belongs to the pixel
   /// Its vertices, once the walk has a vertex to join them with.
   const std::vector<PathVertex>* light_vertices = nullptr;
+  float photon_share = 1;             ///< for how many photons each of them stands
   VertexGrid::Neighborhood around{};  ///< where photons near the vertex under way are looked for
 
   float draw() {
@@ -187,15 +191,19 @@ void BidirectionalIntegrator::find_photons(const PathVertex& v, Eye& eye) const 
   const std::vector<LightVertex>& photons = lights_.vertices().vertices;
   ++eye.counters.merge_queries;
   eye.photons.clear();
-  grid_.query(v.position(), eye.around, [&](uint32_t index, float) {
-    __builtin_prefetch(&photons[index]);
-    eye.photons.push_back(index);
-  });
+  eye.photon_share = 1;
+  grid_.sample(
+      v.position(), eye.around, kCrowd, [&] { return eye.draw(); },
+      [&](uint32_t index, float, size_t share) {
+        __builtin_prefetch(&photons[index]);
+        eye.photons.push_back(index);
+        eye.photon_share = float(share);
+      });
 }
 
 template <class Weights>
 void BidirectionalIntegrator::merge(const Weights& weights, const PathVertex& v, Eye& eye) const {
-  const float kernel = 1 / (set_.merge_area * set_.light_paths);
+  const float kernel = eye.photon_share / (set_.merge_area * set_.light_paths);
   for (const uint32_t index : eye.photons) {
     const LightVertex& photon = lights_.vertices().vertices[index];
     if (int(photon.depth) + v.depth > max_depth_) continue;

@@ -41,6 +41,13 @@ class VertexGrid {
   template <class Visit>
   void query(const Point3f& p, const Neighborhood& around, Visit&& visit) const;
 
+  /// The same, but bounded in time: where more than `most` points are in the cells around p, only
+  /// one in n of them is looked at, counted from one that `random()`, in [0, 1), chooses. Each has
+  /// the chance 1 / n to be among them, and `visit(index, distance_squared, n)` is told.
+  template <class Random, class Visit>
+  void sample(const Point3f& p, const Neighborhood& around, size_t most, Random&& random,
+              Visit&& visit) const;
+
   /// What is kept between builds: at most 16 bytes for every point and 8 for every bucket of the
   /// largest build so far. There are as many buckets as points, rounded up to a power of two, and
   /// at least 8.
@@ -149,20 +156,36 @@ inline VertexGrid::Neighborhood VertexGrid::locate(const Point3f& p) const {
 
 template <class Visit>
 void VertexGrid::query(const Point3f& p, const Neighborhood& around, Visit&& visit) const {
+  sample(
+      p, around, size_, [] { return 0.0f; },
+      [&](uint32_t index, float distance_squared, size_t) { visit(index, distance_squared); });
+}
+
+template <class Random, class Visit>
+void VertexGrid::sample(const Point3f& p, const Neighborhood& around, size_t most, Random&& random,
+                        Visit&& visit) const {
   if (size_ == 0) return;
   const Entry* begin[8];
   const Entry* end[8];
+  size_t total = 0;
   for (int k = 0; k < 8; ++k) {
     const uint32_t b = around.buckets_[k];
     begin[k] = entries_.get() + starts_[b], end[k] = entries_.get() + starts_[b + 1];
+    total += size_t(end[k] - begin[k]);
     if (begin[k] != end[k]) __builtin_prefetch(begin[k]);
   }
+  const size_t stride = total > most ? (total + most - 1) / most : 1;
+  size_t skip = 0;
+  if (stride > 1) skip = std::min(stride - 1, size_t(random() * float(stride)));
   const float radius_squared = sqr(radius_);
   for (int k = 0; k < 8; ++k) {
-    for (const Entry* e = begin[k]; e != end[k]; ++e) {
-      const float distance_squared = length_squared(e->position - p);
-      if (distance_squared < radius_squared) visit(e->index, distance_squared);
+    const size_t count = size_t(end[k] - begin[k]);
+    for (; skip < count; skip += stride) {
+      const Entry& e = begin[k][skip];
+      const float distance_squared = length_squared(e.position - p);
+      if (distance_squared < radius_squared) visit(e.index, distance_squared, stride);
     }
+    skip -= count;
   }
 }
 

@@ -154,7 +154,8 @@ TEST_SUITE("program") {
   TEST_CASE("help is complete and has examples") {
     const Workplace place;
     const std::pair<Arguments, Arguments> cases[] = {
-        {{"--help"}, {"render", "info", "compare", "plugins", "--version", "duet SCENE..."}},
+        {{"--help"},
+         {"render", "info", "compare", "plugins", "stability", "--version", "duet SCENE..."}},
         {{"render", "--help"},
          {"--output",
           "--integrator",
@@ -196,6 +197,9 @@ TEST_SUITE("program") {
                                  "negative",   "PASS",      "NOISY",
                                  "BIASED",     "FAIL",      "Example:"}},
         {{"plugins", "--help"}, {"--markdown", "kind", "Examples:"}},
+        {{"stability", "--help"},
+         {"--fast", "--methods", "--list", "--markdown", "--json", "--catalogue", "Exit codes",
+          "Examples:"}},
     };
     for (const auto& [arguments, parts] : cases) {
       const Outcome o = place.run(arguments);

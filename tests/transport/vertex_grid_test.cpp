@@ -2,6 +2,7 @@
 
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <bit>
 #include <cmath>
 
@@ -91,6 +92,44 @@ TEST_CASE("vertex grid finds what brute force finds, at any scale and radius") {
       compare(scaled(unit, scale, shift), scaled(asked, scale, shift), r);
     }
   }
+}
+
+TEST_CASE("vertex grid looks at some of the points of a crowd, each with the same chance") {
+  const Points points = scaled(random_points(5000, 21), 0.01f);
+  VertexGrid grid;
+  build(grid, points, 0.008f);
+  const Point3f p = points[7];
+  const size_t all = ask(grid, p).size();
+  REQUIRE(all > 500);
+  for (const size_t most : {size_t(50), size_t(100), size_t(777)}) {
+    CAPTURE(most);
+    std::vector<int> visits(points.size());
+    size_t share = 0, passes = 0;
+    // Every way to begin: each point is found once, and counted as often as there are ways.
+    for (size_t first = 0; first == 0 || first < share; ++first, ++passes) {
+      size_t looked = 0;
+      grid.sample(
+          p, grid.locate(p), most,
+          [&] { return share > 0 ? (float(first) + 0.5f) / float(share) : 0.0f; },
+          [&](uint32_t index, float, size_t n) {
+            ++visits[index], ++looked;
+            share = n;
+          });
+      CHECK(looked <= most);
+      REQUIRE(share > 0);
+    }
+    CHECK(std::count(visits.begin(), visits.end(), 1) == long(all));
+    CHECK(std::count(visits.begin(), visits.end(), 0) == long(points.size() - all));
+    CHECK(passes == share);
+  }
+  size_t found = 0;
+  grid.sample(
+      p, grid.locate(p), points.size(), [] { return 0.9f; },
+      [&](uint32_t, float, size_t n) {
+        CHECK(n == 1);
+        ++found;
+      });
+  CHECK(found == all);
 }
 
 TEST_CASE("vertex grid finds points on axis-aligned planes from queries on them") {

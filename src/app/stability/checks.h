@@ -1,0 +1,87 @@
+// The statistics of the stability table: what is measured, and when it holds.
+#pragma once
+
+#include <functional>
+#include <span>
+#include <string>
+
+#include "app/stability/catalogue.h"
+#include "app/stability/laboratory.h"
+#include "math/significance.h"
+
+namespace duet::stability {
+
+/// Level of significance of the whole table: the chance that any cell fails by bad luck.
+inline constexpr double kTableLevel = 0.01;
+
+struct Measurement {
+  double value = 0;
+  double error = 0;  ///< standard error of the value, where there is one
+  bool holds = true;
+  std::string detail;  ///< for people: further figures
+};
+
+/// A cell of the table about to be measured.
+struct Cell {
+  const Row& row;
+  const std::string& method;
+  Laboratory& laboratory;
+  double level;  ///< of significance, for this cell alone
+  double limit;  ///< of the statistic
+};
+
+enum class Unit { percent, number, count };
+
+struct Check {
+  const char* name;
+  Unit unit;
+  double limit;         ///< unless the row has one of its own
+  const char* summary;  ///< what the value is and when it holds; "{}" stands for the limit
+  bool needs_reference;
+  Measurement (*measure)(const Cell& cell);
+};
+/// All statistics, for catalogue files and for the documentation.
+std::span<const Check> checks();
+const Check& find_check(const std::string& name);
+
+// The checks, by the file that they are in.
+// checks_mean.cpp: whether means are right.
+Measurement measure_tiles(const Cell& cell);
+Measurement measure_pixels(const Cell& cell);
+Measurement measure_energy(const Cell& cell);
+Measurement measure_region(const Cell& cell);
+Measurement measure_paired(const Cell& cell);
+Measurement measure_shrinking(const Cell& cell);
+// checks_noise.cpp: how noise behaves.
+Measurement measure_fireflies(const Cell& cell);
+Measurement measure_spike(const Cell& cell);
+Measurement measure_noise(const Cell& cell);
+Measurement measure_jump(const Cell& cell);
+Measurement measure_efficiency(const Cell& cell);
+Measurement measure_variance(const Cell& cell);
+// check_slope.cpp: how fast errors shrink.
+Measurement measure_slope(const Cell& cell);
+Measurement measure_slope_debiasing(const Cell& cell);
+// checks_exact.cpp: what has no noise.
+Measurement measure_bits(const Cell& cell);
+Measurement measure_finite(const Cell& cell);
+Measurement measure_crowding(const Cell& cell);
+Measurement measure_stops(const Cell& cell);
+
+// What checks share.
+/// Measures every variant of the row: the result is that of the worst one, and holds if all hold.
+Measurement worst_variant(const Cell& cell,
+                          const std::function<Measurement(const Variant&)>& measure);
+/// Pixels that are not finite or negative, and more than a millionth of dropped samples, fail
+/// whatever is measured.
+void require_finite(const Series& series, Measurement& m);
+/// Of each image, the means of grid × grid tiles.
+std::vector<std::vector<double>> tile_means(const Series& series, int grid_x, int grid_y);
+/// The mean of the image over a region, of each image.
+std::vector<double> region_means(const Series& series, const Region& region);
+/// The mean of the row's region, in images made in some way, against that of the reference.
+Measurement compare_energy(const Cell& cell, const Series& subject, const Variant& variant);
+/// The mean of all images, pixel by pixel.
+std::vector<double> mean_image(const Series& series);
+
+}  // namespace duet::stability

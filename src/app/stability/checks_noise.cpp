@@ -1,0 +1,172 @@
+// How noise behaves: fireflies, spikes, variances and what they cost.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <numeric>
+
+#include "app/stability/checks.h"
+
+namespace duet::stability {
+
+namespace {
+
+/// Shares of the pixel values that count as their tail.
+constexpr double kBrightest = 0.001, kTail = 0.003;
+
+/// Hill's estimate of the exponent of the tail of the values: below 2 the variance is infinite.
+/// Source: Hill, "A simple general approach to inference about the tail of a distribution", Annals
+/// of Statistics 3, 1975. `values` are sorted from the greatest down.
+double hill_index(const std::vector<float>& values) {
+  const size_t k = size_t(kTail * double(values.size()));
+  if (k < 2 || !(values[k] > 0)) return INFINITY;
+  double sum = 0;
+  for (size_t i = 0; i < k; ++i) sum += std::log(double(values[i]) / double(values[k]));
+  return sum > 0 ? double(k) / sum : INFINITY;
+}
+
+/// Per pixel, the variance of an image relative to the squared mean; the worst thousandth is left
+/// out. `mean` is what they are relative to, with a hundredth of the mean square added.
+double relative_variance(const Series& series, const std::vector<double>& mean) {
+  double scale2 = 0;
+  for (const double m : mean) scale2 += m * m;
+  scale2 /= double(mean.size());
+  std::vector<double> values(series.pixels()), pixel(series.images.size());
+  for (size_t i = 0; i < values.size(); ++i) {
+    for (size_t b = 0; b < pixel.size(); ++b) pixel[b] = double(series.images[b][i]);
+    values[i] =
+        estimate_mean(pixel).error2 * double(pixel.size()) / (mean[i] * mean[i] + 0.01 * scale2);
+  }
+  std::sort(values.begin(), values.end());
+  values.resize(values.size() - size_t(std::ceil(kBrightest * double(values.size()))));
+  return std::accumulate(values.begin(), values.end(), 0.0) / double(values.size());
+}
+
+double relative_variance(const Series& series) {
+  return relative_variance(series, mean_image(series));
+}
+
+}  // namespace
+
+Measurement measure_fireflies(const Cell& cell) {
+  return worst_variant(cell, [&](const Variant& v) {
+    SeriesPlan plan = subject_plan(cell.row, cell.method, v);
+    plan.spp = 1;
+    const Series& s = cell.laboratory.render(plan);
+    std::vector<float> values;
+    for (const std::vector<float>& image : s.images)
+      values.insert(values.end(), image.begin(), image.end());
+    std::sort(values.begin(), values.end(), std::greater<>());
+    const double total = std::accumulate(values.begin(), values.end(), 0.0);
+    const size_t brightest = size_t(std::ceil(kBrightest * double(values.size())));
+    Measurement m;
+    m.value = std::accumulate(values.begin(), values.begin() + ptrdiff_t(brightest), 0.0) / total;
+    m.holds = m.value < cell.limit;
+    m.detail = fmt::format("Hill index {:.2f}", hill_index(values));
+    require_finite(s, m);
+    return m;
+  });
+}
+
+Measurement measure_spike(const Cell& cell) {
+  return worst_variant(cell, [&](const Variant& v) {
+    const Series& s = cell.laboratory.render(subject_plan(cell.row, cell.method, v));
+    const std::vector<double> image = mean_image(s);
+    const double mean = std::accumulate(image.begin(), image.end(), 0.0) / double(image.size());
+    Measurement m;
+    for (int y = 0; y < s.height; ++y)
+      for (int x = 0; x < s.width; ++x) {
+        std::vector<double> near;
+        for (int j = std::max(0, y - 2); j <= std::min(s.height - 1, y + 2); ++j)
+          for (int i = std::max(0, x - 2); i <= std::min(s.width - 1, x + 2); ++i)
+            if (i != x || j != y) near.push_back(image[size_t(j) * size_t(s.width) + size_t(i)]);
+        std::nth_element(near.begin(), near.begin() + ptrdiff_t(near.size() / 2), near.end());
+        // Where all around is nearly black there is nothing to be brighter than.
+        const double median = std::max(near[near.size() / 2], 1e-3 * mean);
+        m.value = std::max(m.value, image[size_t(y) * size_t(s.width) + size_t(x)] / median);
+      }
+    m.holds = m.value < cell.limit;
+    require_finite(s, m);
+    return m;
+  });
+}
+
+Measurement measure_noise(const Cell& cell) {
+  return worst_variant(cell, [&](const Variant& v) {
+    const Series& s = cell.laboratory.render(subject_plan(cell.row, cell.method, v));
+    Measurement m;
+    m.value = std::sqrt(relative_variance(s));
+    m.holds = m.value < cell.limit;
+    require_finite(s, m);
+    return m;
+  });
+}
+
+Measurement measure_jump(const Cell& cell) {
+  Measurement m;
+  double before = 0;
+  std::string before_label;
+  for (const Variant& v : cell.row.variants) {
+    const Series& s = cell.laboratory.render(subject_plan(cell.row, cell.method, v));
+    const double variance = relative_variance(s);
+    const double ratio = before > 0 ? std::max(variance / before, before / variance) : 1;
+    if (ratio > m.value) {
+      m.value = ratio;
+      m.detail = before > 0 ? before_label + " to " + v.label : "";
+    }
+    before = variance, before_label = v.label;
+    require_finite(s, m);
+  }
+  m.holds &= m.value < cell.limit;
+  return m;
+}
+
+Measurement measure_efficiency(const Cell& cell) {
+  return worst_variant(cell, [&](const Variant& v) {
+    const Series& a = cell.laboratory.render(subject_plan(cell.row, cell.method, v));
+    const Series b = render_reference(cell.laboratory, cell.row, cell.method, v);
+    const std::vector<double> mean = mean_image(b);
+    const double va = relative_variance(a, mean), vb = relative_variance(b, mean);
+    Measurement m;
+    m.value = vb * b.rays() / (va * a.rays());
+    // Deviations of variances from few images are about as large as this.
+    m.error = m.value * std::sqrt(2.0 / double(a.images.size() * a.pixels()) +
+                                  2.0 / double(b.images.size() * b.pixels()));
+    m.holds = m.value >= cell.limit;
+    m.detail = fmt::format("variance x {:.3g}, rays x {:.3g}", va / vb, a.rays() / b.rays());
+    require_finite(a, m);
+    return m;
+  });
+}
+
+Measurement measure_variance(const Cell& cell) {
+  constexpr int kLonger = 16;
+  return worst_variant(cell, [&](const Variant& v) {
+    SeriesPlan plan = subject_plan(cell.row, cell.method, v);
+    const Series& one = cell.laboratory.render(plan);
+    plan.spp *= kLonger;
+    const Series& many = cell.laboratory.render(plan);
+    const std::vector<double> mean = mean_image(many);
+    Measurement m;
+    m.value = kLonger * relative_variance(many, mean) / relative_variance(one, mean);
+    m.holds = m.value < cell.limit;
+    // Noise that all pixels share: variance of the mean of the image, against that of independent
+    // pixels.
+    double independent = 0;
+    std::vector<double> pixel(one.images.size());
+    for (size_t i = 0; i < one.pixels(); ++i) {
+      for (size_t b = 0; b < pixel.size(); ++b) pixel[b] = double(one.images[b][i]);
+      independent += estimate_mean(pixel).error2;
+    }
+    independent /= double(one.pixels()) * double(one.pixels());
+    const double shared = estimate_mean(region_means(one, {0, 0, 1, 1})).error2 / independent;
+    m.detail = fmt::format(
+        "variance of the image's mean is {:.1f} times that of independent pixels", shared);
+    require_finite(one, m);
+    require_finite(many, m);
+    return m;
+  });
+}
+
+}  // namespace duet::stability

@@ -1,0 +1,111 @@
+#include "app/stability/table.h"
+
+#include <fmt/format.h>
+
+#include <chrono>
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+namespace duet::stability {
+
+double limit_of(const Row& row) {
+  return row.limit.value_or(find_check(row.check).limit);
+}
+
+std::string format_value(const Row& row, double value) {
+  switch (find_check(row.check).unit) {
+    case Unit::percent:
+      return std::abs(value) < 1e-3 && value != 0 ? fmt::format("{:.1g} %", 100 * value)
+             : std::abs(value) < 0.0995           ? fmt::format("{:.2f} %", 100 * value)
+                                                  : fmt::format("{:.1f} %", 100 * value);
+    case Unit::number:
+      return fmt::format("{:.3g}", value);
+    case Unit::count:
+      return fmt::format("{:.0f}", value);
+  }
+  return "";
+}
+
+CellResult judge(const Catalogue& catalogue, const Row& row, const std::string& method,
+                 Laboratory& laboratory) {
+  const Expectation& expected = row.methods.at(method);
+  CellResult result;
+  result.method = method;
+  result.why = expected.why;
+  if (expected.verdict == Expected::not_applicable) return result;
+  const auto start = std::chrono::steady_clock::now();
+  const double level = sidak_level(kTableLevel, catalogue.measured_cells());
+  result.measured = find_check(row.check).measure({row, method, laboratory, level, limit_of(row)});
+  result.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  const Measurement& m = result.measured;
+  if (expected.verdict == Expected::holds) {
+    result.outcome = m.holds ? Outcome::holds : Outcome::unexpected;
+    if (!m.holds) result.why = "fails, but is expected to hold";
+    return result;
+  }
+  // Written so that what is not a number is out of bounds.
+  const bool within = m.value >= expected.least && m.value <= expected.most;
+  result.outcome = !m.holds && within ? Outcome::fails_as_known : Outcome::unexpected;
+  if (m.holds)
+    result.why = "holds, but is known to fail";
+  else if (!within)
+    result.why = fmt::format("fails, but not by {} to {} as known",
+                             format_value(row, expected.least), format_value(row, expected.most));
+  return result;
+}
+
+bool all_as_expected(const std::vector<RowResult>& results) {
+  for (const RowResult& r : results)
+    for (const CellResult& c : r.cells)
+      if (c.outcome == Outcome::unexpected) return false;
+  return true;
+}
+
+std::string describe(const Row& row, const CellResult& cell) {
+  switch (cell.outcome) {
+    case Outcome::holds:
+      return "holds";
+    case Outcome::fails_as_known: {
+      const Expectation& e = row.methods.at(cell.method);
+      return fmt::format("fails as known ({} to {})", format_value(row, e.least),
+                         format_value(row, e.most));
+    }
+    case Outcome::not_applicable:
+      return "not applicable";
+    case Outcome::unexpected:
+      return "NOT AS EXPECTED: " + cell.why;
+  }
+  return "";
+}
+
+std::string json(const std::vector<RowResult>& results) {
+  using Json = nlohmann::ordered_json;
+  Json rows = Json::array();
+  for (const RowResult& r : results) {
+    Json row{{"name", r.row->name}, {"number", r.row->number}, {"title", r.row->title}};
+    if (!r.row->planned.empty()) {
+      row["planned"] = r.row->planned;
+      rows.push_back(row);
+      continue;
+    }
+    row["check"] = r.row->check;
+    row["limit"] = limit_of(*r.row);
+    for (const CellResult& c : r.cells) {
+      Json cell{{"method", c.method}, {"outcome", describe(*r.row, c)}};
+      cell["as_expected"] = c.outcome != Outcome::unexpected;
+      if (!c.why.empty()) cell["why"] = c.why;
+      if (c.outcome != Outcome::not_applicable) {
+        cell["value"] = c.measured.value;
+        cell["error"] = c.measured.error;
+        cell["holds"] = c.measured.holds;
+        cell["detail"] = c.measured.detail;
+        cell["seconds"] = c.seconds;
+      }
+      row["cells"].push_back(cell);
+    }
+    rows.push_back(row);
+  }
+  return rows.dump(2) + "\n";
+}
+
+}  // namespace duet::stability

@@ -1,0 +1,185 @@
+// duet stability: every method on the scenes where methods fail.
+#include <fmt/ranges.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <filesystem>
+
+#include "app/arguments.h"
+#include "app/commands.h"
+#include "app/output.h"
+#include "app/signals.h"
+#include "app/stability/table.h"
+#include "base/atomic_file.h"
+#include "base/diagnostics.h"
+#include "base/log.h"
+#include "base/parallel.h"
+
+namespace duet {
+
+namespace {
+
+using namespace stability;
+
+struct StabilityOptions {
+  std::vector<std::string> cases;
+  std::string methods, markdown, json, folder, threads;
+  bool fast = false, list = false, quiet = false;
+};
+
+/// The catalogue that the option names; otherwise that of the source tree, or the installed one.
+std::string catalogue_folder(const std::string& option) {
+  if (!option.empty()) return option;
+  std::error_code ignored;
+  for (const char* folder : {DUET_STABILITY_SOURCE, DUET_STABILITY_INSTALLED})
+    if (std::filesystem::exists(std::string(folder) + "/catalogue.json", ignored)) return folder;
+  return DUET_STABILITY_INSTALLED;
+}
+
+/// Rows by their names or by the numbers of their failures; all, or all fast ones, if none is
+/// named.
+std::vector<const Row*> select_rows(const Catalogue& catalogue, const StabilityOptions& o) {
+  std::vector<const Row*> rows;
+  std::vector<std::string> names;
+  for (const Row& row : catalogue.rows) names.push_back(row.name);
+  for (const std::string& wanted : o.cases) {
+    const bool known = std::any_of(catalogue.rows.begin(), catalogue.rows.end(), [&](const Row& r) {
+      return r.name == wanted || (r.number > 0 && fmt::to_string(r.number) == wanted);
+    });
+    if (!known)
+      throw UsageError(fmt::format("there is no case \"{}\"{}; duet stability --list names them",
+                                   wanted, did_you_mean(wanted, names)));
+  }
+  for (const Row& row : catalogue.rows) {
+    const auto is_this = [&](const std::string& wanted) {
+      return wanted == row.name || (row.number > 0 && wanted == fmt::to_string(row.number));
+    };
+    const bool named = std::any_of(o.cases.begin(), o.cases.end(), is_this);
+    if ((o.cases.empty() || named) && (!o.fast || row.fast)) rows.push_back(&row);
+  }
+  if (rows.empty()) throw UsageError("none of these cases is part of --fast");
+  return rows;
+}
+
+std::vector<std::string> select_methods(const std::string& list) {
+  const std::vector<std::string> known(kMethods.begin(), kMethods.end());
+  if (list.empty()) return known;
+  std::vector<std::string> methods;
+  for (const std::string& name : CLI::detail::split(list, ',')) {
+    if (std::find(known.begin(), known.end(), name) == known.end())
+      throw UsageError(fmt::format("--methods: there is no method \"{}\"{}; there are {}", name,
+                                   did_you_mean(name, known), fmt::join(known, ", ")));
+    methods.push_back(name);
+  }
+  return methods;
+}
+
+void print_list(const std::vector<const Row*>& rows) {
+  for (const Row* row : rows)
+    fmt::print("{:>3} {:22} {:6} {}\n", row->number > 0 ? fmt::to_string(row->number) : "",
+               row->name,
+               !row->planned.empty() ? "planned"
+               : row->fast           ? "fast"
+                                     : "",
+               row->title);
+}
+
+void print_cell(const Row& row, const CellResult& c) {
+  std::string line = fmt::format(
+      "{:>3} {:22} {:8}", row.number > 0 ? fmt::to_string(row.number) : "", row.name, c.method);
+  if (c.outcome == Outcome::not_applicable) {
+    fmt::print("{} {:>20} {}\n", line, "", describe(row, c));
+  } else {
+    std::string value = format_value(row, c.measured.value);
+    if (c.measured.error > 0) value += " ± " + format_value(row, c.measured.error);
+    // The sign is one column of two bytes.
+    const size_t width = 20 + (c.measured.error > 0);
+    fmt::print("{} {:>{}} {}{}\n", line, value, width, describe(row, c),
+               c.measured.detail.empty() ? "" : "; " + c.measured.detail);
+  }
+  std::fflush(stdout);
+}
+
+void write_text(const std::string& path, const std::string& text) {
+  write_file_atomically(path, {reinterpret_cast<const uint8_t*>(text.data()), text.size()});
+}
+
+int run_stability(const StabilityOptions& o) {
+  const Catalogue catalogue = read_catalogue(catalogue_folder(o.folder));
+  const std::vector<const Row*> rows = select_rows(catalogue, o);
+  const std::vector<std::string> methods = select_methods(o.methods);
+  for (const std::string& path : {o.markdown, o.json})
+    if (const std::string why = path.empty() ? "" : unwritable_reason(path); !why.empty())
+      throw UsageError(fmt::format("cannot write {}: {}", path, why));
+  if (!o.markdown.empty() && methods.size() < kMethods.size())
+    throw UsageError("--markdown writes the columns of all methods: leave --methods away");
+  if (o.list) {
+    print_list(rows);
+    return kSuccess;
+  }
+  const int threads =
+      o.threads.empty() ? hardware_threads() : int(parse_whole("--threads", o.threads, 1, 4096));
+  if (o.quiet) log::set_level(log::Level::quiet);
+  install_signal_handlers();
+  std::vector<RowResult> results;
+  double seconds = 0;
+  try {
+    for (const Row* row : rows) {
+      RowResult& result = results.emplace_back(RowResult{row, {}});
+      if (!row->planned.empty()) {
+        fmt::print("{:>3} {:22} planned: {}\n", row->number, row->name, row->planned);
+        continue;
+      }
+      log::info("[{}/{}] {}: {}", results.size(), rows.size(), row->name, row->title);
+      Laboratory laboratory(threads, [] { return interrupt_exit_code() != 0; });
+      for (const std::string& method : methods) {
+        result.cells.push_back(judge(catalogue, *row, method, laboratory));
+        seconds += result.cells.back().seconds;
+        print_cell(*row, result.cells.back());
+      }
+    }
+  } catch (const Laboratory::Cancelled&) {
+    log::warning("interrupted: the table is not complete, and no file is written");
+    return interrupt_exit_code();
+  }
+  if (!o.markdown.empty()) write_text(o.markdown, markdown(catalogue, results, command_line));
+  if (!o.json.empty()) write_text(o.json, json(results));
+  int cells = 0, unexpected = 0;
+  for (const RowResult& r : results)
+    for (const CellResult& c : r.cells) {
+      cells += c.outcome != Outcome::not_applicable;
+      unexpected += c.outcome == Outcome::unexpected;
+    }
+  fmt::print("{} of {} cells as expected\n", cells - unexpected, cells);
+  log::info("measured in {:.0f} s", seconds);
+  return unexpected == 0 ? kSuccess : kSceneFailed;
+}
+
+}  // namespace
+
+void add_stability_command(CLI::App& app, int& exit_code) {
+  CLI::App* c = app.add_subcommand(
+      "stability", "Run every method on the scenes where methods fail, and judge what comes out");
+  const auto o = std::make_shared<StabilityOptions>();
+  c->add_option("case", o->cases, "Rows of the catalogue, by name or number (default: all)");
+  c->add_flag("--fast", o->fast, "Only those that together take less than a minute");
+  c->add_option("--methods", o->methods, "Only these, such as path,bdpt");
+  c->add_flag("--list", o->list, "Name the rows and run nothing");
+  c->add_option("--markdown", o->markdown, "Also write the table as docs/stability.md has it");
+  c->add_option("--json", o->json, "Also write it for programs");
+  c->add_option("--catalogue", o->folder,
+                "Folder with another catalogue.json and the scenes that it names")
+      ->check(CLI::ExistingDirectory);
+  c->add_option("-t,--threads", o->threads, "Threads (default: all); the table is the same");
+  c->add_flag("-q,--quiet", o->quiet, "No progress on standard error");
+  c->footer(
+      "Every method is expected to hold, to fail as known, or not to apply (docs/stability.md).\n"
+      "Exit codes: 0 all as expected; 1 something is not; 2 wrong usage; 130/143 interrupted.\n"
+      "Examples:\n"
+      "  duet stability --fast\n"
+      "  duet stability point-light-mirror 27 --methods bdpt,vcm\n"
+      "  duet stability --markdown docs/stability.md --json stability.json");
+  c->callback([o, &exit_code] { exit_code = run_stability(*o); });
+}
+
+}  // namespace duet

@@ -1,0 +1,192 @@
+// duet stability: catalogues, verdicts and exit codes. The catalogue itself is run by the test
+// stability_fast, and wholly by the slow one.
+#include <doctest/doctest.h>
+
+#include <nlohmann/json.hpp>
+#include <set>
+
+#include "app/workplace.h"
+
+using namespace duet::test;
+
+namespace {
+
+using nlohmann::json;
+
+/// A folder with a catalogue of one row: a grey ball under a white sky, whose mean is not 1.
+struct Cabinet : Workplace {
+  Cabinet() {
+    std::filesystem::create_directory(path("ball"));
+    write("ball/scene.xml", R"(<scene version="3.0.0">
+<default name="albedo" value="1"/>
+<integrator type="path"/>
+<sensor type="perspective"><float name="fov" value="40"/>
+  <transform name="to_world"><lookat origin="0,0,4" target="0,0,0" up="0,1,0"/></transform>
+  <film type="hdrfilm"><integer name="width" value="8"/><integer name="height" value="8"/>
+    <rfilter type="box"/></film></sensor>
+<shape type="sphere">
+  <bsdf type="diffuse"><rgb name="reflectance" value="$albedo"/></bsdf></shape>
+<emitter type="constant"/>
+</scene>)");
+  }
+  static json row() {
+    return {{"name", "ball"},
+            {"number", 19},
+            {"title", "A white ball is seen"},
+            {"check", "energy"},
+            {"scene", "ball"},
+            {"limit", 0.05},
+            {"spp", 8},
+            {"batches", 8},
+            {"fast", true},
+            {"reference", {{"value", 1}}},
+            {"methods", {{"*", "holds"}}}};
+  }
+  void catalogue(const json& rows) const { write("catalogue.json", rows.dump()); }
+  Outcome stability(std::vector<std::string> arguments) const {
+    arguments.insert(arguments.begin(), {"stability", "--catalogue", "."});
+    return run(arguments);
+  }
+  /// The outcome for a catalogue of this one row.
+  Outcome judge(const json& r) const {
+    catalogue(json::array({r}));
+    return stability({"--methods", "path,bdpt"});
+  }
+};
+
+}  // namespace
+
+TEST_SUITE("program") {
+  TEST_CASE("stability: what is as expected, and what is not") {
+    const Cabinet c;
+    json row = Cabinet::row();
+    const Outcome holds = c.judge(row);
+    CHECK(holds.code == 0);
+    CHECK(contains(holds.out, "2 of 2 cells as expected"));
+    CHECK(contains(holds.err, "[1/1] ball"));
+
+    // A failure that is not expected.
+    row["define"] = {{"albedo", 0.5}};
+    const Outcome fails = c.judge(row);
+    CHECK(fails.code == 1);
+    CHECK(contains(fails.out, "NOT AS EXPECTED: fails, but is expected to hold"));
+    CHECK(contains(fails.out, "0 of 2 cells as expected"));
+
+    // A known one, of its known size and of another; and one that has gone.
+    const auto known = [](double least, double most) {
+      return json{{"fails", {least, most}}, {"why", "absorbs half"}};
+    };
+    row["methods"] = {{"*", known(-0.4, -0.1)}};
+    const Outcome as_known = c.judge(row);
+    CHECK(as_known.code == 0);
+    CHECK(contains(as_known.out, "fails as known (-40.0 % to -10.0 %)"));
+    row["methods"] = {{"*", known(-0.02, 0)}};
+    const Outcome worse = c.judge(row);
+    CHECK(worse.code == 1);
+    CHECK(contains(worse.out, "fails, but not by -2.00 % to 0.00 %"));
+    row["define"] = json::object();
+    row["methods"] = {{"*", known(-0.4, 0.1)}};
+    const Outcome gone = c.judge(row);
+    CHECK(gone.code == 1);
+    CHECK(contains(gone.out, "holds, but is known to fail"));
+
+    // One method alone decides, and what does not apply does not count.
+    row["methods"] = {{"*", "holds"}, {"bdpt", {{"not applicable", "said so"}}}};
+    const Outcome partly = c.judge(row);
+    CHECK(partly.code == 0);
+    CHECK(contains(partly.out, "1 of 1 cells as expected"));
+  }
+
+  TEST_CASE("stability: files, the same for any number of threads") {
+    const Cabinet c;
+    json planned{{"name", "later"}, {"number", 41}, {"title", "Media"}, {"planned", "not yet"}};
+    json known = Cabinet::row();
+    known["name"] = "grey", known["define"] = {{"albedo", 0.5}};
+    known["methods"] = {{"*", {{"fails", {-0.4, -0.1}}, {"why", "absorbs half"}}}};
+    c.catalogue(json::array({Cabinet::row(), known, planned}));
+    const Outcome one = c.stability({"-q", "-t", "1", "--json", "a.json", "--markdown", "a.md"});
+    CHECK(one.code == 0);
+    CHECK(one.err.empty());
+    CHECK(c.stability({"-q", "-t", "3", "--json", "b.json"}).out == one.out);
+    const json a = json::parse(read_file(c.path("a.json")));
+    REQUIRE(a.size() == 3);
+    CHECK(a[0]["cells"].size() == 7);
+    CHECK(a[1]["cells"][0]["holds"] == false);
+    CHECK(a[1]["cells"][0]["as_expected"] == true);
+    CHECK(a[2]["planned"] == "not yet");
+    const std::string page = read_file(c.path("a.md"));
+    CHECK(contains(page, "| 19 | [ball](#ball) | A white ball is seen | ✓"));
+    CHECK(contains(page, "**✗ -"));
+    CHECK(contains(page, "| 41 | [later](#later) | Media | planned |"));
+    CHECK(contains(page, "absorbs half"));
+    // Named by number, and the short run.
+    CHECK(contains(c.stability({"41"}).out, "planned: not yet"));
+    CHECK(contains(c.stability({"--fast", "--list"}).out, "19 ball"));
+    CHECK(!contains(c.stability({"--fast", "--list"}).out, "later"));
+  }
+
+  TEST_CASE("stability: what there is not") {
+    const Cabinet c;
+    c.catalogue(json::array({Cabinet::row()}));
+    const std::pair<std::vector<std::string>, const char*> cases[] = {
+        {{"bal"}, "did you mean \"ball\"?"},
+        {{"7"}, "--list"},
+        {{"--methods", "path,bdtp"}, "did you mean \"bdpt\"?"},
+        {{"--methods", "path", "--markdown", "a.md"}, "--methods"},
+        {{"--json", "nowhere/a.json"}, "nowhere"},
+        {{"-t", "0"}, "--threads"},
+    };
+    for (const auto& [arguments, named] : cases) {
+      const Outcome o = c.stability(arguments);
+      CAPTURE(o.err);
+      CHECK(o.code == 2);
+      CHECK(contains(o.err, named));
+    }
+    const Outcome o = c.run({"stability", "--catalogue", "nowhere"});
+    CHECK(o.code == 2);
+    CHECK(contains(o.err, "nowhere"));
+  }
+
+  TEST_CASE("stability: the catalogue has all 42 failures and can be read") {
+    const Workplace place;
+    CHECK(place.run({"stability", "--list"}).code == 0);
+    const json rows = json::parse(read_file(DUET_SOURCE_DIR "/scenes/stability/catalogue.json"));
+    std::set<int> numbers;
+    for (const json& row : rows) numbers.insert(row.value("number", 0));
+    for (int n = 1; n <= 42; ++n) {
+      CAPTURE(n);
+      CHECK(numbers.contains(n));
+    }
+  }
+
+  TEST_CASE("stability: mistakes in a catalogue are named") {
+    const Cabinet c;
+    const auto refused = [&](const char* key, const json& value, const char* named) {
+      json row = Cabinet::row();
+      row[key] = value;
+      c.catalogue(json::array({row}));
+      const Outcome o = c.stability({});
+      CAPTURE(o.err);
+      CHECK(o.code == 1);
+      CHECK(contains(o.err, named));
+    };
+    refused("limmit", 1, "unknown key \"limmit\" (did you mean \"limit\"?)");
+    refused("check", "energi", "did you mean \"energy\"?");
+    refused("scene", "bal", "there is no scene");
+    refused("spp", "many", "\"spp\" has the wrong type");
+    refused("spp", 0, "\"spp\"");
+    refused("methods", json{{"path", "holds"}}, "nothing is expected of \"ptracer\"");
+    refused("methods", json{{"*", "holds"}, {"paht", "holds"}}, "did you mean \"path\"?");
+    refused("methods", json{{"*", {{"fails", {1, 0}}, {"why", "?"}}}}, "\"fails\" needs");
+    refused("methods", json{{"*", {{"fails", {0, 1}}}}}, "\"why\" is missing");
+    refused("reference", json::object(), "needs a reference");
+    refused("region", {0, 0, 2, 1}, "\"region\" needs");
+    refused("define", json{{"albdo", 1}}, "has no parameter $albdo");
+    refused("parameters", json{{"*", {{"depth", 1}}}}, "no parameter \"depth\"");
+    refused("number", "x", "\"number\" has the wrong type");
+    c.catalogue(json::array({Cabinet::row(), Cabinet::row()}));
+    CHECK(contains(c.stability({}).err, "two rows are called \"ball\""));
+    c.write("catalogue.json", "[{");
+    CHECK(contains(c.stability({}).err, "catalogue.json"));
+  }
+}
