@@ -59,8 +59,12 @@ constexpr Parameter kSdfGrid[] = {
     {"filename", string, "", "a volume with one channel: distances"},
     {"normals", string, "smooth", "smooth or analytic, of shading"},
     kFlipNormals,
-    {.name = "watertight", .type = boolean, .preset = "true", .support = inert},
-    {.name = "grid", .type = string, .support = refused},
+    {.name = "watertight",
+     .type = boolean,
+     .preset = "true",
+     .note = "it always is",
+     .support = inert},
+    {.name = "grid", .type = string, .note = "only exists in Python", .support = refused},
 };
 
 constexpr Plugin kShapes[] = {

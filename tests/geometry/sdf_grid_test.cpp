@@ -41,11 +41,11 @@ bool first_hit(const SdfGrid& grid, const Local& o, const Local& d, double& t, u
 TEST_CASE("sdf grid: rays meet a ball where they should, and its normals point outwards") {
   const SdfGrid grid = ball(24, 0.4);
   std::mt19937 generator(1);
-  std::uniform_real_distribution<double> uniform(-0.3, 0.3);
+  std::uniform_real_distribution<double> uniform(-0.2, 0.2);
   for (int i = 0; i < 300; ++i) {
     const Local target{0.5 + uniform(generator), 0.5 + uniform(generator),
                        0.5 + uniform(generator)};
-    const double angle = 20 * uniform(generator);
+    const double angle = 30 * uniform(generator);
     const Local o{0.5 + 2 * std::cos(angle), 0.5 + 2 * std::sin(angle), 0.5 + uniform(generator)};
     const Local d{target[0] - o[0], target[1] - o[1], target[2] - o[2]};
     double t;
