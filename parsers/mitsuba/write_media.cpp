@@ -20,7 +20,10 @@ void SceneWriter::volume(std::string_view name, VolumeId id) {
 
 void SceneWriter::volume(std::string_view name, const ColorVolume& input) {
   if (const VolumeId* id = std::get_if<VolumeId>(&input)) return volume(name, *id);
-  color(name, std::get<Spectrum>(input));
+  // Mitsuba 3 takes a plain <rgb> here for a reflectance, and refuses what is above 1.
+  out_.open("volume", "constvolume", name);
+  color("value", ColorInput(std::get<Spectrum>(input)));
+  out_.close();
 }
 
 void SceneWriter::phase(PhaseId id) {
