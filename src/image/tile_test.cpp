@@ -58,7 +58,7 @@ TileComparison compare_tiles(const TileBatches& a, const TileBatches& b) {
     const double mean = b.tile(i).mean();
     if (mean > 0 && std::abs(a.tile(i).mean() / mean - 1) > std::abs(c.worst_ratio - 1))
       c.worst_ratio = a.tile(i).mean() / mean;
-    const WelchTest w = welch_test(a.tile(i), b.tile(i));
+    const WelchTest w = welch_test(a.tile(i).estimate(), b.tile(i).estimate());
     const double difference = a.tile(i).mean() - mean, rounding = kRounding * std::abs(mean);
     if (std::abs(difference) <= rounding && !(w.error > rounding)) continue;
     tests.push_back(w);

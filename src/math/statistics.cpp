@@ -4,46 +4,90 @@
 
 namespace duet {
 
+namespace {
+
+/// Regularised incomplete beta function I_x(a, b) by its continued fraction (Abramowitz & Stegun,
+/// 26.5.8).
+double incomplete_beta(double x, double a, double b) {
+  if (!(x > 0)) return 0;
+  if (!(x < 1)) return 1;
+  // The fraction converges fast on this side of the mean.
+  if (x > (a + 1) / (a + b + 2)) return 1 - incomplete_beta(1 - x, b, a);
+  const double front = std::exp(std::lgamma(a + b) - std::lgamma(a) - std::lgamma(b) +
+                                a * std::log(x) + b * std::log1p(-x)) /
+                       a;
+  // Backwards, so that nothing can vanish in a denominator; a hundred pairs are more than it takes.
+  double fraction = 1;
+  for (int m = 100; m >= 0; --m) {
+    fraction = 1 - (a + m) * (a + b + m) * x / ((a + 2 * m) * (a + 2 * m + 1) * fraction);
+    if (m > 0) fraction = 1 + m * (b - m) * x / ((a + 2 * m - 1) * (a + 2 * m) * fraction);
+  }
+  return front / fraction;
+}
+
+/// The argument at which a decreasing function falls to `value`, between 0 and `high`.
+template <class F>
+double argument_of(const F& f, double value, double high) {
+  double low = 0;
+  for (int i = 0; i < 100; ++i) {
+    const double middle = 0.5 * (low + high);
+    (f(middle) > value ? low : high) = middle;
+  }
+  return 0.5 * (low + high);
+}
+
+}  // namespace
+
 double normal_p_value(double z) {
   return std::erfc(std::abs(z) / std::sqrt(2.0));
 }
 
 double normal_quantile(double p) {
-  double low = 0, high = 40;
-  for (int i = 0; i < 100; ++i) {
-    const double middle = 0.5 * (low + high);
-    (normal_p_value(middle) > p ? low : high) = middle;
-  }
-  return 0.5 * (low + high);
+  return argument_of(normal_p_value, p, 40);
 }
 
-double sidak(double alpha, int n) {
-  return -std::expm1(std::log1p(-alpha) / n);
+double student_p_value(double t, double dof) {
+  return incomplete_beta(dof / (dof + t * t), 0.5 * dof, 0.5);
 }
 
 double normal_of_student(double t, double dof) {
-  return (8 * dof + 1) / (8 * dof + 3) * std::sqrt(dof * std::log1p(t * t / dof));
+  return normal_quantile(student_p_value(t, dof));
 }
 
 double student_of_normal(double z, double dof) {
-  const double s = z * (8 * dof + 3) / (8 * dof + 1);
-  return std::sqrt(dof * std::expm1(s * s / dof));
+  const double p = normal_p_value(z);
+  double high = 1 + std::abs(z);
+  while (student_p_value(high, dof) > p && high < 1e100) high *= 2;
+  return argument_of([&](double t) { return student_p_value(t, dof); }, p, high);
 }
 
-WelchTest welch_test(const Moments& a, const Moments& b) {
+double sidak(double alpha, double tests) {
+  return -std::expm1(std::log1p(-alpha) / tests);
+}
+
+MeanEstimate estimate_mean(std::span<const double> values) {
+  Moments m;
+  for (const double v : values) m.add(v);
+  return m.estimate();
+}
+
+WelchTest welch_test(const MeanEstimate& a, const MeanEstimate& b, double margin) {
   WelchTest w;
-  const double va = a.error() * a.error(), vb = b.error() * b.error();
-  const double difference = a.mean() - b.mean();
-  w.error = std::sqrt(va + vb);
-  if (!(va + vb > 0)) {
-    w.p = difference == 0 ? 1 : 0;
-    w.t = difference == 0 ? 0 : std::copysign(std::numeric_limits<double>::infinity(), difference);
+  const double excess = std::abs(a.mean - b.mean) - margin, error2 = a.error2 + b.error2;
+  w.error = std::sqrt(error2);
+  const auto share = [](const MeanEstimate& e) {
+    return e.count > 1 ? e.error2 * e.error2 / double(e.count - 1) : 0;
+  };
+  if (error2 > 0) w.dof = error2 * error2 / (share(a) + share(b));
+  if (excess <= 0) return w;
+  const double sign = a.mean < b.mean ? -1.0 : 1.0;
+  if (!(excess > 0 && error2 > 0)) {  // what is not a number differs, too
+    w.t = sign * std::numeric_limits<double>::infinity();
+    w.p = 0;
     return w;
   }
-  w.t = difference / w.error;
-  w.dof =
-      (va + vb) * (va + vb) / (va * va / double(a.count() - 1) + vb * vb / double(b.count() - 1));
-  w.p = normal_p_value(normal_of_student(w.t, w.dof));
+  w.t = sign * excess / w.error;
+  w.p = student_p_value(w.t, w.dof);
   return w;
 }
 

@@ -1,8 +1,9 @@
-// Statistics of measurements: means with their errors, and whether two means agree.
+// Statistics of measurements: means with their errors, and whether means agree.
 #pragma once
 
 #include <cmath>
 #include <cstdint>
+#include <span>
 
 namespace duet {
 
@@ -10,16 +11,23 @@ namespace duet {
 double normal_p_value(double z);
 /// The |z| that a normal variate exceeds with this probability, 0 < p < 1.
 double normal_quantile(double p);
-/// The level of each of n independent tests so that all of them together have level `alpha`.
-double sidak(double alpha, int n);
-
-/// The normal variate that is as improbable as Student's t with `dof` degrees of freedom.
-/// Source: Wallace, "Bounds on Normal Approximations to Student's and the Chi-Square
-/// Distributions", Annals of Mathematical Statistics 30, 1959, eq. 2.1 and the correction that
-/// follows it; within 0.3 % of z from 3 degrees of freedom on.
+/// Probability that a variate of Student's distribution is further from zero than |t|.
+/// Source: Abramowitz & Stegun, 26.7.1, by the incomplete beta function.
+double student_p_value(double t, double dof);
+/// The |normal variate| that is as improbable as Student's t; at most 40.
 double normal_of_student(double t, double dof);
-/// Its inverse: the t that is as improbable as z.
+/// Its inverse: the |t| that is as improbable as z.
 double student_of_normal(double z, double dof);
+/// The level of each of `tests` independent tests so that all of them together have level `alpha`.
+/// Source: Sidak, "Rectangular confidence regions …", JASA 62, 1967.
+double sidak(double alpha, double tests);
+
+/// The mean of independent values and the square of its standard error; a value that is known
+/// exactly has an error of zero.
+struct MeanEstimate {
+  double mean = 0, error2 = 0;
+  int64_t count = 0;
+};
 
 /// Running mean and variance.
 class Moments {
@@ -35,22 +43,26 @@ class Moments {
   /// Standard error of the mean.
   double error() const { return n_ > 1 ? std::sqrt(variance() / double(n_)) : 0; }
   int64_t count() const { return n_; }
+  MeanEstimate estimate() const { return {mean_, n_ > 1 ? variance() / double(n_) : 0, n_}; }
 
  private:
   int64_t n_ = 0;
   double mean_ = 0, m2_ = 0;
 };
 
-/// Welch's test of whether the means of two groups of measurements are equal, which may have
-/// different variances.
+MeanEstimate estimate_mean(std::span<const double> values);
+
+/// Welch's test of whether means are equal whose values may have different variances.
+/// Source: Welch, "The generalization of Student's problem when several different population
+/// variances are involved", Biometrika 34, 1947.
 struct WelchTest {
   double t = 0;      ///< difference of the means over its standard error
   double error = 0;  ///< that standard error
   double dof = 1;    ///< Welch & Satterthwaite's degrees of freedom
   double p = 1;      ///< probability of a larger |t| if the means are equal
 };
-/// Each group needs two measurements. Groups without any variance are equal (p is 1) or not (p is
-/// 0).
-WelchTest welch_test(const Moments& a, const Moments& b);
+/// `margin` is a difference that does not count: it is taken off that of the means. Means without
+/// any error are equal (p is 1) or not (p is 0).
+WelchTest welch_test(const MeanEstimate& a, const MeanEstimate& b, double margin = 0);
 
 }  // namespace duet

@@ -7,7 +7,7 @@
 
 #include "app/stability/catalogue.h"
 #include "app/stability/laboratory.h"
-#include "math/significance.h"
+#include "math/statistics.h"
 
 namespace duet::stability {
 

@@ -69,7 +69,7 @@ GridComparison compare(const std::vector<MeanEstimate>& a, const std::vector<Mea
     c.worst_error = std::max(c.worst_error, std::sqrt(error2));
     const double slack = allowed * std::abs(b[i].mean);
     // Rounding is no deviation.
-    const double p = welch_p_value(a[i], b[i], slack + 1e-5 * std::abs(b[i].mean));
+    const double p = welch_test(a[i], b[i], slack + 1e-5 * std::abs(b[i].mean)).p;
     c.least_p = std::min(c.least_p, p);
     if (!(error2 > 0)) continue;
     ++noisy;
@@ -100,7 +100,7 @@ std::vector<MeanEstimate> reference_tiles(const Cell& cell, const Variant& v, co
 
 Measurement measure_tiles(const Cell& cell) {
   const double tests = double(cell.row.variants.size()) * kGrid * kGrid;
-  const double level = sidak_level(cell.level, tests);
+  const double level = sidak(cell.level, tests);
   return worst_variant(cell, [&](const Variant& v) {
     const Series& subject = cell.laboratory.render(subject_plan(cell.row, cell.method, v));
     Measurement m;
@@ -120,8 +120,7 @@ Measurement measure_tiles(const Cell& cell) {
 Measurement measure_pixels(const Cell& cell) {
   return worst_variant(cell, [&](const Variant& v) {
     const Series& subject = cell.laboratory.render(subject_plan(cell.row, cell.method, v));
-    const double level =
-        sidak_level(cell.level, double(cell.row.variants.size() * subject.pixels()));
+    const double level = sidak(cell.level, double(cell.row.variants.size() * subject.pixels()));
     Measurement m;
     const auto b = reference_tiles(cell, v, subject, subject.width, subject.height, m);
     const auto a = estimate_each(tile_means(subject, subject.width, subject.height));
@@ -149,8 +148,8 @@ Measurement compare_energy(const Cell& cell, const Series& subject, const Varian
   m.value = a.mean / b.mean - 1;
   m.error = std::sqrt(a.error2 + b.error2) / std::abs(b.mean);
   const double slack = merges(cell.method) ? cell.limit * std::abs(b.mean) : 0;
-  const double p = welch_p_value(a, b, slack + 1e-5 * std::abs(b.mean));
-  m.holds &= p > sidak_level(cell.level, double(cell.row.variants.size())) && m.error < cell.limit;
+  const double p = welch_test(a, b, slack + 1e-5 * std::abs(b.mean)).p;
+  m.holds &= p > sidak(cell.level, double(cell.row.variants.size())) && m.error < cell.limit;
   require_finite(subject, m);
   return m;
 }

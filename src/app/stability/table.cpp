@@ -34,7 +34,7 @@ CellResult judge(const Catalogue& catalogue, const Row& row, const std::string& 
   result.why = expected.why;
   if (expected.verdict == Expected::not_applicable) return result;
   const auto start = std::chrono::steady_clock::now();
-  const double level = sidak_level(kTableLevel, catalogue.measured_cells());
+  const double level = sidak(kTableLevel, catalogue.measured_cells());
   result.measured = find_check(row.check).measure({row, method, laboratory, level, limit_of(row)});
   result.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   const Measurement& m = result.measured;
