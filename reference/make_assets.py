@@ -179,7 +179,7 @@ def write_attribute_ply(path):
 
 def knot_distances():
     """Roughly the distances to a trefoil knot in the unit cube, negative inside."""
-    z, y, x = np.meshgrid(*(np.linspace(0, 1, n) for n in (16, 26, 24)), indexing='ij')
+    z, y, x = np.meshgrid(*[np.linspace(0, 1, 20)] * 3, indexing='ij')
     t = np.linspace(0, 2 * np.pi, 600, endpoint=False)
     curve = np.stack([np.sin(t) + 2 * np.sin(2 * t), np.cos(t) - 2 * np.cos(2 * t), -np.sin(3 * t)], axis=-1)
     curve = 0.5 + curve * [0.125, 0.125, 0.25]
