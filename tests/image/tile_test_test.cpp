@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <random>
+#include <stdexcept>
 
 using namespace duet;
 
@@ -40,11 +41,15 @@ TEST_CASE("sets of the same mean pass the tile test, however few and unequal") {
       rejections += c.rejected > 0;
       z2 += c.mean_z2 / 20;
       CHECK(c.tiles == 64);
-      CHECK(std::abs(c.ratio - 1) < 5 * c.ratio_error);
+      if (count == 16) CHECK(std::abs(c.ratio - 1) < 5 * c.ratio_error);
     }
     // Of 20 tests at 0.01 three or more fail with a probability of 0.001.
     CHECK(rejections < 3);
-    CHECK(z2 == doctest::Approx(1).epsilon(count == 2 ? 0.3 : 0.1));
+    // With few images the test is on the safe side.
+    if (count == 16)
+      CHECK(z2 == doctest::Approx(1).epsilon(0.1));
+    else
+      CHECK((z2 > 0.1 && z2 < 1));
   }
 }
 
