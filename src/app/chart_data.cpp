@@ -60,16 +60,16 @@ std::optional<TimeToError> time_to_error(const ChartLine& line, double relative_
   const std::vector<ChartPoint>& p = line.points;
   for (size_t i = 0; i < p.size(); ++i) {
     if (p[i].trimmed > target) continue;
-    // Cheaper than the first point it cannot be; below zero there is nothing to draw a line to.
-    if (i == 0 || !(p[i].trimmed > 0)) return TimeToError{p[i].cpu_seconds, false};
+    // To what is below zero there is no line on logarithmic axes.
+    if (i == 0 || !(p[i].trimmed > 0)) return TimeToError{p[i].cpu_seconds, TimeToError::at_most};
     const double t =
         std::log(p[i - 1].trimmed / target) / std::log(p[i - 1].trimmed / p[i].trimmed);
-    return TimeToError{p[i - 1].cpu_seconds * std::pow(p[i].cpu_seconds / p[i - 1].cpu_seconds, t),
-                       false};
+    return TimeToError{p[i - 1].cpu_seconds * std::pow(p[i].cpu_seconds / p[i - 1].cpu_seconds, t)};
   }
   if (p.empty() || !line.by_time.slope || !(line.by_time.slope->slope < 0)) return std::nullopt;
   const double factor = std::sqrt(p.back().trimmed / target);
-  return TimeToError{p.back().cpu_seconds * std::pow(factor, -1 / line.by_time.slope->slope), true};
+  return TimeToError{p.back().cpu_seconds * std::pow(factor, -1 / line.by_time.slope->slope),
+                     TimeToError::extrapolated};
 }
 
 std::vector<double> round_errors(const ChartScene& scene) {

@@ -60,10 +60,11 @@ std::optional<Efficiency> efficiency(const ChartLine& line);
 double best_efficiency(const ChartScene& scene);
 
 /// CPU seconds until the relative RMSE (the root of the trimmed relMSE) is this small: between two
-/// points on a straight line on logarithmic axes, beyond the last one by the fitted slope.
+/// points on a straight line on logarithmic axes, beyond the last one by the fitted slope. The
+/// first point may be better already.
 struct TimeToError {
   double cpu_seconds = 0;
-  bool extrapolated = false;
+  enum Kind { interpolated, at_most, extrapolated } kind = interpolated;
 };
 std::optional<TimeToError> time_to_error(const ChartLine& line, double relative_rmse);
 /// Three round errors (1, 2 or 5 times a power of ten) that the best line of the scene reaches, the

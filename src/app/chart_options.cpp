@@ -115,7 +115,8 @@ ChartOptionParser::ChartOptionParser(CLI::App& c) {
       ->allow_extra_args(false);
   c.add_option("--size", size_, "Image size WxH (default: the reference's, or the scene's)");
   c.add_option("-s,--sensor", sensor_, "Which of the scene's sensors, counting from 0");
-  c.add_option("--seed", seed_, "Seed of the random numbers");
+  c.add_option("--seed", seed_,
+               "Seed of the random numbers, another than that of the reference (default: 1000)");
   c.add_option("-t,--threads", threads_, "Number of threads (default: all)");
   c.add_flag("-q,--quiet", o.quiet, "Errors and warnings only");
 }

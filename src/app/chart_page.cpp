@@ -41,9 +41,9 @@ std::string slope_cell(const ChartLine& line) {
 std::string time_cell(const ChartLine& line, double error) {
   const auto t = time_to_error(line, error);
   if (!t) return "–";
-  return t->extrapolated
-             ? fmt::format("<span class=\"soft\">≈ {}</span>", significant(t->cpu_seconds))
-             : significant(t->cpu_seconds);
+  if (t->kind == TimeToError::extrapolated)
+    return fmt::format("<span class=\"soft\">≈ {}</span>", significant(t->cpu_seconds));
+  return (t->kind == TimeToError::at_most ? "≤ " : "") + significant(t->cpu_seconds);
 }
 
 /// Whether this line needs the fewest CPU seconds to an error.
@@ -101,7 +101,7 @@ std::string explanations() {
          "pixels. "
          "<em>Efficiency</em>: 1 / (trimmed · CPU seconds). Seconds to an error are CPU seconds, ≈ "
          "by "
-         "the fitted slope beyond the last point. Intervals are of 95 %, from a bootstrap over 8×8 "
+         "the fitted slope beyond the last point, ≤ where the first point is better already. Intervals are of 95 %, from a bootstrap over 8×8 "
          "tiles of the image. The methods took turns in short slices, so that all saw the same "
          "machine; the scene was read and built once, which is not counted, while an external "
          "renderer is timed as a whole process.</p>\n";

@@ -110,7 +110,8 @@ class SceneChart {
     try {
       apply_override(d, m.integrator);
       Prepared p{m.name, integrator_parameters(d), make_integrator(d)};
-      if (p.integrator->channels()[0] != "R")
+      // Distances and layers are no light that a reference could have.
+      if (m.integrator.name == "depth" || m.integrator.name == "aov")
         throw std::invalid_argument(fmt::format("\"{}\" makes no colours to compare", m.name));
       return p;
     } catch (const std::invalid_argument& e) {

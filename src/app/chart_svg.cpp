@@ -12,7 +12,7 @@ namespace duet {
 
 namespace {
 
-constexpr double kLeft = 76, kTop = 58, kPlotWidth = 560, kPlotHeight = 400, kLegend = 232;
+constexpr double kLeft = 70, kTop = 58, kPlotWidth = 440, kPlotHeight = 330, kLegend = 226;
 constexpr double kRight = kLeft + kPlotWidth, kBottom = kTop + kPlotHeight;
 constexpr double kWidth = kRight + kLegend, kHeight = kBottom + 60;
 
@@ -183,11 +183,11 @@ class Drawing {
           "y2=\"{:.1f}\"/>",
           slope, x_(x0), y_(y0), x_(x1), y_(y1));
       // Its name stands near the end that is in view.
-      double xe = x0 * std::pow(x1 / x0, 0.93), ye = y0 * std::pow(xe / x0, slope);
+      double xe = x0 * std::pow(x1 / x0, 0.985), ye = y0 * std::pow(xe / x0, slope);
       if (ye < y_.low)
         ye = y_.low * std::pow(y_.high / y_.low, 0.06), xe = x0 * std::pow(ye / y0, 1 / slope);
-      add("<text stroke=\"none\" x=\"{:.1f}\" y=\"{:.1f}\">{}</text>", x_(xe) + 4, y_(ye) - 6,
-          name);
+      add("<text stroke=\"none\" text-anchor=\"end\" x=\"{:.1f}\" y=\"{:.1f}\">{}</text>",
+          x_(xe) + 4, y_(ye) - 6, name);
     }
     add("</g>");
   }

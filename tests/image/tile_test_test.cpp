@@ -30,8 +30,8 @@ TileBatches batches(int count, double deviation, double bias, unsigned seed, int
 
 }  // namespace
 
-TEST_CASE("sets of the same mean pass the tile test, if they are unequal, too") {
-  for (const int count : {8, 16, 40}) {
+TEST_CASE("sets of the same mean pass the tile test, however few and unequal") {
+  for (const int count : {2, 4, 16}) {
     CAPTURE(count);
     int rejections = 0;
     double z2 = 0;
@@ -41,11 +41,15 @@ TEST_CASE("sets of the same mean pass the tile test, if they are unequal, too") 
       rejections += c.rejected > 0;
       z2 += c.mean_z2 / 20;
       CHECK(c.tiles == 64);
-      CHECK(std::abs(c.ratio - 1) < 5 * c.ratio_error);
+      if (count == 16) CHECK(std::abs(c.ratio - 1) < 5 * c.ratio_error);
     }
     // Of 20 tests at 0.01 three or more fail with a probability of 0.001.
     CHECK(rejections < 3);
-    CHECK(z2 == doctest::Approx(1).epsilon(0.1));
+    // With few images the test is on the safe side.
+    if (count == 16)
+      CHECK(z2 == doctest::Approx(1).epsilon(0.1));
+    else
+      CHECK((z2 > 0.1 && z2 < 1));
   }
 }
 
