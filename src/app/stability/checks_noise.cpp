@@ -159,13 +159,15 @@ Measurement measure_efficiency(const Cell& cell) {
     const Series& a = cell.laboratory.render(subject_plan(cell.row, cell.method, v));
     const Series b = render_reference(cell.laboratory, cell.row, cell.method, v);
     const double va = relative_error(a, b), vb = relative_variance(b);
+    // Of one image each: the series may differ in their number.
+    const double ra = a.rays() / double(a.images.size()), rb = b.rays() / double(b.images.size());
     Measurement m;
-    m.value = vb * b.rays() / (va * a.rays());
+    m.value = vb * rb / (va * ra);
     // Deviations of variances from few images are about as large as this.
     m.error = m.value * std::sqrt(2.0 / double(a.images.size() * a.pixels()) +
                                   2.0 / double(b.images.size() * b.pixels()));
     m.holds = m.value >= cell.limit;
-    m.detail = fmt::format("squared error x {:.3g}, rays x {:.3g}", va / vb, a.rays() / b.rays());
+    m.detail = fmt::format("squared error x {:.3g}, rays x {:.3g}", va / vb, ra / rb);
     require_finite(a, m);
     return m;
   });
