@@ -47,8 +47,8 @@ constexpr Check kChecks[] = {
      "greatest ratio of the variances of two variants that follow each other; holds if below {}",
      false, measure_jump},
     {"efficiency", Unit::number, 1,
-     "1 / (relative variance x rays), over that of the reference; holds if at least {}", true,
-     measure_efficiency},
+     "1 / (relative mean square error x rays), over that of the reference; holds if at least {}",
+     true, measure_efficiency},
     {"variance", Unit::number, 1.3,
      "variance of an image with N times the samples, times N, over that of one with the row's "
      "samples; holds if below {}",

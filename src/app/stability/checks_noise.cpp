@@ -26,21 +26,53 @@ double hill_index(const std::vector<float>& values) {
   return sum > 0 ? double(k) / sum : INFINITY;
 }
 
-/// Per pixel, the variance of an image relative to the squared mean; the worst thousandth is left
-/// out. `mean` is what they are relative to, with a hundredth of the mean square added.
-double relative_variance(const Series& series, const std::vector<double>& mean) {
-  double scale2 = 0;
-  for (const double m : mean) scale2 += m * m;
-  scale2 /= double(mean.size());
-  std::vector<double> values(series.pixels()), pixel(series.images.size());
-  for (size_t i = 0; i < values.size(); ++i) {
-    for (size_t b = 0; b < pixel.size(); ++b) pixel[b] = double(series.images[b][i]);
-    values[i] =
-        estimate_mean(pixel).error2 * double(pixel.size()) / (mean[i] * mean[i] + 0.01 * scale2);
-  }
+/// The mean of what pixels say about noise, without the worst thousandth of them.
+double trimmed_mean(std::vector<double> values) {
   std::sort(values.begin(), values.end());
   values.resize(values.size() - size_t(std::ceil(kBrightest * double(values.size()))));
   return std::accumulate(values.begin(), values.end(), 0.0) / double(values.size());
+}
+
+/// What squared errors of pixels are divided by: the squared mean, with a hundredth of the mean
+/// square of all pixels added.
+std::vector<double> squared_scales(std::vector<double> mean) {
+  double sum = 0;
+  for (double& m : mean) sum += m *= m;
+  for (double& m : mean) m += 0.01 * sum / double(mean.size());
+  return mean;
+}
+
+/// The statistics of each pixel over the images.
+std::vector<MeanEstimate> pixel_estimates(const Series& series) {
+  std::vector<MeanEstimate> estimates;
+  std::vector<double> pixel(series.images.size());
+  for (size_t i = 0; i < series.pixels(); ++i) {
+    for (size_t b = 0; b < pixel.size(); ++b) pixel[b] = double(series.images[b][i]);
+    estimates.push_back(estimate_mean(pixel));
+  }
+  return estimates;
+}
+
+/// The variance of an image, relative to the square of `mean`.
+double relative_variance(const Series& series, const std::vector<double>& mean) {
+  std::vector<double> values = squared_scales(mean);
+  const std::vector<MeanEstimate> pixels = pixel_estimates(series);
+  for (size_t i = 0; i < values.size(); ++i)
+    values[i] = pixels[i].error2 * pixels[i].count / values[i];
+  return trimmed_mean(std::move(values));
+}
+
+/// The mean square error of an image, relative to the square of the reference; the noise of the
+/// reference is taken off. What a method loses counts, too: a black image has no variance.
+double relative_error(const Series& series, const Series& reference) {
+  const std::vector<MeanEstimate> truth = pixel_estimates(reference),
+                                  pixels = pixel_estimates(series);
+  std::vector<double> values = squared_scales(mean_image(reference));
+  for (size_t i = 0; i < values.size(); ++i) {
+    const double d = pixels[i].mean - truth[i].mean, variance = pixels[i].error2 * pixels[i].count;
+    values[i] = (variance + d * d - pixels[i].error2 - truth[i].error2) / values[i];
+  }
+  return trimmed_mean(std::move(values));
 }
 
 double relative_variance(const Series& series) {
@@ -126,15 +158,16 @@ Measurement measure_efficiency(const Cell& cell) {
   return worst_variant(cell, [&](const Variant& v) {
     const Series& a = cell.laboratory.render(subject_plan(cell.row, cell.method, v));
     const Series b = render_reference(cell.laboratory, cell.row, cell.method, v);
-    const std::vector<double> mean = mean_image(b);
-    const double va = relative_variance(a, mean), vb = relative_variance(b, mean);
+    const double va = relative_error(a, b), vb = relative_variance(b);
+    // Of one image each: the series may differ in their number.
+    const double ra = a.rays() / double(a.images.size()), rb = b.rays() / double(b.images.size());
     Measurement m;
-    m.value = vb * b.rays() / (va * a.rays());
+    m.value = vb * rb / (va * ra);
     // Deviations of variances from few images are about as large as this.
     m.error = m.value * std::sqrt(2.0 / double(a.images.size() * a.pixels()) +
                                   2.0 / double(b.images.size() * b.pixels()));
     m.holds = m.value >= cell.limit;
-    m.detail = fmt::format("variance x {:.3g}, rays x {:.3g}", va / vb, a.rays() / b.rays());
+    m.detail = fmt::format("squared error x {:.3g}, rays x {:.3g}", va / vb, ra / rb);
     require_finite(a, m);
     return m;
   });
@@ -154,11 +187,7 @@ Measurement measure_variance(const Cell& cell) {
     // Noise that all pixels share: variance of the mean of the image, against that of independent
     // pixels.
     double independent = 0;
-    std::vector<double> pixel(one.images.size());
-    for (size_t i = 0; i < one.pixels(); ++i) {
-      for (size_t b = 0; b < pixel.size(); ++b) pixel[b] = double(one.images[b][i]);
-      independent += estimate_mean(pixel).error2;
-    }
+    for (const MeanEstimate& e : pixel_estimates(one)) independent += e.error2;
     independent /= double(one.pixels()) * double(one.pixels());
     const double shared = estimate_mean(region_means(one, {0, 0, 1, 1})).error2 / independent;
     m.detail = fmt::format(
