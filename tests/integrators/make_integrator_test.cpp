@@ -49,10 +49,10 @@ TEST_CASE("every method can be selected by its name and says it again") {
     CHECK(integrator_name(with({}, n.name)) == n.name);
     CHECK(integrator_name(with(describe(Bidirectional{}), n.name)) == n.name);
   }
-  CHECK(all == "path direct ptracer bdpt reuse ppm bpm vcm depth aov ");
+  CHECK(all == "path volpath volpathmis direct ptracer bdpt reuse ppm bpm vcm depth aov ");
   CHECK(refusal("bdtp", {}) ==
-        "there is no integrator \"bdtp\" (did you mean \"bdpt\"?); there are path, direct, "
-        "ptracer, bdpt, reuse, ppm, bpm, vcm, depth, aov");
+        "there is no integrator \"bdtp\" (did you mean \"bdpt\"?); there are path, volpath, "
+        "volpathmis, direct, ptracer, bdpt, reuse, ppm, bpm, vcm, depth, aov");
 }
 
 TEST_CASE("the parameters of each method, with their presets") {
