@@ -93,10 +93,12 @@ constexpr Parameter kTabphase[] = {{.name = "values",
                                     .required = true}};
 constexpr Parameter kMixturephase[] = {
     {.name = "weights", .type = string, .note = "one for each phase function", .required = true}};
-constexpr Parameter kKkay[] = {{.name = "ks", .type = number, .support = approximated},
-                               {.name = "kd", .type = number, .support = approximated},
-                               {.name = "exponent", .type = number, .support = approximated}};
-constexpr Parameter kMicroflake[] = {{.name = "stddev", .type = number, .support = approximated}};
+constexpr Parameter kKkay[] = {
+    {.name = "ks", .type = number, .note = "not used", .support = approximated},
+    {.name = "kd", .type = number, .note = "not used", .support = approximated},
+    {.name = "exponent", .type = number, .note = "not used", .support = approximated}};
+constexpr Parameter kMicroflake[] = {
+    {.name = "stddev", .type = number, .note = "not used", .support = approximated}};
 
 constexpr Plugin kPhases[] = {
     {"isotropic", both, {}, &read_isotropic},
