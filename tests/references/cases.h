@@ -49,7 +49,7 @@ inline const std::vector<ReferenceCase>& reference_cases() {
       {"media-phase", "media-phase", {}, 256, 0.083},
       {"mesh-lumpy", "mesh-lumpy", {{"size", "128"}}, 256, 0.05},
       {"orthographic", "orthographic", {}, 256, 0.023},
-      {"sdf-grid", "sdf-grid", {}, 256, 0.1},
+      {"sdf-grid", "sdf-grid", {}, 256, 0.06},
       {"shapes", "shapes", {}, 256, 0.011},
       {"spectra", "spectra", {}, 256, 0.018},
       {"textures", "textures", {}, 256, 0.01},
