@@ -108,11 +108,11 @@ class SceneChart {
     d.aovs.layers.clear();
     d.moments = false;
     try {
-      apply_override(d, m.integrator);
-      Prepared p{m.name, integrator_parameters(d), make_integrator(d)};
       // Distances and layers are no light that a reference could have.
       if (m.integrator.name == "depth" || m.integrator.name == "aov")
         throw std::invalid_argument(fmt::format("\"{}\" makes no colours to compare", m.name));
+      apply_override(d, m.integrator);
+      Prepared p{m.name, integrator_parameters(d), make_integrator(d)};
       return p;
     } catch (const std::invalid_argument& e) {
       throw UsageError(e.what());

@@ -23,9 +23,12 @@ Rows csv(const std::string& text) {
   Rows rows;
   std::istringstream lines(text);
   for (std::string line; std::getline(lines, line);) {
-    std::istringstream fields(line);
     rows.emplace_back();
-    for (std::string f; std::getline(fields, f, ',');) rows.back().push_back(f);
+    for (size_t from = 0; from <= line.size();) {
+      const size_t to = std::min(line.find(',', from), line.size());
+      rows.back().push_back(line.substr(from, to - from));
+      from = to + 1;
+    }
   }
   return rows;
 }
@@ -188,7 +191,9 @@ TEST_SUITE("program") {
     CHECK(rows[4][0] == "box");
     CHECK(rows[4][1] == "vcm");
     double best = 0;
-    for (size_t i = 1; i < 3; ++i) best = std::max(best, std::stod(rows[i][8]));
+    // An image that is as good as the reference has no efficiency.
+    for (size_t i = 1; i < 3; ++i)
+      if (!rows[i][8].empty()) best = std::max(best, std::stod(rows[i][8]));
     CHECK(best == 1);
     // The reference that was made can be given.
     CHECK(s.chart({"tiny.xml", "-i", "path", "--time", "0.2", "-o", "again", "--reference",

@@ -134,7 +134,8 @@
         e.preventDefault();
         this.scale(2 ** (-e.deltaY / 300), e);
       }, {passive: false});
-      new ResizeObserver(() => this.resize()).observe(c);
+      // Not at once: a new size of the canvas is a change that is observed, too.
+      new ResizeObserver(() => requestAnimationFrame(() => this.resize())).observe(c);
     }
 
     show(i) {
