@@ -31,6 +31,7 @@ constexpr Parameter kDirect[] = {
 
 constexpr Parameter kDropPaths{"strict_normals", boolean, "false",
                                "drop paths whose shading and geometric normals disagree"};
+constexpr Parameter kAuto[] = {kMaxDepth, kRrDepth, kHideEmitters, kDropPaths};
 constexpr Parameter kLightPaths{
     "light_paths", number, "0",
     "light sub-paths for each pixel; 0: 1/4 for bdpt and vcm, 1 for the others", not_negative};
@@ -142,6 +143,8 @@ constexpr Parameter kAov[] = {
 constexpr Parameter kMoment[] = {{.name = "hide_emitters", .type = boolean, .support = inert}};
 
 constexpr Plugin kIntegrators[] = {
+    {"auto", both, kAuto, &read_auto,
+     "Duet's own: whichever method suits the scene (docs/auto.md)"},
     {"path", both, kPath, &read_path},
     {"direct", both, kDirect, &read_direct},
     {"ptracer", both, kPtracer, &read_ptracer,

@@ -10,6 +10,7 @@
 #include "lights/light.h"
 #include "lights/picker.h"
 #include "materials/bsdf.h"
+#include "scene/features.h"
 #include "textures/texture.h"
 
 namespace duet {
@@ -29,6 +30,7 @@ struct Scene {
   uint32_t environment_index = kNone;
   std::unique_ptr<Camera> camera;
   std::unique_ptr<Accel> accel;
+  SceneFeatures features;  ///< of the description that this was built from
 
   Scene() = default;
   Scene(const Scene&) = delete;
