@@ -146,8 +146,9 @@ float FamilyWeights::merge(const LightVertex& light, float light_reverse, const 
   const TrailVertex& common = eye_[size_t(n)];
   take_light(path, m, {common.forward, light_reverse});
   take_eye(path, n - 1, {eye_reverse * common.back, 0});
-  // Seen from the merge, the vertex before the last one is as recorded.
-  if (n > 2) path.light[size_t(path.count + 2 - (n - 1))] = double(eye_[size_t(n - 2)].reverse);
+  // Seen from the merge, the last vertex and the one before are as recorded.
+  if (n > 1) path.specular[size_t(path.count + 2 - n)] = eye_[size_t(n - 1)].specular;
+  if (n > 2) path.light[size_t(path.count + 3 - n)] = double(eye_[size_t(n - 2)].reverse);
   return weigh(path, m + 1, true);
 }
 
