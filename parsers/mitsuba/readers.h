@@ -96,6 +96,7 @@ void read_aov(SceneReader&, Properties&, IntegratorDescription&);
 void read_moment(SceneReader&, Properties&, IntegratorDescription&);
 
 // read_bidirectional.cpp
+void read_auto(SceneReader&, Properties&, IntegratorDescription&);
 void read_ptracer(SceneReader&, Properties&, IntegratorDescription&);
 void read_bdpt(SceneReader&, Properties&, IntegratorDescription&);
 void read_reuse(SceneReader&, Properties&, IntegratorDescription&);

@@ -242,10 +242,12 @@ void SceneReader::check_scene(const Node& scene, bool have_integrator) {
 
   if (!have_integrator) {
     description_.integrator.where = scene.where;
+    description_.integrator.method = AutoIntegratorDescription{};
     approximate_loudly(scene.where,
-                       old ? "the scene has no integrator: \"path\" is used (Mitsuba 0.6 would use "
+                       old ? "the scene has no integrator: \"auto\" is used (Mitsuba 0.6 would use "
                              "\"direct\")"
-                           : "the scene has no integrator: \"path\" is used");
+                           : "the scene has no integrator: \"auto\" is used (Mitsuba 3 would use "
+                             "\"path\")");
   }
   const LightDescription* environment = nullptr;
   for (const LightDescription& light : description_.lights) {

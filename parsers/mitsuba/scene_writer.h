@@ -67,6 +67,7 @@ class SceneWriter {
   void write_method(const DirectIntegratorDescription& m);
   void write_method(const DepthIntegratorDescription& m);
   void write_method(const BidirectionalIntegratorDescription& m);
+  void write_method(const AutoIntegratorDescription& m);
 
   // scene_writer.cpp
   void sensor(const SensorDescription& s);

@@ -45,6 +45,7 @@ constexpr Parameter kDirect[] = {
 
 constexpr Parameter kDropPaths{"strict_normals", boolean, "false",
                                "drop paths whose shading and geometric normals disagree"};
+constexpr Parameter kAuto[] = {kMaxDepth, kRrDepth, kHideEmitters, kDropPaths};
 constexpr Parameter kLightPaths{
     "light_paths", number, "0",
     "light sub-paths for each pixel; 0: 1/4 for bdpt and vcm, 1 for the others", not_negative};
@@ -156,6 +157,8 @@ constexpr Parameter kAov[] = {
 constexpr Parameter kMoment[] = {{.name = "hide_emitters", .type = boolean, .support = inert}};
 
 constexpr Plugin kIntegrators[] = {
+    {"auto", both, kAuto, &read_auto,
+     "Duet's own: whichever method suits the scene (docs/auto.md)"},
     {"path", both, kPath, &read_path},
     {"volpath", both, kVolpath, &read_volpath, "path tracing through participating media"},
     {"volpath_simple", v0, kVolpath, &read_volpath, "by volpath"},

@@ -38,6 +38,16 @@ void SceneWriter::write_method(const VolumePathIntegratorDescription& m) {
   out_.close();
 }
 
+void SceneWriter::write_method(const AutoIntegratorDescription& m) {
+  lose("only Duet reads the integrator \"auto\"");
+  out_.open("integrator", "auto");
+  out_.integer("max_depth", m.max_depth);
+  out_.integer("rr_depth", m.rr_depth);
+  out_.boolean("hide_emitters", m.hide_emitters);
+  out_.boolean("strict_normals", m.strict_normals);
+  out_.close();
+}
+
 void SceneWriter::write_method(const DirectIntegratorDescription& m) {
   out_.open("integrator", "direct");
   out_.integer("emitter_samples", m.emitter_samples);

@@ -66,6 +66,11 @@ std::vector<std::pair<std::string, HeaderValue>> image_header(const RenderRecord
       {"threads", record.threads},
       {"renderSeconds", float(result.seconds)},
   };
+  if (record.decision) {
+    fields.emplace_back("chosenIntegrator", record.decision->method);
+    fields.emplace_back("chosenParameters", record.decision->parameters);
+    fields.emplace_back("choiceReason", record.decision->reason);
+  }
   if (!record.bias.empty()) fields.emplace_back("bias", record.bias);
   if (result.relative_rmse) {
     fields.emplace_back("relativeRmseEstimate", float(*result.relative_rmse));

@@ -1,6 +1,7 @@
 // What an image file says about how it was made.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -17,6 +18,7 @@ struct RenderRecord {
   uint64_t scene_hash = 0;
   std::string bias;  ///< what is known to be wrong with the method, or ""
   std::string integrator, integrator_parameters;
+  std::optional<MethodDecision> decision;  ///< if the method has chosen another
   std::string sampler;
   uint64_t seed = 0;
   int threads = 1;

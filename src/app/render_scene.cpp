@@ -74,6 +74,7 @@ class SceneRenderer {
       log::warning("{}: interrupted before the first sample; there is no image", file_);
       return;
     }
+    decide();
     check_memory(layout_, *integrator_, request_.budget);
     const RenderResult result = render_with_progress();
     seconds_.render = watch_.lap();
@@ -191,6 +192,16 @@ class SceneRenderer {
     if (report(diagnostics, options_.read.strict) || !scene_) throw SceneFailure("");
     seconds_.build = watch_.lap();
     log::detail("{}: read in {:.2f} s, built in {:.2f} s", file_, seconds_.parse, seconds_.build);
+  }
+
+  /// Lets a method that chooses another one do so.
+  void decide() {
+    integrator_->begin(*scene_, {layout_.full, planned_spp_, options_.threads});
+    const MethodDecision* decision = integrator_->decision();
+    if (!decision) return;
+    record_.decision = *decision;
+    record_.bias = integrator_->bias();
+    log::info("{}: auto chose {}", file_, decision->reason);
   }
 
   RenderResult render_with_progress() {

@@ -6,6 +6,7 @@
 
 #include "app/description_text.h"
 #include "integrators/make_integrator.h"
+#include "integrators/method_rules.h"
 #include "scene/features.h"
 
 namespace duet {
@@ -35,6 +36,7 @@ class Summary {
     media();
     lights();
     line("modelled", describe(features_));
+    line("methods", describe(method_rules(features_)));
     if (scene_.approximations.empty()) line("approximated", "nothing");
     list("approximated", scene_.approximations,
          [](const Diagnostic& a) { return fmt::format("{}: {}", a.where.to_string(), a.message); });

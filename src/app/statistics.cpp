@@ -24,6 +24,11 @@ void StatisticsFile::add(const RenderRecord& record, const RenderResult& result,
   nlohmann::ordered_json j;
   j["scene"] = record.scene_file;
   j["integrator"] = record.integrator;
+  if (record.decision)
+    j["chosen"] = {{"integrator", record.decision->method},
+                   {"parameters", record.decision->parameters},
+                   {"reason", record.decision->reason}};
+  if (!record.bias.empty()) j["bias"] = record.bias;
   j["spp"] = result.spp;
   j["seed"] = record.seed;
   j["threads"] = record.threads;

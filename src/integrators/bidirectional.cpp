@@ -171,7 +171,7 @@ void BidirectionalIntegrator::iteration(const Scene& scene, Film& film, const Sa
   plan.iteration = samples.first;
   plan.threads = control.threads;
   if (!pilot_) {
-    pilot_ = run_pilot(scene, film, plan);
+    pilot_ = run_pilot(scene, film.full_size(), plan);
     plan.set = techniques(film, samples.first);
   }
   // A walk counts 1 / N_L.

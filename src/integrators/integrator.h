@@ -35,15 +35,34 @@ struct PassControl {
 void for_each_tile(Film& film, const PassControl& control, RenderCounters& counters,
                    const std::function<void(FilmTile&, RenderCounters&)>& work);
 
+/// What is known of a render before its first pass.
+struct RenderOutlook {
+  Point2i film;  ///< size of the whole image
+  int spp = 64;  ///< samples that a pixel will probably get
+  int threads = 1;
+};
+
+/// What a method that chooses another has chosen, and why.
+struct MethodDecision {
+  std::string method, parameters;
+  std::string reason;  ///< one line
+};
+
 /// A method of light transport.
 class Integrator {
  public:
   virtual ~Integrator() = default;
   /// Names of the film channels that render_pass() fills, in order.
   virtual std::vector<std::string> channels() const = 0;
+  /// Called with the scene that is to be rendered, before prepare(); for a second time it does
+  /// nothing. What happens here is not part of the image.
+  virtual void begin(const Scene&, const RenderOutlook&) {}
+  /// After begin(): what was chosen, or null if there is no choice.
+  virtual const MethodDecision* decision() const { return nullptr; }
   /// For people: why even the mean of many images is wrong, if it is.
   virtual std::string bias() const { return ""; }
-  /// What the method keeps in memory besides the film, in bytes, estimated before it is known.
+  /// What the method keeps in memory besides the film, in bytes, estimated before it is known. To be
+  /// asked after begin().
   virtual double memory_bytes(const FilmLayout&) const { return 0; }
   /// Called once for each film, before its first pass.
   virtual void prepare(Film&) const {}

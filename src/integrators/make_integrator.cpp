@@ -7,6 +7,7 @@
 #include <optional>
 #include <stdexcept>
 
+#include "integrators/auto.h"
 #include "integrators/bidirectional.h"
 #include "integrators/depth.h"
 #include "integrators/direct.h"
@@ -27,6 +28,7 @@ constexpr std::array<const char*, 6> kBidirectionalNames{"ptracer", "bdpt", "reu
 /// The method of that name with its presets; nothing if there is none. Layers alone come from
 /// camera rays, which any method that starts at the camera has.
 std::optional<Method> find_method(const std::string& name) {
+  if (name == "auto") return AutoIntegratorDescription{};
   if (name == "path" || name == "aov") return PathIntegratorDescription{};
   if (name == "volpath") return VolumePathIntegratorDescription{};
   if (name == "volpathmis")
@@ -107,6 +109,7 @@ CameraOutput camera_output(const IntegratorDescription& integrator) {
 
 const std::vector<IntegratorName>& integrator_names() {
   static const std::vector<IntegratorName> names{
+      {"auto", "path, bdpt or vcm, whichever a short pilot finds to suit the scene"},
       {"path", "path tracing with next event estimation"},
       {"volpath", "path tracing through participating media"},
       {"volpathmis", "the same by its second name in Mitsuba"},
@@ -145,6 +148,7 @@ std::string integrator_name(const IntegratorDescription& integrator) {
     const char* operator()(const VolumePathIntegratorDescription& d) const {
       return d.name == VolumePathName::volpath ? "volpath" : "volpathmis";
     }
+    const char* operator()(const AutoIntegratorDescription&) const { return "auto"; }
     const char* operator()(const BidirectionalIntegratorDescription& d) const {
       return kBidirectionalNames[size_t(d.method)];
     }
@@ -190,6 +194,7 @@ void check_support(const SceneDescription& scene, Diagnostics& diagnostics) {
 std::unique_ptr<Integrator> make_integrator(const IntegratorDescription& integrator,
                                             TechniqueOutput techniques) {
   struct Make {
+    const IntegratorDescription& whole;
     CameraOutput output;
     std::unique_ptr<Integrator> operator()(const PathIntegratorDescription& d) const {
       const PathOptions o{d.max_depth, d.rr_depth, d.hide_emitters, d.strict_normals};
@@ -209,6 +214,9 @@ std::unique_ptr<Integrator> make_integrator(const IntegratorDescription& integra
     std::unique_ptr<Integrator> operator()(const BidirectionalIntegratorDescription& d) const {
       return make_bidirectional(d, output);
     }
+    std::unique_ptr<Integrator> operator()(const AutoIntegratorDescription& d) const {
+      return std::make_unique<AutoIntegrator>(d, whole);
+    }
   };
   CameraOutput output = camera_output(integrator);
   output.techniques = techniques;
@@ -216,7 +224,7 @@ std::unique_ptr<Integrator> make_integrator(const IntegratorDescription& integra
       !std::holds_alternative<BidirectionalIntegratorDescription>(integrator.method))
     throw std::invalid_argument(
         fmt::format("integrator \"{}\" has no techniques to show", integrator_name(integrator)));
-  return std::visit(Make{output}, integrator.method);
+  return std::visit(Make{integrator, output}, integrator.method);
 }
 
 }  // namespace duet

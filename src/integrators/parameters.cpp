@@ -105,6 +105,12 @@ Parameters parameters(VolumePathIntegratorDescription& d) {
   return path_parameters(d);
 }
 
+Parameters parameters(AutoIntegratorDescription& d) {
+  return {integer("max_depth", d.max_depth, -1, kMaxDepth),
+          integer("rr_depth", d.rr_depth, 1, kMaxDepth), boolean("hide_emitters", d.hide_emitters),
+          boolean("strict_normals", d.strict_normals)};
+}
+
 Parameters parameters(DirectIntegratorDescription& d) {
   return {integer("emitter_samples", d.emitter_samples, 0, kMost),
           integer("bsdf_samples", d.bsdf_samples, 0, kMost),

@@ -23,6 +23,11 @@ class Renderer {
   Renderer(const Scene& scene, Integrator& integrator, const FilmLayout& layout,
            const RenderRequest& request)
       : scene_(scene), integrator_(integrator), request_(request) {
+    RenderOutlook outlook;
+    outlook.film = layout.full;
+    outlook.spp = request.budget.spp.value_or(outlook.spp);
+    outlook.threads = request.threads;
+    integrator.begin(scene, outlook);
     const int films = request.budget.target_error ? kErrorBatches : 1;
     for (int i = 0; i < films; ++i)
       integrator.prepare(films_.emplace_back(layout, integrator.channels()));

@@ -33,14 +33,14 @@ double footprint(const Scene& scene, const Ray& camera_ray, Sampler& sampler) {
   return 0;
 }
 
-double median_footprint(const Scene& scene, const Film& film, uint64_t seed) {
+double median_footprint(const Scene& scene, Point2i film, uint64_t seed) {
   std::vector<double> sizes;
   for (int y = 0; y < kRays; ++y)
     for (int x = 0; x < kRays; ++x) {
       Sampler sampler(SampleSequence::independent, seed, kPilotScramble, uint64_t(y * kRays + x));
       sampler.start_sample(0);
-      const Point2f film_position{(float(x) + 0.5f) / kRays * float(film.full_size().x),
-                                  (float(y) + 0.5f) / kRays * float(film.full_size().y)};
+      const Point2f film_position{(float(x) + 0.5f) / kRays * float(film.x),
+                                  (float(y) + 0.5f) / kRays * float(film.y)};
       const Ray ray = scene.camera->sample_ray(film_position, sampler.next_2d());
       const double size = footprint(scene, ray, sampler);
       if (size > 0 && std::isfinite(size)) sizes.push_back(size);
@@ -53,7 +53,7 @@ double median_footprint(const Scene& scene, const Film& film, uint64_t seed) {
 
 }  // namespace
 
-Pilot run_pilot(const Scene& scene, const Film& film, LightPassPlan plan) {
+Pilot run_pilot(const Scene& scene, Point2i film, LightPassPlan plan) {
   Pilot pilot;
   pilot.footprint = median_footprint(scene, film, plan.seed);
   plan.walks = kPilotWalks;
@@ -69,8 +69,7 @@ Pilot run_pilot(const Scene& scene, const Film& film, LightPassPlan plan) {
       if (is_finite(s.splat.value)) light += double(s.splat.value.max());
   };
   if (!scene.lights.empty()) lights.run(scene, plan, measure, counters);
-  pilot.brightness =
-      light / kPilotWalks / (double(film.full_size().x) * double(film.full_size().y));
+  pilot.brightness = light / kPilotWalks / (double(film.x) * double(film.y));
   pilot.vertices_per_walk = double(lights.vertices().vertices.size()) / kPilotWalks;
   return pilot;
 }

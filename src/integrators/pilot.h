@@ -14,6 +14,6 @@ struct Pilot {
 };
 
 /// `plan` is that of a whole iteration. The result depends on its seed alone.
-Pilot run_pilot(const Scene& scene, const Film& film, LightPassPlan plan);
+Pilot run_pilot(const Scene& scene, Point2i film, LightPassPlan plan);
 
 }  // namespace duet

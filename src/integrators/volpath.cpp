@@ -125,8 +125,7 @@ Spectrum VolumePathIntegrator::radiance(const Scene& scene, const CameraPath& st
     }
     ++counters.path_vertices;
     const Surface s = scene.surface(path.ray, hit);
-    if (const SurfaceLight* light = scene.light_on(*s.shape);
-        light && !hides_lights(path.depth)) {
+    if (const SurfaceLight* light = scene.light_on(*s.shape); light && !hides_lights(path.depth)) {
       const Vector3f& w = path.ray.direction;
       const Spectrum emitted = light->emitted(s, -w);
       const Vector3f way = s.position - path.from;

@@ -543,6 +543,14 @@ struct BidirectionalIntegratorDescription {
   bool operator==(const BidirectionalIntegratorDescription&) const = default;
 };
 
+/// Whichever method suits the scene.
+struct AutoIntegratorDescription {
+  int max_depth = -1;
+  int rr_depth = 5;
+  bool hide_emitters = false, strict_normals = false;
+  bool operator==(const AutoIntegratorDescription&) const = default;
+};
+
 /// Layers by their Mitsuba name and the name they get in the file.
 struct AovDescription {
   struct Layer {
@@ -556,7 +564,8 @@ struct AovDescription {
 struct IntegratorDescription {
   SourceLocation where;
   std::variant<PathIntegratorDescription, DirectIntegratorDescription, DepthIntegratorDescription,
-               BidirectionalIntegratorDescription, VolumePathIntegratorDescription>
+               BidirectionalIntegratorDescription, VolumePathIntegratorDescription,
+               AutoIntegratorDescription>
       method;
   AovDescription aovs;   ///< layers asked for by an `aov` integrator
   bool image = true;     ///< false if an `aov` integrator has no nested integrator

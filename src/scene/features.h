@@ -9,6 +9,9 @@
 
 namespace duet {
 
+/// Roughness α below which reflections are so sharp that what lies behind them is hard to find.
+inline constexpr double kNearlySpecular = 0.05;
+
 /// Counts of the things that are used. What an instanced group holds counts once, however often it
 /// is placed.
 struct SceneFeatures {
@@ -26,8 +29,9 @@ struct SceneFeatures {
   size_t diffuse = 0;
   size_t rough_reflection = 0, rough_refraction = 0;  ///< microfacets
   size_t mirrors = 0, smooth_glass = 0;               ///< delta distributions
-  size_t masks = 0;                                   ///< partly or wholly transparent surfaces
-  size_t bumps = 0;                                   ///< bump and normal maps
+  size_t nearly_specular = 0;  ///< microfacets with a roughness below kNearlySpecular
+  size_t masks = 0;            ///< partly or wholly transparent surfaces
+  size_t bumps = 0;            ///< bump and normal maps
   size_t textures = 0;
 
   size_t media = 0;                ///< that shapes or sensors name

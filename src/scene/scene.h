@@ -11,6 +11,7 @@
 #include "lights/picker.h"
 #include "materials/bsdf.h"
 #include "media/medium.h"
+#include "scene/features.h"
 #include "textures/texture.h"
 
 namespace duet {
@@ -37,6 +38,7 @@ struct Scene {
   /// Whether light may pass straight through any surface.
   bool has_passable_surfaces = false;
   std::unique_ptr<Accel> accel;
+  SceneFeatures features;  ///< of the description that this was built from
 
   Scene() = default;
   Scene(const Scene&) = delete;

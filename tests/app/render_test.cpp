@@ -5,7 +5,9 @@
 #include <doctest/doctest.h>
 
 #include <cmath>
+#include <map>
 #include <nlohmann/json.hpp>
+#include <sstream>
 
 #include "app/workplace.h"
 #include "image/image_io.h"
@@ -172,6 +174,37 @@ TEST_SUITE("program") {
     REQUIRE(both.is_array());
     REQUIRE(both.size() == 2);
     CHECK(both[1]["scene"] == "other.xml");
+  }
+
+  TEST_CASE("a scene that names no method gets one that suits it, and the image says which") {
+    const Workplace place;
+    TinyScene s;
+    s.integrator = "";
+    place.scene("tiny.xml", s);
+    const Outcome o = place.run({"tiny.xml", "--stats", "s.json", "-o", "{integrator}.exr"});
+    CAPTURE(o.err);
+    REQUIRE(o.code == 0);
+    CHECK(contains(o.err, "tiny.xml: auto chose "));
+    const auto j = nlohmann::json::parse(read_file(place.path("s.json")));
+    CHECK(j["integrator"] == "auto");
+    const std::string reason = j["chosen"]["reason"];
+    CHECK(contains(o.err, "auto chose " + reason));
+    const ImageFile file = read_image(place.path("auto.exr"));
+    std::map<std::string, std::string> header(file.header.begin(), file.header.end());
+    CHECK(header["integrator"] == "auto");
+    CHECK(header["chosenIntegrator"] == j["chosen"]["integrator"]);
+    CHECK(header["chosenParameters"] == j["chosen"]["parameters"]);
+    CHECK(header["choiceReason"] == reason);
+    CHECK(reason.rfind(header["chosenIntegrator"], 0) == 0);
+    // The same picture as by the method that was chosen.
+    const std::string name = j["chosen"]["integrator"];
+    std::vector<std::string> again{"tiny.xml", "-i", name, "-o", "b.exr"};
+    std::istringstream parameters(j["chosen"]["parameters"].get<std::string>());
+    for (std::string p; parameters >> p;) again.insert(again.end(), {"-I", p});
+    REQUIRE(place.run(again).code == 0);
+    CHECK(read_image(place.path("b.exr")).image.data == file.image.data);
+    CHECK(place.run({"tiny.xml", "--strict"}).code == 1);
+    CHECK(place.run({"tiny.xml", "-i", "auto", "-I", "light_paths=1"}).code == 2);
   }
 
   TEST_CASE("layers are asked for by name and come after the colours") {

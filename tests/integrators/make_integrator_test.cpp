@@ -49,10 +49,10 @@ TEST_CASE("every method can be selected by its name and says it again") {
     CHECK(integrator_name(with({}, n.name)) == n.name);
     CHECK(integrator_name(with(describe(Bidirectional{}), n.name)) == n.name);
   }
-  CHECK(all == "path volpath volpathmis direct ptracer bdpt reuse ppm bpm vcm depth aov ");
+  CHECK(all == "auto path volpath volpathmis direct ptracer bdpt reuse ppm bpm vcm depth aov ");
   CHECK(refusal("bdtp", {}) ==
-        "there is no integrator \"bdtp\" (did you mean \"bdpt\"?); there are path, volpath, "
-        "volpathmis, direct, ptracer, bdpt, reuse, ppm, bpm, vcm, depth, aov");
+        "there is no integrator \"bdtp\" (did you mean \"bdpt\"?); there are auto, path, "
+        "volpath, volpathmis, direct, ptracer, bdpt, reuse, ppm, bpm, vcm, depth, aov");
 }
 
 TEST_CASE("the parameters of each method, with their presets") {
@@ -62,6 +62,7 @@ TEST_CASE("the parameters of each method, with their presets") {
   const std::string paths = "max_depth=-1 rr_depth=5 hide_emitters=false",
                     more = paths + " strict_normals=false light_paths=0";
   CHECK(parameters("path") == paths + " strict_normals=false");
+  CHECK(parameters("auto") == paths + " strict_normals=false");
   CHECK(parameters("ptracer") == paths + " light_paths=0");
   CHECK(parameters("bdpt") == more + " connections=-1 light_image=true");
   CHECK(parameters("reuse") ==

@@ -225,8 +225,8 @@ TEST_CASE("what nobody defined stays harmless: entities are not expanded") {
 TEST_CASE("defaults of the whole scene") {
   const ReadResult none = read_text("<scene version='3.0.0'><sensor type='perspective'/></scene>");
   REQUIRE(none.scene);
-  CHECK(none.has("warning: the scene has no integrator: \"path\" is used"));
-  CHECK(std::holds_alternative<PathIntegratorDescription>(none.description().integrator.method));
+  CHECK(none.has("warning: the scene has no integrator: \"auto\" is used"));
+  CHECK(std::holds_alternative<AutoIntegratorDescription>(none.description().integrator.method));
   CHECK(none.description().approximations.size() == 1);
   CHECK(read_text("<scene version='0.6.0'><sensor type='perspective'/></scene>")
             .has("would use \"direct\""));

@@ -1,0 +1,38 @@
+// The method that chooses a method: no more than a scene needs, and no less.
+#pragma once
+
+#include <memory>
+
+#include "integrators/integrator.h"
+#include "scene/description.h"
+
+namespace duet {
+
+/// Decides in begin(), by the rules of auto_rules.h and a pilot whose samples are not part of the
+/// image (method_choice.h), and then is the method chosen. The decision depends on the scene, the
+/// description, the size of the whole image and the samples per pixel, and on nothing else.
+class AutoIntegrator final : public Integrator {
+ public:
+  /// `output` says what else to render; its own method is left out of account.
+  AutoIntegrator(const AutoIntegratorDescription& options, const IntegratorDescription& output);
+
+  std::vector<std::string> channels() const override { return chosen_->channels(); }
+  void begin(const Scene& scene, const RenderOutlook& outlook) override;
+  const MethodDecision* decision() const override { return decided_ ? &decision_ : nullptr; }
+  std::string bias() const override { return bias_; }
+  double memory_bytes(const FilmLayout& film) const override { return chosen_->memory_bytes(film); }
+  void prepare(Film& film) const override;
+  void render_pass(const Scene& scene, Film& film, const SampleRange& samples,
+                   const PassControl& control, RenderCounters& counters) override;
+  void finish(Image& image, int spp) const override { chosen_->finish(image, spp); }
+
+ private:
+  AutoIntegratorDescription options_;
+  IntegratorDescription description_;   ///< with the method chosen
+  std::unique_ptr<Integrator> chosen_;  ///< of the same channels before the decision
+  bool decided_ = false;
+  MethodDecision decision_;
+  std::string bias_;
+};
+
+}  // namespace duet

@@ -1,0 +1,20 @@
+// What methods cost, from counts of what they do: no clock has a say in which method is chosen.
+#pragma once
+
+namespace duet {
+
+/// What is done for one sample of one pixel, on average.
+struct WorkPerSample {
+  double eye_rays = 0, light_samples = 0;       ///< rays of the eye walk, shadow rays to lights
+  double light_rays = 0, camera_rays = 0;       ///< of the light walks: theirs, and to the camera
+  double connections = 0, connection_rays = 0;  ///< tried, and those that needed a shadow ray
+  double merge_queries = 0, merges = 0;
+  double stored_vertices = 0;  ///< light vertices that are kept
+};
+
+/// In units of about a microsecond on the machine of docs/performance.md; only ratios matter.
+double path_cost(const WorkPerSample& work);
+/// Of the methods that walk from both ends.
+double bidirectional_cost(const WorkPerSample& work);
+
+}  // namespace duet

@@ -1,0 +1,29 @@
+// What can be said about methods from what a scene contains, before anything is rendered.
+#pragma once
+
+#include <string>
+
+#include "scene/features.h"
+
+namespace duet {
+
+/// Which ways of making paths come into question.
+struct MethodRules {
+  bool has_lights = true;
+  /// There are lights that no ray finds and surfaces through which no light sample goes: some paths
+  /// can start at the light only.
+  bool needs_light_walks = false;
+  /// Merging is worth its cost for reflections of what mirrors or lenses make of light.
+  bool may_merge = false;
+  /// All lights are infinitely far away: light walks may miss what the image shows.
+  bool far_lights_only = false;
+
+  bool operator==(const MethodRules&) const = default;
+};
+
+MethodRules method_rules(const SceneFeatures& features);
+
+/// For people: "light walks are needed (…); merging is not (…)".
+std::string describe(const MethodRules& rules);
+
+}  // namespace duet

@@ -1,0 +1,59 @@
+// A look at a scene with all techniques at once, on a few pixels: what each contribution to the
+// image tells about the methods that could have made it.
+#pragma once
+
+#include <vector>
+
+#include "transport/counters.h"
+#include "transport/family_weights.h"
+
+namespace duet {
+
+/// Which kind of technique made a contribution.
+enum class Technique : uint8_t { unidirectional, light_image, connection, merge };
+
+/// A weighted contribution, f / Σ n_i p_i of its path.
+struct PricedContribution {
+  float value, square;  ///< means over the colours
+  FamilyShares shares;  ///< in the density of all techniques
+  Technique technique;
+  uint16_t cell;  ///< where in the image: row by row of the pilot's pixels
+};
+
+struct PricingPlan {
+  Point2i film;        ///< size of the whole image
+  int max_depth = -1;  ///< in segments; −1 is no limit
+  int rr_depth = 5;
+  bool hide_emitters = false, strict_normals = false;
+  int pixels_per_side = 32;  ///< the pilot looks at this number squared
+  int threads = 1;
+};
+
+/// What a pilot has seen. Two eye walks for each of its pixels, and as many light walks.
+struct PricingRecord {
+  /// Light walks per pixel in the weights.
+  static constexpr double kLightPaths = 1;
+  /// Pairs of vertices that are near enough to be merged are looked at with this probability.
+  static constexpr double kMergeShare = 0.25;
+
+  std::vector<PricedContribution> eye;  ///< walk after walk
+  std::vector<uint32_t> ends;           ///< walk i has [ends[i − 1], ends[i])
+  std::vector<PricedContribution> light;
+  int side = 0;  ///< of the grid of pixels
+  /// Light seen without any scattering, by cell: it is the same for all methods.
+  std::vector<double> seen;
+
+  RenderCounters eye_counters;         ///< eye walks and light samples
+  RenderCounters connection_counters;  ///< connections
+  RenderCounters merge_counters;       ///< of the pairs that were looked at
+  RenderCounters light_counters;       ///< light walks and what the camera sees of them
+  double light_vertices = 0;           ///< that can be connected
+
+  size_t walks() const { return ends.size(); }
+};
+
+/// The result depends on the scene and the plan, but not on its number of threads. The scene has a
+/// light, and `max_depth` is not below 2.
+PricingRecord run_pricing_pilot(const Scene& scene, const PricingPlan& plan);
+
+}  // namespace duet

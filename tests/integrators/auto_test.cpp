@@ -1,0 +1,184 @@
+// Which method is chosen for which scene, and that the choice depends on nothing else.
+#include "integrators/auto.h"
+
+#include <cmath>
+
+#include "integrators/method_choice.h"
+#include "integrators/method_rules.h"
+#include "support/transport_scene.h"
+
+using namespace duet;
+using namespace duet::test;
+
+namespace {
+
+const std::string kCamera = camera_xml("0, -3, 1", "0, 0, 1", 32);
+const std::string kPoint =
+    "<emitter type='point'><point name='position' value='0, 0, 1.9'/>"
+    "<rgb name='intensity' value='1'/></emitter>";
+const std::string kGlassBall = sphere_xml("-0.4, 0, 0.6", "0.4", "<bsdf type='dielectric'/>");
+const std::string kWalls = room_xml(grey("0.7, 0.7, 0.7"));
+
+struct Choice {
+  std::string name;
+  double light_paths = 0;
+  std::string reason, bias;
+};
+
+Choice choose(const TransportScene& s, int max_depth = 8, int threads = 2) {
+  AutoIntegratorDescription options;
+  options.max_depth = max_depth;
+  const MethodChoice c = choose_method(*s.scene, options, {s.layout.full, 256, threads});
+  IntegratorDescription d;
+  d.method = c.method;
+  Choice choice{integrator_name(d), 0, c.reason, c.bias};
+  if (const auto* b = std::get_if<BidirectionalIntegratorDescription>(&c.method)) {
+    choice.light_paths = b->light_paths;
+    CHECK(b->max_depth == max_depth);
+  }
+  return choice;
+}
+
+bool merges(const Choice& c) {
+  return c.name == "vcm";
+}
+
+}  // namespace
+
+TEST_CASE("rules from what a scene contains") {
+  SceneFeatures f;
+  CHECK(!method_rules(f).has_lights);
+  CHECK(describe(method_rules(f)) == "no lights");
+  f.area_lights = 1;
+  CHECK(method_rules(f) == MethodRules{});
+  f.nearly_specular = 1;
+  CHECK(method_rules(f) == MethodRules{.may_merge = true});
+  f.mirrors = 1;
+  CHECK(method_rules(f) == MethodRules{.may_merge = true});
+  f.spot_lights = 1;
+  CHECK(method_rules(f) == MethodRules{.needs_light_walks = true, .may_merge = true});
+  SceneFeatures sky;
+  sky.environment_map = true;
+  CHECK(method_rules(sky) == MethodRules{.far_lights_only = true});
+  sky.masks = 1;
+  CHECK(method_rules(sky) == MethodRules{.may_merge = true, .far_lights_only = true});
+  sky.directional_lights = 1;
+  CHECK(method_rules(sky).needs_light_walks);
+  for (const SceneFeatures& any : {f, sky}) CHECK(!describe(method_rules(any)).empty());
+}
+
+TEST_CASE("without specular surfaces nothing is merged") {
+  const Choice c = choose(TransportScene(kCamera + kWalls + lamp_xml("0.5", "5")));
+  CAPTURE(c.reason);
+  CHECK(!merges(c));
+  CHECK(c.bias.empty());
+}
+
+TEST_CASE("under an open sky paths start at the camera") {
+  const Choice c =
+      choose(TransportScene(kCamera + sphere_xml("0, 0, 1", "0.5", grey("0.5, 0.5, 0.5")) +
+                            "<emitter type='constant'><rgb name='radiance' value='1'/></emitter>"));
+  CAPTURE(c.reason);
+  CHECK(c.name == "path");
+}
+
+TEST_CASE("nothing is tried where there is nothing to choose") {
+  CHECK(choose(TransportScene(kCamera + kWalls)).reason == "path: the scene has no lights");
+  const TransportScene lit(kCamera + kWalls + kPoint);
+  CHECK(choose(lit, 1).reason == "path: paths of one segment are seen directly");
+  const std::string ground =
+      "<shape type='rectangle'><transform name='to_world'><scale value='10000'/></transform>" +
+      grey("0.5, 0.5, 0.5") + "</shape>";
+  const TransportScene plain(camera_xml("0, -3, 3", "0, 0, 0.3", 32) + ground +
+                             sphere_xml("0, 0, 0.5", "0.5", grey("0.5, 0.5, 0.5")) +
+                             "<emitter type='constant'/>");
+  CHECK(choose(plain).reason ==
+        "path: walks from lights so far away would miss what the image shows");
+}
+
+TEST_CASE("light walks are taken where path tracing loses light") {
+  const Choice c = choose(TransportScene(kCamera + kWalls + kPoint + kGlassBall));
+  CAPTURE(c.reason);
+  CHECK(c.name != "path");
+  CHECK(c.light_paths > 0);
+}
+
+TEST_CASE("light that only merging finds is not lost") {
+  const Choice c = choose(
+      TransportScene(camera_xml("0, -0.9, 1", "0, 1, 0.9", 32) +
+                     room_xml("<bsdf type='twosided'><bsdf type='plastic'/></bsdf>") + kPoint +
+                     kGlassBall + sphere_xml("0.5, 0.3, 0.5", "0.45", "<bsdf type='conductor'/>")));
+  CAPTURE(c.reason);
+  CHECK(merges(c));
+  CHECK(c.bias == "some light is found by merging only: consistent, but biased");
+  CHECK(c.reason.find("; consistent, biased") != std::string::npos);
+}
+
+TEST_CASE("caustics in mirrors are merged") {
+  const Choice c = choose(TransportScene("thesis-modified", 64));
+  CAPTURE(c.reason);
+  CHECK(merges(c));
+  CHECK(!c.bias.empty());
+}
+
+TEST_CASE("the choice does not depend on threads or windows") {
+  const TransportScene s("thesis-modified", 48);
+  const Choice one = choose(s, 8, 1);
+  for (const int threads : {2, 7}) CHECK(choose(s, 8, threads).reason == one.reason);
+  // A film that shows a part is decided on like the whole.
+  FilmLayout window = s.layout;
+  window.crop = {10, 20, 26, 36};
+  const auto full = s.method("auto", {}), part = s.method("auto", {});
+  const RenderResult all = s.render(*full, s.layout, 2, 3), some = s.render(*part, window, 2, 3, 5);
+  REQUIRE(full->decision());
+  REQUIRE(part->decision());
+  CHECK(part->decision()->reason == full->decision()->reason);
+  const size_t channels = all.image.channels.size();
+  int differ = 0;
+  for (int y = 0; y < 16; ++y)
+    for (int x = 0; x < 16; ++x)
+      for (size_t c = 0; c < channels; ++c)
+        differ += some.image.data[(size_t(y) * 16 + size_t(x)) * channels + c] !=
+                  all.image.data[(size_t(y + 20) * 48 + size_t(x + 10)) * channels + c];
+  CHECK(differ == 0);
+}
+
+TEST_CASE("parameters of other methods are kept, and those it has not are refused") {
+  IntegratorDescription d;
+  d.method = PathIntegratorDescription{7, 3, true, true};
+  apply_override(d, {"auto", {}, {}});
+  CHECK(integrator_parameters(d) ==
+        "max_depth=7 rr_depth=3 hide_emitters=true strict_normals=true");
+  CHECK_THROWS_AS(apply_override(d, {"", {{"light_paths", "1"}}, {}}), std::invalid_argument);
+  CHECK_THROWS_AS(make_integrator(d, TechniqueOutput::weighted), std::invalid_argument);
+  const auto undecided = make_integrator(d);
+  CHECK(!undecided->decision());
+  Film film({{4, 4}, {0, 0, 4, 4}, {}}, undecided->channels());
+  CHECK_THROWS_AS(undecided->prepare(film), std::logic_error);
+}
+
+// A pilot that decides on what it sees, and whose samples are in the image, would be wrong here.
+TEST_CASE("256 short renders have the mean of a long one") {
+  const TransportScene s(camera_xml("0, -3, 1", "0, 0, 1", 12) + kWalls + kPoint +
+                         sphere_xml("0.5, 0, 0.4", "0.3",
+                                    "<bsdf type='roughconductor'><float name='alpha' "
+                                    "value='0.2'/></bsdf>"));
+  const auto mean = [](const Image& image) {
+    double sum = 0;
+    for (size_t i = 0; i < image.data.size(); i += 4) sum += double(image.data[i]);
+    return sum / double(image.data.size() / 4);
+  };
+  const double expected = mean(s.render("path", {{"max_depth", "5"}}, 8192, 99).image);
+  double sum = 0, squares = 0;
+  constexpr int kRenders = 256;
+  for (int i = 0; i < kRenders; ++i) {
+    const auto method = s.method("auto", {{"max_depth", "5"}});
+    const double m = mean(s.render(*method, s.layout, 1, uint64_t(i)).image);
+    CHECK(method->bias().empty());
+    sum += m, squares += m * m;
+  }
+  const double average = sum / kRenders;
+  const double error = std::sqrt((squares / kRenders - average * average) / kRenders + 1e-12);
+  CHECK(std::abs(average - expected) < 3.5 * error);
+  CHECK(error < 0.01 * expected);
+}
