@@ -101,7 +101,8 @@ std::string explanations() {
          "pixels. "
          "<em>Efficiency</em>: 1 / (trimmed · CPU seconds). Seconds to an error are CPU seconds, ≈ "
          "by "
-         "the fitted slope beyond the last point, ≤ where the first point is better already. Intervals are of 95 %, from a bootstrap over 8×8 "
+         "the fitted slope beyond the last point, ≤ where the first point is better already. "
+         "Intervals are of 95 %, from a bootstrap over 8×8 "
          "tiles of the image. The methods took turns in short slices, so that all saw the same "
          "machine; the scene was read and built once, which is not counted, while an external "
          "renderer is timed as a whole process.</p>\n";

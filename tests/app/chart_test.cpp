@@ -377,6 +377,9 @@ TEST_SUITE("program") {
     CHECK(int(result["width"]) > 100);
     CHECK(int(result["width"]) != 300);
     CHECK(result["errors"].empty());
-    CHECK_FALSE(contains(s.file("log.txt"), "CONSOLE"));
+    // The browser's advice about reading pixels is for this test, which alone does that.
+    std::istringstream log(s.file("log.txt"));
+    for (std::string line; std::getline(log, line);)
+      CHECK_FALSE((contains(line, "CONSOLE") && !contains(line, "willReadFrequently")));
   }
 }
