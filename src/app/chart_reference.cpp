@@ -60,6 +60,7 @@ std::optional<ChartReference> make_reference(const ChartRender& render, Integrat
   // Numbers that no line of the chart uses.
   const uint64_t seed = render.seed + 0x5265666572656e63u;
   std::vector<Film> parts;
+  integrator.begin(*render.scene, {render.layout.full, 64, render.threads});
   for (int i = 0; i < kParts; ++i)
     integrator.prepare(parts.emplace_back(render.layout, integrator.channels()));
   PassControl control;

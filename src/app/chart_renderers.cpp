@@ -38,7 +38,12 @@ OwnRenderer::OwnRenderer(const ChartRender& render, std::unique_ptr<Integrator> 
       render_(render),
       integrator_(std::move(integrator)),
       film_(render.layout, integrator_->channels()) {
+  const auto start = std::chrono::steady_clock::now();
+  const double cpu = process_cpu_seconds();
+  integrator_->begin(*render.scene, {render.layout.full, 64, render.threads});
   integrator_->prepare(film_);
+  cpu_seconds_ = process_cpu_seconds() - cpu;
+  seconds_ = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   line.bias = integrator_->bias();
 }
 

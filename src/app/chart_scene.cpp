@@ -112,6 +112,9 @@ class SceneChart {
       if (m.integrator.name == "depth" || m.integrator.name == "aov")
         throw std::invalid_argument(fmt::format("\"{}\" makes no colours to compare", m.name));
       apply_override(d, m.integrator);
+      Diagnostics diagnostics;
+      check_support(description_, d, diagnostics);
+      if (report(diagnostics, o_.read.strict)) throw SceneFailure("");
       Prepared p{m.name, integrator_parameters(d), make_integrator(d)};
       return p;
     } catch (const std::invalid_argument& e) {

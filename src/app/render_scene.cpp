@@ -109,7 +109,7 @@ class SceneRenderer {
       throw UsageError(e.what());
     }
     Diagnostics diagnostics;
-    check_support(description_, diagnostics);
+    check_support(description_, description_.integrator, diagnostics);
     if (report(diagnostics, options_.read.strict)) throw SceneFailure("");
     if (const std::string bias = integrator_->bias(); !bias.empty()) warn(bias);
     record_.bias = integrator_->bias();

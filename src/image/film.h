@@ -94,8 +94,8 @@ class Film {
   /// that a unit of light per pixel area adds one to each pixel. The sum does not depend on the
   /// number of threads.
   void add_splats(size_t layer, std::span<const Splat> splats, float scale, int threads);
-  /// Makes three channels from `first_channel` on the mean of the squares of what each pass makes of
-  /// a pixel's first three channels, splats included: samples alone do not know of those.
+  /// Makes three channels from `first_channel` on the mean of the squares of what each pass makes
+  /// of a pixel's first three channels, splats included: samples alone do not know of those.
   void add_moments(size_t first_channel);
   /// To be called after each pass with splats: these are divided by the number of passes.
   void end_pass();

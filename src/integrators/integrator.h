@@ -61,8 +61,8 @@ class Integrator {
   virtual const MethodDecision* decision() const { return nullptr; }
   /// For people: why even the mean of many images is wrong, if it is.
   virtual std::string bias() const { return ""; }
-  /// What the method keeps in memory besides the film, in bytes, estimated before it is known. To be
-  /// asked after begin().
+  /// What the method keeps in memory besides the film, in bytes, estimated before it is known. To
+  /// be asked after begin().
   virtual double memory_bytes(const FilmLayout&) const { return 0; }
   /// Called once for each film, before its first pass.
   virtual void prepare(Film&) const {}

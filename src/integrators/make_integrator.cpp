@@ -171,14 +171,15 @@ SurfaceNeeds integrator_needs(const IntegratorDescription& integrator) {
   return needs;
 }
 
-void check_support(const SceneDescription& scene, Diagnostics& diagnostics) {
-  if (!scene.integrator.image ||
-      !std::holds_alternative<BidirectionalIntegratorDescription>(scene.integrator.method))
+void check_support(const SceneDescription& scene, const IntegratorDescription& integrator,
+                   Diagnostics& diagnostics) {
+  if (!integrator.image ||
+      !std::holds_alternative<BidirectionalIntegratorDescription>(integrator.method))
     return;
   const auto refuse = [&](const SourceLocation& where) {
     diagnostics.error(where,
                       "integrator \"{}\" cannot render participating media yet; \"volpath\" can",
-                      integrator_name(scene.integrator));
+                      integrator_name(integrator));
   };
   const auto check = [&](const std::vector<ShapeDescription>& shapes) {
     for (const ShapeDescription& s : shapes)

@@ -35,7 +35,8 @@ std::string integrator_parameters(const IntegratorDescription& integrator);
 SurfaceNeeds integrator_needs(const IntegratorDescription& integrator);
 
 /// Reports what the scene has and its method cannot render.
-void check_support(const SceneDescription& scene, Diagnostics& diagnostics);
+void check_support(const SceneDescription& scene, const IntegratorDescription& integrator,
+                   Diagnostics& diagnostics);
 
 /// Throws std::invalid_argument if a layer does not exist, or if there are no techniques to show.
 std::unique_ptr<Integrator> make_integrator(const IntegratorDescription& integrator,

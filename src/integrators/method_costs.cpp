@@ -2,7 +2,7 @@
 
 namespace duet {
 
-// In proportion to the CPU times that bench/auto_costs.py measures, within about a fifth.
+// In proportion to the CPU times that bench/auto_costs.py measures, within about a third.
 double path_cost(const WorkPerSample& w) {
   return 0.15 + 0.20 * w.eye_rays + 0.10 * w.light_samples;
 }

@@ -244,7 +244,7 @@ TEST_CASE("methods that do not know media say so, and path does as in Mitsuba") 
     CAPTURE(name);
     apply_override(d.integrator, {name, {}, {}});
     Diagnostics diagnostics;
-    check_support(d, diagnostics);
+    check_support(d, d.integrator, diagnostics);
     const bool known = std::string(name) == "path" || std::string(name) == "volpath";
     REQUIRE(diagnostics.error_count() == (known ? 0 : 1));
     if (known) continue;
@@ -255,7 +255,7 @@ TEST_CASE("methods that do not know media say so, and path does as in Mitsuba") 
   d.shapes.clear();
   apply_override(d.integrator, {"bdpt", {}, {}});
   Diagnostics none;
-  check_support(d, none);
+  check_support(d, d.integrator, none);
   CHECK(none.error_count() == 0);
 
   const TransportScene scene(view(4) + homogeneous("1", "0") + kSlab + kSky);
