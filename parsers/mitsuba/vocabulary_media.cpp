@@ -93,12 +93,17 @@ constexpr Parameter kTabphase[] = {{.name = "values",
                                     .required = true}};
 constexpr Parameter kMixturephase[] = {
     {.name = "weights", .type = string, .note = "one for each phase function", .required = true}};
+constexpr std::string_view kNoEffect = "has no effect";
 constexpr Parameter kKkay[] = {
-    {.name = "ks", .type = number, .note = "not used", .support = approximated},
-    {.name = "kd", .type = number, .note = "not used", .support = approximated},
-    {.name = "exponent", .type = number, .note = "not used", .support = approximated}};
+    {.name = "ks", .type = number, .note = kNoEffect, .versions = v0, .support = approximated},
+    {.name = "kd", .type = number, .note = kNoEffect, .versions = v0, .support = approximated},
+    {.name = "exponent",
+     .type = number,
+     .note = kNoEffect,
+     .versions = v0,
+     .support = approximated}};
 constexpr Parameter kMicroflake[] = {
-    {.name = "stddev", .type = number, .note = "not used", .support = approximated}};
+    {.name = "stddev", .type = number, .note = kNoEffect, .versions = v0, .support = approximated}};
 
 constexpr Plugin kPhases[] = {
     {"isotropic", both, {}, &read_isotropic},
