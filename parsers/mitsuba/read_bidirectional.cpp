@@ -60,15 +60,6 @@ ReuseWeights read_reuse_weights(Properties& p) {
 
 }  // namespace
 
-void read_auto(SceneReader&, Properties& p, IntegratorDescription& out) {
-  AutoIntegratorDescription d;
-  d.max_depth = p.integer("max_depth");
-  d.rr_depth = p.integer("rr_depth");
-  d.hide_emitters = p.boolean("hide_emitters");
-  d.strict_normals = p.boolean("strict_normals");
-  out.method = d;
-}
-
 void read_ptracer(SceneReader&, Properties& p, IntegratorDescription& out) {
   auto ptracer = read_paths(p, BidirectionalMethod::ptracer);
   ptracer.light_paths = read_light_paths(p);

@@ -14,6 +14,11 @@ const std::vector<std::string>& layer_kinds() {
   return kinds;
 }
 
+PathLimits read_path_limits(Properties& p) {
+  return {p.integer("max_depth"), p.integer("rr_depth"), p.boolean("hide_emitters"),
+          p.boolean("strict_normals")};
+}
+
 void read_layers(Properties& p, AovDescription& out) {
   if (!p.find("aovs")) return;
   const std::string text = p.string("aovs");
@@ -41,21 +46,12 @@ void read_layers(Properties& p, AovDescription& out) {
 }  // namespace
 
 void read_path(SceneReader&, Properties& p, IntegratorDescription& out) {
-  PathIntegratorDescription path;
-  path.max_depth = p.integer("max_depth");
-  path.rr_depth = p.integer("rr_depth");
-  path.hide_emitters = p.boolean("hide_emitters");
-  path.strict_normals = p.boolean("strict_normals");
-  out.method = path;
+  out.method = PathIntegratorDescription{read_path_limits(p)};
 }
 
 void read_volpath(SceneReader&, Properties& p, IntegratorDescription& out) {
-  VolumePathIntegratorDescription path;
+  VolumePathIntegratorDescription path{read_path_limits(p)};
   if (p.node().type == "volpathmis") path.name = VolumePathName::volpathmis;
-  path.max_depth = p.integer("max_depth");
-  path.rr_depth = p.integer("rr_depth");
-  path.hide_emitters = p.boolean("hide_emitters");
-  path.strict_normals = p.boolean("strict_normals");
   out.method = path;
 }
 
@@ -81,6 +77,10 @@ void read_direct(SceneReader&, Properties& p, IntegratorDescription& out) {
   direct.hide_emitters = p.boolean("hide_emitters");
   direct.strict_normals = p.boolean("strict_normals");
   out.method = direct;
+}
+
+void read_auto(SceneReader&, Properties& p, IntegratorDescription& out) {
+  out.method = AutoIntegratorDescription{read_path_limits(p)};
 }
 
 void read_depth(SceneReader&, Properties&, IntegratorDescription& out) {

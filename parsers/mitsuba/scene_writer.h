@@ -62,6 +62,8 @@ class SceneWriter {
 
   // write_integrators.cpp
   void integrator(const IntegratorDescription& i);
+  void write_limits(const PathLimits& m);
+  void write_path(std::string_view type, const PathLimits& m);
   void write_method(const PathIntegratorDescription& m);
   void write_method(const VolumePathIntegratorDescription& m);
   void write_method(const DirectIntegratorDescription& m);

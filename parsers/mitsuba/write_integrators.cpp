@@ -20,30 +20,31 @@ void SceneWriter::integrator(const IntegratorDescription& i) {
   if (layers) out_.close();
 }
 
-void SceneWriter::write_method(const PathIntegratorDescription& m) {
-  out_.open("integrator", "path");
+void SceneWriter::write_limits(const PathLimits& m) {
   out_.integer("max_depth", m.max_depth);
   out_.integer("rr_depth", m.rr_depth);
   out_.boolean("hide_emitters", m.hide_emitters);
+}
+
+void SceneWriter::write_path(std::string_view type, const PathLimits& m) {
+  out_.open("integrator", type);
+  write_limits(m);
   if (m.strict_normals) lose("\"strict_normals\" does not exist in Mitsuba 3");
   out_.close();
 }
 
+void SceneWriter::write_method(const PathIntegratorDescription& m) {
+  write_path("path", m);
+}
+
 void SceneWriter::write_method(const VolumePathIntegratorDescription& m) {
-  out_.open("integrator", m.name == VolumePathName::volpath ? "volpath" : "volpathmis");
-  out_.integer("max_depth", m.max_depth);
-  out_.integer("rr_depth", m.rr_depth);
-  out_.boolean("hide_emitters", m.hide_emitters);
-  if (m.strict_normals) lose("\"strict_normals\" does not exist in Mitsuba 3");
-  out_.close();
+  write_path(m.name == VolumePathName::volpath ? "volpath" : "volpathmis", m);
 }
 
 void SceneWriter::write_method(const AutoIntegratorDescription& m) {
   lose("only Duet reads the integrator \"auto\"");
   out_.open("integrator", "auto");
-  out_.integer("max_depth", m.max_depth);
-  out_.integer("rr_depth", m.rr_depth);
-  out_.boolean("hide_emitters", m.hide_emitters);
+  write_limits(m);
   out_.boolean("strict_normals", m.strict_normals);
   out_.close();
 }
@@ -67,9 +68,7 @@ void SceneWriter::write_method(const BidirectionalIntegratorDescription& m) {
   constexpr std::array<std::string_view, 6> names{"ptracer", "bdpt", "reuse", "ppm", "bpm", "vcm"};
   const std::string_view name = names[size_t(m.method)];
   out_.open("integrator", name);
-  out_.integer("max_depth", m.max_depth);
-  out_.integer("rr_depth", m.rr_depth);
-  out_.boolean("hide_emitters", m.hide_emitters);
+  write_limits({m.max_depth, m.rr_depth, m.hide_emitters});
   if (m.method == ptracer) {
     if (m.light_paths != 0) {
       lose("only Duet reads \"light_paths\" of the integrator \"ptracer\"");
@@ -82,9 +81,7 @@ void SceneWriter::write_method(const BidirectionalIntegratorDescription& m) {
   out_.boolean("strict_normals", m.strict_normals);
   out_.number("light_paths", m.light_paths);
   if (m.method == bdpt || m.method == vcm) out_.integer("connections", m.connections);
-  if (m.method == bdpt) {
-    out_.boolean("light_image", m.light_image);
-  }
+  if (m.method == bdpt) out_.boolean("light_image", m.light_image);
   if (m.method == ppm || m.method == bpm || m.method == vcm) {
     out_.number("radius", m.radius);
     out_.number("alpha", m.alpha);

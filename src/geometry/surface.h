@@ -33,6 +33,17 @@ Surface make_mesh_surface(const Shape& shape, const Hit& hit);
 /// Completes a hit of `ray`. `instance` is null for shapes that are not instanced.
 Surface make_surface(const Shape& shape, const Instance* instance, const Ray& ray, const Hit& hit);
 
+/// What textures look up at a point that was sampled on a shape: it has no normals or tangents.
+inline Surface textured_point(const Shape& shape, const ShapePoint& p) {
+  Surface s;
+  s.shape = &shape;
+  s.position = p.position;
+  s.uv = p.uv;
+  s.barycentric = p.barycentric;
+  s.primitive = p.primitive;
+  return s;
+}
+
 /// The surface's position, moved off it to the side to which `direction` points.
 inline Point3f offset_position(const Surface& s, const Vector3f& direction) {
   const float side = dot(s.ng, direction) < 0 ? -s.offset : s.offset;

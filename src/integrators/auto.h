@@ -8,7 +8,7 @@
 
 namespace duet {
 
-/// Decides in begin(), by the rules of auto_rules.h and a pilot whose samples are not part of the
+/// Decides in begin(), by the rules of method_rules.h and a pilot whose samples are not part of the
 /// image (method_choice.h), and then is the method chosen. The decision depends on the scene, the
 /// description, the size of the whole image and the samples per pixel, and on nothing else.
 class AutoIntegrator final : public Integrator {

@@ -87,8 +87,7 @@ std::string BidirectionalIntegrator::bias() const {
                          ? "reading a: 3.9 % too dark on average in the thesis's modified box, up "
                            "to 16 % in places"
                          : "reading b: right on average in the thesis's modified box, but from 5 % "
-                           "too dark to 10 % "
-                           "too bright in places");
+                           "too dark to 10 % too bright in places");
 }
 
 double BidirectionalIntegrator::memory_bytes(const FilmLayout& film) const {

@@ -124,11 +124,9 @@ void BidirectionalIntegrator::walk(const Weights& weights, Trail* trail, Eye& ey
 
 template <class Weights>
 void BidirectionalIntegrator::join(const Weights& weights, const PathVertex& v, Eye& eye) const {
-  if (set_.connections) {
-    if (eye.scene.picker.size() > 0)
-      add(eye, 1, v.depth + 1,
-          join_light(eye.scene, weights, v, options_.strict_normals, eye.sampler, eye.counters));
-  }
+  if (set_.connections && eye.scene.picker.size() > 0)
+    add(eye, 1, v.depth + 1,
+        join_light(eye.scene, weights, v, options_.strict_normals, eye.sampler, eye.counters));
   if (set_.merges) find_photons(v, eye);
   if (set_.connections) {
     if (options_.connections < 0)

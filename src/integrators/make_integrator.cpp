@@ -31,8 +31,7 @@ std::optional<Method> find_method(const std::string& name) {
   if (name == "auto") return AutoIntegratorDescription{};
   if (name == "path" || name == "aov") return PathIntegratorDescription{};
   if (name == "volpath") return VolumePathIntegratorDescription{};
-  if (name == "volpathmis")
-    return VolumePathIntegratorDescription{.name = VolumePathName::volpathmis};
+  if (name == "volpathmis") return VolumePathIntegratorDescription{{}, VolumePathName::volpathmis};
   if (name == "direct") return DirectIntegratorDescription{};
   if (name == "depth") return DepthIntegratorDescription{};
   for (size_t i = 0; i < kBidirectionalNames.size(); ++i)
@@ -198,12 +197,10 @@ std::unique_ptr<Integrator> make_integrator(const IntegratorDescription& integra
     const IntegratorDescription& whole;
     CameraOutput output;
     std::unique_ptr<Integrator> operator()(const PathIntegratorDescription& d) const {
-      const PathOptions o{d.max_depth, d.rr_depth, d.hide_emitters, d.strict_normals};
-      return std::make_unique<PathIntegrator>(o, output);
+      return std::make_unique<PathIntegrator>(d, output);
     }
     std::unique_ptr<Integrator> operator()(const VolumePathIntegratorDescription& d) const {
-      const PathOptions o{d.max_depth, d.rr_depth, d.hide_emitters, d.strict_normals};
-      return std::make_unique<VolumePathIntegrator>(o, output);
+      return std::make_unique<VolumePathIntegrator>(d, output);
     }
     std::unique_ptr<Integrator> operator()(const DirectIntegratorDescription& d) const {
       const DirectOptions o{d.emitter_samples, d.bsdf_samples, d.hide_emitters, d.strict_normals};

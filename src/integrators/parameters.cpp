@@ -89,9 +89,7 @@ MethodParameter thesis_reading(ReuseWeights& value) {
           }};
 }
 
-/// Also of VolumePathIntegratorDescription.
-template <class PathDescription>
-Parameters path_parameters(PathDescription& d) {
+Parameters path_parameters(PathLimits& d) {
   return {integer("max_depth", d.max_depth, -1, kMaxDepth),
           integer("rr_depth", d.rr_depth, 1, kMaxDepth), boolean("hide_emitters", d.hide_emitters),
           boolean("strict_normals", d.strict_normals)};
@@ -106,9 +104,7 @@ Parameters parameters(VolumePathIntegratorDescription& d) {
 }
 
 Parameters parameters(AutoIntegratorDescription& d) {
-  return {integer("max_depth", d.max_depth, -1, kMaxDepth),
-          integer("rr_depth", d.rr_depth, 1, kMaxDepth), boolean("hide_emitters", d.hide_emitters),
-          boolean("strict_normals", d.strict_normals)};
+  return path_parameters(d);
 }
 
 Parameters parameters(DirectIntegratorDescription& d) {

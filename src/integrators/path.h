@@ -2,22 +2,15 @@
 #pragma once
 
 #include "integrators/camera_integrator.h"
+#include "scene/description.h"
 
 namespace duet {
-
-struct PathOptions {
-  int max_depth = -1;  ///< longest path in segments; −1 is no limit
-  int rr_depth = 5;    ///< segments before roulette begins
-  bool hide_emitters = false;
-  /// Ignore directions that the shading and the geometric normal see on different sides.
-  bool strict_normals = false;
-};
 
 /// Unidirectional path tracing from the camera. Light is found by light samples and by BSDF
 /// samples, weighted by the power heuristic (Veach 1997, section 9.2.4).
 class PathIntegrator final : public CameraIntegrator {
  public:
-  PathIntegrator(const PathOptions& options, const CameraOutput& output)
+  PathIntegrator(const PathLimits& options, const CameraOutput& output)
       : CameraIntegrator(output), options_(options) {}
 
  protected:
@@ -31,7 +24,7 @@ class PathIntegrator final : public CameraIntegrator {
   template <class B>
   bool scatter(const Scene& scene, const Surface& s, const B& bsdf, int depth, Path& path) const;
 
-  PathOptions options_;
+  PathLimits options_;
 };
 
 }  // namespace duet

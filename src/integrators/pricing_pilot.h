@@ -4,6 +4,7 @@
 
 #include <vector>
 
+#include "scene/description.h"
 #include "transport/counters.h"
 #include "transport/family_weights.h"
 
@@ -20,11 +21,8 @@ struct PricedContribution {
   uint16_t cell;  ///< where in the image: row by row of the pilot's pixels
 };
 
-struct PricingPlan {
-  Point2i film;        ///< size of the whole image
-  int max_depth = -1;  ///< in segments; −1 is no limit
-  int rr_depth = 5;
-  bool hide_emitters = false, strict_normals = false;
+struct PricingPlan : PathLimits {
+  Point2i film;              ///< size of the whole image
   int pixels_per_side = 32;  ///< the pilot looks at this number squared
   int threads = 1;
 };

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "integrators/camera_integrator.h"
-#include "integrators/path.h"
+#include "scene/description.h"
 
 namespace duet {
 
@@ -13,7 +13,7 @@ namespace duet {
 /// Source: Miller, Georgiev & Jarosz 2019.
 class VolumePathIntegrator final : public CameraIntegrator {
  public:
-  VolumePathIntegrator(const PathOptions& options, const CameraOutput& output)
+  VolumePathIntegrator(const PathLimits& options, const CameraOutput& output)
       : CameraIntegrator(output), options_(options) {}
 
  protected:
@@ -37,7 +37,7 @@ class VolumePathIntegrator final : public CameraIntegrator {
   /// Whether lights that are met now are not to be seen.
   bool hides_lights(int depth) const { return depth == 0 && options_.hide_emitters; }
 
-  PathOptions options_;
+  PathLimits options_;
 };
 
 }  // namespace duet

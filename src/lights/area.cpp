@@ -121,13 +121,7 @@ std::optional<LightSample> AreaLight::sample_parallelogram(const Point3f& from,
 
 Spectrum AreaLight::radiance(const ShapePoint& p) const {
   if (!radiance_.texture) return radiance_.constant;
-  Surface s;
-  s.shape = &shape_;
-  s.position = p.position;
-  s.uv = p.uv;
-  s.barycentric = p.barycentric;
-  s.primitive = p.primitive;
-  return radiance_(s);
+  return radiance_(textured_point(shape_, p));
 }
 
 LightSample AreaLight::toward(const ShapePoint& p, PdfW pdf, const Vector3f& wi) const {

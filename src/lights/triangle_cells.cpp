@@ -22,16 +22,6 @@ Point2f even_point(int i) {
   return {float(x - std::floor(x)), float(y - std::floor(y))};
 }
 
-Surface to_surface(const Shape& shape, const ShapePoint& p) {
-  Surface s;
-  s.shape = &shape;
-  s.position = p.position;
-  s.uv = p.uv;
-  s.barycentric = p.barycentric;
-  s.primitive = p.primitive;
-  return s;
-}
-
 }  // namespace
 
 TriangleCells::TriangleCells(const Shape& shape, const ColorSlot& radiance) : shape_(shape) {
@@ -51,7 +41,7 @@ TriangleCells::TriangleCells(const Shape& shape, const ColorSlot& radiance) : sh
       } else {
         for (int k = 0; k < points_; ++k) {
           const Point2f b = within(cell(c), square_to_triangle(even_point(k)));
-          const Surface s = to_surface(shape, point_on_triangle(shape, t, b));
+          const Surface s = textured_point(shape, point_on_triangle(shape, t, b));
           sum += double(std::max(radiance(s).luminance(), 0.0f));
         }
       }

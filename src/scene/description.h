@@ -494,21 +494,24 @@ struct SensorDescription {
 
 // ---- Integrator -------------------------------------------------------------------------------
 
-struct PathIntegratorDescription {
-  int max_depth = -1;  ///< in segments; −1 is no limit
-  int rr_depth = 5;
-  bool hide_emitters = false, strict_normals = false;
+/// What all methods that trace paths of any length share.
+struct PathLimits {
+  int max_depth = -1;  ///< longest path in segments; −1 is no limit
+  int rr_depth = 5;    ///< segments before Russian roulette begins
+  bool hide_emitters = false;
+  /// Ignore directions that the shading and the geometric normal see on different sides.
+  bool strict_normals = false;
+  bool operator==(const PathLimits&) const = default;
+};
+struct PathIntegratorDescription : PathLimits {
   bool operator==(const PathIntegratorDescription&) const = default;
 };
 /// Mitsuba's two names for path tracing through media; Duet has one method for both.
 enum class VolumePathName { volpath, volpathmis };
-struct VolumePathIntegratorDescription {
+/// Its segments are between points where light is scattered: what passes straight through a surface
+/// does not count.
+struct VolumePathIntegratorDescription : PathLimits {
   VolumePathName name = VolumePathName::volpath;
-  /// In segments between points where light is scattered; −1 is no limit. What passes straight
-  /// through a surface does not count.
-  int max_depth = -1;
-  int rr_depth = 5;
-  bool hide_emitters = false, strict_normals = false;
   bool operator==(const VolumePathIntegratorDescription&) const = default;
 };
 struct DirectIntegratorDescription {
@@ -544,10 +547,7 @@ struct BidirectionalIntegratorDescription {
 };
 
 /// Whichever method suits the scene.
-struct AutoIntegratorDescription {
-  int max_depth = -1;
-  int rr_depth = 5;
-  bool hide_emitters = false, strict_normals = false;
+struct AutoIntegratorDescription : PathLimits {
   bool operator==(const AutoIntegratorDescription&) const = default;
 };
 

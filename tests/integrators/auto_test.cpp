@@ -145,7 +145,7 @@ TEST_CASE("the choice does not depend on threads or windows") {
 
 TEST_CASE("parameters of other methods are kept, and those it has not are refused") {
   IntegratorDescription d;
-  d.method = PathIntegratorDescription{7, 3, true, true};
+  d.method = PathIntegratorDescription{{7, 3, true, true}};
   apply_override(d, {"auto", {}, {}});
   CHECK(integrator_parameters(d) ==
         "max_depth=7 rr_depth=3 hide_emitters=true strict_normals=true");

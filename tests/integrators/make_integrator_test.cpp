@@ -198,6 +198,6 @@ TEST_CASE("layers stay with another method, and layers alone come from camera ra
   CHECK(vcm.moments);
   CHECK(vcm.image);
   CHECK(!aov.image);
-  CHECK(aov.method == describe(PathIntegratorDescription{.max_depth = 4}).method);
+  CHECK(aov.method == describe(PathIntegratorDescription{{.max_depth = 4}}).method);
   CHECK(with(aov, "bdpt").image);
 }
