@@ -311,6 +311,20 @@ MethodChoice without_pilot(const AutoIntegratorDescription& o, const std::string
           "path: " + why, ""};
 }
 
+MethodChoice through_media(const MethodRules& rules, const AutoIntegratorDescription& o) {
+  if (!rules.wants_volpath()) {
+    const BidirectionalIntegratorDescription both_ends =
+        bidirectional(o, BidirectionalMethod::bdpt, 0.25, -1);
+    return {both_ends, "bdpt: " + describe(rules), ""};
+  }
+  VolumePathIntegratorDescription d;
+  d.max_depth = o.max_depth;
+  d.rr_depth = o.rr_depth;
+  d.hide_emitters = o.hide_emitters;
+  d.strict_normals = o.strict_normals;
+  return {d, "volpath: " + describe(rules), ""};
+}
+
 }  // namespace
 
 PredictedMethod predict(const PricingRecord& record, const MethodCandidate& candidate, int spp) {
@@ -340,15 +354,8 @@ MethodPrices price_methods(const Scene& scene, const AutoIntegratorDescription& 
 
 MethodChoice choose_method(const Scene& scene, const AutoIntegratorDescription& options,
                            const RenderOutlook& outlook) {
-  if (scene.features.media > 0) {
-    VolumePathIntegratorDescription through_media;
-    through_media.max_depth = options.max_depth;
-    through_media.rr_depth = options.rr_depth;
-    through_media.hide_emitters = options.hide_emitters;
-    through_media.strict_normals = options.strict_normals;
-    return {through_media, "volpath: walks from lights do not enter media", ""};
-  }
   const MethodRules rules = method_rules(scene.features);
+  if (rules.has_media) return through_media(rules, options);
   if (!rules.has_lights) return without_pilot(options, "the scene has no lights");
   if (options.max_depth >= 0 && options.max_depth < 2)
     return without_pilot(options, "paths of one segment are seen directly");
