@@ -321,7 +321,7 @@ TEST_SUITE("agreement") {
 
   TEST_CASE("unbiased methods have the same mean in media at all depths") {
     const TemporaryDirectory folder;
-    check_agreement(cases_with_media(folder), {1, 2, 3, 5, 8}, 16, 32);
+    check_agreement(cases_with_media(folder), {2, 3, 6}, 16, 16);
   }
 
   TEST_CASE("merging comes near the mean, the nearer the smaller the radius") {
