@@ -19,8 +19,6 @@ double default_alpha(BidirectionalMethod method) {
 double default_light_paths(BidirectionalMethod method) {
   return method == BidirectionalMethod::bdpt || method == BidirectionalMethod::vcm ? 0.25 : 1.0;
 }
-/// Radius of the first iteration's merging, in pixels.
-constexpr double kPixelRadius = 1.5;
 /// No roulette lets a path become longer than this.
 constexpr int kUnlimited = 60000;
 
@@ -114,7 +112,7 @@ uint32_t BidirectionalIntegrator::light_walks(Point2i film) const {
 }
 
 double BidirectionalIntegrator::radius(uint32_t iteration) const {
-  const double first = options_.radius > 0 ? options_.radius : kPixelRadius * pilot_->footprint;
+  const double first = options_.radius > 0 ? options_.radius : pilot_->first_radius();
   const double alpha = options_.alpha > 0 ? options_.alpha : default_alpha(options_.method);
   return first * std::pow(double(iteration) + 1, 0.5 * (alpha - 1));
 }
@@ -174,7 +172,7 @@ void BidirectionalIntegrator::iteration(const Scene& scene, Film& film, const Sa
     plan.set = techniques(film, samples.first);
   }
   // A walk counts 1 / N_L.
-  plan.roulette_threshold = roulette_threshold() * plan.set.light_paths;
+  plan.roulette_threshold = pilot_->roulette_threshold() * plan.set.light_paths;
   set_ = plan.set;
   key_ = hash_combine(hash_combine(samples.seed, samples.scramble), samples.first);
   if (scene.lights.empty()) plan.walks = 0;

@@ -32,39 +32,43 @@ class BidirectionalIntegrator final : public CameraIntegrator {
                     RenderCounters& counters, std::span<float> values) const override;
 
  private:
+  template <class Vertex>
   struct Eye;
   using Method = BidirectionalMethod;
-  /// Of the mean pixel: too little to be seen in the noise of a sample.
-  static constexpr double kRouletteShare = 0.05;
 
   void iteration(const Scene& scene, Film& film, const SampleRange& samples,
                  const PassControl& control, RenderCounters& counters);
   TechniqueSet techniques(const Film& film, uint32_t iteration) const;
   double radius(uint32_t iteration) const;
-  /// Contributions below which joins are left to chance.
-  float roulette_threshold() const { return float(kRouletteShare * pilot_->brightness); }
   uint32_t light_walks(Point2i film) const;
   bool has_technique(int s, int t) const;
   void splat(Film& film, std::span<const LightSplat> splats, int threads, RenderCounters& counters);
 
-  // bidirectional_eye.cpp
-  template <class Weights>
-  void walk(const Weights& weights, Trail* trail, Eye& eye) const;
-  template <class Weights>
-  void join(const Weights& weights, const PathVertex& v, Eye& eye) const;
-  template <class Weights>
-  void connect(const Weights& weights, const PathVertex& v, Eye& eye) const;
-  template <class Weights>
-  void connect_to_cache(const Weights& weights, const PathVertex& v, Eye& eye) const;
-  void find_photons(const PathVertex& v, Eye& eye) const;
-  template <class Weights>
-  void merge(const Weights& weights, const PathVertex& v, Eye& eye) const;
+  // bidirectional_eye.cpp. `Vertex` is PathVertex, or MediaVertex in scenes with media.
+  template <class Vertex>
+  Spectrum trace(const Scene& scene, const CameraPath& path, Sampler& sampler,
+                 RenderCounters& counters, std::span<float> values) const;
+  template <class Vertex, class Weights>
+  void walk(const Weights& weights, Trail* trail, Eye<Vertex>& eye) const;
+  template <class Vertex, class Weights>
+  void join(const Weights& weights, const Vertex& v, Eye<Vertex>& eye) const;
+  template <class Vertex, class Weights>
+  void connect(const Weights& weights, const Vertex& v, Eye<Vertex>& eye) const;
+  template <class Vertex, class Weights>
+  void connect_to_cache(const Weights& weights, const Vertex& v, Eye<Vertex>& eye) const;
+  template <class Vertex>
+  void find_photons(const Vertex& v, Eye<Vertex>& eye) const;
+  template <class Vertex, class Weights>
+  void merge(const Weights& weights, const Vertex& v, Eye<Vertex>& eye) const;
   /// Vertices of the pixel's light walk that are near enough in length to be joined with `v`.
-  int candidates(const PathVertex& v, const Eye& eye) const;
-  bool enter_tail(Walk& walk, Eye& eye) const;
+  template <class Vertex>
+  int candidates(const Vertex& v, const Eye<Vertex>& eye) const;
+  template <class Vertex>
+  bool enter_tail(Walk& walk, Eye<Vertex>& eye) const;
   /// What the thesis does at the end of an eye walk that cannot connect.
-  void thesis_tail(const PathVertex& limit, Walk& walk, Eye& eye) const;
-  void add(Eye& eye, int s, int t, const Join& join) const;
+  void thesis_tail(const PathVertex& limit, Walk& walk, Eye<PathVertex>& eye) const;
+  template <class Vertex>
+  void add(Eye<Vertex>& eye, int s, int t, const Join& join) const;
 
   Options options_;
   int max_depth_;

@@ -6,13 +6,11 @@ namespace duet {
 
 namespace {
 
-/// Random numbers set aside for each vertex: direction to and choice of the light; direction and
-/// lobe of the BSDF, roulette.
-constexpr uint32_t kDimensionsPerVertex = 8;
-constexpr uint32_t kBsdfDimension = 4;
 /// Photons in the cells around a vertex from which on only some of them are merged: all light on
 /// one spot must not make the time grow with the square of the photons.
 constexpr size_t kCrowd = 4096;
+/// Keeps the random numbers of shadow rays through media apart from others.
+constexpr uint64_t kShadowStream = 0x736861646f77ull;
 
 /// Weights of path tracing alone, for the tail of the thesis.
 struct TailWeights {
@@ -27,6 +25,7 @@ struct TailWeights {
 }  // namespace
 
 /// An eye walk under way.
+template <class Vertex>
 struct BidirectionalIntegrator::Eye {
   const Scene& scene;
   const CameraPath& start;
@@ -34,12 +33,13 @@ struct BidirectionalIntegrator::Eye {
   RenderCounters& counters;
   std::span<float> values;
   JoinRoulette roulette;
-  uint64_t random;  ///< key of numbers that no dimension of the sampler is set aside for
+  uint64_t random;       ///< key of numbers that no dimension of the sampler is set aside for
+  RandomStream shadows;  ///< for shadow rays through media
   std::vector<uint32_t>& photons;  ///< those near the vertex under way
   Spectrum sum{};
   size_t light_walk = 0;  ///< the one that belongs to the pixel
   /// Its vertices, once the walk has a vertex to join them with.
-  const std::vector<PathVertex>* light_vertices = nullptr;
+  const std::vector<Vertex>* light_vertices = nullptr;
   float photon_share = 1;             ///< for how many photons each of them stands
   VertexGrid::Neighborhood around{};  ///< where photons near the vertex under way are looked for
 
@@ -51,83 +51,150 @@ struct BidirectionalIntegrator::Eye {
 
 namespace {
 
+/// An eye walk before its ray is known.
+template <class Vertex>
+WalkOf<Vertex> new_eye_walk(const Scene& scene, [[maybe_unused]] uint64_t seed) {
+  if constexpr (Vertex::kMedia)
+    return MediaWalk(scene, Walk(), scene.camera_medium, seed);
+  else
+    return Walk();
+}
+
+bool may_be_passed(const Scene& scene, const Surface& s) {
+  return scene.materials[s.shape->material]->passes_straight();
+}
+
 void add_to_layer(std::span<float> values, size_t layer, const Spectrum& v) {
   values[layer] += v.r, values[layer + 1] += v.g, values[layer + 2] += v.b;
 }
 
 }  // namespace
 
-void BidirectionalIntegrator::add(Eye& eye, int s, int t, const Join& join) const {
+template <class Vertex>
+void BidirectionalIntegrator::add(Eye<Vertex>& eye, int s, int t, const Join& join) const {
   eye.sum += join.value * join.weight;
   if (const size_t layer = layers_.join(s, t))
     add_to_layer(eye.values, layer, raw_techniques_ ? join.value : join.value * join.weight);
 }
 
-template <class Weights>
-void BidirectionalIntegrator::walk(const Weights& weights, Trail* trail, Eye& eye) const {
+template <class Vertex, class Weights>
+void BidirectionalIntegrator::walk(const Weights& weights, Trail* trail, Eye<Vertex>& eye) const {
   const Scene& scene = eye.scene;
   const Ray& camera_ray = eye.start.ray;
   float& alpha = eye.values[3];
   const WalkOptions options{options_.rr_depth, options_.strict_normals};
-  Walk walk;
+  WalkOf<Vertex> walk = new_eye_walk<Vertex>(scene, ~eye.random);
   walk.ray = options_.hide_emitters ? behind_emitters(scene, camera_ray, eye.counters) : camera_ray;
   walk.from = walk.ray.origin;
   walk.throughput = Spectrum(1);
   walk.trail = trail;
-  for (int depth = 1;; ++depth) {
-    if (trail && depth == windows_.eye + 1 && !enter_tail(walk, eye)) return;
+  int depth = 1;
+  bool straight = false;  // the last surface was passed as if it had not been there
+  uint32_t dimension = kFirstVertexDimension;
+  const auto arrive_at = [&](const Point3f& p, float d2, float cosine, float transmittance) {
+    const Partials partials =
+        depth == 1 ? first_eye_partials(scene, camera_ray, p, d2, cosine, set_, walk, transmittance)
+                   : arrive(walk.partials, d2 / transmittance, cosine);
+    record_arrival(walk, d2 / transmittance, cosine);
+    return partials;
+  };
+  /// Joins a vertex and scatters; whether the walk goes on.
+  const auto pass = [&](const Vertex& v) {
+    eye.sampler.start_dimension(dimension);
+    if (v.is_smooth()) {
+      if (!Vertex::kMedia || depth < max_depth_) join(weights, v, eye);
+    } else {
+      eye.counters.connections.failed_specular += uint64_t(candidates(v, eye));
+    }
+    if constexpr (!Vertex::kMedia)
+      if (is_thesis_ && depth == windows_.eye) {
+        alpha = 1;
+        thesis_tail(v, walk, eye);
+        return false;
+      }
+    straight = false;
+    eye.sampler.start_dimension(dimension + kScatteringDimension);
+    dimension += kDimensionsPerVertex;
+    const bool goes_on =
+        (Vertex::kMedia || options_.method != Method::ptracer) &&
+        scatter<Transport::radiance>(v, set_, options, eye.sampler, walk, &straight);
+    if (!straight) alpha = 1;
+    if (Vertex::kMedia && straight) return goes_on;
+    ++depth;
+    return goes_on && (options_.method != Method::ppm || walk.specular) &&
+           (!Vertex::kMedia || (depth <= max_depth_ && options_.method != Method::ptracer));
+  };
+  for (;;) {
+    if (trail && depth == windows_.eye + 1 && !(Vertex::kMedia && straight) &&
+        !enter_tail(walk, eye))
+      return;
     // Where merging or light tracing does the rest, only what is seen directly is left to be hit.
     const bool hits = set_.connections || (set_.merges ? walk.specular : depth == 1);
     Hit hit;
     ++eye.counters.closest_rays;
-    if (!scene.accel->closest_hit(walk.ray, hit)) {
-      if (!scene.environment || (depth == 1 && options_.hide_emitters)) return;
-      if (hits) add(eye, 0, depth + 1, join_escape(scene, weights, walk));
+    const bool found = scene.accel->closest_hit(walk.ray, hit);
+    float transmittance = 1;
+    if constexpr (Vertex::kMedia) {
+      if (walk.medium) {
+        Ray segment = walk.ray;
+        if (found) segment.tmax = hit.t;
+        eye.sampler.start_dimension(dimension + kDistanceDimension);
+        const float t = walk.cross(segment, eye.sampler.next_1d());
+        if (t < INFINITY) {
+          alpha = 1;
+          const Point3f p = walk.ray.origin + walk.ray.direction * t;
+          const float d2 = length_squared(p - walk.from);
+          const float extinction = walk.medium->nominal_extinction(p);
+          if (depth == max_depth_ || !(d2 > 0 && extinction > 0)) return;
+          ++eye.counters.path_vertices;
+          const Partials partials = arrive_at(p, d2, extinction, walk.counted_transmittance());
+          const Vertex v(*walk.medium, extinction, p, -walk.ray.direction, walk.throughput,
+                         partials, depth);
+          if (!pass(v)) return;
+          continue;
+        }
+      }
+      transmittance = walk.counted_transmittance();
+    }
+    // Lights that are not to be seen are surfaces like others behind those that light passes.
+    const bool hidden = depth == 1 && options_.hide_emitters;
+    if (!found) {
+      if (!scene.environment || hidden) return;
+      if (hits) add(eye, 0, depth + 1, join_escape(scene, weights, walk, transmittance));
       alpha = 1;
       return;
     }
     ++eye.counters.path_vertices;
     const Surface s = scene.surface(walk.ray, hit);
     if (set_.merges) eye.around = grid_.locate(s.position);
-    const float d2 = hit.t * hit.t, cosine = std::abs(dot(s.ng, walk.ray.direction));
-    if (hits && s.shape->light != kNone)
-      add(eye, 0, depth + 1, join_hit(scene, weights, walk, s, d2));
-    if (depth == max_depth_ || !(cosine > 0)) {
+    float d2 = hit.t * hit.t;
+    if constexpr (Vertex::kMedia) d2 = length_squared(s.position - walk.from);
+    const float cosine = std::abs(dot(s.ng, walk.ray.direction));
+    if (hits && s.shape->light != kNone && !(Vertex::kMedia && hidden))
+      add(eye, 0, depth + 1, join_hit(scene, weights, walk, s, d2, transmittance));
+    if ((depth == max_depth_ && !(Vertex::kMedia && may_be_passed(scene, s))) || !(cosine > 0)) {
       alpha = 1;
       return;
     }
-    const Partials partials =
-        depth == 1 ? first_eye_partials(scene, camera_ray, s.position, d2, cosine, set_, walk)
-                   : arrive(walk.partials, d2, cosine);
-    record_arrival(walk, d2, cosine);
-    const PathVertex v(scene, s, -walk.ray.direction, walk.throughput, partials, depth);
-    const uint32_t dimension = kFirstVertexDimension + kDimensionsPerVertex * uint32_t(depth - 1);
-    eye.sampler.start_dimension(dimension);
-    if (v.bsdf.has_smooth())
-      join(weights, v, eye);
-    else
-      eye.counters.connections.failed_specular += uint64_t(candidates(v, eye));
-    if (is_thesis_ && depth == windows_.eye) {
-      alpha = 1;
-      thesis_tail(v, walk, eye);
-      return;
+    const Partials partials = arrive_at(s.position, d2, cosine, transmittance);
+    if constexpr (Vertex::kMedia) {
+      const Vertex v(scene, s, -walk.ray.direction, walk.throughput, partials, depth, walk.medium);
+      if (!pass(v)) return;
+    } else {
+      const Vertex v(scene, s, -walk.ray.direction, walk.throughput, partials, depth);
+      if (!pass(v)) return;
     }
-    bool straight = false;
-    eye.sampler.start_dimension(dimension + kBsdfDimension);
-    const bool goes_on =
-        options_.method != Method::ptracer &&
-        scatter<Transport::radiance>(v, set_, options, eye.sampler, walk, &straight);
-    if (!straight) alpha = 1;
-    if (!goes_on || (options_.method == Method::ppm && !walk.specular)) return;
   }
 }
 
-template <class Weights>
-void BidirectionalIntegrator::join(const Weights& weights, const PathVertex& v, Eye& eye) const {
+template <class Vertex, class Weights>
+void BidirectionalIntegrator::join(const Weights& weights, const Vertex& v,
+                                   Eye<Vertex>& eye) const {
   if (set_.connections && eye.scene.picker.size() > 0)
     add(eye, 1, v.depth + 1,
-        join_light(eye.scene, weights, v, options_.strict_normals, eye.sampler, eye.counters));
-  if (set_.merges) find_photons(v, eye);
+        join_light(eye.scene, weights, v, options_.strict_normals, eye.sampler, eye.counters,
+                   &eye.shadows));
+  if (set_.merges && v.merges()) find_photons(v, eye);
   if (set_.connections) {
     if (options_.connections < 0)
       connect(weights, v, eye);
@@ -135,40 +202,43 @@ void BidirectionalIntegrator::join(const Weights& weights, const PathVertex& v, 
       connect_to_cache(weights, v, eye);
   }
   if constexpr (!std::is_same_v<Weights, WindowWeights>)
-    if (set_.merges) merge(weights, v, eye);
+    if (set_.merges && v.merges()) merge(weights, v, eye);
 }
 
-int BidirectionalIntegrator::candidates(const PathVertex& v, const Eye& eye) const {
+template <class Vertex>
+int BidirectionalIntegrator::candidates(const Vertex& v, const Eye<Vertex>& eye) const {
   const LightVertices& light = lights_.vertices();
   if (!set_.connections || options_.connections >= 0 || light.ends.empty()) return 0;
   if (options_.method == Method::reuse && v.depth > windows_.eye) return 0;
   return std::clamp(max_depth_ - v.depth - 1, 0, int(light.lengths[eye.light_walk]));
 }
 
-template <class Weights>
-void BidirectionalIntegrator::connect(const Weights& weights, const PathVertex& v, Eye& eye) const {
+template <class Vertex, class Weights>
+void BidirectionalIntegrator::connect(const Weights& weights, const Vertex& v,
+                                      Eye<Vertex>& eye) const {
   const int most = candidates(v, eye);
   if (most == 0) return;
   if (!eye.light_vertices) {
-    thread_local std::vector<PathVertex> unpacked;
+    thread_local std::vector<Vertex> unpacked;
     unpacked.clear();
     for (const LightVertex& l : lights_.vertices().walk(eye.light_walk))
-      unpacked.emplace_back(Unpacked{l, eye.scene});
+      unpacked.emplace_back(Unpacked<Vertex>{l, eye.scene});
     eye.light_vertices = &unpacked;
   }
   int tried = 0;
-  for (const PathVertex& l : *eye.light_vertices) {
+  for (const Vertex& l : *eye.light_vertices) {
     if (l.depth > most) break;
     ++tried;
     add(eye, l.depth + 1, v.depth + 1,
-        join_ends(eye.scene, weights, l, v, options_.strict_normals, eye.roulette, eye.counters));
+        join_ends(eye.scene, weights, l, v, options_.strict_normals, eye.roulette, eye.counters,
+                  &eye.shadows));
   }
   eye.counters.connections.failed_specular += uint64_t(most - tried);
 }
 
-template <class Weights>
-void BidirectionalIntegrator::connect_to_cache(const Weights& weights, const PathVertex& v,
-                                               Eye& eye) const {
+template <class Vertex, class Weights>
+void BidirectionalIntegrator::connect_to_cache(const Weights& weights, const Vertex& v,
+                                               Eye<Vertex>& eye) const {
   const std::vector<LightVertex>& cache = lights_.vertices().vertices;
   if (cache.empty()) return;
   // Every vertex of all walks is drawn with the same probability.
@@ -178,14 +248,15 @@ void BidirectionalIntegrator::connect_to_cache(const Weights& weights, const Pat
     const LightVertex& drawn =
         cache[std::min(size_t(double(eye.draw()) * double(cache.size())), cache.size() - 1)];
     if (int(drawn.depth) + v.depth + 1 > max_depth_) continue;
-    Join found = join_ends(eye.scene, weights, drawn.unpack(eye.scene), v, options_.strict_normals,
-                           eye.roulette, eye.counters);
+    Join found = join_ends(eye.scene, weights, drawn.unpack<Vertex>(eye.scene), v,
+                           options_.strict_normals, eye.roulette, eye.counters, &eye.shadows);
     found.value *= scale;
     add(eye, int(drawn.depth) + 1, v.depth + 1, found);
   }
 }
 
-void BidirectionalIntegrator::find_photons(const PathVertex& v, Eye& eye) const {
+template <class Vertex>
+void BidirectionalIntegrator::find_photons(const Vertex& v, Eye<Vertex>& eye) const {
   const std::vector<LightVertex>& photons = lights_.vertices().vertices;
   ++eye.counters.merge_queries;
   eye.photons.clear();
@@ -199,12 +270,14 @@ void BidirectionalIntegrator::find_photons(const PathVertex& v, Eye& eye) const 
       });
 }
 
-template <class Weights>
-void BidirectionalIntegrator::merge(const Weights& weights, const PathVertex& v, Eye& eye) const {
+template <class Vertex, class Weights>
+void BidirectionalIntegrator::merge(const Weights& weights, const Vertex& v,
+                                    Eye<Vertex>& eye) const {
   const float kernel = eye.photon_share / (set_.merge_area * set_.light_paths);
   for (const uint32_t index : eye.photons) {
     const LightVertex& photon = lights_.vertices().vertices[index];
-    if (int(photon.depth) + v.depth > max_depth_) continue;
+    if (int(photon.depth) + v.depth > max_depth_ || (Vertex::kMedia && photon.in_medium()))
+      continue;
     const Join found = join_merge(weights, photon, v, kernel, options_.strict_normals);
     if (found.value.is_black()) continue;
     ++eye.counters.merges;
@@ -214,7 +287,8 @@ void BidirectionalIntegrator::merge(const Weights& weights, const PathVertex& v,
   }
 }
 
-bool BidirectionalIntegrator::enter_tail(Walk& walk, Eye& eye) const {
+template <class Vertex>
+bool BidirectionalIntegrator::enter_tail(Walk& walk, Eye<Vertex>& eye) const {
   ++eye.counters.eye_subpaths_at_limit;
   const float q = float(options_.continue_probability);
   if (q < 1) {
@@ -225,7 +299,8 @@ bool BidirectionalIntegrator::enter_tail(Walk& walk, Eye& eye) const {
   return true;
 }
 
-void BidirectionalIntegrator::thesis_tail(const PathVertex& limit, Walk& walk, Eye& eye) const {
+void BidirectionalIntegrator::thesis_tail(const PathVertex& limit, Walk& walk,
+                                          Eye<PathVertex>& eye) const {
   ++eye.counters.eye_subpaths_at_limit;
   const LightVertices& light = lights_.vertices();
   const bool light_end_joins = !light.ends.empty() && !light.walk(eye.light_walk).empty() &&
@@ -239,7 +314,7 @@ void BidirectionalIntegrator::thesis_tail(const PathVertex& limit, Walk& walk, E
   std::optional<PathVertex> reached;
   for (int depth = limit.depth + 1; depth <= max_depth_; ++depth) {
     eye.sampler.start_dimension(kFirstVertexDimension + kDimensionsPerVertex * uint32_t(depth - 2) +
-                                kBsdfDimension);
+                                kScatteringDimension);
     if (!scatter<Transport::radiance>(*v, set_, options, eye.sampler, walk)) return;
     Hit hit;
     ++eye.counters.closest_rays;
@@ -261,14 +336,17 @@ void BidirectionalIntegrator::thesis_tail(const PathVertex& limit, Walk& walk, E
   }
 }
 
-Spectrum BidirectionalIntegrator::radiance(const Scene& scene, const CameraPath& path,
-                                           Sampler& sampler, RenderCounters& counters,
-                                           std::span<float> values) const {
-  if (max_depth_ == 0) return {};
+template <class Vertex>
+Spectrum BidirectionalIntegrator::trace(const Scene& scene, const CameraPath& path,
+                                        Sampler& sampler, RenderCounters& counters,
+                                        std::span<float> values) const {
   const uint64_t key = hash_combine(key_, path.pixel);
   thread_local std::vector<uint32_t> photons;
-  Eye eye{scene, path,   sampler, counters, values, JoinRoulette(roulette_threshold(), ~key),
-          key,   photons};
+  Eye<Vertex> eye{scene,   path,
+                  sampler, counters,
+                  values,  JoinRoulette(pilot_->roulette_threshold(), ~key),
+                  key,     RandomStream(key + kShadowStream),
+                  photons};
   const size_t walks = lights_.vertices().ends.size();
   if (walks > 0) eye.light_walk = size_t(double(path.pixel) * options_.light_paths) % walks;
   if (options_.method == Method::reuse && options_.weights == ReuseWeights::exact) {
@@ -283,6 +361,14 @@ Spectrum BidirectionalIntegrator::radiance(const Scene& scene, const CameraPath&
     walk(BalanceWeights(set_), nullptr, eye);
   }
   return eye.sum;
+}
+
+Spectrum BidirectionalIntegrator::radiance(const Scene& scene, const CameraPath& path,
+                                           Sampler& sampler, RenderCounters& counters,
+                                           std::span<float> values) const {
+  if (max_depth_ == 0) return {};
+  return scene.media.empty() ? trace<PathVertex>(scene, path, sampler, counters, values)
+                             : trace<MediaVertex>(scene, path, sampler, counters, values);
 }
 
 }  // namespace duet

@@ -9,6 +9,10 @@ namespace duet {
 /// Dimensions of the sampler: two for the film, two for the lens, then those of the method.
 inline constexpr uint32_t kLensDimension = 2;
 inline constexpr uint32_t kFirstVertexDimension = 4;
+/// Those of each vertex: direction to and choice of the light; the distance from the last vertex
+/// where there are media; direction and lobe of scattering, roulette.
+inline constexpr uint32_t kDimensionsPerVertex = 8;
+inline constexpr uint32_t kDistanceDimension = 3, kScatteringDimension = 4;
 
 /// Whether each technique of a bidirectional method gets a layer of its own.
 enum class TechniqueOutput {

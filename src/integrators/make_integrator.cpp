@@ -175,10 +175,19 @@ void check_support(const SceneDescription& scene, const IntegratorDescription& i
   if (!integrator.image ||
       !std::holds_alternative<BidirectionalIntegratorDescription>(integrator.method))
     return;
+  const auto& d = std::get<BidirectionalIntegratorDescription>(integrator.method);
+  std::string why;
+  if (d.method == BidirectionalMethod::ppm || d.method == BidirectionalMethod::bpm)
+    why = "it has no photons in participating media, only on surfaces";
+  else if (d.method == BidirectionalMethod::reuse && d.weights != ReuseWeights::exact)
+    why = "the weights of the thesis know no participating media";
+  else
+    return;
   const auto refuse = [&](const SourceLocation& where) {
     diagnostics.error(where,
-                      "integrator \"{}\" cannot render participating media yet; \"volpath\" can",
-                      integrator_name(integrator));
+                      "integrator \"{}\" cannot render this scene: {}; \"volpath\", \"bdpt\" and "
+                      "\"vcm\" can",
+                      integrator_name(integrator), why);
   };
   const auto check = [&](const std::vector<ShapeDescription>& shapes) {
     for (const ShapeDescription& s : shapes)

@@ -81,6 +81,12 @@ MethodChoice without_pilot(const PathLimits& o, const std::string& why) {
   return {PathIntegratorDescription{o}, "path: " + why, ""};
 }
 
+MethodChoice through_media(const MethodRules& rules, const PathLimits& o) {
+  if (rules.wants_volpath())
+    return {VolumePathIntegratorDescription{o}, "volpath: " + describe(rules), ""};
+  return {bidirectional(o, BidirectionalMethod::bdpt, 0.25, -1), "bdpt: " + describe(rules), ""};
+}
+
 }  // namespace
 
 MethodPrices price_methods(const Scene& scene, const AutoIntegratorDescription& options,
@@ -101,11 +107,8 @@ MethodPrices price_methods(const Scene& scene, const AutoIntegratorDescription& 
 
 MethodChoice choose_method(const Scene& scene, const AutoIntegratorDescription& options,
                            const RenderOutlook& outlook) {
-  if (scene.features.media > 0) {
-    return {VolumePathIntegratorDescription{options},
-            "volpath: walks from lights do not enter media", ""};
-  }
   const MethodRules rules = method_rules(scene.features);
+  if (rules.has_media) return through_media(rules, options);
   if (!rules.has_lights) return without_pilot(options, "the scene has no lights");
   if (options.max_depth >= 0 && options.max_depth < 2)
     return without_pilot(options, "paths of one segment are seen directly");

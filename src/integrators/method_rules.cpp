@@ -8,9 +8,12 @@ MethodRules method_rules(const SceneFeatures& f) {
       f.directional_lights + size_t(f.constant_environment) + size_t(f.environment_map);
   const bool delta_lights =
       f.point_lights + f.spot_lights + f.projectors + f.directional_lights > 0;
-  // A surface that lets light pass unchanged stops light samples as glass does.
-  const bool delta_surfaces = f.mirrors + f.smooth_glass + f.masks > 0;
   MethodRules rules;
+  rules.has_media = f.media > 0;
+  rules.has_heterogeneous_media = f.heterogeneous_media > 0;
+  // A surface that lets light pass unchanged stops light samples as glass does, but for the methods
+  // that know media.
+  const bool delta_surfaces = f.mirrors + f.smooth_glass > 0 || (f.masks > 0 && !rules.has_media);
   rules.has_lights = near_lights + far_lights > 0;
   rules.needs_light_walks = delta_lights && delta_surfaces;
   rules.may_merge = rules.has_lights && (delta_surfaces || f.nearly_specular > 0);
@@ -20,6 +23,13 @@ MethodRules method_rules(const SceneFeatures& f) {
 
 std::string describe(const MethodRules& rules) {
   if (!rules.has_lights) return "no lights";
+  if (rules.has_media)
+    return rules.wants_volpath()
+               ? rules.needs_light_walks
+                     ? "path tracing through media (a grid makes connections expensive, although "
+                       "light walks would find more)"
+                     : "path tracing through media (light walks are not needed)"
+               : "media are rendered from both ends (lights that no ray finds, specular surfaces)";
   std::string text = rules.needs_light_walks
                          ? "light walks are needed (lights that no ray finds, specular surfaces)"
                          : "light walks are not needed";

@@ -4,6 +4,7 @@
 
 #include "integrators/integrator.h"
 #include "lights/area.h"
+#include "transport/shadow_walk.h"
 
 namespace duet {
 
@@ -18,19 +19,6 @@ inline float power_heuristic(float a, float b) {
   if (!(a > 0)) return 0;
   const float ratio = b / a;
   return 1 / (1 + ratio * ratio);
-}
-
-/// The camera's ray continued behind all emitting surfaces that it meets first: what
-/// `hide_emitters` means in Mitsuba 3. The environment is hidden by whoever traces the ray.
-inline Ray behind_emitters(const Scene& scene, Ray ray, RenderCounters& counters) {
-  for (;;) {
-    Hit hit;
-    ++counters.closest_rays;
-    if (!scene.accel->closest_hit(ray, hit) || scene.shapes[hit.shape].light == kNone) return ray;
-    const float left = ray.tmax - hit.t;
-    ray = spawn_ray(scene.surface(ray, hit), ray.direction);
-    ray.tmax = left;
-  }
 }
 
 /// Next event estimation at a surface point: radiance towards the Bsdf's wo that comes straight

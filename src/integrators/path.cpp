@@ -5,15 +5,6 @@
 
 namespace duet {
 
-namespace {
-
-/// Random numbers set aside for each vertex: direction to and choice of the light, direction and
-/// lobe of the BSDF, roulette.
-constexpr uint32_t kDimensionsPerVertex = 8;
-constexpr uint32_t kBsdfDimension = 4;
-
-}  // namespace
-
 /// A path that grows, and what it has found.
 struct PathIntegrator::Path {
   Ray ray;  ///< to the next vertex
@@ -70,7 +61,7 @@ inline bool PathIntegrator::scatter(const Scene& scene, const Surface& s, const 
     path.sum += path.throughput *
                 sample_light(scene, s, bsdf, options_.strict_normals, {}, sampler, path.counters);
   }
-  sampler.start_dimension(dimension + kBsdfDimension);
+  sampler.start_dimension(dimension + kScatteringDimension);
   const Point2f v = sampler.next_2d();
   const float u = bsdf.needs_choice() ? sampler.next_1d() : 0.5f;
   const auto sample = bsdf.sample(u, v, Transport::radiance);

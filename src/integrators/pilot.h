@@ -11,6 +11,12 @@ struct Pilot {
   double vertices_per_walk = 0;  ///< those that can be connected
   double brightness = 0;         ///< mean of the image, as far as light walks reach it directly
   double footprint = 0;          ///< side of a pixel where it meets surfaces, in world units
+
+  /// Radius of the first iteration's merging unless the user says otherwise.
+  double first_radius() const { return 1.5 * footprint; }
+  /// Contributions below which joins are left to chance: too little to be seen in the noise of a
+  /// sample.
+  float roulette_threshold() const { return float(0.05 * brightness); }
 };
 
 /// `plan` is that of a whole iteration. The result depends on its seed alone.

@@ -15,9 +15,6 @@ namespace duet {
 namespace {
 
 constexpr uint64_t kSeed = 0x7072696365ull, kLightSeed = 0x6c69676874ull;
-/// As BidirectionalIntegrator has them.
-constexpr double kPixelRadius = 1.5, kRouletteShare = 0.05;
-constexpr uint32_t kDimensionsPerVertex = 8, kBsdfDimension = 4;
 /// Longer paths add next to nothing to what the pilot is asked.
 constexpr int kLongest = FamilyWeights::kMostVertices / 2;
 constexpr size_t kWalksPerBlock = 64;
@@ -67,9 +64,9 @@ class PricingPilot {
     light.seed = kSeed;
     light.threads = plan.threads;
     const Pilot sizes = run_pilot(scene, plan.film, light);
-    const double radius = kPixelRadius * sizes.footprint;
+    const double radius = sizes.first_radius();
     set_.merge_area = kPi * sqr(float(radius));
-    threshold_ = float(kRouletteShare * sizes.brightness);
+    threshold_ = sizes.roulette_threshold();
     // There are fewer walks than an iteration has, of which an eye walk meets every second one:
     // with a larger radius the share of pairs is the one that is meant.
     const double thinned = double(walks_) / pixels;
@@ -136,8 +133,6 @@ class PricingPilot {
       if (!v.bsdf.has_smooth()) return;
       block.light.vertices.emplace_back(v, hit);
       block.light.owner.push_back(number);
-      sampler.start_dimension(kLightStartDimensions +
-                              kLightVertexDimensions * uint32_t(v.depth - 1) + kLensOffset);
       weights.set_light(trail);
       const auto seen =
           join_camera(scene_, weights, v, scene_.camera->has_lens() ? sampler.next_2d() : Point2f{},
@@ -235,7 +230,7 @@ class PricingPilot {
         connect(index, v, weights, roulette, at, out);
         merge(index, v, weights, at, out);
       }
-      sampler.start_dimension(dimension + kBsdfDimension);
+      sampler.start_dimension(dimension + kScatteringDimension);
       if (!scatter<Transport::radiance>(v, set_, options_, sampler, walk)) return;
     }
   }

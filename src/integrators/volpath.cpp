@@ -3,7 +3,6 @@
 #include <bit>
 
 #include "integrators/next_event.h"
-#include "integrators/shadow_walk.h"
 #include "materials/plain_diffuse.h"
 
 namespace duet {
@@ -12,18 +11,8 @@ namespace {
 
 /// Random numbers of the path as a whole: the colour channel, and the start of its RandomStream.
 constexpr uint32_t kPathDimension = kFirstVertexDimension;
-/// Random numbers set aside for each stretch of the path between surfaces or points of scattering:
-/// direction to and choice of the light, distance, direction and lobe of scattering, roulette.
+/// Those of the first stretch of the path between surfaces or points of scattering.
 constexpr uint32_t kFirstDimension = kPathDimension + 4;
-constexpr uint32_t kDimensionsPerStretch = 8;
-constexpr uint32_t kDistanceDimension = 3, kScatteringDimension = 4;
-
-/// A ray that ends just before `target`.
-Ray ray_to(const Point3f& origin, const Point3f& target) {
-  const Vector3f d = target - origin;
-  const float l = length(d);
-  return {origin, d / l, l * 0x1.fffep-1f};
-}
 
 }  // namespace
 
@@ -97,7 +86,7 @@ Spectrum VolumePathIntegrator::radiance(const Scene& scene, const CameraPath& st
                          std::bit_cast<uint32_t>(seed.y))};
   path.weights.channel = std::min(int(channel * 3), 2);
   for (uint32_t stretch = 0;; ++stretch) {
-    const uint32_t dimension = kFirstDimension + kDimensionsPerStretch * stretch;
+    const uint32_t dimension = kFirstDimension + kDimensionsPerVertex * stretch;
     Hit hit;
     ++counters.closest_rays;
     const bool found = scene.accel->closest_hit(path.ray, hit);

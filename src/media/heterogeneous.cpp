@@ -30,12 +30,12 @@ inline Spectrum HeterogeneousMedium::extinction(const Point3f& local, const Ray&
   return s;
 }
 
-float HeterogeneousMedium::walk(const Ray& ray, float u, RandomStream& random,
-                                SpectralWeights& w) const {
+template <class Collide>
+inline void HeterogeneousMedium::track(const Ray& ray, float u, RandomStream& random,
+                                       Collide collide) const {
   const Point3f origin = sigma_t_.to_local(ray.origin);
   const Vector3f direction = sigma_t_.to_local(ray.direction);
   float depth = -std::log1p(-u);  // optical, in terms of the majorant, to the next collision
-  float scattered = INFINITY;
   majorants_.traverse(ray, origin, direction, [&](float t, float end, float majorant) {
     for (;;) {
       const float left = (end - t) * majorant;
@@ -45,54 +45,61 @@ float HeterogeneousMedium::walk(const Ray& ray, float u, RandomStream& random,
       }
       t += depth / majorant;
       depth = -std::log1p(-random.next());
-      const Spectrum sigma_t = extinction(origin + direction * t, ray, t);
-      const float chosen = sigma_t[w.channel];
-      if (random.next() * majorant < chosen) {
-        const Spectrum density = is_grey_ ? Spectrum(1) : sigma_t / chosen;
-        w.walk *= density;
-        w.value *= density * albedo_(ray.origin + ray.direction * t);
-        scattered = t;
-        return false;
-      }
-      // A null collision. A light sample would not have stopped here whatever happened.
-      const float missed = majorant - chosen;
-      if (!is_grey_) {
-        const Spectrum density = (Spectrum(majorant) - sigma_t) / missed;
-        w.walk *= density;
-        w.value *= density;
-      }
-      w.light *= majorant / missed;
+      if (!collide(t, majorant, extinction(origin + direction * t, ray, t))) return false;
     }
+  });
+}
+
+float HeterogeneousMedium::walk(const Ray& ray, float u, RandomStream& random,
+                                SpectralWeights& w) const {
+  float scattered = INFINITY;
+  track(ray, u, random, [&](float t, float majorant, const Spectrum& sigma_t) {
+    const float chosen = sigma_t[w.channel];
+    if (random.next() * majorant < chosen) {
+      const Spectrum density = is_grey_ ? Spectrum(1) : sigma_t / chosen;
+      w.walk *= density;
+      w.value *= density * albedo_(ray.origin + ray.direction * t);
+      scattered = t;
+      return false;
+    }
+    // A null collision. A light sample would not have stopped here whatever happened.
+    const float missed = majorant - chosen;
+    if (!is_grey_) {
+      const Spectrum density = (Spectrum(majorant) - sigma_t) / missed;
+      w.walk *= density;
+      w.value *= density;
+    }
+    w.light *= majorant / missed;
+    return true;
   });
   return scattered;
 }
 
 void HeterogeneousMedium::transmit(const Ray& ray, RandomStream& random, SpectralWeights& w) const {
-  const Point3f origin = sigma_t_.to_local(ray.origin);
-  const Vector3f direction = sigma_t_.to_local(ray.direction);
-  float depth = -std::log1p(-random.next());
-  majorants_.traverse(ray, origin, direction, [&](float t, float end, float majorant) {
-    for (;;) {
-      const float left = (end - t) * majorant;
-      if (!(depth < left)) {
-        depth -= left;
-        return true;
-      }
-      t += depth / majorant;
-      depth = -std::log1p(-random.next());
-      const Spectrum density =
-          (Spectrum(majorant) - extinction(origin + direction * t, ray, t)) / majorant;
-      w.value *= density;
-      w.walk *= density;
-      if (const float most = w.value.max(); most < kFaint) {
-        if (!(random.next() * kFaint < most)) {
-          w.value = Spectrum();
-          return false;
-        }
-        w.value *= kFaint / most;
-      }
+  track(ray, random.next(), random, [&](float, float majorant, const Spectrum& sigma_t) {
+    const Spectrum density = (Spectrum(majorant) - sigma_t) / majorant;
+    w.value *= density;
+    w.walk *= density;
+    const float most = w.value.max();
+    if (!(most < kFaint)) return true;
+    if (!(random.next() * kFaint < most)) {
+      w.value = Spectrum();
+      return false;
     }
+    w.value *= kFaint / most;
+    return true;
   });
+}
+
+float HeterogeneousMedium::nominal_extinction(const Point3f& p) const {
+  const Point3f local = sigma_t_.to_local(p);
+  return scale_ * (is_grey_ ? sigma_t_.local_value(local) : sigma_t_.local_color(local).mean());
+}
+
+std::optional<Bounds> HeterogeneousMedium::bounds() const {
+  Bounds box;
+  sigma_t_.world_box(box.lower, box.upper);
+  return box;
 }
 
 }  // namespace duet

@@ -17,10 +17,18 @@ class HeterogeneousMedium final : public Medium {
                       const PhaseFunction& phase);
   float walk(const Ray& ray, float u, RandomStream& random, SpectralWeights& w) const override;
   void transmit(const Ray& ray, RandomStream& random, SpectralWeights& w) const override;
+  /// What it really is would have to be estimated.
+  float nominal_transmittance(const Ray&) const override { return 1; }
+  float nominal_extinction(const Point3f& p) const override;
+  std::optional<Bounds> bounds() const override;
 
  private:
   /// The extinction at a point, given in the grid's space and in the world.
   Spectrum extinction(const Point3f& local, const Ray& ray, float t) const;
+  /// Meets the possible collisions along the ray, distributed by the majorants, until `collide(t,
+  /// majorant, extinction)` returns false. `u` decides where the first is, `random` the others.
+  template <class Collide>
+  void track(const Ray& ray, float u, RandomStream& random, Collide collide) const;
 
   const GridVolume& sigma_t_;
   float scale_;

@@ -37,13 +37,22 @@ float HomogeneousMedium::walk(const Ray& ray, float u, RandomStream&, SpectralWe
   return INFINITY;
 }
 
-void HomogeneousMedium::transmit(const Ray& ray, RandomStream&, SpectralWeights& w) const {
+inline Spectrum HomogeneousMedium::transmittance(const Ray& ray) const {
   const Spectrum sigma_t = extinction(ray);
   Spectrum t(1);
   for (int c = 0; c < 3; ++c)
     if (sigma_t[c] > 0) t[c] = std::exp(-sigma_t[c] * ray.tmax);
+  return t;
+}
+
+void HomogeneousMedium::transmit(const Ray& ray, RandomStream&, SpectralWeights& w) const {
+  const Spectrum t = transmittance(ray);
   w.value *= t;
   w.walk *= t;
+}
+
+float HomogeneousMedium::nominal_transmittance(const Ray& ray) const {
+  return transmittance(ray).mean();
 }
 
 }  // namespace duet

@@ -14,10 +14,15 @@ class HomogeneousMedium final : public Medium {
       : Medium(phase), sigma_t_(sigma_t), albedo_(albedo), is_microflake_(phase.is_microflake()) {}
   float walk(const Ray& ray, float u, RandomStream& random, SpectralWeights& w) const override;
   void transmit(const Ray& ray, RandomStream& random, SpectralWeights& w) const override;
+  /// Means over the colour channels, the density of a walk for a random one of them.
+  float nominal_transmittance(const Ray& ray) const override;
+  float nominal_extinction(const Point3f&) const override { return sigma_t_.mean(); }
 
  private:
   /// For light along the ray.
   Spectrum extinction(const Ray& ray) const;
+  /// From ray.origin to ray.tmax.
+  Spectrum transmittance(const Ray& ray) const;
 
   Spectrum sigma_t_;
   ColorVolumeSlot albedo_;

@@ -1,6 +1,9 @@
 // The doorway to media: how far light gets in them and where it is scattered.
 #pragma once
 
+#include <optional>
+
+#include "geometry/shape.h"
 #include "media/phase.h"
 #include "media/random_stream.h"
 #include "media/spectral_weights.h"
@@ -22,6 +25,16 @@ class Medium {
   /// Multiplies the weights of a shadow ray by an estimate of the transmittance up to ray.tmax, and
   /// by the densities of a walk that would have gone all the way.
   virtual void transmit(const Ray& ray, RandomStream& random, SpectralWeights& w) const = 0;
+
+  /// What the densities that multiple importance sampling compares have for the transmittance from
+  /// ray.origin to ray.tmax, and for the extinction at a point where light is scattered. All
+  /// techniques have to agree on the two, so they depend on nothing else; a way back is worth the
+  /// same as the way there. What walks really do may differ.
+  virtual float nominal_transmittance(const Ray& ray) const = 0;
+  virtual float nominal_extinction(const Point3f& p) const = 0;
+
+  /// A box outside of which the medium is empty; none if it has no end.
+  virtual std::optional<Bounds> bounds() const { return std::nullopt; }
 
  private:
   const PhaseFunction& phase_;

@@ -3,6 +3,7 @@
 #include "cameras/orthographic.h"
 #include "cameras/perspective.h"
 #include "scene/builder.h"
+#include "scene/light_media.h"
 
 namespace duet {
 
@@ -34,8 +35,15 @@ std::unique_ptr<Scene> SceneBuilder::build() {
   for (const auto& m : scene.materials) scene.has_passable_surfaces |= m->passes_straight();
   scene.accel = std::make_unique<Accel>(scene.shapes, scene.top, scene.groups, scene.instances,
                                         options_.threads);
-  const Bounds bounds = scene.accel->bounds();
+  Bounds bounds = scene.accel->bounds();
+  const Medium* outermost = scene.media.empty() ? nullptr : outermost_medium(scene);
+  // Light may be scattered there, too.
+  if (outermost)
+    if (const auto box = outermost->bounds()) bounds.extend(*box);
   for (const auto& light : scene.lights) light->surround(bounds.center(), bounds.radius());
+  if (!scene.media.empty())
+    for (const auto& light : scene.lights)
+      scene.light_media.push_back(medium_before(scene, *light, outermost));
   scene.picker = LightPicker(selection_weights(scene.lights, sampling_weights_, bounds.radius()));
   return std::move(scene_);
 }

@@ -35,6 +35,8 @@ struct Scene {
   std::vector<std::unique_ptr<Medium>> media;
   /// The medium that the camera stands in, or null.
   const Medium* camera_medium = nullptr;
+  /// The medium that each light sends its rays into, or null; empty without media.
+  std::vector<const Medium*> light_media;
   /// Whether light may pass straight through any surface.
   bool has_passable_surfaces = false;
   std::unique_ptr<Accel> accel;

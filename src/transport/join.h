@@ -1,6 +1,9 @@
 // What the two ends of a path have in common: how light found by an eye walk, sampled from one of
 // its vertices, or brought by a light walk becomes a weighted contribution. Shadow rays come last.
 //
+// Vertices are PathVertex or MediaVertex. Where there are media `random` is for shadow rays through
+// them, and densities count their nominal transmittance; elsewhere it is null.
+//
 // `Weights` decides how a join is weighed against the other techniques:
 //   hit(walk, direct, emission)      s = 0; densities of the light's two other techniques
 //   light_sample(eye, direct, bsdf, eye_end)
@@ -12,7 +15,7 @@
 
 #include "math/hash.h"
 #include "transport/light_vertex.h"
-#include "transport/walk.h"
+#include "transport/media_vertex.h"
 
 namespace duet {
 
@@ -56,10 +59,11 @@ struct Join {
   float weight = 0;
 };
 
-/// The light at the end of an eye walk that has hit the surface point `s` at squared distance `d2`.
+/// The light at the end of an eye walk that has hit the surface point `s` at squared distance `d2`
+/// from its last vertex. `transmittance` is the nominal one on the way from there.
 template <class Weights>
 inline Join join_hit(const Scene& scene, const Weights& weights, const Walk& walk, const Surface& s,
-                     float d2) {
+                     float d2, float transmittance = 1) {
   const SurfaceLight* light = scene.light_on(*s.shape);
   if (!light) return {};
   const Spectrum emitted = light->emitted(s, -walk.ray.direction);
@@ -67,45 +71,58 @@ inline Join join_hit(const Scene& scene, const Weights& weights, const Walk& wal
   const float pick = scene.picker.probability(s.shape->light);
   const float direct = light->pdf_direct(walk.from, s, walk.ray.direction, d2).value * pick;
   const float emission = light->emission_density(s, -walk.ray.direction) * pick;
-  return {walk.throughput * emitted, weights.hit(walk, direct, emission)};
+  return {walk.throughput * emitted, weights.hit(walk, direct / transmittance, emission)};
 }
 
 /// The environment at the end of an eye walk that has left the scene.
 template <class Weights>
-inline Join join_escape(const Scene& scene, const Weights& weights, const Walk& walk) {
+inline Join join_escape(const Scene& scene, const Weights& weights, const Walk& walk,
+                        float transmittance = 1) {
   const Vector3f& w = walk.ray.direction;
   const Spectrum emitted = scene.environment->emitted(w);
   if (emitted.is_black()) return {};
   const float pick = scene.picker.probability(scene.environment_index);
   const float direct = scene.environment->pdf_direct(w).value * pick;
   const float emission = scene.environment->emission_density(w) * pick;
-  return {walk.throughput * emitted, weights.hit(walk, direct, emission)};
+  return {walk.throughput * emitted, weights.hit(walk, direct / transmittance, emission)};
 }
 
 /// A light sample from an eye vertex. Uses up to three dimensions of the sampler.
-template <class Weights>
-inline Join join_light(const Scene& scene, const Weights& weights, const PathVertex& eye,
-                       bool strict_normals, Sampler& sampler, RenderCounters& counters) {
+template <class Weights, class Vertex>
+inline Join join_light(const Scene& scene, const Weights& weights, const Vertex& eye,
+                       bool strict_normals, Sampler& sampler, RenderCounters& counters,
+                       [[maybe_unused]] RandomStream* random = nullptr) {
   const Point2f u = sampler.next_2d();
   const LightPicker::Pick pick =
       scene.picker.size() == 1 ? LightPicker::Pick{0, 1} : scene.picker.pick(sampler.next_1d());
   const Light& light = *scene.lights[pick.light];
   const auto sample = light.sample_direct(eye.position(), u);
-  if (!sample || (strict_normals && sides_differ(eye.surface, sample->wi))) return {};
-  const BsdfEval f = eye.bsdf.eval(sample->wi, Transport::radiance);
+  if (!sample || (strict_normals && eye.has_two_sides(sample->wi))) return {};
+  const BsdfEval f = eye.eval(sample->wi, Transport::radiance);
   if (f.value.is_black()) return {};
-  const Ray shadow = sample->finite ? spawn_ray_to(eye.surface, sample->target)
-                                    : spawn_ray(eye.surface, sample->wi);
-  ++counters.shadow_rays;
-  if (scene.accel->occluded(shadow)) return {};
+  Spectrum value = eye.throughput * f.value * sample->weight * (1 / pick.probability);
+  float transmittance = 1;
+  if constexpr (Vertex::kMedia) {
+    const Point3f origin = eye.outside(sample->wi);
+    const auto passage = pass_through_media(
+        scene, sample->finite ? ray_to(origin, sample->target) : Ray{origin, sample->wi, INFINITY},
+        eye.medium_towards(scene, sample->wi), *random, counters);
+    if (!passage) return {};
+    value *= passage->value;
+    transmittance = passage->nominal;
+  } else {
+    const Ray shadow = sample->finite ? spawn_ray_to(eye.surface, sample->target)
+                                      : spawn_ray(eye.surface, sample->wi);
+    ++counters.shadow_rays;
+    if (scene.accel->occluded(shadow)) return {};
+  }
   float direct = sample->pdf.value;
   if (sample->delta)
     direct = sample->finite ? length_squared(sample->target - eye.position()) : 1.0f;
-  const JoinEnd eye_end{sample->emission * eye.cosine(sample->wi) / direct,
-                        eye.bsdf.reverse_pdf(sample->wi, Transport::radiance).value};
-  return {eye.throughput * f.value * sample->weight * (1 / pick.probability),
-          weights.light_sample(eye, direct * pick.probability, sample->delta ? 0.0f : f.pdf.value,
-                               eye_end)};
+  const JoinEnd eye_end{sample->emission * eye.cosine(sample->wi) / direct * transmittance,
+                        eye.reverse_pdf(sample->wi, Transport::radiance)};
+  return {value, weights.light_sample(eye, direct * pick.probability,
+                                      sample->delta ? 0.0f : f.pdf.value * transmittance, eye_end)};
 }
 
 /// Where a light vertex is seen, and how bright it makes that place if the image is a function per
@@ -115,36 +132,62 @@ struct CameraJoin {
   Join join;
 };
 
-template <class Weights>
+/// What lies between the camera and a vertex where there are media; empty if the vertex cannot be
+/// seen. Light is followed as eye walks follow it, from the camera.
+inline std::optional<Passage> seen_through_media(const Scene& scene, const MediaVertex& v,
+                                                 const CameraSample& seen, bool hide_emitters,
+                                                 RandomStream& random, RenderCounters& counters) {
+  Ray ray = ray_to(seen.target, v.outside(seen.direction));
+  if (hide_emitters) {
+    ray = behind_emitters(scene, ray, counters);
+    // Behind surfaces that light passes straight lights are surfaces like others.
+    if (!v.in_medium && v.surface.shape->light != kNone &&
+        !(++counters.shadow_rays, scene.accel->occluded(ray)))
+      return std::nullopt;
+  }
+  return pass_through_media(scene, ray, scene.camera_medium, random, counters);
+}
+
+template <class Weights, class Vertex>
 inline std::optional<CameraJoin> join_camera(const Scene& scene, const Weights& weights,
-                                             const PathVertex& light, const Point2f& lens,
+                                             const Vertex& light, const Point2f& lens,
                                              bool hide_emitters, JoinRoulette& roulette,
-                                             RenderCounters& counters) {
-  if (hide_emitters && light.surface.shape->light != kNone) return std::nullopt;
+                                             RenderCounters& counters,
+                                             [[maybe_unused]] RandomStream* random = nullptr) {
+  if constexpr (!Vertex::kMedia)
+    if (hide_emitters && light.surface.shape->light != kNone) return std::nullopt;
   const auto seen = scene.camera->sample_lens(light.position(), lens);
   if (!seen) return std::nullopt;
-  const BsdfPair f = light.bsdf.eval_both_ways(seen->direction, Transport::importance);
+  const BsdfPair f = light.eval_both_ways(seen->direction, Transport::importance);
   if (f.value.is_black()) return std::nullopt;
-  const float adjoint = adjoint_factor(light.surface, light.wo, seen->direction);
+  const float adjoint = light.adjoint(seen->direction);
   if (!(adjoint > 0)) return std::nullopt;
-  const JoinEnd light_end{seen->importance * light.cosine(seen->direction), f.reverse.value};
+  JoinEnd light_end{seen->importance * light.cosine(seen->direction), f.reverse.value};
   Join join{light.throughput * f.value * (adjoint * seen->importance),
             weights.camera(light, light_end)};
   const float kept = roulette.keep(join.value * join.weight);
   if (kept == 0) return std::nullopt;
   join.value *= kept;
-  const Ray ray = spawn_ray_to(light.surface, seen->target);
-  if (hide_emitters ? occluded_by_others(scene, ray, counters)
-                    : (++counters.shadow_rays, scene.accel->occluded(ray)))
-    return std::nullopt;
+  if constexpr (Vertex::kMedia) {
+    const auto passage = seen_through_media(scene, light, *seen, hide_emitters, *random, counters);
+    if (!passage) return std::nullopt;
+    join.value *= passage->value;
+    light_end.arrival *= passage->nominal;
+    join.weight = weights.camera(light, light_end);
+  } else {
+    const Ray ray = spawn_ray_to(light.surface, seen->target);
+    if (hide_emitters ? occluded_by_others(scene, ray, counters)
+                      : (++counters.shadow_rays, scene.accel->occluded(ray)))
+      return std::nullopt;
+  }
   return CameraJoin{seen->film, join};
 }
 
 /// A light vertex seen from an eye vertex.
-template <class Weights>
-inline Join join_ends(const Scene& scene, const Weights& weights, const PathVertex& light,
-                      const PathVertex& eye, bool strict_normals, JoinRoulette& roulette,
-                      RenderCounters& counters) {
+template <class Weights, class Vertex>
+inline Join join_ends(const Scene& scene, const Weights& weights, const Vertex& light,
+                      const Vertex& eye, bool strict_normals, JoinRoulette& roulette,
+                      RenderCounters& counters, [[maybe_unused]] RandomStream* random = nullptr) {
   const auto fails = [&](uint64_t& reason) {
     ++reason;
     return Join{};
@@ -153,26 +196,34 @@ inline Join join_ends(const Scene& scene, const Weights& weights, const PathVert
   const float d2 = length_squared(d);
   if (!(d2 > 0)) return fails(counters.connections.failed_zero);
   const Vector3f to_light = d * (1 / std::sqrt(d2));
-  if (strict_normals && sides_differ(eye.surface, to_light))
-    return fails(counters.connections.failed_zero);
-  const BsdfPair f = eye.bsdf.eval_both_ways(to_light, Transport::radiance);
+  if (strict_normals && eye.has_two_sides(to_light)) return fails(counters.connections.failed_zero);
+  const BsdfPair f = eye.eval_both_ways(to_light, Transport::radiance);
   if (f.value.is_black()) return fails(counters.connections.failed_zero);
-  const BsdfPair g = light.bsdf.eval_both_ways(-to_light, Transport::importance);
+  const BsdfPair g = light.eval_both_ways(-to_light, Transport::importance);
   if (g.value.is_black()) return fails(counters.connections.failed_zero);
-  const float adjoint = adjoint_factor(light.surface, light.wo, -to_light);
+  const float adjoint = light.adjoint(-to_light);
   if (!(adjoint > 0)) return fails(counters.connections.failed_zero);
   const float inverse_d2 = 1 / d2;
-  const JoinEnd light_end{f.pdf.value * light.cosine(to_light) * inverse_d2, g.reverse.value};
-  const JoinEnd eye_end{g.pdf.value * eye.cosine(to_light) * inverse_d2, f.reverse.value};
+  JoinEnd light_end{f.pdf.value * light.cosine(to_light) * inverse_d2, g.reverse.value};
+  JoinEnd eye_end{g.pdf.value * eye.cosine(to_light) * inverse_d2, f.reverse.value};
   Join join{eye.throughput * f.value * light.throughput * g.value * (adjoint * inverse_d2),
             weights.connection(light, light_end, eye, eye_end)};
   const float kept = roulette.keep(join.value * join.weight);
   if (kept == 0) return fails(counters.connections.skipped);
   join.value *= kept;
-  ++counters.shadow_rays;
-  const Point3f target = offset_position(light.surface, -to_light);
-  if (scene.accel->occluded(spawn_ray_to(eye.surface, target)))
-    return fails(counters.connections.failed_occluded);
+  const Point3f target = light.outside(-to_light);
+  if constexpr (Vertex::kMedia) {
+    const auto passage = pass_through_media(scene, ray_to(eye.outside(to_light), target),
+                                            eye.medium_towards(scene, to_light), *random, counters);
+    if (!passage) return fails(counters.connections.failed_occluded);
+    join.value *= passage->value;
+    light_end.arrival *= passage->nominal, eye_end.arrival *= passage->nominal;
+    join.weight = weights.connection(light, light_end, eye, eye_end);
+  } else {
+    ++counters.shadow_rays;
+    if (scene.accel->occluded(spawn_ray_to(eye.surface, target)))
+      return fails(counters.connections.failed_occluded);
+  }
   ++counters.connections.contributed;
   return join;
 }

@@ -12,6 +12,8 @@ constexpr uint32_t kWalksPerBlock = 1024;
 constexpr uint32_t kBlocksAtATime = 16;
 /// Keeps the random numbers of light walks apart from those of the pixels.
 constexpr uint64_t kLightStream = 0x6c69676874ull;
+/// The same for what happens in media, on walks and on their shadow rays.
+constexpr uint64_t kMediaStream = 0x6d65646961ull;
 
 }  // namespace
 
@@ -21,7 +23,7 @@ void LightPass::reserve(size_t vertices, size_t walks) {
   vertices_.lengths.reserve(walks);
 }
 
-template <class Weights>
+template <class Vertex, class Weights>
 void LightPass::trace(const Scene& scene, const LightPassPlan& plan, const Weights& weights,
                       uint32_t first, uint32_t end, Trail* trail, Block& block) const {
   block.vertices.clear();
@@ -31,35 +33,45 @@ void LightPass::trace(const Scene& scene, const LightPassPlan& plan, const Weigh
   block.counters = {};
   const bool has_lens = scene.camera->has_lens();
   for (uint32_t i = first; i < end; ++i) {
-    JoinRoulette roulette(plan.roulette_threshold,
-                          hash_combine(hash_combine(plan.seed, plan.scramble ^ kLightStream),
-                                       (uint64_t(plan.iteration) << 32) + i));
+    const uint64_t key = hash_combine(hash_combine(plan.seed, plan.scramble ^ kLightStream),
+                                      (uint64_t(plan.iteration) << 32) + i);
+    JoinRoulette roulette(plan.roulette_threshold, key);
+    RandomStream random(key ^ kMediaStream);
     Sampler sampler(plan.sequence, plan.seed ^ kLightStream, plan.scramble, i);
     sampler.start_sample(plan.iteration);
-    const auto visit = [&](const PathVertex& v, const Hit& hit) {
-      if (!v.bsdf.has_smooth()) return;
+    const auto visit = [&](const Vertex& v, const Hit& hit) {
+      if (!v.is_smooth()) return;
       if (plan.set.camera_joins) {
-        Point2f lens{};
-        if (has_lens) {
-          sampler.start_dimension(kLightStartDimensions +
-                                  kLightVertexDimensions * uint32_t(v.depth - 1) + kLensOffset);
-          lens = sampler.next_2d();
-        }
-        const auto seen =
-            join_camera(scene, weights, v, lens, plan.hide_emitters, roulette, block.counters);
+        const Point2f lens = has_lens ? sampler.next_2d() : Point2f{};
+        const auto seen = join_camera(scene, weights, v, lens, plan.hide_emitters, roulette,
+                                      block.counters, &random);
         if (seen)
           block.splats.push_back({{seen->film, seen->join.value}, seen->join.weight, v.depth});
       }
       if (plan.keep_vertices) block.vertices.vertices.emplace_back(v, hit);
     };
-    const int length = trace_light_walk(scene, plan.set, plan.walk, plan.max_depth, sampler,
-                                        block.counters, trail, visit);
+    const int length = trace_light_walk<Vertex>(scene, plan.set, plan.walk, plan.max_depth, sampler,
+                                                block.counters, trail, visit, ~key ^ kMediaStream);
     block.vertices.ends.push_back(uint32_t(block.vertices.vertices.size()));
     block.vertices.lengths.push_back(uint16_t(std::min(length, 0xffff)));
     if (trail) {
       block.trails.insert(block.trails.end(), trail->begin(), trail->end());
       block.trail_ends.push_back(uint32_t(block.trails.size()));
     }
+  }
+}
+
+template <class Vertex>
+void LightPass::trace(const Scene& scene, const LightPassPlan& plan, uint32_t first, uint32_t end,
+                      Block& block) const {
+  if (plan.windows) {
+    Trail trail;
+    trace<Vertex>(scene, plan, WindowWeights(*plan.windows, &trail, nullptr), first, end, &trail,
+                  block);
+  } else if (plan.unit_weights) {
+    trace<Vertex>(scene, plan, UnitWeights(), first, end, nullptr, block);
+  } else {
+    trace<Vertex>(scene, plan, BalanceWeights(plan.set), first, end, nullptr, block);
   }
 }
 
@@ -76,15 +88,10 @@ void LightPass::run(const Scene& scene, const LightPassPlan& plan,
     parallel_for(count, plan.threads, [&](size_t i) {
       const uint32_t first = wave + uint32_t(i) * kWalksPerBlock;
       const uint32_t end = std::min(first + kWalksPerBlock, plan.walks);
-      if (plan.windows) {
-        Trail trail;
-        trace(scene, plan, WindowWeights(*plan.windows, &trail, nullptr), first, end, &trail,
-              blocks_[i]);
-      } else if (plan.unit_weights) {
-        trace(scene, plan, UnitWeights(), first, end, nullptr, blocks_[i]);
-      } else {
-        trace(scene, plan, BalanceWeights(plan.set), first, end, nullptr, blocks_[i]);
-      }
+      if (scene.media.empty())
+        trace<PathVertex>(scene, plan, first, end, blocks_[i]);
+      else
+        trace<MediaVertex>(scene, plan, first, end, blocks_[i]);
     });
     for (uint32_t i = 0; i < count; ++i) {
       const Block& b = blocks_[i];

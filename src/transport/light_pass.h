@@ -59,9 +59,12 @@ class LightPass {
     std::vector<LightSplat> splats;
     RenderCounters counters;
   };
-  template <class Weights>
+  template <class Vertex, class Weights>
   void trace(const Scene& scene, const LightPassPlan& plan, const Weights& weights, uint32_t first,
              uint32_t end, Trail* trail, Block& block) const;
+  template <class Vertex>
+  void trace(const Scene& scene, const LightPassPlan& plan, uint32_t first, uint32_t end,
+             Block& block) const;
 
   std::vector<Block> blocks_;
   LightVertices vertices_;

@@ -3,11 +3,12 @@
 
 #include <vector>
 
-#include "transport/path_vertex.h"
+#include "transport/media_vertex.h"
 
 namespace duet {
 
-/// A vertex of a light walk, packed: its BSDF is bound again when it is needed.
+/// A vertex of a light walk, packed: its BSDF is bound again when it is needed. In a medium `shape`
+/// is kNone and the address of the medium stands in place of the primitive and the instance.
 struct LightVertex {
   Point3f position;
   Spectrum throughput;
@@ -19,18 +20,28 @@ struct LightVertex {
 
   LightVertex() = default;
   LightVertex(const PathVertex& v, const Hit& hit);
+  LightVertex(const MediaVertex& v, const Hit& hit);
 
   Vector3f direction_to_previous() const;
-  PathVertex unpack(const Scene& scene) const;
+  bool in_medium() const { return shape == kNone; }
+  /// `Vertex` is the kind of vertex that was packed. What the segment towards the light went
+  /// through is not kept on surfaces.
+  template <class Vertex = PathVertex>
+  Vertex unpack(const Scene& scene) const;
+
+ private:
+  void set_direction_to_previous(const Vector3f& w);
+  Surface surface(const Scene& scene, const Vector3f& towards_previous) const;
 };
 static_assert(sizeof(LightVertex) == 64);
 
-/// Converts to the PathVertex in the place where it is wanted: to copy one, with room for the
-/// largest BSDF, costs more than to make it.
+/// Converts to the vertex in the place where it is wanted: to copy one, with room for the largest
+/// BSDF, costs more than to make it.
+template <class Vertex>
 struct Unpacked {
   const LightVertex& vertex;
   const Scene& scene;
-  operator PathVertex() const { return vertex.unpack(scene); }
+  operator Vertex() const { return vertex.unpack<Vertex>(scene); }
 };
 
 /// The connectible vertices of many light walks, walk after walk.

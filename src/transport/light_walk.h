@@ -1,7 +1,7 @@
 // Walks that start at a light.
 #pragma once
 
-#include "transport/walk.h"
+#include "transport/media_vertex.h"
 
 namespace duet {
 
@@ -11,11 +11,15 @@ inline constexpr uint32_t kLightStartDimensions = 6;
 inline constexpr uint32_t kLightVertexDimensions = 6;
 /// Of these, where the point on the lens is.
 inline constexpr uint32_t kLensOffset = 4;
+/// Where there are media the way to a vertex needs one more, the last.
+template <class Vertex>
+inline constexpr uint32_t kLightVertexStride = kLightVertexDimensions + (Vertex::kMedia ? 1 : 0);
 
 /// A walk that has left its light.
 struct LightStart {
   Walk walk;
   const Light* light;
+  uint32_t index;  ///< of the light
   float pick_probability;
   EmissionSample emission;
 
@@ -39,18 +43,19 @@ inline std::optional<LightStart> start_light_walk(const Scene& scene, Sampler& s
   start.walk.ray = e->ray;
   start.walk.throughput = e->weight * (1 / pick.probability);
   start.light = &light;
+  start.index = pick.light;
   start.pick_probability = pick.probability;
   start.emission = *e;
   return start;
 }
 
 /// The sums at the first vertex of a light walk, at which light samples and rays that find the
-/// light compete.
+/// light compete. `transmittance` is the nominal one from the light.
 inline Partials first_light_partials(const LightStart& start, const Point3f& at, float cosine,
-                                     const TechniqueSet& set) {
+                                     const TechniqueSet& set, float transmittance = 1) {
   const float scale = 1 / (start.density() * cosine * set.connection_share);
   Partials p;
-  p.vcm = start.direct(at) * scale;
+  p.vcm = start.direct(at) * scale / transmittance;
   p.vc = is_delta(start.light->kind()) ? 0.0f : scale;
   p.vm = p.vc * set.connection_term();
   return p;
@@ -59,48 +64,111 @@ inline Partials first_light_partials(const LightStart& start, const Point3f& at,
 /// The beginning of a light walk's trail. What would be densities per area of the light are per
 /// solid angle at the first vertex instead, which spares distances and cosines that cancel:
 /// `back` of vertex 0 is that of light samples, and `forward` of vertex 1 that of both vertices.
-inline void record_first_arrival(const LightStart& start, const Point3f& at, float cosine) {
-  Trail* trail = start.walk.trail;
+inline void record_first_arrival(const LightStart& start, const Point3f& at, float cosine,
+                                 Trail* trail, float transmittance = 1) {
   if (!trail) return;
+  trail->clear();
   trail->push_back({1, 0, start.direct(at), is_delta(start.light->kind())});
-  trail->push_back({start.density() * cosine, 0, 1, false});
+  trail->push_back({start.density() * cosine * transmittance, 0, transmittance, false});
 }
 
-/// Traces one walk of up to `max_depth` segments. `visit(vertex, hit)` sees every vertex. Returns
-/// the number of vertices.
-template <class Visit>
+/// The walk that has left the light, for the kind of vertices that it is to have. `seed` is for
+/// what happens in media.
+template <class Vertex>
+inline WalkOf<Vertex> leave_light(const Scene& scene, const LightStart& start, uint64_t seed) {
+  if constexpr (Vertex::kMedia) {
+    const Medium* medium = scene.light_media[start.index];
+    MediaWalk walk(scene, start.walk, medium, seed);
+    if (medium && is_infinite(start.light->kind())) {
+      // The medium goes on behind the start of the ray, up to where the light is.
+      Ray back = start.walk.ray;
+      back.direction = -back.direction, back.tmax = INFINITY;
+      SpectralWeights w;
+      medium->transmit(back, walk.random, w);
+      walk.throughput *= w.value;
+      walk.transmittance = medium->nominal_transmittance(back);
+    }
+    return walk;
+  } else {
+    return start.walk;
+  }
+}
+
+/// Traces one walk of up to `max_depth` segments. `visit(vertex, hit)` sees every vertex, on
+/// surfaces where they were hit, and finds the sampler at the random numbers for the lens. Returns
+/// the number of vertices. `Vertex` is PathVertex or, with a `seed`, MediaVertex.
+template <class Vertex = PathVertex, class Visit>
 int trace_light_walk(const Scene& scene, const TechniqueSet& set, const WalkOptions& options,
                      int max_depth, Sampler& sampler, RenderCounters& counters, Trail* trail,
-                     Visit&& visit) {
+                     Visit&& visit, uint64_t seed = 0) {
   ++counters.light_paths;
   sampler.start_dimension(0);
-  auto start = start_light_walk(scene, sampler);
+  const auto start = start_light_walk(scene, sampler);
   if (trail) trail->clear();
   if (!start) return 0;
-  Walk& walk = start->walk;
+  WalkOf<Vertex> walk = leave_light<Vertex>(scene, *start, seed);
   walk.trail = trail;
-  for (int depth = 1; depth <= max_depth; ++depth) {
+  int depth = 1;
+  uint32_t dimension = kLightStartDimensions;
+  const auto arrive_at = [&](const Point3f& p, float d2, float cosine, float transmittance) {
+    if (depth == 1) {
+      record_first_arrival(*start, p, cosine, trail, transmittance);
+      return first_light_partials(*start, p, cosine, set, transmittance);
+    }
+    record_arrival(walk, d2 / transmittance, cosine);
+    return arrive(walk.partials, d2 / transmittance, cosine);
+  };
+  /// Whether the walk goes on behind the vertex.
+  const auto pass = [&](const Vertex& v, const Hit& hit, bool may_be_passed) {
+    sampler.start_dimension(dimension + kLensOffset);
+    visit(v, hit);
+    if (depth == max_depth && !may_be_passed) return false;
+    sampler.start_dimension(dimension);
+    dimension += kLightVertexStride<Vertex>;
+    bool straight = false;
+    if (!scatter<Transport::importance>(v, set, options, sampler, walk, &straight)) return false;
+    if (Vertex::kMedia && straight) return true;
+    return depth++ < max_depth;
+  };
+  if (max_depth < 1) return 0;
+  for (;;) {
     Hit hit;
     ++counters.closest_rays;
-    if (!scene.accel->closest_hit(walk.ray, hit)) return depth - 1;
+    const bool found = scene.accel->closest_hit(walk.ray, hit);
+    if constexpr (Vertex::kMedia) {
+      if (walk.medium) {
+        Ray segment = walk.ray;
+        if (found) segment.tmax = hit.t;
+        sampler.start_dimension(dimension + kLightVertexDimensions);
+        const float t = walk.cross(segment, sampler.next_1d());
+        if (t < INFINITY) {
+          const Point3f p = walk.ray.origin + walk.ray.direction * t;
+          const float d2 = depth == 1 ? 1.0f : length_squared(p - walk.from);
+          const float extinction = walk.medium->nominal_extinction(p);
+          if (!(d2 > 0 && extinction > 0)) return depth - 1;
+          const Partials partials = arrive_at(p, d2, extinction, walk.counted_transmittance());
+          const Vertex v(*walk.medium, extinction, p, -walk.ray.direction, walk.throughput,
+                         partials, depth);
+          if (!pass(v, hit, false)) return depth;
+          continue;
+        }
+      }
+    }
+    if (!found) return depth - 1;
     const Surface s = scene.surface(walk.ray, hit);
     const float cosine = std::abs(dot(s.ng, walk.ray.direction));
     if (!(cosine > 0)) return depth - 1;
-    Partials partials;
-    if (depth == 1) {
-      partials = first_light_partials(*start, s.position, cosine, set);
-      record_first_arrival(*start, s.position, cosine);
+    if constexpr (Vertex::kMedia) {
+      const float d2 = depth == 1 ? 1.0f : length_squared(s.position - walk.from);
+      const Partials partials = arrive_at(s.position, d2, cosine, walk.counted_transmittance());
+      const Vertex v(scene, s, -walk.ray.direction, walk.throughput, partials, depth, walk.medium);
+      if (!pass(v, hit, scene.materials[s.shape->material]->passes_straight())) return depth;
     } else {
-      partials = arrive(walk.partials, hit.t * hit.t, cosine);
-      record_arrival(walk, hit.t * hit.t, cosine);
+      const Partials partials = arrive_at(s.position, hit.t * hit.t, cosine, 1);
+      const Vertex v(scene, s, -walk.ray.direction, walk.throughput, partials, depth);
+      if (!pass(v, hit, false)) return depth;
     }
-    const PathVertex v(scene, s, -walk.ray.direction, walk.throughput, partials, depth);
-    visit(v, hit);
-    if (depth == max_depth) return depth;
-    sampler.start_dimension(kLightStartDimensions + kLightVertexDimensions * uint32_t(depth - 1));
-    if (!scatter<Transport::importance>(v, set, options, sampler, walk)) return depth;
   }
-  return max_depth;
 }
 
 }  // namespace duet

@@ -42,15 +42,17 @@ struct Partials {
 struct Departure {
   float forward;     ///< density of the direction taken
   float reverse;     ///< density of the direction back, for a walk from the other end
-  float cosine_out;  ///< |cos| between the direction taken and the geometric normal
+  float cosine_out;  ///< |cos| between the direction taken and the geometric normal; in a medium,
+                     ///< where densities are per volume, the nominal extinction
 };
 
-/// The sums on leaving a vertex by a smooth lobe; arrive() completes them.
+/// The sums on leaving a vertex by a smooth lobe; arrive() completes them. `merges` is 0 instead of
+/// 1 where nothing can be merged although the method merges elsewhere; so is `merge_term` then.
 inline Partials leave(const Partials& at, const Departure& d, float merge_term,
-                      float connection_term) {
+                      float connection_term, float merges = 1) {
   const float to_next = d.cosine_out / d.forward;
   return {1 / d.forward, to_next * (merge_term + at.vcm + d.reverse * at.vc),
-          to_next * (1 + at.vcm * connection_term + d.reverse * at.vm)};
+          to_next * (merges + at.vcm * connection_term + d.reverse * at.vm)};
 }
 
 /// The same through a delta lobe. `jacobian` is the solid angle of directions that arrive per solid
@@ -62,7 +64,8 @@ inline Partials leave_specular(const Partials& at, float cosine_out, float jacob
 }
 
 /// On arrival at the next vertex, at squared distance `d2` (1 from infinitely far away) under the
-/// geometric cosine `cosine`.
+/// geometric cosine `cosine`. Through media `d2` is divided by the nominal transmittance, and in a
+/// medium its nominal extinction takes the place of the cosine.
 inline Partials arrive(const Partials& p, float d2, float cosine) {
   const float inverse = 1 / cosine;
   return {p.vcm * d2 * inverse, p.vc * inverse, p.vm * inverse};
@@ -77,11 +80,6 @@ struct JoinEnd {
 /// Relative density of all techniques that take vertices away from this end.
 inline float beyond_end(const Partials& p, const JoinEnd& end, float merge_term) {
   return end.arrival * (merge_term + p.vcm + end.beyond * p.vc);
-}
-
-inline float connection_weight(const Partials& light, const JoinEnd& light_end, const Partials& eye,
-                               const JoinEnd& eye_end, float merge_term) {
-  return 1 / (1 + beyond_end(light, light_end, merge_term) + beyond_end(eye, eye_end, merge_term));
 }
 
 /// The merge of two vertices; `reverse` densities per solid angle of going back along each walk.

@@ -6,7 +6,12 @@
 
 namespace duet {
 
+/// A vertex on a surface, the only kind where there are no media. What walks and joins ask of
+/// vertices has one name for all kinds.
 struct PathVertex {
+  /// Whether there are vertices elsewhere.
+  static constexpr bool kMedia = false;
+
   Surface surface;
   Vector3f wo;  ///< unit, towards the previous vertex
   Bsdf bsdf;    ///< bound to wo
@@ -27,6 +32,33 @@ struct PathVertex {
   const Point3f& position() const { return surface.position; }
   /// |cos| between a unit direction and the geometric normal: what densities per area go by.
   float cosine(const Vector3f& w) const { return std::abs(dot(surface.ng, w)); }
+  /// Whether the vertex can be joined with others.
+  bool is_smooth() const { return bsdf.has_smooth(); }
+  /// Whether photons can be merged with it.
+  static constexpr bool merges() { return true; }
+  BsdfEval eval(const Vector3f& w, Transport transport) const { return bsdf.eval(w, transport); }
+  BsdfPair eval_both_ways(const Vector3f& w, Transport transport) const {
+    return bsdf.eval_both_ways(w, transport);
+  }
+  /// As Bsdf::reverse_pdf().
+  float reverse_pdf(const Vector3f& w, Transport transport) const {
+    return bsdf.reverse_pdf(w, transport).value;
+  }
+  /// Of particles that are scattered towards `w`.
+  float adjoint(const Vector3f& w) const;
+  /// Whether a direction lies on different sides of the shading and the geometric normal.
+  bool has_two_sides(const Vector3f& w) const { return sides_differ(surface, w); }
+  /// Where a ray towards `w` starts, and where one from there ends.
+  Point3f outside(const Vector3f& w) const { return offset_position(surface, w); }
+
+ protected:
+  /// For a point that is on no surface.
+  PathVertex(const Point3f& p, const Vector3f& towards_previous, const Spectrum& carried,
+             const Partials& sums, int segments)
+      : wo(towards_previous), throughput(carried), partials(sums), depth(segments) {
+    surface.position = p;
+    surface.shape = nullptr;
+  }
 };
 
 /// By how much scattering of particles from direction `l` into direction `v` differs from the BSDF
@@ -37,6 +69,10 @@ inline float adjoint_factor(const Surface& s, const Vector3f& l, const Vector3f&
   const float geometric = dot(s.shading.n, l) * dot(s.ng, v);
   if (shading == geometric) return 1;
   return shading != 0 ? std::abs(geometric / shading) : 0.0f;
+}
+
+inline float PathVertex::adjoint(const Vector3f& w) const {
+  return adjoint_factor(surface, wo, w);
 }
 
 }  // namespace duet

@@ -6,14 +6,14 @@
 namespace duet {
 
 struct TrailVertex {
-  float forward;  ///< area density with which this walk made the vertex
+  float forward;  ///< area density with which this walk made the vertex; per volume in media
   float reverse;  ///< the same for a walk from the other end; set on leaving the next vertex
   float back;     ///< |cos| at the previous vertex over the squared distance: what makes a density
-                  ///< per solid angle here one per area there
+                  ///< per solid angle here one per area there (media: see arrive() in mis.h)
   bool specular;  ///< left by a delta lobe
 };
 
-/// Vertex 0 is on the light or on the lens; only vertices that are surfaces have all entries.
+/// Vertex 0 is on the light or on the lens; only those between them have all entries.
 using Trail = std::vector<TrailVertex>;
 
 }  // namespace duet

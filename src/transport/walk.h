@@ -28,7 +28,7 @@ struct Walk {
   Trail* trail = nullptr;     ///< filled if not null
 };
 
-/// Records the arrival of a walk at a surface.
+/// Records the arrival of a walk at a vertex; `d2` and `cosine` as in arrive().
 inline void record_arrival(Walk& walk, float d2, float cosine) {
   if (!walk.trail) return;
   walk.trail->push_back({walk.forward * cosine / d2, 0, walk.cosine_out / d2, false});
@@ -36,13 +36,15 @@ inline void record_arrival(Walk& walk, float d2, float cosine) {
 
 /// The sums at the first surface that an eye walk meets, where light tracing competes, at squared
 /// distance `d2` under the geometric cosine `cosine`. `camera_ray` starts at the camera, which the
-/// walk's ray may not do.
+/// walk's ray may not do. `transmittance` is the nominal one from there.
 inline Partials first_eye_partials(const Scene& scene, const Ray& camera_ray, const Point3f& at,
-                                   float d2, float cosine, const TechniqueSet& set, Walk& walk) {
+                                   float d2, float cosine, const TechniqueSet& set, Walk& walk,
+                                   float transmittance = 1) {
   const float importance = scene.camera->importance(camera_ray, distance(at, camera_ray.origin));
   walk.forward = importance * d2;
   Partials p;
-  if (set.camera_joins) p.vcm = set.light_paths / (set.connection_share * importance * cosine);
+  if (set.camera_joins)
+    p.vcm = set.light_paths / (set.connection_share * importance * cosine * transmittance);
   return p;
 }
 
@@ -54,11 +56,24 @@ inline void record_departure(Walk& walk, float reverse, bool specular) {
   if (trail.size() > 1) trail[trail.size() - 2].reverse = reverse * trail.back().back;
 }
 
-/// Chooses where a walk goes on from a vertex; false if it ends. Uses up to four dimensions of the
-/// sampler. The roulette divides the throughput and is left out of all densities.
-template <Transport transport>
-inline bool scatter(const PathVertex& v, const TechniqueSet& set, const WalkOptions& options,
-                    Sampler& sampler, Walk& walk, bool* passed_straight = nullptr) {
+/// Whether a walk goes on from a vertex `depth` segments from its start; its throughput then makes
+/// up for those that end.
+inline bool survives(int depth, const WalkOptions& options, Sampler& sampler, Walk& walk) {
+  if (depth < options.rr_depth) return true;
+  // Relative to what the walk began with: the same for dim and for bright lights.
+  const float survival = std::min(walk.carried, 0.95f);
+  if (!(sampler.next_1d() < survival)) return false;
+  walk.throughput *= 1 / survival;
+  walk.carried /= survival;
+  return true;
+}
+
+/// Chooses where a walk goes on from a surface; see scatter(). With `passes` one that goes straight
+/// on stays the walk that had not come to the surface yet, but for ray and throughput.
+template <Transport transport, bool passes>
+inline bool scatter_on_surface(const PathVertex& v, const TechniqueSet& set,
+                               const WalkOptions& options, Sampler& sampler, Walk& walk,
+                               bool* passed_straight) {
   const Point2f direction = sampler.next_2d();
   const float choice = v.bsdf.needs_choice() ? sampler.next_1d() : 0.5f;
   const auto s = v.bsdf.sample(choice, direction, transport);
@@ -73,13 +88,12 @@ inline bool scatter(const PathVertex& v, const TechniqueSet& set, const WalkOpti
   walk.carried *= weight.max();
   if (to_light) walk.carried *= s->eta * s->eta;
   if (!(walk.throughput.max() > 0)) return false;
-  if (v.depth >= options.rr_depth) {
-    // Relative to what the walk began with: the same for dim and for bright lights.
-    const float survival = std::min(walk.carried, 0.95f);
-    if (!(sampler.next_1d() < survival)) return false;
-    walk.throughput *= 1 / survival;
-    walk.carried /= survival;
+  if (passes && s->null) {
+    walk.ray = spawn_ray(v.surface, s->wi);
+    if (walk.trail) walk.trail->pop_back();
+    return true;
   }
+  if (!survives(v.depth, options, sampler, walk)) return false;
   const float cosine_out = v.cosine(s->wi);
   if (s->delta) {
     const float in = std::abs(dot(v.surface.shading.n, v.wo)),
@@ -101,6 +115,14 @@ inline bool scatter(const PathVertex& v, const TechniqueSet& set, const WalkOpti
   walk.from_specular = s->delta;
   walk.ray = spawn_ray(v.surface, s->wi);
   return true;
+}
+
+/// Chooses where a walk goes on from a vertex; false if it ends. Uses up to four dimensions of the
+/// sampler. The roulette divides the throughput and is left out of all densities.
+template <Transport transport>
+inline bool scatter(const PathVertex& v, const TechniqueSet& set, const WalkOptions& options,
+                    Sampler& sampler, Walk& walk, bool* passed_straight = nullptr) {
+  return scatter_on_surface<transport, false>(v, set, options, sampler, walk, passed_straight);
 }
 
 }  // namespace duet

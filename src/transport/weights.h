@@ -17,16 +17,18 @@ class BalanceWeights {
   float hit(const Walk& walk, float direct, float emission) const {
     return 1 / (1 + direct * walk.partials.vcm + share_ * emission * walk.partials.vc);
   }
-  float light_sample(const PathVertex& eye, float direct, float bsdf,
-                     const JoinEnd& eye_end) const {
-    return 1 / (1 + bsdf / direct + share_ * beyond_end(eye.partials, eye_end, merge_term_));
+  template <class Vertex>
+  float light_sample(const Vertex& eye, float direct, float bsdf, const JoinEnd& eye_end) const {
+    return 1 / (1 + bsdf / direct + share_ * beyond(eye, eye_end));
   }
-  float camera(const PathVertex& light, const JoinEnd& light_end) const {
-    return 1 / (1 + camera_scale_ * beyond_end(light.partials, light_end, merge_term_));
+  template <class Vertex>
+  float camera(const Vertex& light, const JoinEnd& light_end) const {
+    return 1 / (1 + camera_scale_ * beyond(light, light_end));
   }
-  float connection(const PathVertex& light, const JoinEnd& light_end, const PathVertex& eye,
+  template <class Vertex>
+  float connection(const Vertex& light, const JoinEnd& light_end, const Vertex& eye,
                    const JoinEnd& eye_end) const {
-    return connection_weight(light.partials, light_end, eye.partials, eye_end, merge_term_);
+    return 1 / (1 + beyond(light, light_end) + beyond(eye, eye_end));
   }
   float merge(const LightVertex& light, float light_reverse, const PathVertex& eye,
               float eye_reverse) const {
@@ -34,6 +36,11 @@ class BalanceWeights {
   }
 
  private:
+  template <class Vertex>
+  float beyond(const Vertex& v, const JoinEnd& end) const {
+    return beyond_end(v.partials, end, v.merges() ? merge_term_ : 0.0f);
+  }
+
   float merge_term_, connection_term_, share_, camera_scale_;
 };
 

@@ -19,7 +19,8 @@ double WindowWeights::fewer(std::span<const TrailVertex> light, int m, int t,
     if (joins) sum += windows_.share(i, t) * ratio;
   }
   if (light[0].specular) return sum;
-  const double found = m == 1 ? double(end.beyond) : double(light[0].reverse);
+  const double found =
+      m == 1 ? double(end.beyond) * double(light[1].back) : double(light[0].reverse);
   return sum + windows_.share(0, t + 1) * ratio * found / double(light[0].back);
 }
 

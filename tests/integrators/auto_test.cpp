@@ -64,7 +64,36 @@ TEST_CASE("rules from what a scene contains") {
   CHECK(method_rules(sky) == MethodRules{.may_merge = true, .far_lights_only = true});
   sky.directional_lights = 1;
   CHECK(method_rules(sky).needs_light_walks);
-  for (const SceneFeatures& any : {f, sky}) CHECK(!describe(method_rules(any)).empty());
+  SceneFeatures fog = f;
+  fog.media = 1;
+  CHECK(method_rules(fog).has_media);
+  CHECK(!method_rules(fog).wants_volpath());
+  fog.heterogeneous_media = 1;
+  CHECK(method_rules(fog).wants_volpath());
+  sky.media = 1;  // masks stop light samples no longer
+  CHECK(!method_rules(sky).needs_light_walks);
+  CHECK(method_rules(sky).wants_volpath());
+  for (const SceneFeatures& any : {f, sky, fog}) CHECK(!describe(method_rules(any)).empty());
+}
+
+TEST_CASE("media are rendered by volpath unless only light walks find some of the light") {
+  const std::string fog =
+      "<medium type='homogeneous' id='fog'><float name='sigma_t' value='0.5'/></medium>"
+      "<shape type='cube'><transform name='to_world'><scale value='4'/></transform>"
+      "<bsdf type='null'/><ref id='fog' name='interior'/></shape>";
+  const std::string camera = camera_xml("0, -9, 1", "0, 0, 1", 8);
+  const std::string ball = sphere_xml("0, 0, 0.5", "0.4", "<bsdf type='dielectric'/>");
+  const std::string point =
+      "<emitter type='point'><point name='position' value='0, 0, 1.6'/></emitter>";
+  const RenderOutlook outlook{{8, 8}, 4, 1};
+  const auto chosen = [&](const std::string& lights) {
+    const TransportScene s(camera + fog + ball + lights);
+    const MethodChoice c = choose_method(*s.scene, {}, outlook);
+    CHECK(c.bias.empty());
+    return c.reason.substr(0, c.reason.find(':'));
+  };
+  CHECK(chosen(lamp_xml("0.4", "8")) == "volpath");
+  CHECK(chosen(point) == "bdpt");
 }
 
 TEST_CASE("without specular surfaces nothing is merged") {

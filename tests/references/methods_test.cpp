@@ -22,9 +22,15 @@ TileBatches render(const ReferenceCase& c, const std::string& name) {
   return batches;
 }
 
-/// Walks from both ends do not enter media.
+/// Photons do not enter media.
 bool has_media(const ReferenceCase& c) {
   return c.reference.starts_with("media-");
+}
+
+/// What glass makes of the light of a lamp without size is in no image of `volpath`, by which the
+/// reference has been made.
+bool lacks_caustics(const ReferenceCase& c) {
+  return c.reference == "media-homogeneous";
 }
 
 /// Whether the light image alone shows the scene: no specular surfaces, and none so glossy that
@@ -46,7 +52,7 @@ TEST_SUITE("references") {
       double total = 0;
       int count = 0;
       for (const ReferenceCase& c : cases) {
-        if (has_media(c) || (name == "ptracer" && !suits_light_tracing(c))) continue;
+        if (lacks_caustics(c) || (name == "ptracer" && !suits_light_tracing(c))) continue;
         const Reference reference(c.reference);
         const ReferenceComparison r = compare_tiles(render(c, name), reference);
         CAPTURE(c.reference);
@@ -65,7 +71,7 @@ TEST_SUITE("references") {
     for (const auto& [name, bias] :
          {std::pair<std::string, double>{"vcm", 0.005}, {"bpm", 0.025}, {"ppm", 0.025}}) {
       for (const ReferenceCase& c : reference_cases()) {
-        if (has_media(c)) continue;
+        if (name == "vcm" ? lacks_caustics(c) : has_media(c)) continue;
         const Reference reference(c.reference);
         const ReferenceComparison r = compare_tiles(render(c, name), reference);
         CAPTURE(name);

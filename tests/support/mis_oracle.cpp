@@ -31,6 +31,16 @@ std::vector<double> technique_densities(const Scene& scene, const OraclePath& pa
     if (to == k) return path.to_lens;
     return normalize(at(to).position - at(from).position);
   };
+  const auto medium = [&](int i) {
+    return path.media.empty() ? nullptr : path.media[size_t(i - 1)];
+  };
+  /// What makes densities per solid angle of x_i per area or volume.
+  const auto projected = [&](int i, const Vector3f& w) {
+    return medium(i) ? double(medium(i)->nominal_extinction(at(i).position)) : cosine(at(i).ng, w);
+  };
+  const auto edge = [&](int i) {
+    return path.transmittance.empty() ? 1.0 : path.transmittance[size_t(i)];
+  };
   /// Density per solid angle of going on from x_i to `next` after `previous`.
   const auto scattered = [&](int i, int previous, int next, Transport transport) {
     if (path.specular[size_t(i - 1)]) {
@@ -41,22 +51,28 @@ std::vector<double> technique_densities(const Scene& scene, const OraclePath& pa
       // Solid angle towards the eye per solid angle towards the light.
       return eta == 1 ? 1.0 : light / (eye * eta * eta);
     }
+    if (medium(i))
+      return double(medium(i)
+                        ->phase()
+                        .eval(at(i).position, direction(i, previous), direction(i, next))
+                        .value);
     const Bsdf bsdf = scene.materials[at(i).shape->material]->bind(at(i), direction(i, previous));
     return double(bsdf.eval(direction(i, next), transport).pdf.value);
   };
   const auto to_area = [&](double p, int from, int to) {
-    return p * cosine(at(to).ng, direction(to, from)) / distance2(at(from), at(to));
+    return p * edge(std::min(from, to)) * projected(to, direction(to, from)) /
+           distance2(at(from), at(to));
   };
   const size_t count = size_t(k);
   std::vector<double> p(count), q(count);  // of x_0 … x_{k-1}
   p[0] = 1;
-  p[1] = path.emission * cosine(at(1).ng, path.to_light);
+  p[1] = path.emission * projected(1, path.to_light) * edge(0);
   for (int i = 2; i <= n; ++i)
     p[size_t(i)] = to_area(scattered(i - 1, i - 2, i, Transport::importance), i - 1, i);
-  q[size_t(n)] = path.importance * cosine(at(n).ng, path.to_lens);
+  q[size_t(n)] = path.importance * projected(n, path.to_lens) * edge(n);
   for (int i = n - 1; i >= 1; --i)
     q[size_t(i)] = to_area(scattered(i + 1, i + 2, i, Transport::radiance), i + 1, i);
-  q[0] = path.light_can_be_hit ? scattered(1, 2, 0, Transport::radiance) : 0.0;
+  q[0] = path.light_can_be_hit ? scattered(1, 2, 0, Transport::radiance) * edge(0) : 0.0;
 
   const auto joinable = [&](int i) { return i == 0 || i == k || !path.specular[size_t(i - 1)]; };
   const auto product = [&](int s) {
@@ -84,7 +100,7 @@ std::vector<double> technique_densities(const Scene& scene, const OraclePath& pa
   }
   for (int i = 1; i < k; ++i) {
     // The light walk goes on to x_i, which the eye walk has reached too.
-    const double share = joinable(i) ? merges(i) : 0;
+    const double share = joinable(i) && !medium(i) ? merges(i) : 0;
     result.push_back(share > 0 ? share * merge_area * p[size_t(i)] *
                                      std::exp(product(i) - reference) / (i == 1 ? path.direct : 1.0)
                                : 0.0);

@@ -11,10 +11,14 @@ namespace duet::test {
 /// A whole path x_0 … x_k, without its end on the light (which densities per solid angle at x_1
 /// stand for) and on the lens.
 struct OraclePath {
-  std::vector<Surface> surfaces;  ///< x_1 … x_{k-1}
-  std::vector<bool> specular;     ///< whether x_i scattered by a delta lobe
-  std::vector<double> eta;        ///< index on the eye's side over that on the light's
-  Vector3f to_light, to_lens;     ///< unit, from x_1 and from x_{k-1}
+  std::vector<Surface> surfaces;  ///< x_1 … x_{k-1}; of a point in a medium the position only
+  /// The medium that x_i lies in, null for points of surfaces; and the nominal transmittance
+  /// between x_i and x_{i+1}, from i = 0. Both are empty where there are no media.
+  std::vector<const Medium*> media;
+  std::vector<double> transmittance;
+  std::vector<bool> specular;  ///< whether x_i scattered by a delta lobe
+  std::vector<double> eta;     ///< index on the eye's side over that on the light's
+  Vector3f to_light, to_lens;  ///< unit, from x_1 and from x_{k-1}
   bool light_can_be_hit = true;
   double direct = 0;      ///< density of light samples at x_1, per solid angle
   double emission = 0;    ///< EmissionSample::density with the probability of the light

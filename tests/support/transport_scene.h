@@ -6,6 +6,7 @@
 #include "integrators/make_integrator.h"
 #include "integrators/pass.h"
 #include "scene/build.h"
+#include "support/files.h"
 #include "support/memory_scene.h"
 
 namespace duet::test {
@@ -20,6 +21,15 @@ struct TransportScene {
     ReadResult read = read_text("<scene version='3.0.0'>" + content + "</scene>");
     REQUIRE_MESSAGE(read.scene, read.messages());
     prepare(read.scene->description);
+  }
+  /// The same as a file on the disk, which finds others there.
+  TransportScene(const TemporaryDirectory& folder, const std::string& content) {
+    const std::string file =
+        folder.write("scene.xml", "<scene version='3.0.0'>" + content + "</scene>");
+    Diagnostics diagnostics;
+    auto read = read_mitsuba(file, {}, diagnostics);
+    REQUIRE(read);
+    prepare(read->description);
   }
   /// A scene of the folder scenes/ in a size of its own.
   TransportScene(const std::string& folder, int size) {

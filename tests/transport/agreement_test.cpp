@@ -2,6 +2,7 @@
 #include "image/tile_test.h"
 #include "support/statistics.h"
 #include "support/transport_scene.h"
+#include "support/volume_files.h"
 
 using namespace duet;
 using namespace duet::test;
@@ -16,6 +17,10 @@ struct Case {
   bool light_tracing = false;  ///< sees everything: no specular surface in view
   int effort = 1;              ///< times as many samples, where some are rare and bright
   bool in_short = false;       ///< part of the short version
+  bool has_media = false;      ///< `volpath` instead of `path`
+  /// Whether light samples alone have finite variance: not where light is scattered next to a point
+  /// that shines. Nor has light tracing next to the camera.
+  bool bounded = true;
 };
 
 std::string material(const std::string& type, const std::string& content = "") {
@@ -121,14 +126,98 @@ std::vector<Case> cases() {
   };
 }
 
+/// Rooms with media, some of them given by a grid in `folder`.
+std::vector<Case> cases_with_media(const TemporaryDirectory& folder) {
+  const std::string room = room_xml(grey("0.7, 0.6, 0.5")), lamp = lamp_xml("0.4", "8");
+  const auto homogeneous = [](const std::string& id, const std::string& sigma_t,
+                              const std::string& albedo, const std::string& g) {
+    return "<medium type='homogeneous' id='" + id + "'><rgb name='sigma_t' value='" + sigma_t +
+           "'/><rgb name='albedo' value='" + albedo +
+           "'/><phase type='hg'><float name='g' value='" + g + "'/></phase></medium>";
+  };
+  std::vector<float> values;
+  for (int i = 0; i < 5 * 4 * 3; ++i)
+    for (int c = 0; c < 3; ++c) values.push_back(float((i * 7 + c * 3) % 11) * 0.6f);
+  const std::string file = folder.write("cloud.vol", float_volume(5, 4, 3, 3, values));
+  const std::string grid =
+      "<medium type='heterogeneous' id='cloud'><volume name='sigma_t' type='gridvolume'><string "
+      "name='filename' value='" +
+      file +
+      "'/><transform name='to_world'><translate x='-0.5' y='-0.5' z='0.1'/><scale x='1.2' y='1' "
+      "z='1.4'/></transform></volume><rgb name='albedo' value='0.9, 0.8, 0.95'/></medium>";
+  const auto inside = [](const std::string& id, const std::string& bsdf = "<bsdf type='null'/>") {
+    return bsdf + "<ref id='" + id + "' name='interior'/>";
+  };
+  const std::string box =  // holds room and camera
+      "<shape type='cube'><transform name='to_world'><scale value='5'/></transform>";
+  const std::string fog = homogeneous("fog", "0.2, 0.3, 0.5", "0.9, 0.8, 0.7", "0.5");
+  const std::string wax = homogeneous("wax", "6, 3, 1.5", "0.95, 0.9, 0.6", "-0.4");
+  const std::string near = "<float name='near_clip' value='0.01'/>";
+  const std::string area = "<emitter type='area'><rgb name='radiance' value='";
+  const std::string point =
+      "<emitter type='point'><point name='position' value='0.4, -0.3, 1.3'/>"
+      "<rgb name='intensity' value='1.5, 1, 2'/></emitter>";
+  const std::string sky =
+      "<emitter type='constant'><rgb name='radiance' value='0.4, 0.5, 0.6'/></emitter>";
+  const std::string sun =
+      "<emitter type='directional'><vector name='direction' value='0.3, 1, -0.5'/>"
+      "<rgb name='irradiance' value='1.5'/></emitter>";
+  const auto text = [near, &folder](const std::string& content, const std::string& sensor = "") {
+    return [=, &folder](int size) {
+      return TransportScene(
+          folder, camera_xml("0, -3, 1", "0, 0, 1", size, "perspective", near + sensor) + content);
+    };
+  };
+  return {
+      {"fog with a camera and lamps in it",
+       text(fog + room + lamp + sphere_xml("0.4, 0, 0.4", "0.3", area + "2, 1, 3'/></emitter>") +
+                box + inside("fog") + "</shape>",
+            "<ref id='fog'/>"),
+       false, 2, true, true},
+      {"a point that shines in fog",
+       text(fog + room + point + sphere_xml("0.2, 0, 1", "0.9", inside("fog"))), true, 2, true,
+       true, false},
+      {"a cloud under a sky",
+       text(grid + room + sky + sun + sphere_xml("0, 0, 0.9", "0.8", inside("cloud")) +
+            sphere_xml("0.6, -0.6, 0.2", "0.15", area + "4, 3, 2'/></emitter>")),
+       true, 2, true, true},
+      {"media in one another, with a lamp in the inner one",
+       text(fog + wax + room + lamp + sphere_xml("0, 0, 0.9", "0.8", inside("fog")) +
+            sphere_xml("0, 0, 0.9", "0.4", inside("wax") + "<ref id='fog' name='exterior'/>") +
+            sphere_xml("0, 0, 0.9", "0.1", area + "30, 20, 20'/></emitter>")),
+       true, 2, false, true},
+      {"a lamp that is the boundary of a medium",
+       text(wax + room + sphere_xml("0, 0, 1", "0.5", inside("wax")) +
+            sphere_xml("-0.3, -0.7, 0.5", "0.2",
+                       inside("wax", grey("0.5")) + area + "6, 5, 4'/></emitter>")),
+       true, 2, false, true},
+      {"wax in glass, rough and smooth",
+       text(wax + fog + room + lamp +
+            sphere_xml("-0.45, 0, 0.6", "0.4",
+                       inside("wax", glass("1.5", "1", "roughdielectric",
+                                           "<float name='alpha' value='0.25'/>"))) +
+            sphere_xml("0.45, 0, 0.6", "0.4", inside("fog", glass("1.3", "1")))),
+       false, 8, false, true},
+      {"holes and panes in fog",
+       text(fog + room + lamp +
+                sphere_xml("0, 0, 0.9", "0.5",
+                           material("mask", "<float name='opacity' value='0.6'/>" + grey("0.6"))) +
+                box + inside("fog") + "</shape>",
+            "<ref id='fog'/>"),
+       false, 2, true, true},
+  };
+}
+
 struct Method {
   std::string name;
   TransportScene::Parameters parameters;
 };
 
+/// The first one is only for scenes without media, the second only for those with media.
 const std::vector<Method>& unbiased() {
   static const std::vector<Method> methods{
       {"path", {}},
+      {"volpath", {}},
       {"bdpt", {}},
       {"bdpt", {{"connections", "2"}, {"light_paths", "0.7"}}},
       {"bdpt", {{"light_paths", "1"}}},
@@ -153,23 +242,28 @@ TileBatches render(const TransportScene& scene, const Method& method, int max_de
 /// Compares all pairs of methods that see everything; the levels are those of the whole run.
 void check_agreement(const std::vector<Case>& all, const std::vector<int>& depths, int size,
                      int spp) {
-  const int pairs = int(unbiased().size() * (unbiased().size() - 1) / 2);
+  const int pairs = int((unbiased().size() - 1) * (unbiased().size() - 2) / 2);
   const double level = sidak(0.01, int(all.size() * depths.size()) * pairs * 64);
   for (const Case& c : all) {
     const TransportScene scene = c.make(size);
     for (const int depth : depths) {
       std::vector<TileBatches> images;
-      for (const Method& m : unbiased())
-        if (m.name != "ptracer" || c.light_tracing)
-          images.push_back(render(scene, m, depth, c.effort * spp, images.size()));
+      std::vector<std::string> names;
+      for (const Method& m : unbiased()) {
+        if (m.name == (c.has_media ? "path" : "volpath")) continue;
+        if (!c.bounded && (m.name == "volpath" || m.name == "reuse")) continue;
+        if (m.name == "ptracer" && !c.light_tracing) continue;
+        images.push_back(render(scene, m, depth, c.effort * spp, images.size()));
+        names.push_back(m.name);
+      }
       double total = 0;
       for (size_t i = 0; i < images.size(); ++i)
         for (size_t j = 0; j < i; ++j) {
           const TileComparison r = compare_tiles(images[i], images[j]);
           CAPTURE(c.name);
           CAPTURE(depth);
-          CAPTURE(unbiased()[i].name);
-          CAPTURE(unbiased()[j].name);
+          CAPTURE(names[i]);
+          CAPTURE(names[j]);
           CAPTURE(r.ratio);
           // Of one pair this varies by a quarter.
           CHECK(r.mean_z2 < 2.2);
@@ -188,6 +282,14 @@ TEST_CASE("unbiased methods have the same mean") {
   std::erase_if(some, [](const Case& c) { return !c.in_short; });
   CHECK(some.size() == 5);
   check_agreement(some, {4}, 16, 16);
+}
+
+TEST_CASE("unbiased methods have the same mean in media") {
+  const TemporaryDirectory folder;
+  std::vector<Case> some = cases_with_media(folder);
+  std::erase_if(some, [](const Case& c) { return !c.in_short; });
+  CHECK(some.size() == 4);
+  check_agreement(some, {3}, 16, 16);
 }
 
 TEST_CASE("merging hardly changes the mean of the image") {
@@ -215,6 +317,11 @@ TEST_CASE("the test sees the bias of the thesis's weights") {
 TEST_SUITE("agreement") {
   TEST_CASE("unbiased methods have the same mean at all depths") {
     check_agreement(cases(), {2, 3, 4, 5, 6, 7, 8}, 32, 32);
+  }
+
+  TEST_CASE("unbiased methods have the same mean in media at all depths") {
+    const TemporaryDirectory folder;
+    check_agreement(cases_with_media(folder), {2, 3, 6}, 16, 16);
   }
 
   TEST_CASE("merging comes near the mean, the nearer the smaller the radius") {

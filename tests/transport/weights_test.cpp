@@ -61,11 +61,62 @@ std::vector<std::string> scenes() {
   };
 }
 
-/// The vertices of one walk, with how each was left.
-struct Recorded {
-  std::vector<PathVertex> vertices;
-  std::vector<bool> specular;
+/// Rooms with fog of the extinctions kFog, and where it is.
+struct FoggyScene {
+  std::string content;
+  Point3f center;
+  float radius;
 };
+constexpr double kFog[] = {1.5, 0.7, 0.3};
+
+std::vector<FoggyScene> foggy_scenes() {
+  const std::string fog =
+      "<medium type='homogeneous' id='fog'><rgb name='sigma_t' value='1.5, 0.7, 0.3'/>"
+      "<rgb name='albedo' value='0.9'/><phase type='hg'><float name='g' value='0.6'/></phase>"
+      "</medium>";
+  const std::string null = "<bsdf type='null'/><ref id='fog' name='interior'/>";
+  const std::string walls = room_xml(grey("0.7, 0.5, 0.3")), lamp = lamp_xml("0.3", "12");
+  const std::string point =
+      "<emitter type='point'><point name='position' value='0.2, 0.1, 1.6'/>"
+      "<rgb name='intensity' value='2'/></emitter>";
+  const std::string mirror = sphere_xml("-0.5, 0.3, 0.4", "0.3", "<bsdf type='conductor'/>");
+  const std::string metal = sphere_xml(
+      "0.3, 0, 0.9", "0.2", "<bsdf type='roughconductor'><float name='alpha' value='0.3'/></bsdf>");
+  return {
+      {fog + camera_xml("0, -3, 1", "0, 0, 1", 32) + walls + lamp + point + mirror + metal +
+           sphere_xml("0.1, -0.1, 1", "0.85", null),
+       Point3f(0.1f, -0.1f, 1), 0.85f},
+      {fog + camera_xml("0, -3, 1", "0, 0, 1", 32, "perspective", "<ref id='fog'/>") + walls +
+           lamp + mirror + sphere_xml("0, 0, 0", "9", null),
+       Point3f(0, 0, 0), 9},
+  };
+}
+
+/// How far a straight way leads through a ball.
+double way_through(const FoggyScene& fog, const Point3f& from, const Point3f& to) {
+  const double l = double(distance(from, to));
+  const Vector3f d = normalize(to - from), o = from - fog.center;
+  const double b = double(dot(o, d)), c = double(dot(o, o)) - double(fog.radius) * fog.radius;
+  if (b * b <= c) return 0;
+  const double root = std::sqrt(b * b - c);
+  return std::max(0.0, std::min(l, root - b) - std::max(0.0, -root - b));
+}
+
+/// The vertices of one walk, with how each was left.
+template <class Vertex>
+struct Recorded {
+  std::vector<Vertex> vertices;
+  std::vector<bool> specular;
+
+  void add(const Vertex& v) { vertices.push_back(v), specular.push_back(false); }
+};
+
+const Medium* medium_of(const PathVertex&) {
+  return nullptr;
+}
+const Medium* medium_of(const MediaVertex& v) {
+  return v.in_medium ? v.medium : nullptr;
+}
 
 /// eta as a path from the light to the eye sees it, at a surface that only glass can refract at.
 double eta_towards_eye(const Surface& s, const Vector3f& to_light, const Vector3f& to_eye,
@@ -77,11 +128,13 @@ double eta_towards_eye(const Surface& s, const Vector3f& to_light, const Vector3
   return light > 0 ? double(kGlass) : 1 / double(kGlass);
 }
 
-/// Compares weights as they are used with the definition.
+/// Compares weights as they are used with the definition. `fog` belongs to MediaVertex.
+template <class Vertex>
 class Checker {
  public:
-  Checker(const Scene& scene, const TechniqueSet& set, const Windows* windows)
-      : scene_(scene), set_(set), windows_(windows) {}
+  Checker(const Scene& scene, const TechniqueSet& set, const Windows* windows,
+          const FoggyScene* fog = nullptr)
+      : scene_(scene), set_(set), windows_(windows), fog_(fog) {}
 
   void run(uint32_t paths, int max_depth) {
     for (uint32_t i = 0; i < paths; ++i) pair(i, max_depth);
@@ -89,15 +142,36 @@ class Checker {
   int64_t compared() const { return compared_; }
   /// Weights that differ by more than 1e-4.
   int64_t inexact() const { return inexact_; }
+  /// Paths with points in media among those compared.
+  int64_t through_media() const { return through_media_; }
 
  private:
+  using Record = Recorded<Vertex>;
   double share(int s, int t) const {
     if (windows_) return windows_->share(s, t);
     return t == 1 ? double(set_.light_paths) : s >= 2 ? double(set_.connection_share) : 1.0;
   }
   double merge_share(int) const { return set_.merges ? double(set_.light_paths) : 0.0; }
 
-  void check(const OraclePath& path, int s, float weight) {
+  /// `on_light` and `on_lens` are the ends of the path.
+  void check(OraclePath path, int s, float weight, const Point3f& on_light,
+             const Point3f& on_lens) {
+    if (fog_) {
+      Point3f from = on_light;
+      const auto go = [&](const Point3f& to) {
+        double t = 0;
+        for (const double sigma : kFog) t += std::exp(-sigma * way_through(*fog_, from, to)) / 3;
+        path.transmittance.push_back(t);
+        from = to;
+      };
+      for (const Surface& x : path.surfaces) go(x.position);
+      go(on_lens);
+      for (const Medium* m : path.media)
+        if (m) {
+          ++through_media_;
+          break;
+        }
+    }
     const auto densities = technique_densities(
         scene_, path, [&](int a, int b) { return share(a, b); }, double(set_.merge_area),
         [&](int i) { return merge_share(i); });
@@ -113,86 +187,150 @@ class Checker {
   }
 
   /// The part of a path that an eye walk has made: appended from the light's side to the lens'.
-  void append_eye(OraclePath& path, const Recorded& eye, int count, const Ray& camera_ray) const {
+  void append_eye(OraclePath& path, const Record& eye, int count, const Ray& camera_ray) const {
     for (int j = count - 1; j >= 0; --j) {
-      const PathVertex& v = eye.vertices[size_t(j)];
+      const Vertex& v = eye.vertices[size_t(j)];
       const bool specular = j != count - 1 && eye.specular[size_t(j)];
       const Vector3f to_light = j == count - 1 ? path.to_light : -eye.vertices[size_t(j + 1)].wo;
       path.surfaces.push_back(v.surface);
+      path.media.push_back(medium_of(v));
       path.specular.push_back(specular);
-      path.eta.push_back(eta_towards_eye(v.surface, to_light, v.wo, specular));
+      path.eta.push_back(specular ? eta_towards_eye(v.surface, to_light, v.wo, specular) : 1.0);
     }
-    const PathVertex& first = eye.vertices[0];
+    const Vertex& first = eye.vertices[0];
     path.to_lens = first.wo;
     path.importance = double(
         scene_.camera->importance(camera_ray, distance(first.position(), camera_ray.origin)));
   }
 
   /// The part that a light walk has made; `next` is where its last vertex is left to.
-  void append_light(OraclePath& path, const Recorded& light, int count, const Vector3f& next,
+  void append_light(OraclePath& path, const Record& light, int count, const Vector3f& next,
                     const LightStart& start) const {
-    const PathVertex& first = light.vertices[0];
+    const Vertex& first = light.vertices[0];
     path.to_light = first.wo;
     path.direct = double(start.direct(first.position()));
     path.emission = double(start.density());
     path.light_can_be_hit = !is_delta(start.light->kind());
     for (int j = 0; j < count; ++j) {
-      const PathVertex& v = light.vertices[size_t(j)];
+      const Vertex& v = light.vertices[size_t(j)];
       const bool specular = j != count - 1 && light.specular[size_t(j)];
       const Vector3f to_eye = j == count - 1 ? next : -light.vertices[size_t(j + 1)].wo;
       path.surfaces.push_back(v.surface);
+      path.media.push_back(medium_of(v));
       path.specular.push_back(specular);
-      path.eta.push_back(eta_towards_eye(v.surface, v.wo, to_eye, specular));
+      path.eta.push_back(specular ? eta_towards_eye(v.surface, v.wo, to_eye, specular) : 1.0);
     }
   }
 
   /// One light walk and one eye walk with all their joins.
   void pair(uint32_t index, int max_depth);
   template <class Weights>
-  void joins(const Weights& weights, const Recorded& light, const std::optional<LightStart>& start,
-             const Recorded& eye, const Ray& camera_ray, Sampler& sampler);
-  template <class Weights>
   void eye_walk(Weights weights, const Ray& camera_ray, int max_depth, Sampler& sampler,
-                Trail* trail, const Recorded& light, const std::optional<LightStart>& start);
+                Trail* trail, const Record& light, const std::optional<LightStart>& start);
 
   const Scene& scene_;
   TechniqueSet set_;
   const Windows* windows_;
+  const FoggyScene* fog_;
   RenderCounters counters_;
+  RandomStream random_{1};
   Trail light_trail_;
   int64_t compared_ = 0;
-  int64_t inexact_ = 0;
+  int64_t inexact_ = 0, through_media_ = 0;
 };
 
+template <class Vertex>
 template <class Weights>
-void Checker::eye_walk(Weights weights, const Ray& camera_ray, int max_depth, Sampler& sampler,
-                       Trail* trail, const Recorded& light,
-                       const std::optional<LightStart>& start) {
-  Recorded eye;
-  Walk walk;
+void Checker<Vertex>::eye_walk(Weights weights, const Ray& camera_ray, int max_depth,
+                               Sampler& sampler, Trail* trail, const Record& light,
+                               const std::optional<LightStart>& start) {
+  Record eye;
+  WalkOf<Vertex> walk = [&] {
+    if constexpr (Vertex::kMedia)
+      return MediaWalk(scene_, Walk(), scene_.camera_medium, sampler.next_1d() * 1e9f);
+    else
+      return Walk();
+  }();
   walk.ray = camera_ray;
   walk.from = camera_ray.origin;
   walk.throughput = Spectrum(1);
   walk.trail = trail;
   JoinRoulette roulette(0, 0);
-  for (int depth = 1; depth < max_depth; ++depth) {
+  int depth = 1;
+  const auto arrive_at = [&](const Point3f& p, float d2, float cosine, float transmittance) {
+    const Partials partials = depth == 1 ? first_eye_partials(scene_, camera_ray, p, d2, cosine,
+                                                              set_, walk, transmittance)
+                                         : arrive(walk.partials, d2 / transmittance, cosine);
+    record_arrival(walk, d2 / transmittance, cosine);
+    return partials;
+  };
+  /// Connects the vertex with all of the light walk; whether the eye walk goes on.
+  const auto pass = [&](const Vertex& v) {
+    eye.add(v);
+    if (v.is_smooth())
+      for (const Vertex& l : light.vertices) {
+        if (!l.is_smooth()) continue;
+        const Join join = join_ends(scene_, weights, l, v, false, roulette, counters_, &random_);
+        if (join.value.is_black() || share(l.depth + 1, depth + 1) == 0) continue;
+        OraclePath path;
+        const Vector3f next = normalize(v.position() - l.position());
+        append_light(path, light, l.depth, next, *start);
+        const Vector3f to_light = path.to_light;
+        path.to_light = -next;
+        append_eye(path, eye, depth, camera_ray);
+        path.to_light = to_light;
+        check(path, l.depth + 1, join.weight, start->walk.ray.origin, camera_ray.origin);
+      }
+    bool straight = false;
+    if (!scatter<Transport::radiance>(v, set_, {1000, false}, sampler, walk, &straight))
+      return false;
+    if (Vertex::kMedia && straight) {
+      eye.vertices.pop_back(), eye.specular.pop_back();
+      return true;
+    }
+    eye.specular.back() = walk.from_specular;
+    ++depth;
+    return true;
+  };
+  while (depth < max_depth) {
     Hit hit;
     const bool found = scene_.accel->closest_hit(walk.ray, hit);
+    float transmittance = 1;
+    if constexpr (Vertex::kMedia) {
+      Ray segment = walk.ray;
+      if (found) segment.tmax = hit.t;
+      const float t = walk.cross(segment, sampler.next_1d());
+      transmittance = walk.transmittance;
+      if (t < INFINITY) {
+        const Point3f p = walk.ray.origin + walk.ray.direction * t;
+        const float extinction = walk.medium->nominal_extinction(p);
+        const Partials partials =
+            arrive_at(p, length_squared(p - walk.from), extinction, transmittance);
+        if (!pass(Vertex(*walk.medium, extinction, p, -walk.ray.direction, walk.throughput,
+                         partials, depth)))
+          return;
+        continue;
+      }
+    }
     Surface s;
-    if (found) s = scene_.surface(walk.ray, hit);
+    float d2 = 0;
+    if (found) {
+      s = scene_.surface(walk.ray, hit);
+      d2 = Vertex::kMedia ? length_squared(s.position - walk.from) : hit.t * hit.t;
+    }
     if (depth > 1) {  // s = 0
       Join join{};
       double direct = 0, emission = 0;
       if (!found && scene_.environment) {
-        join = join_escape(scene_, weights, walk);
+        join = join_escape(scene_, weights, walk, transmittance);
         const float pick = scene_.picker.probability(scene_.environment_index);
         direct = double(scene_.environment->pdf_direct(walk.ray.direction).value * pick);
         emission = double(scene_.environment->emission_density(walk.ray.direction) * pick);
       } else if (found && scene_.light_on(*s.shape)) {
-        join = join_hit(scene_, weights, walk, s, hit.t * hit.t);
+        join = join_hit(scene_, weights, walk, s, d2, transmittance);
         const SurfaceLight& l = *scene_.light_on(*s.shape);
         const float pick = scene_.picker.probability(s.shape->light);
-        direct = double(l.pdf_direct(walk.from, s, walk.ray.direction, hit.t * hit.t).value * pick);
+        direct = double(l.pdf_direct(walk.from, s, walk.ray.direction, d2).value * pick);
         emission = double(l.emission_density(s, -walk.ray.direction) * pick);
       }
       if (!join.value.is_black()) {
@@ -202,44 +340,31 @@ void Checker::eye_walk(Weights weights, const Ray& camera_ray, int max_depth, Sa
         append_eye(path, eye, depth - 1, camera_ray);
         // The last vertex was left by a lobe of its own.
         path.specular[0] = walk.from_specular;
-        path.eta[0] = eta_towards_eye(path.surfaces[0], path.to_light, eye.vertices.back().wo,
-                                      walk.from_specular);
-        check(path, 0, join.weight);
+        if (walk.from_specular)
+          path.eta[0] =
+              eta_towards_eye(path.surfaces[0], path.to_light, eye.vertices.back().wo, true);
+        check(path, 0, join.weight, s.position, camera_ray.origin);
       }
     }
     if (!found) return;
-    const float d2 = hit.t * hit.t, cosine = std::abs(dot(s.ng, walk.ray.direction));
+    const float cosine = std::abs(dot(s.ng, walk.ray.direction));
     if (!(cosine > 0)) return;
-    const Partials partials =
-        depth == 1 ? first_eye_partials(scene_, camera_ray, s.position, d2, cosine, set_, walk)
-                   : arrive(walk.partials, d2, cosine);
-    record_arrival(walk, d2, cosine);
-    const PathVertex v(scene_, s, -walk.ray.direction, walk.throughput, partials, depth);
-    eye.vertices.push_back(v);
-    eye.specular.push_back(false);
-    if (v.bsdf.has_smooth())
-      for (const PathVertex& l : light.vertices) {
-        if (!l.bsdf.has_smooth()) continue;
-        const Join join = join_ends(scene_, weights, l, v, false, roulette, counters_);
-        if (join.value.is_black() || share(l.depth + 1, depth + 1) == 0) continue;
-        OraclePath path;
-        const Vector3f next = normalize(v.position() - l.position());
-        append_light(path, light, l.depth, next, *start);
-        const Vector3f to_light = path.to_light;
-        path.to_light = -next;
-        append_eye(path, eye, depth, camera_ray);
-        path.to_light = to_light;
-        check(path, l.depth + 1, join.weight);
-      }
-    if (!scatter<Transport::radiance>(v, set_, {1000, false}, sampler, walk)) return;
-    eye.specular.back() = walk.from_specular;
+    const Partials partials = arrive_at(s.position, d2, cosine, transmittance);
+    if constexpr (Vertex::kMedia) {
+      if (!pass(Vertex(scene_, s, -walk.ray.direction, walk.throughput, partials, depth,
+                       walk.medium)))
+        return;
+    } else if (!pass(Vertex(scene_, s, -walk.ray.direction, walk.throughput, partials, depth))) {
+      return;
+    }
   }
 }
 
-void Checker::pair(uint32_t index, int max_depth) {
+template <class Vertex>
+void Checker<Vertex>::pair(uint32_t index, int max_depth) {
   Sampler sampler(SampleSequence::independent, 7, 0, index);
   sampler.start_sample(0);
-  Recorded light;
+  Record light;
   Sampler light_sampler(SampleSequence::independent, 8, 0, index);
   light_sampler.start_sample(0);
   Sampler same = light_sampler;
@@ -248,16 +373,18 @@ void Checker::pair(uint32_t index, int max_depth) {
   JoinRoulette roulette(0, 0);
   Trail* trail = windows_ ? &light_trail_ : nullptr;
   const auto visit_with = [&](const auto& weights) {
-    return [&](const PathVertex& v, const Hit&) {
+    return [&](const Vertex& v, const Hit&) {
+      // What was passed straight is no vertex.
+      if (!light.vertices.empty() && light.vertices.back().depth == v.depth)
+        light.vertices.pop_back(), light.specular.pop_back();
       if (!light.vertices.empty()) {
         // How the one before was left: only a delta lobe leaves nothing to be joined with.
         light.specular.back() = v.partials.vcm == 0;
       }
-      light.vertices.push_back(v);
-      light.specular.push_back(false);
-      if (!v.bsdf.has_smooth()) return;
+      light.add(v);
+      if (!v.is_smooth()) return;
       const auto seen =
-          join_camera(scene_, weights, v, sampler.next_2d(), false, roulette, counters_);
+          join_camera(scene_, weights, v, sampler.next_2d(), false, roulette, counters_, &random_);
       if (!seen || share(v.depth + 1, 1) == 0) return;
       const auto lens = scene_.camera->sample_lens(v.position(), {0.5f, 0.5f});
       if (!lens || scene_.camera->has_lens()) return;
@@ -265,12 +392,15 @@ void Checker::pair(uint32_t index, int max_depth) {
       append_light(path, light, v.depth, lens->direction, *start);
       path.to_lens = lens->direction;
       path.importance = double(lens->importance);
-      check(path, v.depth + 1, seen->join.weight);
+      check(path, v.depth + 1, seen->join.weight, start->walk.ray.origin, lens->target);
     };
   };
   const auto trace = [&](const auto& weights) {
-    trace_light_walk(scene_, set_, {1000, false}, max_depth - 1, light_sampler, counters_, trail,
-                     visit_with(weights));
+    trace_light_walk<Vertex>(scene_, set_, {1000, false}, max_depth - 1, light_sampler, counters_,
+                             trail, visit_with(weights), index + 1);
+    // The last surface may have been passed on the way out.
+    if (!light.vertices.empty() && !light.vertices.back().is_smooth())
+      light.vertices.pop_back(), light.specular.pop_back();
   };
   const Ray camera_ray = scene_.camera->sample_ray({32 * sampler.next_1d(), 32 * sampler.next_1d()},
                                                    sampler.next_2d());
@@ -305,7 +435,7 @@ TEST_CASE("weights of BDPT and VCM are the balance heuristic") {
         set.merges = merges;
         set.merge_area = merges ? 0.002f : 0.0f;
         set.connection_share = connection_share;
-        Checker checker(*s.scene, set, nullptr);
+        Checker<PathVertex> checker(*s.scene, set, nullptr);
         checker.run(1500, 7);
         compared += checker.compared(), inexact += checker.inexact();
       }
@@ -323,11 +453,39 @@ TEST_CASE("weights of path reuse are exact under any limits") {
   for (const std::string& content : scenes()) {
     const TransportScene s(content);
     for (const Windows& w : settings) {
-      Checker checker(*s.scene, all_techniques(float(w.light_paths)), &w);
+      Checker<PathVertex> checker(*s.scene, all_techniques(float(w.light_paths)), &w);
       checker.run(600, 7);
       compared += checker.compared(), inexact += checker.inexact();
     }
   }
   CHECK(compared > 100000);
+  CHECK(double(inexact) < 2e-3 * double(compared));
+}
+
+TEST_CASE("weights in media are the balance heuristic") {
+  int64_t compared = 0, inexact = 0, through_media = 0;
+  const auto take = [&](const auto& checker) {
+    compared += checker.compared(), inexact += checker.inexact();
+    through_media += checker.through_media();
+  };
+  for (const FoggyScene& fog : foggy_scenes()) {
+    const TransportScene s(fog.content);
+    for (const bool merges : {false, true}) {
+      TechniqueSet set = all_techniques(500);
+      set.merges = merges;
+      set.merge_area = merges ? 0.002f : 0.0f;
+      set.connection_share = merges ? 0.4f : 1.0f;
+      Checker<MediaVertex> checker(*s.scene, set, nullptr, &fog);
+      checker.run(3000, 7);
+      take(checker);
+    }
+    for (const Windows& w : {Windows{4, 3, 1, 700}, {2, 1, 0.5, 700}, {0, 7, 1, 700}}) {
+      Checker<MediaVertex> checker(*s.scene, all_techniques(float(w.light_paths)), &w, &fog);
+      checker.run(2000, 7);
+      take(checker);
+    }
+  }
+  CHECK(compared > 50000);
+  CHECK(through_media > 25000);
   CHECK(double(inexact) < 2e-3 * double(compared));
 }

@@ -1,16 +1,39 @@
-// Shadow rays that pass media and surfaces which let light straight through.
+// Rays that pass what they meet: shadow rays through media and surfaces which let light straight
+// through, and camera rays behind lights that are not to be seen.
 #pragma once
 
-#include "integrators/integrator.h"
 #include "media/spectral_weights.h"
+#include "scene/scene.h"
+#include "transport/counters.h"
 
 namespace duet {
 
+/// A ray of unit direction that ends just before `target`.
+inline Ray ray_to(const Point3f& origin, const Point3f& target) {
+  const Vector3f d = target - origin;
+  const float l = length(d);
+  return {origin, d / l, l * 0x1.fffep-1f};
+}
+
+/// The camera's ray continued behind all emitting surfaces that it meets first: what
+/// `hide_emitters` means in Mitsuba 3. The environment is hidden by whoever traces the ray.
+inline Ray behind_emitters(const Scene& scene, Ray ray, RenderCounters& counters) {
+  for (;;) {
+    Hit hit;
+    ++counters.closest_rays;
+    if (!scene.accel->closest_hit(ray, hit) || scene.shapes[hit.shape].light == kNone) return ray;
+    const float left = ray.tmax - hit.t;
+    ray = spawn_ray(scene.surface(ray, hit), ray.direction);
+    ray.tmax = left;
+  }
+}
+
 /// Multiplies `w` by what gets through from the origin of `ray` to ray.tmax, and by the densities
 /// of a walk that would have taken the same way; false if nothing does. The direction has unit
-/// length; `medium` (or null) is what the ray starts in.
+/// length; `medium` (or null) is what the ray starts in. `nominal`, if not null, is multiplied by
+/// the nominal transmittance.
 inline bool walk_shadow(const Scene& scene, Ray ray, const Medium* medium, RandomStream& random,
-                        SpectralWeights& w, RenderCounters& counters) {
+                        SpectralWeights& w, RenderCounters& counters, float* nominal = nullptr) {
   for (;;) {
     ++counters.shadow_rays;
     Hit hit;
@@ -28,6 +51,7 @@ inline bool walk_shadow(const Scene& scene, Ray ray, const Medium* medium, Rando
       if (found) segment.tmax = hit.t;
       medium->transmit(segment, random, w);
       if (w.value.is_black()) return false;
+      if (nominal) *nominal *= medium->nominal_transmittance(segment);
     }
     if (!found) return true;
     const Surface s = scene.surface(ray, hit);

@@ -1,0 +1,162 @@
+// Walks and their vertices where there are media: light is scattered on surfaces and between them.
+#pragma once
+
+#include <algorithm>
+#include <type_traits>
+
+#include "transport/shadow_walk.h"
+#include "transport/walk.h"
+
+namespace duet {
+
+/// The factor by which densities count the way between two vertices is not allowed to vanish.
+inline constexpr float kLeastTransmittance = 1e-6f;
+
+/// A vertex on a surface or in a medium.
+struct MediaVertex : PathVertex {
+  static constexpr bool kMedia = true;
+
+  const Medium* medium;  ///< what the previous segment went through, or null
+  bool in_medium;
+  float extinction = 0;  ///< the nominal one; in a medium only
+
+  MediaVertex(const Scene& scene, const Surface& s, const Vector3f& towards_previous,
+              const Spectrum& carried, const Partials& p, int segments, const Medium* through)
+      : PathVertex(scene, s, towards_previous, carried, p, segments),
+        medium(through),
+        in_medium(false) {}
+  MediaVertex(const Medium& where, float nominal_extinction, const Point3f& position,
+              const Vector3f& towards_previous, const Spectrum& carried, const Partials& p,
+              int segments)
+      : PathVertex(position, towards_previous, carried, p, segments),
+        medium(&where),
+        in_medium(true),
+        extinction(nominal_extinction) {}
+
+  /// What makes densities per solid angle densities per area, or per volume.
+  float cosine(const Vector3f& w) const { return in_medium ? extinction : PathVertex::cosine(w); }
+  bool is_smooth() const { return in_medium || PathVertex::is_smooth(); }
+  bool merges() const { return !in_medium; }
+  BsdfEval eval(const Vector3f& w, Transport transport) const {
+    if (!in_medium) return PathVertex::eval(w, transport);
+    const PdfW f = medium->phase().eval(position(), wo, w);
+    return {Spectrum(f.value), f};
+  }
+  BsdfPair eval_both_ways(const Vector3f& w, Transport transport) const {
+    if (!in_medium) return PathVertex::eval_both_ways(w, transport);
+    const PdfW f = medium->phase().eval(position(), wo, w);
+    return {Spectrum(f.value), f, medium->phase().eval(position(), w, wo)};
+  }
+  float reverse_pdf(const Vector3f& w, Transport transport) const {
+    return in_medium ? medium->phase().eval(position(), w, wo).value
+                     : PathVertex::reverse_pdf(w, transport);
+  }
+  float adjoint(const Vector3f& w) const { return in_medium ? 1.0f : PathVertex::adjoint(w); }
+  bool has_two_sides(const Vector3f& w) const { return !in_medium && PathVertex::has_two_sides(w); }
+  Point3f outside(const Vector3f& w) const {
+    return in_medium ? position() : PathVertex::outside(w);
+  }
+  /// The medium that begins at the vertex towards `w`.
+  const Medium* medium_towards(const Scene& scene, const Vector3f& w) const {
+    return !in_medium && surface.shape->separates_media() ? scene.medium_beyond(surface, w)
+                                                          : medium;
+  }
+};
+
+/// A walk that may be scattered before it comes to a surface. Distances are sampled for one colour
+/// channel, and what is carried has been weighed among the channels (SpectralWeights): `channels`
+/// are their densities over the mean of the three. A surface that is passed straight is no vertex.
+struct MediaWalk : Walk {
+  const Scene& scene;
+  const Medium* medium;  ///< that the ray starts in
+  RandomStream random;
+  int channel;
+  Spectrum channels{1};
+  float transmittance = 1;  ///< nominal, of the way since the last vertex
+
+  MediaWalk(const Scene& s, const Walk& walk, const Medium* m, uint64_t seed)
+      : Walk(walk),
+        scene(s),
+        medium(m),
+        random(seed),
+        channel(std::min(int(3 * random.next()), 2)) {}
+
+  /// Goes along the ray up to ray.tmax. Returns the distance to where light is scattered, or
+  /// INFINITY. `u` is a random number.
+  float cross(const Ray& segment, float u) {
+    if (!medium) return INFINITY;
+    SpectralWeights w;
+    w.value = throughput, w.walk = channels, w.channel = channel;
+    const float t = medium->walk(segment, u, random, w);
+    const float scale = 1 / w.walk.mean(), before = throughput.max();
+    throughput = w.value * scale, channels = w.walk * scale;
+    carried *= throughput.max() / before;
+    Ray passed = segment;
+    passed.tmax = std::min(t, segment.tmax);
+    transmittance *= medium->nominal_transmittance(passed);
+    return t;
+  }
+  /// The transmittance as densities count it.
+  float counted_transmittance() const { return std::max(transmittance, kLeastTransmittance); }
+};
+
+/// The walk that leads from vertex to vertex.
+template <class Vertex>
+using WalkOf = std::conditional_t<Vertex::kMedia, MediaWalk, Walk>;
+
+/// What a shadow ray lets through, and how much of it in densities.
+struct Passage {
+  Spectrum value{1};
+  float nominal = 1;
+};
+
+/// Empty if the ray is blocked; as walk_shadow().
+inline std::optional<Passage> pass_through_media(const Scene& scene, const Ray& ray,
+                                                 const Medium* medium, RandomStream& random,
+                                                 RenderCounters& counters) {
+  SpectralWeights w;
+  Passage passage;
+  if (!walk_shadow(scene, ray, medium, random, w, counters, &passage.nominal)) return std::nullopt;
+  passage.value = w.value;
+  passage.nominal = std::max(passage.nominal, kLeastTransmittance);
+  return passage;
+}
+
+/// Chooses where a walk goes on from a point of a medium; see scatter().
+template <Transport transport>
+inline bool scatter_in_medium(const MediaVertex& v, const TechniqueSet& set,
+                              const WalkOptions& options, Sampler& sampler, MediaWalk& walk) {
+  const PhaseFunction& phase = v.medium->phase();
+  const Point2f direction = sampler.next_2d();
+  const PhaseSample s = phase.sample(v.position(), v.wo, sampler.next_1d(), direction);
+  if (!(s.pdf.value > 0)) return false;
+  walk.throughput = v.throughput;
+  if (!survives(v.depth, options, sampler, walk)) return false;
+  const float reverse = phase.eval(v.position(), s.wi, v.wo).value;
+  walk.partials =
+      leave(v.partials, {s.pdf.value, reverse, v.extinction}, 0.0f, set.connection_term(), 0.0f);
+  walk.forward = s.pdf.value;
+  walk.specular = walk.from_specular = false;
+  record_departure(walk, reverse, false);
+  walk.cosine_out = v.extinction;
+  walk.from = v.position();
+  walk.transmittance = 1;
+  walk.ray = {v.position(), s.wi, INFINITY};
+  return true;
+}
+
+/// scatter() where there are media. If the surface was passed straight the walk goes on as if it
+/// had not been there.
+template <Transport transport>
+inline bool scatter(const MediaVertex& v, const TechniqueSet& set, const WalkOptions& options,
+                    Sampler& sampler, MediaWalk& walk, bool* passed_straight) {
+  if (v.in_medium) return scatter_in_medium<transport>(v, set, options, sampler, walk);
+  bool straight = false;
+  if (!scatter_on_surface<transport, true>(v, set, options, sampler, walk, &straight)) return false;
+  if (passed_straight) *passed_straight = straight;
+  if (!straight) walk.transmittance = 1;
+  walk.medium = v.medium_towards(walk.scene, walk.ray.direction);
+  return true;
+}
+
+}  // namespace duet
