@@ -4,8 +4,8 @@
 
 namespace duet {
 
-Filter::Filter(const ColorSlot& transmittance, float scale)
-    : transmittance_(transmittance), scale_(scale) {
+Filter::Filter(const ColorSlot& transmittance, float scale, bool has_albedo)
+    : transmittance_(transmittance), scale_(scale), has_albedo_(has_albedo) {
   if (transmittance.is_constant()) set_constant(model({}));
 }
 

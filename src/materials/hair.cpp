@@ -41,6 +41,17 @@ float longitudinal(float sin_from, float cos_from, float sin_to, float cos_to, f
   return scaled_bessel_i0(a) * std::exp(a - b - inverse) * inverse / -std::expm1(-2 * inverse);
 }
 
+/// Mitsuba's I₀(x) over the exact one: it has ten terms of the power series and, for large x, half
+/// of the asymptotic series' second term. Values follow Mitsuba, densities are exact.
+float bessel_bias(float x) {
+  if (x < 4) return 1;
+  const float exact = scaled_bessel_i0(x);
+  if (x > 12) return std::exp(1 / (16 * x)) / (std::sqrt(2 * kPi * x) * exact);
+  float sum = 1, term = 1;
+  for (int i = 1; i < 10; ++i) sum += term *= sqr(x / (2 * float(i)));
+  return sum * std::exp(-x) / exact;
+}
+
 float logistic(float x, float scale) {
   const float e = std::exp(-std::abs(x) / scale);
   return e / (scale * sqr(1 + e));
@@ -131,12 +142,12 @@ ModelEval HairModel::eval_from(const View& o, const Vector3f& w) const {
     const float m =
         longitudinal(o.sin_tilted[p], o.cos_tilted[p], sin_theta, cos_theta, variance_[p]);
     const float n = logistic(wrapped(turn - o.deflection[p]), logistic_scale_) / logistic_norm_;
-    e.value += o.attenuation[p] * (m * n);
+    e.value += o.attenuation[p] * (m * n * bessel_bias(o.cos_tilted[p] * cos_theta / variance_[p]));
     e.pdf += o.probability[p] * (m * n);
   }
   const float m = longitudinal(o.sin_theta, o.cos_theta, sin_theta, cos_theta, variance_[kLobes]) *
                   (0.5f * kInvPi);
-  e.value += o.attenuation[kLobes] * m;
+  e.value += o.attenuation[kLobes] * (m * bessel_bias(o.cos_theta * cos_theta / variance_[kLobes]));
   e.pdf += o.probability[kLobes] * m;
   return e;
 }

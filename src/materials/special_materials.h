@@ -54,15 +54,20 @@ class PolarizedPlastic final : public SingleModelMaterial<PolarizedPlastic> {
 /// What passes is multiplied by the transmittance and by `scale`.
 class Filter final : public SingleModelMaterial<Filter> {
  public:
-  Filter(const ColorSlot& transmittance, float scale);
+  /// `has_albedo`: as Mitsuba's circular polariser, it shows its transmittance in the albedo layer.
+  Filter(const ColorSlot& transmittance, float scale, bool has_albedo);
   FilterModel model(const Surface& s) const { return {transmittance_(s) * scale_}; }
   SurfaceNeeds needs() const override;
   bool transmits() const override { return true; }
   bool passes_straight() const override { return true; }
+  Spectrum local_albedo(const Surface& s, const Vector3f&) const override {
+    return has_albedo_ ? transmittance_(s) : Spectrum(0);
+  }
 
  private:
   ColorSlot transmittance_;
   float scale_;
+  bool has_albedo_;
 };
 
 /// Coefficients are per unit of `thickness`.

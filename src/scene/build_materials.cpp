@@ -109,7 +109,8 @@ std::unique_ptr<Material> SceneBuilder::make(const PolarizedPlasticMaterial& m,
 
 std::unique_ptr<Material> SceneBuilder::make(const FilterMaterial& m, const SourceLocation&) {
   return std::make_unique<Filter>(slot(m.transmittance),
-                                  m.kind == FilterKindOfLight::retarder ? 1.0f : 0.5f);
+                                  m.kind == FilterKindOfLight::retarder ? 1.0f : 0.5f,
+                                  m.kind == FilterKindOfLight::circular);
 }
 
 std::unique_ptr<Material> SceneBuilder::make(const CoatingMaterial& m, const SourceLocation&) {

@@ -199,7 +199,7 @@ const Material& TestMaterial::make(const json& j) {
   if (type == "polarizer" || type == "retarder" || type == "circular") {
     ColorSlot transmittance{Spectrum(1)};
     set(transmittance, j, "transmittance");
-    return keep(new Filter(transmittance, type == "retarder" ? 1.0f : 0.5f));
+    return keep(new Filter(transmittance, type == "retarder" ? 1.0f : 0.5f, type == "circular"));
   }
   if (type == "coating" || type == "roughcoating") return keep(new Coating(coating(j), *nested[0]));
   if (type == "hk") return keep(new ThinLayer(thin_layer(j)));
