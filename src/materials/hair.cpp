@@ -41,14 +41,14 @@ float longitudinal(float sin_from, float cos_from, float sin_to, float cos_to, f
   return scaled_bessel_i0(a) * std::exp(a - b - inverse) * inverse / -std::expm1(-2 * inverse);
 }
 
-/// Mitsuba's I₀(x) over the exact one: it has ten terms of the power series and, for large x, half
-/// of the asymptotic series' second term. Values follow Mitsuba, densities are exact.
+/// Mitsuba's I₀(x) over the exact one: it has eleven terms of the power series and, for large x,
+/// half of the asymptotic series' second term. Values follow Mitsuba, densities are exact.
 float bessel_bias(float x) {
   if (x < 4) return 1;
   const float exact = scaled_bessel_i0(x);
   if (x > 12) return std::exp(1 / (16 * x)) / (std::sqrt(2 * kPi * x) * exact);
   float sum = 1, term = 1;
-  for (int i = 1; i < 10; ++i) sum += term *= sqr(x / (2 * float(i)));
+  for (int i = 1; i <= 10; ++i) sum += term *= sqr(x / (2 * float(i)));
   return sum * std::exp(-x) / exact;
 }
 
