@@ -185,7 +185,86 @@ def knot_distances():
     return np.sqrt(((nodes - curve) ** 2).sum(axis=-1)).min(axis=-1) - 0.1
 
 
+def write_curves(path, curves):
+    """Curves as arrays of positions and radii."""
+    path.write_text('\n'.join('\n'.join(' '.join(f'{x:.5g}' for x in point) for point in curve) + '\n'
+                              for curve in curves))
+
+
+def cables():
+    """A few thick curves that bend and taper."""
+    t = np.linspace(0, 1, 9)
+    return [np.stack([-1 + 2 * t, 0.5 * np.sin(5 * t + k), 0.35 + 0.25 * np.cos(4 * t + 2 * k) + 0.3 * k,
+                      0.1 + 0.06 * np.cos(9 * t + k)], axis=-1) for k in range(3)]
+
+
+def fur(count=400, points=6):
+    """Hairs on a unit ball that hang down and curl."""
+    random = np.random.default_rng(7)
+    curves = []
+    for _ in range(count):
+        z, phi = random.uniform(-0.2, 1), random.uniform(0, 2 * np.pi)
+        n = np.array([np.sqrt(1 - z * z) * np.cos(phi), np.sqrt(1 - z * z) * np.sin(phi), z])
+        side = np.cross(n, [0.3, 0.2, 1])
+        s = np.linspace(-0.05, 1, points)[:, None]
+        p = n * (1 + 0.4 * s) + s ** 2 * np.array([0, 0, -0.45]) + 0.12 * s * side * np.sin(5 * s + phi)
+        curves.append(np.hstack([p, 0.02 * (1.1 - 0.8 * s)]))
+    return curves
+
+
+def write_ellipsoids(path):
+    """Four ellipsoids as Mitsuba 3 reads them: radii as logarithms, the real part of rotations first."""
+    names = ['x', 'y', 'z', 'nx', 'ny', 'nz', 'opacity', 'scale_0', 'scale_1', 'scale_2',
+             'rot_0', 'rot_1', 'rot_2', 'rot_3']
+    rows = [[-0.8, -0.9, 0.25, 0, 0, 1, 1, -3, -2.2, -2.5, 1, 0.2, 0.1, -0.3],
+            [-0.3, -1.1, 0.2, 0, 0, 1, 1, -2.4, -3.2, -3, 0.5, -0.6, 0.2, 0.1],
+            [0.3, -1.0, 0.25, 0, 0, 1, 1, -2.6, -2.6, -2.6, 1, 0, 0, 0],
+            [0.85, -0.8, 0.3, 0, 0, 1, 1, -3.5, -2.5, -2, 0.3, 0.9, 0.4, 0.2]]
+    lines = ['ply', 'format ascii 1.0', f'element vertex {len(rows)}']
+    lines += [f'property float {name}' for name in names] + ['end_header']
+    lines += [' '.join(f'{x:g}' for x in row) for row in rows]
+    path.write_text('\n'.join(lines) + '\n')
+
+
+def write_tensors(path, fields):
+    """The file format of the RGL material database."""
+    types = {'uint8': 1, 'float32': 10}
+    header = b'tensor_file\0\1\0' + struct.pack('<I', len(fields))
+    offset = len(header) + sum(13 + len(name) + 8 * a.ndim for name, a in fields.items())
+    data = b''
+    for name, a in fields.items():
+        header += struct.pack('<H', len(name)) + name.encode() + struct.pack(
+            f'<HBQ{a.ndim}Q', a.ndim, types[str(a.dtype)], offset + len(data), *a.shape)
+        data += a.tobytes()
+    path.write_bytes(header + data)
+
+
+def measured_material(anisotropic):
+    """A glossy material in the form of measurements; its numbers are made up, not measured."""
+    n, theta = 9, np.linspace(0, 1.5, 5)
+    phi = np.linspace(-np.pi, 0, 5) if anisotropic else np.zeros(1)
+    y, x = np.meshgrid(*[np.linspace(0, 1, n)] * 2, indexing='ij')
+    p, t = phi[:, None, None, None], theta[None, :, None, None]
+    turned = np.cos(2 * np.pi * y - (2 * p if anisotropic else 0))
+    lobe = np.exp(-(5 + 2 * turned * anisotropic) * x ** 2) + 0.03
+    vndf = lobe * (1 + 0.4 * np.sin(t) * turned * x)
+    luminance = 1 + 0.5 * np.sin(t) * (x - 0.5) * turned
+    colour = np.array([0.9, 0.6, 0.3])[:, None, None]
+    rgb = (0.25 + 0.5 * x) * colour * np.ones((len(phi), len(theta), 1, 1, 1)) * (1 + 0.3 * np.sin(t))[:, :, None]
+    single = lambda a: np.ascontiguousarray(a, np.float32)
+    return {'description': np.frombuffer(b'made up', np.uint8), 'theta_i': single(theta), 'phi_i': single(phi),
+            'ndf': single(2 * np.exp(-6 * x ** 2) + 0.05 + 0 * y), 'sigma': single(0.9 - 0.5 * x ** 2 + 0 * y),
+            'vndf': single(vndf), 'luminance': single(np.broadcast_to(luminance, vndf.shape)), 'rgb': single(rgb),
+            'jacobian': np.ones(1, np.uint8)}
+
+
 def main():
+    write_curves(SCENES / 'curves' / 'cables.txt', cables())
+    write_ellipsoids(SCENES / 'curves' / 'ellipsoids.ply')
+    write_curves(SCENES / 'bsdf-fibres' / 'fur.txt', fur())
+    write_tensors(SCENES / 'bsdf-measured' / 'isotropic.bsdf', measured_material(False))
+    write_tensors(SCENES / 'bsdf-measured' / 'anisotropic.bsdf', measured_material(True))
+
     for scene in ('textures', 'two-versions', 'lights-area', 'lights-delta', 'bsdf-wrappers', 'bsdf-plastics'):
         write_png(SCENES / scene / 'colours.png', colour_texture())
     for scene in ('bsdf-wrappers',):

@@ -25,6 +25,14 @@ auto read(const std::string& file, Parse parse) {
 }  // namespace
 
 TriangleMesh read_obj(const std::string& file, const MeshOptions& options) {
+  if (options.obj_part)
+    return read(file, [&](ByteReader& in) {
+      std::vector<ObjPart> parts = parse_obj(in, options, true);
+      if (size_t(*options.obj_part) >= parts.size())
+        in.fail("has {} part{}: there is none with index {}", parts.size(),
+                parts.size() == 1 ? "" : "s", *options.obj_part);
+      return std::move(parts[size_t(*options.obj_part)].mesh);
+    });
   return read(file,
               [&](ByteReader& in) { return std::move(parse_obj(in, options, false)[0].mesh); });
 }

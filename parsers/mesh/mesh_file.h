@@ -32,6 +32,8 @@ struct MeshOptions {
   bool srgb_colors = true;
   /// Which mesh of a .serialized file.
   int shape_index = 0;
+  /// Only this part of an OBJ file, as 0.x divides it; see read_obj_parts().
+  std::optional<int> obj_part;
 };
 
 /// Each throws ReadError "file: message", or "file:line: message" for text formats. Meshes returned

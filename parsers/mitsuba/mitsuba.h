@@ -8,6 +8,9 @@
 #include <vector>
 
 #include "base/diagnostics.h"
+#include "curves/curve_file.h"
+#include "measured/measured_file.h"
+#include "mesh/ellipsoids.h"
 #include "mesh/mesh_file.h"
 #include "scene/description.h"
 #include "volume/vol_file.h"
@@ -27,6 +30,14 @@ struct FileAccess {
       read_mesh;
   /// Reads a volume file; throws ReadError.
   std::function<VolumeFile(const std::string& path)> read_volume;
+  /// Reads a file of ellipsoids; throws ReadError.
+  std::function<std::vector<Ellipsoid>(const std::string& path)> read_ellipsoids;
+  /// Reads a measured material; throws ReadError.
+  std::function<MeasuredTable(const std::string& path)> read_measured;
+  /// Reads a file of curves; throws ReadError.
+  std::function<CurveSet(const std::string& path, CurveKind kind)> read_curves;
+  /// Reads a file of 0.6's hair, to be of this radius; throws ReadError.
+  std::function<CurveSet(const std::string& path, float radius)> read_hair;
 };
 
 struct MitsubaOptions {

@@ -39,8 +39,12 @@ bool transmits(const SceneDescription& d, MaterialId id) {
                       std::is_same_v<M, ThinDielectricMaterial> ||
                       std::is_same_v<M, MaskMaterial> || std::is_same_v<M, NullMaterial> ||
                       std::is_same_v<M, PrincipledThinMaterial> ||
-                      std::is_same_v<M, DiffuseTransmitterMaterial>)
+                      std::is_same_v<M, DiffuseTransmitterMaterial> ||
+                      std::is_same_v<M, HairMaterial> || std::is_same_v<M, FilterMaterial> ||
+                      std::is_same_v<M, ThinLayerMaterial>)
           return true;
+        else if constexpr (std::is_same_v<M, CoatingMaterial>)
+          return transmits(d, m.nested);
         else if constexpr (std::is_same_v<M, PrincipledMaterial>)
           return !is_zero(m.spec_trans);
         else if constexpr (std::is_same_v<M, BlendMaterial>)
@@ -74,10 +78,13 @@ std::optional<TextureId> only_texture(SceneReader& s, Properties& p, std::string
 void read_twosided(SceneReader& s, Properties& p, MaterialDescription& out) {
   const auto ids = nested(s, p, 1, 2);
   if (ids.empty()) return;
+  // Light that passes such a surface would see one BSDF on its way and another on the way back.
+  const bool allowed = p.boolean("allow_transmission");
   for (MaterialId id : ids)
     if (transmits(s.description(), id)) {
-      s.report().error(p.node().where, "{} cannot hold a BSDF that lets light through",
-                       describe(p.node()));
+      s.report().error(p.node().where, "{} cannot hold a BSDF that lets light through{}",
+                       describe(p.node()),
+                       allowed ? " (\"allow_transmission\" is not supported)" : "");
       break;
     }
   out.model = TwoSidedMaterial{ids.front(), ids.back()};

@@ -1,5 +1,6 @@
 // Materials that are not made of others.
 #include "mitsuba/ior.h"
+#include "mitsuba/read_roughness.h"
 #include "mitsuba/readers.h"
 #include "mitsuba/scene_reader.h"
 #include "mitsuba/text.h"
@@ -52,7 +53,12 @@ void check_alpha(Properties& p, Roughness& r) {
 }
 
 std::optional<Roughness> optional_roughness(SceneReader& s, Properties& p) {
-  if (!is_rough(p)) return std::nullopt;
+  return is_rough(p) ? std::optional(checked_roughness(s, p)) : std::nullopt;
+}
+
+}  // namespace
+
+Roughness checked_roughness(SceneReader& s, Properties& p) {
   Roughness r = roughness(s, p);
   check_alpha(p, r);
   return r;
@@ -65,6 +71,8 @@ double relative_index(SceneReader& s, Properties& p) {
     p.error("int_ior", "the indices of refraction of {} must differ", describe(p.node()));
   return inside / outside;
 }
+
+namespace {
 
 void divide(ColorInput& color, double divisor) {
   if (Spectrum* constant = std::get_if<Spectrum>(&color))

@@ -36,10 +36,10 @@ void attach_media(SceneReader& s, Properties& p, ShapeDescription& out) {
   }
 }
 
-/// What all surfaces have: transform, orientation, light and material.
 void attach(SceneReader& s, Properties& p, ShapeDescription& out) {
   out.to_world = p.transform("to_world") * out.to_world;
-  out.flip_normals = p.boolean("flip_normals");
+  if (find_parameter(PluginKind::shape, *p.node().plugin, "flip_normals"))
+    out.flip_normals = p.boolean("flip_normals");
   const Node* light = p.child(PluginKind::emitter);
   const auto material = attached_material(s, p);
   if (light) out.emission = s.emission(*light);
@@ -49,6 +49,18 @@ void attach(SceneReader& s, Properties& p, ShapeDescription& out) {
   out.material = material    ? *material
                  : invisible ? s.null_material(p.node().where)
                              : s.grey_material(light ? 0.0f : 0.5f, p.node().where);
+}
+
+/// Moves the middle of the mesh's box to the origin.
+Matrix4 recentering(const TriangleMesh& mesh) {
+  double lower[3], upper[3];
+  for (int i = 0; i < 3; ++i) lower[i] = HUGE_VAL, upper[i] = -HUGE_VAL;
+  for (const Point3f& p : mesh.positions)
+    for (int i = 0; i < 3; ++i)
+      lower[i] = std::min(lower[i], double(p[i])), upper[i] = std::max(upper[i], double(p[i]));
+  if (mesh.positions.empty()) return {};
+  return Matrix4::translate(-0.5 * (lower[0] + upper[0]), -0.5 * (lower[1] + upper[1]),
+                            -0.5 * (lower[2] + upper[2]));
 }
 
 /// Mitsuba 0.x can give the parts of an OBJ file different materials. That is understood as far as
@@ -72,6 +84,10 @@ void check_obj_materials(SceneReader& s, Properties& p, const std::string& file)
 
 }  // namespace
 
+void SceneReader::attach_to_surface(Properties& p, ShapeDescription& shape) {
+  attach(*this, p, shape);
+}
+
 void SceneReader::shape(const Node& node, std::vector<ShapeDescription>& shapes, bool in_group) {
   if (!node.plugin) return;
   const bool is_group =
@@ -80,6 +96,14 @@ void SceneReader::shape(const Node& node, std::vector<ShapeDescription>& shapes,
     report_.error(node.where, "{} cannot stand in a shape group", describe(node));
   } else if (is_group) {
     shape_group(node);
+  } else if (std::holds_alternative<ReadInto<ShapeList>>(node.plugin->reader)) {
+    ShapeList list;
+    if (!read_into(node, list)) return;
+    for (ShapeDescription& s : list.shapes) {
+      if (in_group && s.emission)
+        report_.error(s.emission->where, "a shape in a shape group cannot emit light");
+      shapes.push_back(std::move(s));
+    }
   } else if (ShapeDescription shape;
              shape.where = node.where, shape.label = {node.id}, read_into(node, shape)) {
     if (in_group && shape.emission)
@@ -99,12 +123,17 @@ void read_mesh(SceneReader& s, Properties& p, ShapeDescription& out) {
   options.flip_tex_coords = !serialized && p.boolean("flip_tex_coords");
   shape.source.flip_tex_coords = options.flip_tex_coords;
   if (serialized) options.shape_index = shape.source.shape_index = p.integer("shape_index");
+  if (shape.source.plugin == "obj" && p.has("shape_index"))
+    options.obj_part = p.integer("shape_index");
   options.max_smooth_angle = shape.source.max_smooth_angle = p.optional_number("max_smooth_angle");
   if (options.face_normals && options.max_smooth_angle)
     p.error("max_smooth_angle", "both \"face_normals\" and \"max_smooth_angle\" are given");
   if (!shape.source.file.empty()) {
     shape.mesh = s.mesh(shape.source.plugin, shape.source.file, options, p.where("filename"));
-    if (p.is_0x() && shape.source.plugin == "obj") check_obj_materials(s, p, shape.source.file);
+    if (shape.mesh && shape.source.plugin == "obj" && p.boolean("recenter"))
+      out.to_world = recentering(*shape.mesh);
+    if (p.is_0x() && shape.source.plugin == "obj" && !options.obj_part)
+      check_obj_materials(s, p, shape.source.file);
   }
   out.geometry = std::move(shape);
   attach(s, p, out);
@@ -183,6 +212,48 @@ void read_cylinder(SceneReader& s, Properties& p, ShapeDescription& out) {
   }
   out.to_world = frame;
   attach(s, p, out);
+}
+
+namespace {
+
+/// What curves have, whose faces cannot be turned.
+void attach_to_curves(SceneReader& s, Properties& p, ShapeDescription& out) {
+  attach(s, p, out);
+  if (out.emission)
+    s.report().error(out.emission->where, "{} cannot emit light", describe(p.node()));
+}
+
+}  // namespace
+
+void read_curves(SceneReader& s, Properties& p, ShapeDescription& out) {
+  const CurveKind kind =
+      p.node().plugin->name == "bsplinecurve" ? CurveKind::bspline : CurveKind::linear;
+  const std::string file = s.file(p, "filename");
+  attach_to_curves(s, p, out);
+  if (file.empty()) return;
+  try {
+    out.geometry = CurvesShape{std::make_shared<CurveSet>(s.files().read_curves(file, kind)), file};
+  } catch (const ReadError& error) {
+    s.report().error(p.where("filename"), "{}", error.what());
+  }
+}
+
+void read_hair_shape(SceneReader& s, Properties& p, ShapeDescription& out) {
+  const std::string file = s.file(p, "filename");
+  const double reduction = p.number("reduction");
+  // Which hairs are culled is random in Mitsuba 0.6; all of them look as they should.
+  const double radius = p.number("radius");
+  if (reduction > 0)
+    s.approximate_loudly(p.where("reduction"), "no hair is left out: \"reduction\" is ignored");
+  s.approximate(p.node().where, "the joints of hair are spheres, not mitres");
+  attach_to_curves(s, p, out);
+  if (file.empty()) return;
+  try {
+    out.geometry =
+        CurvesShape{std::make_shared<CurveSet>(s.files().read_hair(file, float(radius))), file};
+  } catch (const ReadError& error) {
+    s.report().error(p.where("filename"), "{}", error.what());
+  }
 }
 
 void read_instance(SceneReader& s, Properties& p, ShapeDescription& out) {

@@ -19,6 +19,15 @@ void read_roughdiffuse(SceneReader&, Properties&, MaterialDescription&);
 void read_difftrans(SceneReader&, Properties&, MaterialDescription&);
 void read_null(SceneReader&, Properties&, MaterialDescription&);
 
+// read_special_materials.cpp
+void read_hair(SceneReader&, Properties&, MaterialDescription&);
+void read_measured(SceneReader&, Properties&, MaterialDescription&);
+void read_pplastic(SceneReader&, Properties&, MaterialDescription&);
+void read_filter_of_light(SceneReader&, Properties&, MaterialDescription&);
+void read_coating(SceneReader&, Properties&, MaterialDescription&);
+void read_hk(SceneReader&, Properties&, MaterialDescription&);
+void read_sssbrdf(SceneReader&, Properties&, MaterialDescription&);
+
 // read_adapters.cpp: materials made of others
 void read_twosided(SceneReader&, Properties&, MaterialDescription&);
 void read_mask(SceneReader&, Properties&, MaterialDescription&);
@@ -49,7 +58,11 @@ void read_sphere(SceneReader&, Properties&, ShapeDescription&);
 void read_disk(SceneReader&, Properties&, ShapeDescription&);
 void read_sdfgrid(SceneReader&, Properties&, ShapeDescription&);
 void read_cylinder(SceneReader&, Properties&, ShapeDescription&);
+void read_curves(SceneReader&, Properties&, ShapeDescription&);
+void read_hair_shape(SceneReader&, Properties&, ShapeDescription&);
 void read_instance(SceneReader&, Properties&, ShapeDescription&);
+void read_merge(SceneReader&, Properties&, ShapeList&);
+void read_ellipsoids(SceneReader&, Properties&, ShapeList&);
 void read_shapegroup(SceneReader&, Properties&, ShapeGroupDescription&);
 
 // read_lights.cpp

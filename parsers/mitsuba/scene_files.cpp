@@ -45,6 +45,18 @@ FileAccess with_disk(FileAccess access) {
   if (!access.read) access.read = read_text;
   if (!access.read_mesh) access.read_mesh = read_mesh_file;
   if (!access.read_volume) access.read_volume = read_vol;
+  if (!access.read_ellipsoids)
+    access.read_ellipsoids = [](const std::string& path) { return read_ellipsoids(path); };
+  if (!access.read_measured)
+    access.read_measured = [](const std::string& path) { return read_measured(path); };
+  if (!access.read_curves)
+    access.read_curves = [](const std::string& path, CurveKind kind) {
+      return read_curves(path, kind);
+    };
+  if (!access.read_hair)
+    access.read_hair = [](const std::string& path, float radius) {
+      return read_hair(path, radius);
+    };
   return access;
 }
 

@@ -136,8 +136,9 @@ std::shared_ptr<const TriangleMesh> SceneReader::mesh(const std::string& plugin,
                                                       const MeshOptions& options,
                                                       const SourceLocation& where) {
   const std::string key =
-      fmt::format("{} {} {} {} {}\n{}", plugin, options.face_normals, options.flip_tex_coords,
-                  options.max_smooth_angle.value_or(-1), options.shape_index, file);
+      fmt::format("{} {} {} {} {} {}\n{}", plugin, options.face_normals, options.flip_tex_coords,
+                  options.max_smooth_angle.value_or(-1), options.shape_index,
+                  options.obj_part.value_or(-1), file);
   const auto [entry, is_new] = meshes_.try_emplace(key);
   if (is_new) try {
       entry->second = std::make_shared<TriangleMesh>(access_.read_mesh(plugin, file, options));

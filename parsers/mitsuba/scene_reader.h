@@ -59,6 +59,8 @@ class SceneReader {
                                            const MeshOptions& options, const SourceLocation& where);
   /// Appends the shape; a shape group goes where the groups are.
   void shape(const Node& node, std::vector<ShapeDescription>& shapes, bool in_group);
+  /// What all surfaces have: transform, orientation, light, media and material.
+  void attach_to_surface(Properties& p, ShapeDescription& shape);
   /// What emits on a shape; nothing after an error.
   std::optional<AreaEmission> emission(const Node& node);
   /// Reads `node` with its plugin's function if that makes a T; false after an error.

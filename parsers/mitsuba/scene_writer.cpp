@@ -151,12 +151,23 @@ void SceneWriter::mesh(const MeshShape& m) {
 }
 
 void SceneWriter::shape(const ShapeDescription& s, const std::string& id) {
-  constexpr std::string_view types[] = {"",     "rectangle", "cube",     "sphere",
-                                        "disk", "cylinder",  "instance", "sdfgrid"};
+  constexpr std::string_view types[] = {"",         "rectangle", "cube",    "sphere",     "disk",
+                                        "cylinder", "instance",  "sdfgrid", "linearcurve"};
   static_assert(std::size(types) == std::variant_size_v<decltype(s.geometry)>);
   const MeshShape* m = std::get_if<MeshShape>(&s.geometry);
-  out_.open("shape", m ? std::string_view(m->source.plugin) : types[s.geometry.index()], {}, id);
+  const CurvesShape* tubes = std::get_if<CurvesShape>(&s.geometry);
+  const bool splines = tubes && tubes->curves->kind == CurveKind::bspline;
+  out_.open("shape",
+            m         ? std::string_view(m->source.plugin)
+            : splines ? "bsplinecurve"
+                      : types[s.geometry.index()],
+            {}, id);
   if (m) mesh(*m);
+  if (tubes) {
+    out_.string("filename", tubes->file);
+    if (!tubes->curves->outside_only)
+      lose("the hair of Mitsuba 0.6 has to be written as a file of curves with their radius");
+  }
   if (const auto* sdf = std::get_if<SdfGridShape>(&s.geometry)) {
     out_.string("filename", sdf->file);
     if (sdf->grid && !sdf->grid->smooth_normals) out_.string("normals", "analytic");

@@ -53,6 +53,12 @@ class SceneWriter {
   void write_model(const BumpMapMaterial& m);
   void write_model(const NormalMapMaterial& m);
   void write_model(const NullMaterial&) {}
+  void write_model(const HairMaterial& m);
+  void write_model(const MeasuredMaterial& m);
+  void write_model(const PolarizedPlasticMaterial& m);
+  void write_model(const FilterMaterial& m);
+  void write_model(const CoatingMaterial& m);
+  void write_model(const ThinLayerMaterial& m);
 
   // write_media.cpp
   void volume(std::string_view name, VolumeId id);

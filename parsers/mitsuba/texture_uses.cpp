@@ -45,6 +45,16 @@ class Marker {
   void model(const RoughDiffuseMaterial& m) { mark(m.reflectance, m.alpha); }
   void model(const DiffuseTransmitterMaterial& m) { mark(m.transmittance); }
   void model(const MixtureMaterial&) {}
+  void model(const HairMaterial& m) {
+    if (m.sigma_a) mark(*m.sigma_a);
+  }
+  void model(const MeasuredMaterial&) {}
+  void model(const PolarizedPlasticMaterial& m) {
+    mark(m.diffuse_reflectance, m.specular_reflectance, std::optional(m.interface));
+  }
+  void model(const FilterMaterial& m) { mark(m.transmittance); }
+  void model(const CoatingMaterial& m) { mark(m.sigma_a, m.specular_reflectance, m.roughness); }
+  void model(const ThinLayerMaterial& m) { mark(m.sigma_s, m.sigma_a); }
   void model(const TwoSidedMaterial&) {}
   void model(const MaskMaterial& m) { mark(m.opacity); }
   void model(const BlendMaterial& m) { mark(m.weight); }

@@ -94,7 +94,7 @@ bool may_contain(PluginKind outer, PluginKind inner) {
       return inner == shape || inner == bsdf || inner == PluginKind::texture || inner == emitter ||
              inner == sensor || inner == medium || inner == subsurface;
     case bsdf:
-      return inner == bsdf || inner == PluginKind::texture;
+      return inner == bsdf || inner == PluginKind::texture || inner == phase;
     case PluginKind::texture:
       return inner == PluginKind::texture || inner == volume;
     case emitter:

@@ -112,13 +112,18 @@ struct MeantVolume {
   ColorMeaning meaning;
   ColorVolume value;
 };
+/// What a plugin yields that stands for any number of shapes.
+struct ShapeList {
+  std::vector<ShapeDescription> shapes;
+};
 /// Turns the properties of a plugin into a part of the description.
 template <class T>
 using ReadInto = void (*)(SceneReader&, Properties&, T&);
 using PluginReader =
     std::variant<std::monostate, ReadInto<MaterialDescription>, ReadInto<TextureDescription>,
-                 ReadInto<MeantColor>, ReadInto<ShapeDescription>, ReadInto<ShapeGroupDescription>,
-                 ReadInto<AreaEmission>, ReadInto<LightDescription>, ReadInto<SensorDescription>,
+                 ReadInto<MeantColor>, ReadInto<ShapeDescription>, ReadInto<ShapeList>,
+                 ReadInto<ShapeGroupDescription>, ReadInto<AreaEmission>,
+                 ReadInto<LightDescription>, ReadInto<SensorDescription>,
                  ReadInto<MediumDescription>, ReadInto<PhaseDescription>, ReadInto<MeantVolume>,
                  ReadInto<FilmDescription>, ReadInto<FilterDescription>,
                  ReadInto<SamplerDescription>, ReadInto<IntegratorDescription>>;

@@ -110,11 +110,60 @@ constexpr Parameter kRoughDiffuse[] = {
 constexpr Parameter kDiffuseTransmitter[] = {{"transmittance", reflectance, "0.5"}};
 constexpr Parameter kMixture[] = {{"weights", string, "", "numbers, separated by commas"}};
 
+constexpr Parameter kHair[] = {
+    {"longitudinal_roughness", number, "0.3", "", fraction},
+    {"azimuthal_roughness", number, "0.3", "", fraction},
+    {"scale_tilt", number, "2", "angle of the scales in degrees"},
+    {"int_ior", ior, "amber", "index of refraction inside"},
+    kExterior,
+    {"eumelanin", number, "1.3", "concentration", not_negative},
+    {"pheomelanin", number, "0.2", "concentration", not_negative},
+    {"sigma_a", unbounded, "", "absorption per radius, instead of pigments"},
+    {"scale", number, "1", "multiplies sigma_a", not_negative}};
+constexpr Parameter kMeasured[] = {
+    {.name = "filename", .type = file, .note = "a .bsdf file in RGB", .required = true}};
+constexpr Parameter kPolarizedPlastic[] = {
+    kPolymer, kExterior, kDiffuseBase, kSpecularReflectance, kDistribution,
+    kAlpha,   kAlphaU,   kAlphaV,      kSampleVisible};
+
+/// Of filters whose effect on polarisation is not seen.
+constexpr const char* kUnpolarized = "for light without polarisation, with a warning";
+constexpr Parameter kFilterTransmittance{"transmittance", reflectance, "1"};
+constexpr Parameter kTheta{.name = "theta", .type = number_or_texture, .support = inert};
+constexpr Parameter kPolarizer[] = {
+    kFilterTransmittance,
+    kTheta,
+    {.name = "polarizing", .type = boolean, .note = "either way half passes", .support = inert}};
+constexpr Parameter kRetarder[] = {
+    kFilterTransmittance, kTheta, {.name = "delta", .type = number_or_texture, .support = inert}};
+constexpr Parameter kCircular[] = {
+    kFilterTransmittance, kTheta, {.name = "left_handed", .type = boolean, .support = inert}};
+
+constexpr Parameter kThickness{"thickness", number, "1", "of the layer", not_negative};
+constexpr Parameter kCoatAbsorption{"sigma_a", unbounded, "0", "absorption per thickness"};
+constexpr Parameter kCoating[] = {kGlass, kExterior, kThickness, kCoatAbsorption,
+                                  kSpecularReflectance};
+constexpr Parameter kRoughCoating[] = {
+    kGlass,        kExterior, kThickness,    kCoatAbsorption, kSpecularReflectance,
+    kDistribution, kAlpha,    kSampleVisible};
+constexpr Parameter kMediumName{"material", string, "skin1", "name of a medium"};
+constexpr Parameter kScattering{"sigma_s", unbounded, "", "scattering coefficient"};
+constexpr Parameter kAbsorption{"sigma_a", unbounded, "", "absorption coefficient"};
+constexpr Parameter kExtinction{"sigma_t", unbounded, "", "extinction coefficient"};
+constexpr Parameter kAlbedo{"albedo", reflectance, "", "share that is scattered"};
+constexpr Parameter kThinLayer[] = {kMediumName, kScattering, kAbsorption,
+                                    kExtinction, kAlbedo,     kThickness};
+constexpr Parameter kSubsurface[] = {
+    kMediumName,   kScattering, kAbsorption,    kExtinction,
+    kAlbedo,       kGlass,      kExterior,      {"g", number, "0", "mean cosine of scattering"},
+    kDistribution, kAlpha,      kSampleVisible,
+};
+
 constexpr Parameter kTwoSided[] = {{.name = "allow_transmission",
                                     .type = boolean,
                                     .preset = "false",
-                                    .versions = v3,
-                                    .support = planned}};
+                                    .note = "a BSDF that lets light through is refused",
+                                    .versions = v3}};
 constexpr Parameter kMask[] = {{"opacity", number_or_texture, "0.5"}};
 constexpr Parameter kBlend[] = {
     {"weight", number_or_texture, "0.5", "share of the second material, from 0 to 1"}};
@@ -170,28 +219,34 @@ constexpr Plugin kBsdfs[] = {
     {"roughdiffuse", both, kRoughDiffuse, &read_roughdiffuse, "Mitsuba 3 has none"},
     {"difftrans", both, kDiffuseTransmitter, &read_difftrans, "Mitsuba 3 has none"},
     {"mixturebsdf", both, kMixture, &read_mixturebsdf, "holds BSDFs; Mitsuba 3 has none"},
-    planned_plugin("circular", v3, "transmittance left_handed"),
-    planned_plugin("coating", v0, "int_ior ext_ior thickness sigma_a specular_reflectance"),
-    planned_plugin("hair", v3,
-                   "longitudinal_roughness azimuthal_roughness scale_tilt int_ior ext_ior "
-                   "sigma_a eumelanin pheomelanin"),
-    planned_plugin("hk", v0, "material sigma_s sigma_a sigma_t albedo thickness"),
-    planned_plugin("irawan", v0, "filename repeat_u repeat_v ks_multiplier kd_multiplier"),
-    planned_plugin("measured", v3, "filename"),
+    {"circular", v3, kCircular, &read_filter_of_light, kUnpolarized},
+    {"coating", both, kCoating, &read_coating, "holds a BSDF; Mitsuba 3 has none"},
+    {"hair", v3, kHair, &read_hair, "for bsplinecurve"},
+    {.name = "hk",
+     .parameters = kThinLayer,
+     .reader = &read_hk,
+     .note = "may hold a phase function: isotropic or hg; Mitsuba 3 has none"},
+    {.name = "irawan",
+     .versions = v0,
+     .note = "woven cloth is not simulated; Mitsuba 3 has none",
+     .support = refused,
+     .planned_parameters = "filename repeat_u repeat_v ks_multiplier kd_multiplier"},
+    {"measured", v3, kMeasured, &read_measured, "files in RGB"},
     {.name = "measured_polarized",
      .versions = v3,
      .note = "light has no polarisation here",
      .support = refused,
      .planned_parameters = "filename alpha_sample wavelength"},
-    planned_plugin("polarizer", v3, "theta transmittance polarizing"),
-    planned_plugin("pplastic", v3,
-                   "diffuse_reflectance specular_reflectance int_ior ext_ior distribution "
-                   "alpha alpha_u alpha_v sample_visible"),
-    planned_plugin("retarder", v3, "theta delta transmittance"),
-    planned_plugin("roughcoating", v0,
-                   "int_ior ext_ior thickness sigma_a specular_reflectance distribution "
-                   "alpha sample_visible"),
-    planned_plugin("sssbrdf", v0, "material sigma_s sigma_a sigma_t albedo int_ior ext_ior alpha"),
+    {"polarizer", v3, kPolarizer, &read_filter_of_light, kUnpolarized},
+    {"pplastic", v3, kPolarizedPlastic, &read_pplastic,
+     "as Mitsuba's variants without polarisation"},
+    {"retarder", v3, kRetarder, &read_filter_of_light, kUnpolarized},
+    {"roughcoating", both, kRoughCoating, &read_coating, "holds a BSDF; Mitsuba 3 has none"},
+    {.name = "sssbrdf",
+     .parameters = kSubsurface,
+     .reader = &read_sssbrdf,
+     .note = "a rough plastic with the reflectance of a dipole; Mitsuba 3 has none",
+     .support = approximated},
 };
 
 }  // namespace

@@ -164,12 +164,19 @@ constexpr Plugin kVolumes[] = {
 };
 
 constexpr Plugin kSubsurfaces[] = {
-    planned_plugin(
-        "dipole", v0,
-        "material sigma_s sigma_a sigma_t albedo int_ior ext_ior scale irr_samples quality"),
-    planned_plugin("singlescatter", v0,
-                   "fast_single_scatter fast_single_scatter_samples single_scatter_shadow_rays "
-                   "single_scatter_transmittance single_scatter_depth"),
+    {.name = "dipole",
+     .versions = v0,
+     .note = "light leaves a surface where it entered: use an interior medium with volpath",
+     .support = refused,
+     .planned_parameters =
+         "material sigma_s sigma_a sigma_t albedo int_ior ext_ior scale irr_samples quality"},
+    {.name = "singlescatter",
+     .versions = v0,
+     .note = "light leaves a surface where it entered: use an interior medium with volpath",
+     .support = refused,
+     .planned_parameters = "fast_single_scatter fast_single_scatter_samples "
+                           "single_scatter_shadow_rays single_scatter_transmittance "
+                           "single_scatter_depth"},
 };
 
 }  // namespace

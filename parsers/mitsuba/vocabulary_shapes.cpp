@@ -30,8 +30,16 @@ constexpr Parameter kObj[] = {
      .versions = v0,
      .support = approximated},
     {.name = "collapse", .type = boolean, .versions = v0, .support = inert},
-    {.name = "shape_index", .type = integer, .versions = v0, .support = planned},
-    {.name = "recenter", .type = boolean, .preset = "false", .versions = v0, .support = planned},
+    {.name = "shape_index",
+     .type = integer,
+     .note = "only this part of the file",
+     .range = not_negative,
+     .versions = v0},
+    {.name = "recenter",
+     .type = boolean,
+     .preset = "false",
+     .note = "moves the middle of the box to the origin",
+     .versions = v0},
 };
 constexpr Parameter kPly[] = {
     kFile,
@@ -67,6 +75,58 @@ constexpr Parameter kSdfGrid[] = {
     {.name = "grid", .type = string, .note = "only exists in Python", .support = refused},
 };
 
+constexpr Parameter kCurves[] = {
+    {.name = "filename",
+     .type = file,
+     .note = "a point and a radius per line, an empty line between curves",
+     .required = true},
+};
+constexpr Parameter kEllipsoidFile{
+    .name = "filename", .type = file, .note = "a PLY file", .required = true};
+constexpr Parameter kScaleFactor{"scale_factor", number, "1", "multiplies the radii", positive};
+constexpr Parameter kExtent{"extent", number, "3", "multiplies the radii too", positive};
+constexpr Parameter kClamping{.name = "extent_adaptive_clamping",
+                              .type = boolean,
+                              .note = "these are surfaces here",
+                              .support = refused};
+constexpr const char* kPythonOnly = "only exists in Python";
+constexpr Parameter kData{.name = "data", .type = string, .note = kPythonOnly, .support = refused};
+constexpr Parameter kCenters{
+    .name = "centers", .type = string, .note = kPythonOnly, .support = refused};
+constexpr Parameter kScales{
+    .name = "scales", .type = string, .note = kPythonOnly, .support = refused};
+constexpr Parameter kQuaternions{
+    .name = "quaternions", .type = string, .note = kPythonOnly, .support = refused};
+constexpr Parameter kEllipsoids[] = {kEllipsoidFile, kScaleFactor, kExtent, kClamping,
+                                     kData,          kCenters,     kScales, kQuaternions};
+constexpr Parameter kEllipsoidsMesh[] = {kEllipsoidFile,
+                                         kScaleFactor,
+                                         kExtent,
+                                         kClamping,
+                                         {.name = "shell",
+                                          .type = string,
+                                          .note = "ellipsoids are exact, not meshes",
+                                          .support = approximated},
+                                         kData,
+                                         kCenters,
+                                         kScales,
+                                         kQuaternions};
+constexpr Parameter kHair[] = {
+    {.name = "filename", .type = file, .note = "text or binary", .required = true},
+    {"radius", number, "0.025", "in world space", positive},
+    {.name = "angle_threshold",
+     .type = number,
+     .preset = "1",
+     .note = "nothing is simplified",
+     .support = inert},
+    {.name = "reduction",
+     .type = number,
+     .preset = "0",
+     .note = "all hairs stay",
+     .range = fraction,
+     .support = approximated},
+};
+
 constexpr Plugin kShapes[] = {
     {"obj", both, kObj, &read_mesh},
     {"ply", both, kPly, &read_mesh},
@@ -79,25 +139,34 @@ constexpr Plugin kShapes[] = {
     {"sdfgrid", v3, kSdfGrid, &read_sdfgrid},
     {"shapegroup", both, {}, &read_shapegroup, "holds shapes"},
     {"instance", both, {}, &read_instance, "refers to a shapegroup"},
-    planned_plugin("animatedinstance", v0, "filename to_world"),
-    planned_plugin("blender", v3,
-                   "name mesh verts loops loop_tris polys uvs cols face_normals flip_normals"),
-    planned_plugin("bsplinecurve", v3,
-                   "filename control_point_count control_points segment_indices to_world "
-                   "silhouette_sampling_weight"),
-    planned_plugin("deformable", v0, "filename"),
-    planned_plugin("ellipsoids", v3,
-                   "filename data centers scales quaternions scale_factor extent "
-                   "extent_adaptive_clamping to_world"),
-    planned_plugin("ellipsoidsmesh", v3,
-                   "filename data centers scales quaternions scale_factor extent "
-                   "extent_adaptive_clamping shell to_world"),
-    planned_plugin("hair", v0, "filename radius angle_threshold reduction to_world"),
-    planned_plugin("heightfield", v0, "to_world filename scale width height flip_normals"),
-    planned_plugin("linearcurve", v3,
-                   "filename control_point_count control_points segment_indices to_world "
-                   "silhouette_sampling_weight"),
-    planned_plugin("merge", v3),
+    {.name = "animatedinstance",
+     .versions = v0,
+     .note = "nothing moves here: use instance",
+     .support = refused,
+     .planned_parameters = "filename to_world"},
+    {.name = "blender",
+     .versions = v3,
+     .note = "only exists within Blender",
+     .support = refused,
+     .planned_parameters =
+         "name mesh verts loops loop_tris polys uvs cols face_normals flip_normals"},
+    {"bsplinecurve", v3, kCurves, &read_curves, "cannot emit light"},
+    {.name = "deformable",
+     .versions = v0,
+     .note = "nothing moves here: use a mesh",
+     .support = refused,
+     .planned_parameters = "filename"},
+    {"ellipsoids", v3, kEllipsoids, &read_ellipsoids,
+     "from files, without attributes and texture coordinates; cannot emit light"},
+    {"ellipsoidsmesh", v3, kEllipsoidsMesh, &read_ellipsoids, "as ellipsoids", approximated},
+    {"hair", v0, kHair, &read_hair_shape, "segments meet in spheres; cannot emit light"},
+    {.name = "heightfield",
+     .versions = v0,
+     .note = "height images are not made surfaces: use a mesh",
+     .support = refused,
+     .planned_parameters = "to_world filename scale width height flip_normals"},
+    {"linearcurve", v3, kCurves, &read_curves, "cannot emit light"},
+    {"merge", v3, {}, &read_merge, "holds shapes, which stay as they are"},
 };
 
 }  // namespace

@@ -11,11 +11,23 @@ std::string_view type_of(const TextureDescription& t) {
 }
 
 std::string type_of(const MaterialDescription& m) {
-  constexpr std::string_view names[] = {
-      "diffuse",        "conductor", "dielectric", "thindielectric", "plastic",   "principled",
-      "principledthin", "twosided",  "mask",       "blendbsdf",      "bumpmap",   "normalmap",
-      "null",           "phong",     "ward",       "roughdiffuse",   "difftrans", "mixturebsdf"};
+  constexpr std::string_view names[] = {"diffuse",        "conductor",
+                                        "dielectric",     "thindielectric",
+                                        "plastic",        "principled",
+                                        "principledthin", "twosided",
+                                        "mask",           "blendbsdf",
+                                        "bumpmap",        "normalmap",
+                                        "null",           "phong",
+                                        "ward",           "roughdiffuse",
+                                        "difftrans",      "mixturebsdf",
+                                        "hair",           "measured",
+                                        "pplastic",       "",
+                                        "coating",        "hk"};
   static_assert(std::size(names) == std::variant_size_v<decltype(m.model)>);
+  if (const auto* filter = std::get_if<FilterMaterial>(&m.model)) {
+    constexpr const char* kinds[] = {"polarizer", "retarder", "circular"};
+    return kinds[size_t(filter->kind)];
+  }
   const bool rough = std::visit(
       [](const auto& model) {
         if constexpr (requires { model.roughness->distribution; })

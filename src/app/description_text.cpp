@@ -2,16 +2,11 @@
 
 #include <filesystem>
 
+#include "app/overloaded.h"
+
 namespace duet {
 
 namespace {
-
-template <class... F>
-struct Overloaded : F... {
-  using F::operator()...;
-};
-template <class... F>
-Overloaded(F...) -> Overloaded<F...>;
 
 std::string text(const Spectrum& s) {
   if (s.r == s.g && s.g == s.b) return fmt::format("{:g}", s.r);
@@ -109,80 +104,6 @@ std::string DescriptionText::input(const FloatInput& input) const {
   return fmt::format("{:.4g}", std::get<double>(input));
 }
 
-std::string DescriptionText::material(MaterialId id) const {
-  const auto rough = [&](const std::optional<Roughness>& r, const std::string& model) {
-    if (!r) return model;
-    const std::string u = input(r->alpha_u), v = input(r->alpha_v);
-    return fmt::format("rough{} ({}, alpha {})", model,
-                       r->distribution == MicrofacetDistribution::ggx ? "ggx" : "beckmann",
-                       u == v ? u : u + " and " + v);
-  };
-  return std::visit(
-      Overloaded{
-          [&](const DiffuseMaterial& m) { return "diffuse " + input(m.reflectance); },
-          [&](const ConductorMaterial& m) { return rough(m.roughness, "conductor"); },
-          [&](const DielectricMaterial& m) {
-            return fmt::format("{}, eta {}", rough(m.roughness, "dielectric"), input(m.eta));
-          },
-          [&](const ThinDielectricMaterial& m) {
-            return fmt::format("thindielectric, eta {:.4g}", m.eta);
-          },
-          [&](const PlasticMaterial& m) {
-            return fmt::format("{}, eta {:.4g}, diffuse {}", rough(m.roughness, "plastic"), m.eta,
-                               input(m.diffuse_reflectance));
-          },
-          [&](const PrincipledMaterial& m) {
-            return fmt::format("principled {}, roughness {}, metallic {}", input(m.base_color),
-                               input(m.roughness), input(m.metallic));
-          },
-          [&](const PrincipledThinMaterial& m) {
-            return fmt::format("principledthin {}, roughness {}", input(m.base_color),
-                               input(m.roughness));
-          },
-          [&](const PhongMaterial& m) {
-            return fmt::format("phong, exponent {}, diffuse {}, specular {}", input(m.exponent),
-                               input(m.diffuse_reflectance), input(m.specular_reflectance));
-          },
-          [&](const WardMaterial& m) {
-            return fmt::format("ward, alpha {} and {}, diffuse {}, specular {}", input(m.alpha_u),
-                               input(m.alpha_v), input(m.diffuse_reflectance),
-                               input(m.specular_reflectance));
-          },
-          [&](const RoughDiffuseMaterial& m) {
-            return fmt::format("roughdiffuse {}, alpha {}", input(m.reflectance), input(m.alpha));
-          },
-          [&](const DiffuseTransmitterMaterial& m) {
-            return "difftrans " + input(m.transmittance);
-          },
-          [&](const MixtureMaterial& m) {
-            std::vector<std::string> parts;
-            for (const auto& [weight, part] : m.parts)
-              parts.push_back(fmt::format("{:.4g} of {}", weight, material(part)));
-            return fmt::format("mixturebsdf [{}]", fmt::join(parts, "; "));
-          },
-          [&](const TwoSidedMaterial& m) {
-            return m.front == m.back ? fmt::format("twosided [{}]", material(m.front))
-                                     : fmt::format("twosided [front {}; back {}]",
-                                                   material(m.front), material(m.back));
-          },
-          [&](const MaskMaterial& m) {
-            return fmt::format("mask, opacity {} [{}]", input(m.opacity), material(m.nested));
-          },
-          [&](const BlendMaterial& m) {
-            return fmt::format("blendbsdf, weight {} [{}; {}]", input(m.weight), material(m.first),
-                               material(m.second));
-          },
-          [&](const BumpMapMaterial& m) {
-            return fmt::format("bumpmap {} [{}]", texture_name(m.height), material(m.nested));
-          },
-          [&](const NormalMapMaterial& m) {
-            return fmt::format("normalmap {} [{}]", texture_name(m.normals), material(m.nested));
-          },
-          [&](const NullMaterial&) { return std::string("null"); },
-      },
-      scene_.materials[size_t(id)].model);
-}
-
 std::string DescriptionText::texture(const TextureDescription& t) const {
   const std::string label = t.label.text.empty() ? "" : t.label.text + ": ";
   return label + std::visit(Overloaded{
@@ -211,6 +132,12 @@ std::string DescriptionText::shape_kind(const ShapeDescription& s) const {
                         [](const DiskShape&) { return std::string("disk"); },
                         [](const CylinderShape&) { return std::string("cylinder"); },
                         [](const SdfGridShape& m) { return "sdfgrid " + m.file; },
+                        [](const CurvesShape& m) {
+                          return fmt::format(
+                              "{} ({}, {} segments)",
+                              m.curves->kind == CurveKind::bspline ? "bsplinecurve" : "linearcurve",
+                              file_name(m.file), m.curves->segments.size());
+                        },
                         [](const InstanceShape&) { return std::string("instance"); },
                     },
                     s.geometry);

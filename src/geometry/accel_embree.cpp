@@ -61,7 +61,32 @@ void analytic_occluded_callback(const RTCOccludedFunctionNArguments* args) {
     ray->tfar = -INFINITY;
 }
 
+/// Lets rays through the inside of a tube.
+void outside_only_callback(const RTCFilterFunctionNArguments* args) {
+  if (args->N != 1 || !args->valid[0]) return;
+  const auto& ray = *reinterpret_cast<const RTCRay*>(args->ray);
+  const auto& hit = *reinterpret_cast<const RTCHit*>(args->hit);
+  if (hit.Ng_x * ray.dir_x + hit.Ng_y * ray.dir_y + hit.Ng_z * ray.dir_z >= 0) args->valid[0] = 0;
+}
+
+RTCGeometry make_curve_geometry(RTCDevice device, const CurveSet& curves) {
+  RTCGeometry g = rtcNewGeometry(device, curves.kind == CurveKind::bspline
+                                             ? RTC_GEOMETRY_TYPE_ROUND_BSPLINE_CURVE
+                                             : RTC_GEOMETRY_TYPE_ROUND_LINEAR_CURVE);
+  static_assert(sizeof(TubePoint) == 4 * sizeof(float));
+  rtcSetSharedGeometryBuffer(g, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT4, curves.points.data(),
+                             0, sizeof(TubePoint), curves.points.size());
+  rtcSetSharedGeometryBuffer(g, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT, curves.segments.data(),
+                             0, sizeof(uint32_t), curves.segments.size());
+  if (curves.outside_only) {
+    rtcSetGeometryIntersectFilterFunction(g, outside_only_callback);
+    rtcSetGeometryOccludedFilterFunction(g, outside_only_callback);
+  }
+  return g;
+}
+
 RTCGeometry make_geometry(RTCDevice device, const Shape& shape) {
+  if (shape.kind == ShapeKind::curves) return make_curve_geometry(device, *shape.curves);
   if (shape.kind != ShapeKind::mesh) {
     RTCGeometry g = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_USER);
     rtcSetGeometryUserPrimitiveCount(g, shape.analytic_parts());

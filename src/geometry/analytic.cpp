@@ -70,6 +70,7 @@ int intersect_analytic(const Shape& shape, uint32_t part, const Ray& ray, double
       return intersect_cell(*shape.sdf, shape.sdf->cells[part], {o.x, o.y, o.z}, {d.x, d.y, d.z},
                             tnear, tfar, t[0]);
     case ShapeKind::mesh:
+    case ShapeKind::curves:
       break;
   }
   return n;

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <memory>
 
+#include "geometry/curves.h"
 #include "geometry/mesh.h"
 #include "geometry/sdf_grid.h"
 #include "math/measure.h"
@@ -17,6 +18,7 @@ enum class ShapeKind : uint8_t {
   disk,      ///< unit disk in the plane z = 0, facing +z
   cylinder,  ///< radius 1 around the z axis, from z = 0 to 1, facing outwards, without caps
   sdf_grid,  ///< see sdf_grid.h: in the unit cube
+  curves,    ///< see curves.h: in world space
 };
 
 /// What the materials and lights on a surface ask of a hit. What nobody asks for is not computed.
@@ -45,6 +47,7 @@ struct Shape {
 
   std::shared_ptr<const TriangleMesh> mesh;  ///< in world space; for meshes only
   std::shared_ptr<const SdfGrid> sdf;
+  std::shared_ptr<const CurveSet> curves;
   Transform to_world;  ///< for analytic shapes only
   Matrix4 to_local;    ///< its inverse in double precision
 
@@ -69,7 +72,7 @@ struct ShapeRange {
 };
 
 /// Where a ray met the scene. (u, v) are barycentric coordinates on triangles (weights of the
-/// second and third vertex) and unused on analytic shapes.
+/// second and third vertex); on curves u runs along the segment. Unused on analytic shapes.
 struct Hit {
   float t, u, v;
   uint32_t primitive;
@@ -96,6 +99,7 @@ struct Bounds {
 Bounds analytic_bounds(const Shape& shape);
 /// The same of one of its parts.
 Bounds analytic_bounds(const Shape& shape, uint32_t part);
+Bounds curve_bounds(const CurveSet& curves);
 
 /// A point of a shape, chosen or parametrised by a uniform pair of numbers.
 struct ShapePoint {

@@ -5,6 +5,7 @@
 namespace duet {
 
 Surface make_analytic_surface(const Shape& shape, const Ray& ray, const Hit& hit);
+Surface make_curve_surface(const Shape& shape, const Ray& ray, const Hit& hit);
 
 namespace {
 
@@ -83,16 +84,27 @@ Surface make_mesh_surface(const Shape& shape, const Hit& hit) {
   return s;
 }
 
+namespace {
+
+/// In the space in which the shape stands.
+Surface make_own_surface(const Shape& shape, const Ray& ray, const Hit& hit) {
+  switch (shape.kind) {
+    case ShapeKind::mesh:
+      return make_mesh_surface(shape, hit);
+    case ShapeKind::curves:
+      return make_curve_surface(shape, ray, hit);
+    default:
+      return make_analytic_surface(shape, ray, hit);
+  }
+}
+
+}  // namespace
+
 Surface make_surface(const Shape& shape, const Instance* instance, const Ray& ray, const Hit& hit) {
-  if (!instance)
-    return shape.kind == ShapeKind::mesh ? make_mesh_surface(shape, hit)
-                                         : make_analytic_surface(shape, ray, hit);
+  if (!instance) return make_own_surface(shape, ray, hit);
   const Transform& place = instance->to_world;
-  Surface s =
-      shape.kind == ShapeKind::mesh
-          ? make_mesh_surface(shape, hit)
-          : make_analytic_surface(
-                shape, {place.inverse(ray.origin), place.inverse(ray.direction), ray.tmax}, hit);
+  Surface s = make_own_surface(
+      shape, {place.inverse(ray.origin), place.inverse(ray.direction), ray.tmax}, hit);
   const float local = s.offset;
   s.position = place(s.position);
   // The rounding errors of the copy, those of placing it, and those of bringing rays to it.

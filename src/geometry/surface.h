@@ -17,7 +17,7 @@ struct Surface {
   Frame shading;
   Point2f uv;             ///< valid if the shape needs uv
   Vector3f dp_du, dp_dv;  ///< valid if the shape needs tangents
-  Point2f barycentric;    ///< weights of the second and third vertex, on meshes
+  Point2f barycentric;    ///< (u, v) of the hit, on meshes and curves
   uint32_t primitive;
   const Shape* shape;
 };

@@ -198,6 +198,17 @@ void check_support(const SceneDescription& scene, const IntegratorDescription& i
     if (s.medium) return refuse(scene.media[size_t(*s.medium)].where);
   for (const ShapeGroupDescription& g : scene.groups) check(g.shapes);
   check(scene.shapes);
+  const auto check_one_way = [&](const std::vector<ShapeDescription>& shapes) {
+    for (const ShapeDescription& s : shapes)
+      if (is_one_way(scene, s))
+        return diagnostics.error(s.where,
+                                 "integrator \"{}\" cannot follow light through curves of this "
+                                 "material from its source, because rays see them from outside "
+                                 "only; \"path\" can",
+                                 integrator_name(integrator));
+  };
+  for (const ShapeGroupDescription& g : scene.groups) check_one_way(g.shapes);
+  check_one_way(scene.shapes);
 }
 
 std::unique_ptr<Integrator> make_integrator(const IntegratorDescription& integrator,

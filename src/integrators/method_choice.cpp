@@ -110,6 +110,8 @@ MethodChoice choose_method(const Scene& scene, const AutoIntegratorDescription& 
   const MethodRules rules = method_rules(scene.features);
   if (rules.has_media) return through_media(rules, options);
   if (!rules.has_lights) return without_pilot(options, "the scene has no lights");
+  if (scene.features.one_way_surfaces > 0)
+    return without_pilot(options, "light cannot be followed through tubes from its source");
   if (options.max_depth >= 0 && options.max_depth < 2)
     return without_pilot(options, "paths of one segment are seen directly");
   if (rules.far_lights_only && !rules.needs_light_walks && shows_little(scene, outlook.film))

@@ -32,15 +32,22 @@ float cosine_exchange(const Vector3f& light, const Vector3f& local_light, const 
   return from > 0 ? std::abs(local_light.z * eye.z) / from : 0.0f;
 }
 
-ModelEval eval_tilted(const BsdfComponent& c, const Tilt& tilt, const Vector3f& wo,
+ModelEval eval_below(const BsdfComponent& c, const Cover* covers, int level, const Vector3f& wo,
+                     const Vector3f& wi, Transport transport);
+std::optional<ModelSample> sample_below(const BsdfComponent& c, const Cover* covers, int level,
+                                        const Vector3f& wo, float u, const Point2f& v,
+                                        Transport transport);
+
+ModelEval eval_tilted(const BsdfComponent& c, const Cover* covers, int level, const Vector3f& wo,
                       const Vector3f& wi, Transport transport) {
+  const Tilt& tilt = covers[c.covers[level]].tilt;
   const bool to_light = transport == Transport::radiance;
   const Vector3f& eye = to_light ? wo : wi;
   const Vector3f& light = to_light ? wi : wo;
   const bool turned = tilt.turned_for(eye);
   const Vector3f o = tilt.to_local(wo, turned), i = tilt.to_local(wi, turned);
   if (!tilt.agrees(light, to_light ? i : o)) return {};
-  ModelEval e = eval_model(c, on_side(o, c.side), on_side(i, c.side), transport);
+  ModelEval e = eval_below(c, covers, level + 1, o, i, transport);
   e.value *= tilt.shadowing(light);
   if (to_light) return e;
   e.value *= cosine_exchange(light, o, eye, i);
@@ -48,16 +55,17 @@ ModelEval eval_tilted(const BsdfComponent& c, const Tilt& tilt, const Vector3f& 
   const float p = tilt.turned_probability();
   if (p > 0) {
     const Vector3f o2 = tilt.to_local(wo, !turned), i2 = tilt.to_local(wi, !turned);
-    const float other = eval_model(c, on_side(o2, c.side), on_side(i2, c.side), transport).pdf;
+    const float other = eval_below(c, covers, level + 1, o2, i2, transport).pdf;
     const float q = turned ? p : 1 - p;
     e.pdf = q * e.pdf + (1 - q) * other;
   }
   return e;
 }
 
-std::optional<ModelSample> sample_tilted(const BsdfComponent& c, const Tilt& tilt,
+std::optional<ModelSample> sample_tilted(const BsdfComponent& c, const Cover* covers, int level,
                                          const Vector3f& wo, float u, const Point2f& v,
                                          Transport transport) {
+  const Tilt& tilt = covers[c.covers[level]].tilt;
   const bool to_light = transport == Transport::radiance;
   bool turned = false;
   float probability = 1;
@@ -69,9 +77,9 @@ std::optional<ModelSample> sample_tilted(const BsdfComponent& c, const Tilt& til
     u = std::min((turned ? u : u - p) / probability, kBelowOne);
   }
   const Vector3f o = tilt.to_local(wo, turned);
-  auto s = sample_model(c, on_side(o, c.side), u, v, transport);
+  auto s = sample_below(c, covers, level + 1, o, u, v, transport);
   if (!s) return std::nullopt;
-  const Vector3f i = on_side(s->wi, c.side);
+  const Vector3f i = s->wi;
   s->wi = tilt.from_local(i, turned);
   const Vector3f& eye = to_light ? wo : s->wi;
   const Vector3f& light = to_light ? s->wi : wo;
@@ -84,26 +92,76 @@ std::optional<ModelSample> sample_tilted(const BsdfComponent& c, const Tilt& til
     s->pdf *= probability;
     return s;
   }
-  const ModelEval e = eval_tilted(c, tilt, wo, s->wi, transport);
+  const ModelEval e = eval_tilted(c, covers, level, wo, s->wi, transport);
   if (!(e.pdf > 0)) return std::nullopt;
   s->weight = e.value / e.pdf;
   s->pdf = e.pdf;
   return s;
 }
 
+ModelEval eval_coated(const BsdfComponent& c, const Cover* covers, int level, const Vector3f& wo,
+                      const Vector3f& wi, Transport transport) {
+  const Coat& coat = covers[c.covers[level]].coat;
+  if (wo.z == 0 || wi.z == 0) return {};
+  const Vector3f o = coat.inside(wo), i = coat.inside(wi);
+  ModelEval e = eval_below(c, covers, level + 1, o, i, transport);
+  const float compression = coat.compression(wi, i);
+  e.value *= coat.transmittance(wo, o, wi, i) * compression;
+  e.pdf *= compression;
+  return e;
+}
+
+std::optional<ModelSample> sample_coated(const BsdfComponent& c, const Cover* covers, int level,
+                                         const Vector3f& wo, float u, const Point2f& v,
+                                         Transport transport) {
+  const Coat& coat = covers[c.covers[level]].coat;
+  if (wo.z == 0) return std::nullopt;
+  const Vector3f o = coat.inside(wo);
+  auto s = sample_below(c, covers, level + 1, o, u, v, transport);
+  if (!s) return std::nullopt;
+  const Vector3f i = s->wi;
+  if (!coat.outside(i, s->wi)) return std::nullopt;
+  s->weight *= coat.transmittance(wo, o, s->wi, i);
+  if (!s->delta) s->pdf *= coat.compression(s->wi, i);
+  // A coat is a surface for shadow rays.
+  s->null = false;
+  return s;
+}
+
+/// Below the first `level` covers, in the frame that these make.
+ModelEval eval_below(const BsdfComponent& c, const Cover* covers, int level, const Vector3f& wo,
+                     const Vector3f& wi, Transport transport) {
+  if (level == kMaxCovers || c.covers[level] < 0)
+    return eval_model(c, on_side(wo, c.side), on_side(wi, c.side), transport);
+  return covers[c.covers[level]].is_coat ? eval_coated(c, covers, level, wo, wi, transport)
+                                         : eval_tilted(c, covers, level, wo, wi, transport);
+}
+
+std::optional<ModelSample> sample_below(const BsdfComponent& c, const Cover* covers, int level,
+                                        const Vector3f& wo, float u, const Point2f& v,
+                                        Transport transport) {
+  if (level == kMaxCovers || c.covers[level] < 0) {
+    auto s = sample_model(c, on_side(wo, c.side), u, v, transport);
+    if (s) s->wi = on_side(s->wi, c.side);
+    return s;
+  }
+  return covers[c.covers[level]].is_coat ? sample_coated(c, covers, level, wo, u, v, transport)
+                                         : sample_tilted(c, covers, level, wo, u, v, transport);
+}
+
 /// Directions in the shading frame.
-ModelEval eval_component(const BsdfComponent& c, const Tilt* tilts, const Vector3f& wo,
+ModelEval eval_component(const BsdfComponent& c, const Cover* covers, const Vector3f& wo,
                          const Vector3f& wi, Transport transport) {
-  if (c.tilt >= 0) [[unlikely]]
-    return eval_tilted(c, tilts[c.tilt], wo, wi, transport);
+  if (c.covers[0] >= 0) [[unlikely]]
+    return eval_below(c, covers, 0, wo, wi, transport);
   return eval_model(c, on_side(wo, c.side), on_side(wi, c.side), transport);
 }
 
-std::optional<ModelSample> sample_component(const BsdfComponent& c, const Tilt* tilts,
+std::optional<ModelSample> sample_component(const BsdfComponent& c, const Cover* covers,
                                             const Vector3f& wo, float u, const Point2f& v,
                                             Transport transport) {
-  if (c.tilt >= 0) [[unlikely]]
-    return sample_tilted(c, tilts[c.tilt], wo, u, v, transport);
+  if (c.covers[0] >= 0) [[unlikely]]
+    return sample_below(c, covers, 0, wo, u, v, transport);
   return sample_model(c, on_side(wo, c.side), u, v, transport);
 }
 
@@ -135,7 +193,7 @@ std::optional<BsdfSample> Bsdf::sample(float u, const Point2f& v, Transport tran
 [[gnu::noinline]] BsdfEval Bsdf::eval_all(const Vector3f& wi, Transport transport) const {
   BsdfEval sum{};
   for (int i = 0; i < count_; ++i) {
-    const ModelEval e = eval_component(components_[i], tilts_, wo_, wi, transport);
+    const ModelEval e = eval_component(components_[i], covers_, wo_, wi, transport);
     sum.value += e.value * components_[i].share;
     sum.pdf.value += e.pdf * components_[i].share;
   }
@@ -159,11 +217,19 @@ Spectrum Bsdf::straight_through() const {
   Spectrum sum;
   for (int i = 0; i < count_; ++i) {
     const BsdfComponent& c = components_[i];
+    Vector3f wo = wo_;
+    bool coated = false;
+    for (int l = 0; l < kMaxCovers && c.covers[l] >= 0; ++l) {
+      const Cover& cover = covers_[c.covers[l]];
+      coated |= cover.is_coat;
+      if (!cover.is_coat) wo = cover.tilt.to_local(wo, cover.tilt.turned_for(wo));
+    }
+    if (coated) continue;
     if (c.kind == ModelKind::null) sum += Spectrum(c.share);
-    if (c.kind != ModelKind::thin_dielectric) continue;
-    const Vector3f wo =
-        c.tilt < 0 ? wo_ : tilts_[c.tilt].to_local(wo_, tilts_[c.tilt].turned_for(wo_));
-    sum += c.model.thin_dielectric.straight_through(wo) * c.share;
+    if (c.kind == ModelKind::filter) sum += c.model.filter.transmittance * c.share;
+    if (c.kind == ModelKind::thin_dielectric)
+      sum += c.model.thin_dielectric.straight_through(wo) * c.share;
+    if (c.kind == ModelKind::thin_layer) sum += c.model.thin_layer.straight_through(wo) * c.share;
   }
   return sum;
 }
@@ -182,7 +248,7 @@ PdfW Bsdf::reverse_pdf(const Vector3f& wi_world, Transport transport) const {
 [[gnu::noinline]] PdfW Bsdf::reverse_pdf_all(const Vector3f& wi, Transport transport) const {
   PdfW sum;
   for (int i = 0; i < count_; ++i)
-    sum.value += eval_component(components_[i], tilts_, wi, wo_, opposite(transport)).pdf *
+    sum.value += eval_component(components_[i], covers_, wi, wo_, opposite(transport)).pdf *
                  components_[i].share;
   return sum;
 }
@@ -195,9 +261,9 @@ PdfW Bsdf::reverse_pdf(const Vector3f& wi_world, Transport transport) const {
   if (pick == count_) return out;
   const BsdfComponent& c = components_[pick];
   u = std::min(u / c.share, kBelowOne);
-  const auto s = sample_component(c, tilts_, wo_, u, v, transport);
+  const auto s = sample_component(c, covers_, wo_, u, v, transport);
   if (!s) return out;
-  const Vector3f wi = c.tilt >= 0 ? s->wi : on_side(s->wi, c.side);
+  const Vector3f wi = c.covers[0] >= 0 ? s->wi : on_side(s->wi, c.side);
   out.emplace();
   out->wi = frame_.to_world(wi);
   out->weight = s->weight;
@@ -210,7 +276,7 @@ PdfW Bsdf::reverse_pdf(const Vector3f& wi_world, Transport transport) const {
   Spectrum value = s->weight * out->pdf.value;
   for (int i = 0; i < count_; ++i) {
     if (i == pick) continue;
-    const ModelEval e = eval_component(components_[i], tilts_, wo_, wi, transport);
+    const ModelEval e = eval_component(components_[i], covers_, wo_, wi, transport);
     value += e.value * components_[i].share;
     out->pdf.value += e.pdf * components_[i].share;
   }

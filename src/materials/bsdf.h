@@ -2,8 +2,8 @@
 #pragma once
 
 #include "geometry/surface.h"
+#include "materials/cover.h"
 #include "materials/models.h"
-#include "materials/tilt.h"
 
 namespace duet {
 
@@ -30,10 +30,11 @@ struct BsdfSample {
 /// One scattering model within a Bsdf.
 struct BsdfComponent {
   ModelKind kind;
-  /// Which of the Bsdf's tilts its frame has (bump and normal maps), or −1.
-  int8_t tilt;
+  /// Which of the Bsdf's covers lie over it (bump and normal maps, coats), the outer one first; −1
+  /// for none.
+  int8_t covers[kMaxCovers];
   /// −1 if a two-sided material is seen from its back: the z axis is then mirrored (after the
-  /// tilt).
+  /// covers).
   float side;
   float share;  ///< weight within the mixture and probability of being picked
   ModelUnion model;
@@ -83,7 +84,7 @@ class Bsdf {
   friend class Material;
 
   bool is_plain_diffuse() const {
-    return count_ == 1 && components_[0].kind == ModelKind::diffuse && components_[0].tilt < 0;
+    return count_ == 1 && components_[0].kind == ModelKind::diffuse && components_[0].covers[0] < 0;
   }
   BsdfEval eval_all(const Vector3f& wi, Transport transport) const;
   PdfW reverse_pdf_all(const Vector3f& wi, Transport transport) const;
@@ -91,13 +92,13 @@ class Bsdf {
 
   Frame frame_;
   Vector3f wo_;  ///< in the shading frame
-  int count_ = 0, tilt_count_ = 0;
+  int count_ = 0, cover_count_ = 0;
   bool has_smooth_ = false, has_delta_ = false, needs_choice_ = false;
   union {  // keeps unused components untouched
     BsdfComponent components_[kMaxComponents];
   };
   union {
-    Tilt tilts_[kMaxComponents];
+    Cover covers_[kMaxComponents];
   };
 };
 
@@ -149,7 +150,7 @@ class BsdfBuilder {
     bind_nested(inner);
   }
   /// Runs `bind_nested` in a frame around the unit normal `n`, given in the current frame; see
-  /// Tilt. Not to be nested.
+  /// Tilt. Not to be nested within another one, nor more than kMaxCovers of these and coats.
   template <class F>
   void tilted(const Normal3f& n, bool faces_eye, bool shadows, F&& bind_nested) {
     BsdfBuilder inner(*this);
@@ -157,19 +158,33 @@ class BsdfBuilder {
     bind_nested(inner);
   }
 
+  /// Runs `bind_nested` below a coat.
+  template <class F>
+  void coated(const Coat& coat, F&& bind_nested) {
+    BsdfBuilder inner(*this);
+    // The mirroring so far is that of the coat's surroundings: the coat is the same on both sides.
+    inner.add_cover().set(coat);
+    inner.wo_ = coat.inside(wo_);
+    bind_nested(inner);
+  }
+
  private:
   void complete(BsdfComponent& c, bool has_smooth, bool has_delta, bool needs_choice) {
-    c.tilt = tilt_;
+    for (int i = 0; i < kMaxCovers; ++i) c.covers[i] = covers_[i];
     c.side = side_;
     c.share = share_;
     bsdf_.has_smooth_ |= has_smooth;
     bsdf_.has_delta_ |= has_delta;
     // A tilt is chosen too, where the direction towards the eye is not yet known.
-    bsdf_.needs_choice_ |= needs_choice || bsdf_.count_ > 1 || share_ < 1 || tilt_ >= 0;
+    bsdf_.needs_choice_ |= needs_choice || bsdf_.count_ > 1 || share_ < 1 || covers_[0] >= 0;
+  }
+  Cover& add_cover() {
+    int8_t* const free = covers_[0] < 0 ? &covers_[0] : &covers_[1];
+    *free = int8_t(bsdf_.cover_count_);
+    return bsdf_.covers_[bsdf_.cover_count_++];
   }
   void tilt(const Tilt& tilt) {
-    tilt_ = int8_t(bsdf_.tilt_count_);
-    bsdf_.tilts_[bsdf_.tilt_count_++] = tilt;
+    add_cover().set(tilt);
     // wo_ is mirrored already, which is part of the tilt.
     const Vector3f shading(wo_.x, wo_.y, wo_.z * side_);
     wo_ = tilt.to_local(shading, tilt.turned_for(shading));
@@ -180,7 +195,7 @@ class BsdfBuilder {
   Vector3f wo_;
   float share_ = 1;
   float side_ = 1;
-  int8_t tilt_ = -1;
+  int8_t covers_[kMaxCovers] = {-1, -1};
 };
 
 /// A material of the scene: textures and parameters, immutable while rendering.
@@ -228,6 +243,8 @@ class Material {
   virtual bool passes_straight() const { return false; }
   /// Whether there is a bump or normal map in it: these cannot be nested in one another.
   virtual bool perturbs() const { return false; }
+  /// How many bump maps, normal maps and coats lie over each other at most.
+  virtual int cover_count() const { return 0; }
   /// Reflectance for the albedo layer, seen from the unit world direction `wo`; as in Mitsuba 3
   /// that of the diffuse base, or π f for light along the normal where a model has none.
   Spectrum albedo(const Surface& surface, const Vector3f& wo) const {
@@ -247,7 +264,7 @@ class Material {
   void set_constant(const M& model) {
     ConstantMaterial c;
     set_model(c.component, model);
-    c.component.tilt = -1;
+    c.component.covers[0] = c.component.covers[1] = -1;
     c.component.side = 1;
     c.component.share = 1;
     c.has_smooth = model.has_smooth();
@@ -269,7 +286,7 @@ class Material {
       return;
     }
     set_model(to, from.model.diffuse);
-    to.tilt = -1;
+    to.covers[0] = to.covers[1] = -1;
     to.side = to.share = 1;
   }
 

@@ -29,6 +29,12 @@ struct ModelSample {
   bool null = false;  ///< passed straight through, as if there were no surface
 };
 
+/// The sample that a direction makes whose value and density are known; empty if it has no density.
+inline std::optional<ModelSample> sample_from(const ModelEval& e, const Vector3f& wi) {
+  if (!(e.pdf > 0)) return std::nullopt;
+  return ModelSample{wi, e.value / e.pdf, e.pdf};
+}
+
 /// A model has its parameters as plain numbers, already looked up at the hit. Directions are unit
 /// vectors in the local frame and point away from the surface: wo to where the path comes from, wi
 /// to where it goes. All functions are const and know nothing of the frame. Each model provides

@@ -3,36 +3,48 @@
 
 #include <type_traits>
 
+#include "materials/coat_reflection.h"
 #include "materials/conductor.h"
 #include "materials/dielectric.h"
 #include "materials/diffuse.h"
 #include "materials/diffuse_transmitter.h"
+#include "materials/filter.h"
+#include "materials/hair.h"
+#include "materials/measured.h"
 #include "materials/null.h"
 #include "materials/phong.h"
 #include "materials/plastic.h"
+#include "materials/polarized_plastic.h"
 #include "materials/principled.h"
 #include "materials/principledthin.h"
 #include "materials/rough_diffuse.h"
+#include "materials/thin_layer.h"
 #include "materials/thindielectric.h"
 #include "materials/ward.h"
 
 /// X(enumerator, type) for each model.
-#define DUET_BSDF_MODELS(X)                 \
-  X(diffuse, DiffuseModel)                  \
-  X(null, NullModel)                        \
-  X(conductor, ConductorModel)              \
-  X(rough_conductor, RoughConductorModel)   \
-  X(dielectric, DielectricModel)            \
-  X(rough_dielectric, RoughDielectricModel) \
-  X(thin_dielectric, ThinDielectricModel)   \
-  X(plastic, PlasticModel)                  \
-  X(rough_plastic, RoughPlasticModel)       \
-  X(principled, PrincipledModel)            \
-  X(principled_thin, PrincipledThinModel)   \
-  X(phong, PhongModel)                      \
-  X(ward, WardModel)                        \
-  X(rough_diffuse, RoughDiffuseModel)       \
-  X(diffuse_transmitter, DiffuseTransmitterModel)
+#define DUET_BSDF_MODELS(X)                       \
+  X(diffuse, DiffuseModel)                        \
+  X(null, NullModel)                              \
+  X(conductor, ConductorModel)                    \
+  X(rough_conductor, RoughConductorModel)         \
+  X(dielectric, DielectricModel)                  \
+  X(rough_dielectric, RoughDielectricModel)       \
+  X(thin_dielectric, ThinDielectricModel)         \
+  X(plastic, PlasticModel)                        \
+  X(rough_plastic, RoughPlasticModel)             \
+  X(principled, PrincipledModel)                  \
+  X(principled_thin, PrincipledThinModel)         \
+  X(phong, PhongModel)                            \
+  X(ward, WardModel)                              \
+  X(rough_diffuse, RoughDiffuseModel)             \
+  X(diffuse_transmitter, DiffuseTransmitterModel) \
+  X(hair, HairModel)                              \
+  X(measured, MeasuredModel)                      \
+  X(polarized_plastic, PolarizedPlasticModel)     \
+  X(filter, FilterModel)                          \
+  X(coat_reflection, CoatReflectionModel)         \
+  X(thin_layer, ThinLayerModel)
 
 namespace duet {
 

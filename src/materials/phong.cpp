@@ -27,9 +27,7 @@ std::optional<ModelSample> PhongModel::sample(const Vector3f& wo, float u, const
   } else {
     wi = square_to_cosine_hemisphere(v);
   }
-  const ModelEval e = eval(wo, wi, transport);
-  if (!(e.pdf > 0)) return std::nullopt;
-  return ModelSample{wi, e.value / e.pdf, e.pdf};
+  return sample_from(eval(wo, wi, transport), wi);
 }
 
 Phong::Phong(const PhongOptions& options) : options_(options) {

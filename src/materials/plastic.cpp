@@ -72,9 +72,7 @@ std::optional<ModelSample> RoughPlasticModel::sample(const Vector3f& wo, float u
   } else {
     wi = square_to_cosine_hemisphere(v);
   }
-  const ModelEval e = eval(wo, wi, transport);
-  if (!(e.pdf > 0)) return std::nullopt;
-  return ModelSample{wi, e.value / e.pdf, e.pdf};
+  return sample_from(eval(wo, wi, transport), wi);
 }
 
 namespace {

@@ -35,9 +35,7 @@ ModelEval RoughDiffuseModel::eval(const Vector3f& wo, const Vector3f& wi, Transp
 std::optional<ModelSample> RoughDiffuseModel::sample(const Vector3f& wo, float, const Point2f& v,
                                                      Transport transport) const {
   const Vector3f wi = square_to_cosine_hemisphere(v);
-  const ModelEval e = eval(wo, wi, transport);
-  if (!(e.pdf > 0)) return std::nullopt;
-  return ModelSample{wi, e.value / e.pdf, e.pdf};
+  return sample_from(eval(wo, wi, transport), wi);
 }
 
 RoughDiffuse::RoughDiffuse(const ColorSlot& reflectance, const FloatSlot& alpha, bool fast)

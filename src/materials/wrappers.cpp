@@ -77,6 +77,12 @@ bool Mixture::perturbs() const {
                      [](const Part& p) { return p.material->perturbs(); });
 }
 
+int Mixture::cover_count() const {
+  int most = 0;
+  for (const Part& p : parts_) most = std::max(most, p.material->cover_count());
+  return most;
+}
+
 Spectrum Mixture::local_albedo(const Surface& surface, const Vector3f& wo) const {
   Spectrum sum;
   for (const Part& p : parts_) sum += p.material->local_albedo(surface, wo) * p.weight;

@@ -1,6 +1,7 @@
 // Materials made of other materials, which must outlive them.
 #pragma once
 
+#include <algorithm>
 #include <vector>
 
 #include "materials/bsdf.h"
@@ -17,6 +18,7 @@ class TwoSided final : public Material {
   int component_count() const override;
   bool transmits() const override { return front_.transmits() || back_.transmits(); }
   bool perturbs() const override { return front_.perturbs() || back_.perturbs(); }
+  int cover_count() const override { return std::max(front_.cover_count(), back_.cover_count()); }
   Spectrum local_albedo(const Surface& surface, const Vector3f& wo) const override;
 
  protected:
@@ -35,6 +37,7 @@ class Mask final : public Material {
   bool transmits() const override;
   bool passes_straight() const override { return true; }
   bool perturbs() const override { return nested_.perturbs(); }
+  int cover_count() const override { return nested_.cover_count(); }
   Spectrum local_albedo(const Surface& surface, const Vector3f& wo) const override {
     return nested_.local_albedo(surface, wo);
   }
@@ -61,6 +64,7 @@ class Blend final : public Material {
     return first_.passes_straight() || second_.passes_straight();
   }
   bool perturbs() const override { return first_.perturbs() || second_.perturbs(); }
+  int cover_count() const override { return std::max(first_.cover_count(), second_.cover_count()); }
   Spectrum local_albedo(const Surface& surface, const Vector3f& wo) const override;
 
  protected:
@@ -83,6 +87,7 @@ class Mixture final : public Material {
   int component_count() const override;
   bool transmits() const override;
   bool perturbs() const override;
+  int cover_count() const override;
   Spectrum local_albedo(const Surface& surface, const Vector3f& wo) const override;
 
  protected:
@@ -105,6 +110,7 @@ class Perturbed : public Material {
   bool transmits() const override { return nested_.transmits(); }
   bool passes_straight() const override { return nested_.passes_straight(); }
   bool perturbs() const override { return true; }
+  int cover_count() const override { return nested_.cover_count() + 1; }
   Spectrum local_albedo(const Surface& surface, const Vector3f& wo) const override {
     return nested_.local_albedo(surface, wo);
   }

@@ -1,5 +1,6 @@
 // Builds materials from their descriptions.
-#include "materials/materials.h"
+#include "materials/coating.h"
+#include "materials/special_materials.h"
 #include "materials/wrappers.h"
 #include "scene/builder.h"
 
@@ -14,6 +15,13 @@ const Material* SceneBuilder::material(MaterialId id) {
     if (const int n = made->component_count(); n > Bsdf::kMaxComponents) {
       diagnostics_.error(d.where, "{} BSDFs are mixed here; at most {} can be", n,
                          Bsdf::kMaxComponents);
+      return nullptr;
+    }
+    if (made->cover_count() > kMaxCovers) {
+      diagnostics_.error(d.where,
+                         "{} bump maps, normal maps and coatings lie over each other here; "
+                         "at most {} can",
+                         made->cover_count(), kMaxCovers);
       return nullptr;
     }
     materials_[index].index = uint32_t(scene_->materials.size());
@@ -75,6 +83,47 @@ std::unique_ptr<Material> SceneBuilder::make(const RoughDiffuseMaterial& m, cons
 std::unique_ptr<Material> SceneBuilder::make(const DiffuseTransmitterMaterial& m,
                                              const SourceLocation&) {
   return std::make_unique<DiffuseTransmitter>(slot(m.transmittance));
+}
+
+std::unique_ptr<Material> SceneBuilder::make(const HairMaterial& m, const SourceLocation&) {
+  HairOptions o;
+  o.longitudinal_roughness = float(m.longitudinal_roughness);
+  o.azimuthal_roughness = float(m.azimuthal_roughness);
+  o.scale_tilt = float(m.scale_tilt) * (kPi / 180);
+  o.eta = float(m.eta);
+  o.absorption = m.sigma_a ? slot(*m.sigma_a)
+                           : ColorSlot{hair_absorption(float(m.eumelanin), float(m.pheomelanin))};
+  if (m.sigma_a) o.absorption_scale = float(m.scale);
+  return std::make_unique<HairFibre>(o);
+}
+
+std::unique_ptr<Material> SceneBuilder::make(const MeasuredMaterial& m, const SourceLocation&) {
+  return std::make_unique<Measured>(m.table);
+}
+
+std::unique_ptr<Material> SceneBuilder::make(const PolarizedPlasticMaterial& m,
+                                             const SourceLocation&) {
+  const PlasticOptions o{float(m.eta), slot(m.diffuse_reflectance), slot(m.specular_reflectance)};
+  return std::make_unique<PolarizedPlastic>(o, roughness(m.interface));
+}
+
+std::unique_ptr<Material> SceneBuilder::make(const FilterMaterial& m, const SourceLocation&) {
+  return std::make_unique<Filter>(slot(m.transmittance),
+                                  m.kind == FilterKindOfLight::retarder ? 1.0f : 0.5f,
+                                  m.kind == FilterKindOfLight::circular);
+}
+
+std::unique_ptr<Material> SceneBuilder::make(const CoatingMaterial& m, const SourceLocation&) {
+  CoatingOptions o{float(m.eta), float(m.thickness), slot(m.sigma_a), slot(m.specular_reflectance),
+                   std::nullopt};
+  if (m.roughness) o.roughness = roughness(*m.roughness);
+  const Material* nested = material(m.nested);
+  return nested ? std::make_unique<Coating>(o, *nested) : nullptr;
+}
+
+std::unique_ptr<Material> SceneBuilder::make(const ThinLayerMaterial& m, const SourceLocation&) {
+  return std::make_unique<ThinLayer>(
+      ThinLayerOptions{slot(m.sigma_s), slot(m.sigma_a), float(m.thickness), float(m.g)});
 }
 
 template <class Options, class Description>

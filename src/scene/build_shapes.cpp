@@ -25,6 +25,12 @@ bool has_finite_positions(const TriangleMesh& mesh) {
   return true;
 }
 
+bool has_finite_points(const CurveSet& curves) {
+  for (const auto& [p, radius] : curves.points)
+    if (!std::isfinite(p.x) || !std::isfinite(p.y) || !std::isfinite(p.z)) return false;
+  return true;
+}
+
 /// Leaves out what neither the materials and lights nor the layers of the image read.
 void strip(TriangleMesh& mesh, const SurfaceNeeds& needs,
            const std::set<MeshAttributeMap*>& attributes) {
@@ -112,6 +118,13 @@ void SceneBuilder::add_shape(ShapeDescription& d) {
   } else if (const auto* sdf = std::get_if<SdfGridShape>(&d.geometry)) {
     shape.kind = ShapeKind::sdf_grid;
     shape.sdf = sdf->grid;
+  } else if (const auto* tubes = std::get_if<CurvesShape>(&d.geometry)) {
+    auto curves = std::make_shared<CurveSet>(*tubes->curves);
+    transform_curves(*curves, d.to_world);
+    if (!has_finite_points(*curves))
+      diagnostics_.error(d.where, "the transform moves points beyond the range of numbers");
+    shape.kind = ShapeKind::curves;
+    shape.curves = std::move(curves);
   } else {
     auto mesh = world_mesh(d);
     if (!has_finite_positions(*mesh))
@@ -119,7 +132,7 @@ void SceneBuilder::add_shape(ShapeDescription& d) {
     strip(*mesh, shape.needs, attributes_);
     shape.mesh = std::move(mesh);
   }
-  if (!shape.mesh) {
+  if (!shape.mesh && !shape.curves) {
     shape.to_world = Transform(d.to_world);
     shape.to_local = *d.to_world.inverse();
   }

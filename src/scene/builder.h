@@ -74,6 +74,12 @@ class SceneBuilder {
   std::unique_ptr<Material> make(const BumpMapMaterial& m, const SourceLocation& where);
   std::unique_ptr<Material> make(const NormalMapMaterial& m, const SourceLocation& where);
   std::unique_ptr<Material> make(const NullMaterial& m, const SourceLocation& where);
+  std::unique_ptr<Material> make(const HairMaterial& m, const SourceLocation& where);
+  std::unique_ptr<Material> make(const MeasuredMaterial& m, const SourceLocation& where);
+  std::unique_ptr<Material> make(const PolarizedPlasticMaterial& m, const SourceLocation& where);
+  std::unique_ptr<Material> make(const FilterMaterial& m, const SourceLocation& where);
+  std::unique_ptr<Material> make(const CoatingMaterial& m, const SourceLocation& where);
+  std::unique_ptr<Material> make(const ThinLayerMaterial& m, const SourceLocation& where);
   /// The material inside a bump or normal map.
   const Material* perturbed(MaterialId id, const SourceLocation& where);
 

@@ -13,9 +13,11 @@
 #include <vector>
 
 #include "base/diagnostics.h"
+#include "geometry/curves.h"
 #include "geometry/mesh.h"
 #include "geometry/sdf_grid.h"
 #include "image/filter.h"
+#include "materials/measured_table.h"
 #include "materials/microfacet_kind.h"
 #include "materials/ward_variant.h"
 #include "math/fov.h"
@@ -173,6 +175,58 @@ struct DiffuseTransmitterMaterial {
   bool operator==(const DiffuseTransmitterMaterial&) const = default;
 };
 
+/// Chiang et al. 2016, as parametrised by Mitsuba 3; absorption is per radius.
+struct HairMaterial {
+  double longitudinal_roughness = 0.3, azimuthal_roughness = 0.3;
+  double scale_tilt = 2;  ///< in degrees
+  double eta = 1.55 / 1.000277;
+  /// Concentrations, unless `sigma_a` is given.
+  double eumelanin = 1.3, pheomelanin = 0.2;
+  std::optional<ColorInput> sigma_a;
+  double scale = 1;  ///< of sigma_a
+  bool operator==(const HairMaterial&) const = default;
+};
+
+struct MeasuredMaterial {
+  std::shared_ptr<const MeasuredTable> table;
+  std::string file;
+  friend bool operator==(const MeasuredMaterial& a, const MeasuredMaterial& b) {
+    return a.table == b.table || (a.table && b.table && *a.table == *b.table);
+  }
+};
+
+/// Baek et al. 2018 without polarisation.
+struct PolarizedPlasticMaterial {
+  double eta = 1.49 / 1.000277;
+  ColorInput diffuse_reflectance = Spectrum(0.5f), specular_reflectance = Spectrum(1.0f);
+  Roughness interface;
+  bool operator==(const PolarizedPlasticMaterial&) const = default;
+};
+
+/// Mitsuba's filters for polarised light, which weaken light without polarisation.
+enum class FilterKindOfLight { polarizer, retarder, circular };
+struct FilterMaterial {
+  FilterKindOfLight kind = FilterKindOfLight::polarizer;
+  ColorInput transmittance = Spectrum(1.0f);
+  bool operator==(const FilterMaterial&) const = default;
+};
+
+/// A clear coat over another material.
+struct CoatingMaterial {
+  double eta = 1.5046 / 1.000277, thickness = 1;
+  ColorInput sigma_a = Spectrum(0.0f), specular_reflectance = Spectrum(1.0f);
+  std::optional<Roughness> roughness;  ///< isotropic: alpha_v equals alpha_u
+  MaterialId nested{};
+  bool operator==(const CoatingMaterial&) const = default;
+};
+
+/// Single scattering in a layer of a medium: Hanrahan & Krueger 1993.
+struct ThinLayerMaterial {
+  ColorInput sigma_s = Spectrum(1.0f), sigma_a = Spectrum(0.0f);
+  double thickness = 1, g = 0;
+  bool operator==(const ThinLayerMaterial&) const = default;
+};
+
 struct TwoSidedMaterial {
   MaterialId front{}, back{};
   bool operator==(const TwoSidedMaterial&) const = default;
@@ -223,7 +277,8 @@ struct MaterialDescription {
                PlasticMaterial, PrincipledMaterial, PrincipledThinMaterial, TwoSidedMaterial,
                MaskMaterial, BlendMaterial, BumpMapMaterial, NormalMapMaterial, NullMaterial,
                PhongMaterial, WardMaterial, RoughDiffuseMaterial, DiffuseTransmitterMaterial,
-               MixtureMaterial>
+               MixtureMaterial, HairMaterial, MeasuredMaterial, PolarizedPlasticMaterial,
+               FilterMaterial, CoatingMaterial, ThinLayerMaterial>
       model;
   bool operator==(const MaterialDescription&) const = default;
 };
@@ -347,6 +402,14 @@ struct SdfGridShape {
     return a.grid == b.grid || (a.grid && b.grid && *a.grid == *b.grid);
   }
 };
+/// Tubes, in the shape's own space; `to_world` moves their points but leaves the radii.
+struct CurvesShape {
+  std::shared_ptr<const CurveSet> curves;
+  std::string file;
+  friend bool operator==(const CurvesShape& a, const CurvesShape& b) {
+    return a.curves == b.curves || (a.curves && b.curves && *a.curves == *b.curves);
+  }
+};
 /// A copy of SceneDescription::groups[group].
 struct InstanceShape {
   uint32_t group = 0;
@@ -365,7 +428,7 @@ struct ShapeDescription {
   SourceLocation where;
   Label label;
   std::variant<MeshShape, RectangleShape, CubeShape, SphereShape, DiskShape, CylinderShape,
-               InstanceShape, SdfGridShape>
+               InstanceShape, SdfGridShape, CurvesShape>
       geometry;
   Matrix4 to_world;
   bool flip_normals = false;

@@ -86,6 +86,19 @@ class Survey {
   void operator()(const WardMaterial&) { ++features_.diffuse, ++features_.rough_reflection; }
   void operator()(const RoughDiffuseMaterial&) { ++features_.diffuse; }
   void operator()(const DiffuseTransmitterMaterial&) { ++features_.diffuse; }
+  void operator()(const HairMaterial&) { ++features_.rough_reflection; }
+  void operator()(const MeasuredMaterial&) { ++features_.rough_reflection; }
+  void operator()(const PolarizedPlasticMaterial& m) {
+    ++features_.diffuse, ++features_.rough_reflection;
+    features_.nearly_specular += is_sharp(m.interface);
+  }
+  void operator()(const FilterMaterial&) { ++features_.masks; }
+  void operator()(const CoatingMaterial& m) {
+    ++(m.roughness ? features_.rough_reflection : features_.mirrors);
+    features_.nearly_specular += is_sharp(m.roughness);
+    add(m.nested);
+  }
+  void operator()(const ThinLayerMaterial&) { ++features_.diffuse, ++features_.masks; }
   void operator()(const TwoSidedMaterial& m) { add(m.front), add(m.back); }
   void operator()(const MaskMaterial& m) { ++features_.masks, add(m.nested); }
   void operator()(const BlendMaterial& m) { add(m.first), add(m.second); }
@@ -153,7 +166,10 @@ class Survey {
       add_mesh(make_rectangle(), s.to_world, bounds);
     else if (std::holds_alternative<CubeShape>(s.geometry))
       add_mesh(make_cube(), s.to_world, bounds);
-    else
+    else if (const auto* tubes = std::get_if<CurvesShape>(&s.geometry)) {
+      add_curves(*tubes->curves, s.to_world, bounds);
+      features_.one_way_surfaces += is_one_way(scene_, s);
+    } else
       add_analytic(s, bounds);
   }
 
@@ -161,6 +177,12 @@ class Survey {
     ++features_.meshes;
     add_triangles(mesh.triangles.size());
     for (const Point3f& p : mesh.positions) bounds.extend(place(to_world, p));
+  }
+
+  void add_curves(CurveSet curves, const Matrix4& to_world, Bounds& bounds) {
+    features_.curve_segments += curves.segments.size();
+    transform_curves(curves, to_world);
+    bounds.extend(curve_bounds(curves));
   }
 
   void add_analytic(const ShapeDescription& s, Bounds& bounds) {
@@ -214,6 +236,7 @@ std::string describe(const SceneFeatures& f) {
                          .add(f.meshes, "mesh", "meshes")
                          .add(f.triangles, "triangle", "triangles")
                          .add(f.analytic_shapes, "analytic shape", "analytic shapes")
+                         .add(f.curve_segments, "curve segment", "curve segments")
                          .add(f.instances, "instance", "instances")
                          .text("no shapes");
   if (f.instances > 0) text += fmt::format(" ({:.0f} triangles in all copies)", f.placed_triangles);

@@ -16,7 +16,7 @@ inline constexpr double kNearlySpecular = 0.05;
 /// is placed.
 struct SceneFeatures {
   size_t meshes = 0, analytic_shapes = 0, instances = 0;
-  size_t triangles = 0;
+  size_t triangles = 0, curve_segments = 0;
   double placed_triangles = 0;  ///< with all copies
   Bounds bounds;                ///< of all surfaces, in world space; empty without surfaces
 
@@ -33,6 +33,9 @@ struct SceneFeatures {
   size_t masks = 0;            ///< partly or wholly transparent surfaces
   size_t bumps = 0;            ///< bump and normal maps
   size_t textures = 0;
+  /// Surfaces that light enters but that it cannot be followed through from its source, because
+  /// rays see them from outside only: curves of a material that lets light through.
+  size_t one_way_surfaces = 0;
 
   size_t media = 0;                ///< that shapes or sensors name
   size_t heterogeneous_media = 0;  ///< of them, those whose extinction is a grid
@@ -40,6 +43,9 @@ struct SceneFeatures {
 
   bool depth_of_field = false;  ///< of any sensor
 };
+
+/// Whether the shape counts as SceneFeatures::one_way_surfaces.
+bool is_one_way(const SceneDescription& scene, const ShapeDescription& shape);
 
 /// Looks at everything that shapes of the scene refer to.
 SceneFeatures scene_features(const SceneDescription& scene);

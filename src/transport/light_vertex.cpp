@@ -30,7 +30,8 @@ LightVertex::LightVertex(const PathVertex& v, const Hit& hit)
       instance(hit.instance),
       barycentric{0, 0},
       depth(uint32_t(v.depth)) {
-  if (v.surface.shape->kind == ShapeKind::mesh) {
+  if (const ShapeKind kind = v.surface.shape->kind;
+      kind == ShapeKind::mesh || kind == ShapeKind::curves) {
     barycentric[0] = quantize_unit(v.surface.barycentric.x);
     barycentric[1] = quantize_unit(v.surface.barycentric.y);
   }

@@ -114,6 +114,7 @@ std::vector<json> descriptions() {
 /// refraction: sampling visible normals leaves only the masking of the other direction, and
 /// Burley's lobes and normals of all facets have grazing directions that are sampled too rarely.
 float largest_weight(const json& bsdf) {
+  if (mentions(bsdf, "type", "hair")) return kInfinity;
   const std::string type = bsdf["type"];
   if (type == "diffuse" || type == "null" || type.ends_with("dielectric") ||
       type.ends_with("conductor"))

@@ -1,5 +1,8 @@
 #include "support/test_material.h"
 
+#include "materials/coating.h"
+#include "materials/special_materials.h"
+
 #include <fstream>
 #include <stdexcept>
 
@@ -110,6 +113,38 @@ PrincipledThinOptions principled_thin(const json& j) {
   return o;
 }
 
+HairOptions hair(const json& j) {
+  HairOptions o;
+  set(o.longitudinal_roughness, j, "longitudinal_roughness");
+  set(o.azimuthal_roughness, j, "azimuthal_roughness");
+  o.scale_tilt = number(j, "scale_tilt", 2) * kPi / 180;
+  o.eta = relative_index(j, 1.55f);
+  o.absorption.constant =
+      hair_absorption(number(j, "eumelanin", 1.3f), number(j, "pheomelanin", 0.2f));
+  set(o.absorption, j, "sigma_a");
+  set(o.absorption_scale, j, "scale");
+  return o;
+}
+
+CoatingOptions coating(const json& j) {
+  CoatingOptions o;
+  o.eta = relative_index(j, 1.5046f);
+  set(o.thickness, j, "thickness");
+  set(o.sigma_a, j, "sigma_a");
+  set(o.specular_reflectance, j, "specular_reflectance");
+  if (j["type"] == "roughcoating") o.roughness = roughness(j);
+  return o;
+}
+
+ThinLayerOptions thin_layer(const json& j) {
+  ThinLayerOptions o;
+  set(o.sigma_s, j, "sigma_s");
+  set(o.sigma_a, j, "sigma_a");
+  set(o.thickness, j, "thickness");
+  set(o.g, j, "g");
+  return o;
+}
+
 }  // namespace
 
 const Material& TestMaterial::make(const json& j) {
@@ -159,6 +194,15 @@ const Material& TestMaterial::make(const json& j) {
     return keep(new Mixture(std::move(parts)));
   }
   if (type == "null") return keep(new Null);
+  if (type == "hair") return keep(new HairFibre(hair(j)));
+  if (type == "pplastic") return keep(new PolarizedPlastic(plastic(j), roughness(j)));
+  if (type == "polarizer" || type == "retarder" || type == "circular") {
+    ColorSlot transmittance{Spectrum(1)};
+    set(transmittance, j, "transmittance");
+    return keep(new Filter(transmittance, type == "retarder" ? 1.0f : 0.5f, type == "circular"));
+  }
+  if (type == "coating" || type == "roughcoating") return keep(new Coating(coating(j), *nested[0]));
+  if (type == "hk") return keep(new ThinLayer(thin_layer(j)));
   if (type == "conductor") return keep(new Conductor(conductor(j)));
   if (type == "roughconductor") return keep(new RoughConductor(conductor(j), roughness(j)));
   if (type == "dielectric") return keep(new Dielectric(dielectric(j)));

@@ -1,0 +1,170 @@
+// Fibres, measurements, filters, coats and layers.
+#include "mitsuba/medium_presets.h"
+#include "mitsuba/read_roughness.h"
+#include "mitsuba/readers.h"
+#include "mitsuba/scene_reader.h"
+#include "mitsuba/text.h"
+
+namespace duet {
+
+void read_hair(SceneReader& s, Properties& p, MaterialDescription& out) {
+  HairMaterial m;
+  m.longitudinal_roughness = p.number("longitudinal_roughness");
+  m.azimuthal_roughness = p.number("azimuthal_roughness");
+  m.scale_tilt = p.number("scale_tilt");
+  m.eta = relative_index(s, p);
+  if (m.eta == 1) p.error("int_ior", "the indices of refraction of hair must differ");
+  if (p.has("sigma_a")) {
+    if (p.has("eumelanin") || p.has("pheomelanin"))
+      p.error("sigma_a", "either \"sigma_a\" or concentrations of pigments can be given");
+    m.sigma_a = s.color(p, "sigma_a");
+  }
+  m.eumelanin = p.number("eumelanin");
+  m.pheomelanin = p.number("pheomelanin");
+  m.scale = p.number("scale");
+  out.model = m;
+}
+
+void read_measured(SceneReader& s, Properties& p, MaterialDescription& out) {
+  const std::string file = s.file(p, "filename");
+  if (file.empty()) return;
+  try {
+    out.model =
+        MeasuredMaterial{std::make_shared<MeasuredTable>(s.files().read_measured(file)), file};
+  } catch (const ReadError& error) {
+    s.report().error(p.where("filename"), "{}", error.what());
+  }
+}
+
+void read_pplastic(SceneReader& s, Properties& p, MaterialDescription& out) {
+  PolarizedPlasticMaterial m;
+  m.eta = relative_index(s, p);
+  if (m.eta == 1) p.error("int_ior", "the indices of refraction of \"pplastic\" must differ");
+  m.diffuse_reflectance = s.color(p, "diffuse_reflectance");
+  m.specular_reflectance = s.color(p, "specular_reflectance");
+  m.interface = checked_roughness(s, p);
+  out.model = m;
+}
+
+void read_filter_of_light(SceneReader& s, Properties& p, MaterialDescription& out) {
+  FilterMaterial m;
+  const std::string_view name = p.node().plugin->name;
+  m.kind = name == "polarizer"  ? FilterKindOfLight::polarizer
+           : name == "retarder" ? FilterKindOfLight::retarder
+                                : FilterKindOfLight::circular;
+  m.transmittance = s.color(p, "transmittance");
+  s.report().warning(p.node().where, "{} sees light without polarisation: it {}",
+                     describe(p.node()),
+                     m.kind == FilterKindOfLight::retarder ? "changes only its intensity"
+                                                           : "lets half of it pass");
+  out.model = m;
+}
+
+void read_coating(SceneReader& s, Properties& p, MaterialDescription& out) {
+  CoatingMaterial m;
+  m.eta = relative_index(s, p);
+  if (!(m.eta > 1))
+    p.error("int_ior", "the index of refraction of a coating must be larger inside than outside");
+  m.thickness = p.number("thickness");
+  m.sigma_a = s.color(p, "sigma_a");
+  m.specular_reflectance = s.color(p, "specular_reflectance");
+  if (p.node().type.starts_with("rough")) m.roughness = checked_roughness(s, p);
+  const auto children = p.children(PluginKind::bsdf);
+  if (children.size() != 1)
+    return s.report().error(p.node().where, "{} needs one nested BSDF, not {}", describe(p.node()),
+                            children.size());
+  const auto nested = s.material(*children[0].node);
+  if (!nested) return;
+  m.nested = *nested;
+  out.model = m;
+}
+
+namespace {
+
+struct Coefficients {
+  ColorInput sigma_s, sigma_a;
+};
+
+/// Mitsuba 0.6: coefficients in pairs, or a material's. A texture counts only in the first pair.
+Coefficients read_coefficients(SceneReader& s, Properties& p) {
+  const bool pair = p.has("sigma_s") || p.has("sigma_a");
+  const bool other = p.has("sigma_t") || p.has("albedo");
+  if (pair + other + p.has("material") > 1)
+    p.error(pair ? (p.has("sigma_s") ? "sigma_s" : "sigma_a") : "material",
+            "only one of a material, \"sigma_s\" with \"sigma_a\", and \"sigma_t\" with \"albedo\" "
+            "can be given");
+  const std::string name = p.string("material");
+  const MediumPreset* preset = find_medium_preset(name);
+  if (!preset) {
+    p.error("material", "no medium is known by the name {}{}", in_quotes(name),
+            did_you_mean(to_lower(name), medium_preset_names()));
+    return {Spectrum(1), Spectrum(0)};
+  }
+  Coefficients c{preset->sigma_s, preset->sigma_a};
+  if (pair) {
+    if (p.has("sigma_s")) c.sigma_s = s.color(p, "sigma_s");
+    if (p.has("sigma_a")) c.sigma_a = s.color(p, "sigma_a");
+  } else if (other) {
+    const Spectrum sum = preset->sigma_s + preset->sigma_a;
+    const Spectrum sigma_t = p.has("sigma_t") ? s.constant_color(p, "sigma_t") : sum;
+    Spectrum albedo = p.has("albedo") ? s.constant_color(p, "albedo") : Spectrum(0.5f);
+    if (!p.has("albedo"))
+      for (int i = 0; i < 3; ++i) albedo[i] = sum[i] > 0 ? preset->sigma_s[i] / sum[i] : 0.0f;
+    c.sigma_s = sigma_t * albedo;
+    c.sigma_a = sigma_t * (Spectrum(1) - albedo);
+  }
+  return c;
+}
+
+}  // namespace
+
+void read_hk(SceneReader& s, Properties& p, MaterialDescription& out) {
+  ThinLayerMaterial m;
+  const Coefficients c = read_coefficients(s, p);
+  m.sigma_s = c.sigma_s, m.sigma_a = c.sigma_a;
+  m.thickness = p.number("thickness");
+  if (const Node* node = p.child(PluginKind::phase)) {
+    const auto id = s.phase(*node);
+    const PhaseDescription* phase = id ? &s.description().phases[size_t(*id)] : nullptr;
+    if (const auto* hg = phase ? std::get_if<HenyeyGreensteinPhase>(&phase->model) : nullptr)
+      m.g = hg->g;
+    else if (phase && !std::holds_alternative<IsotropicPhase>(phase->model))
+      s.approximate_loudly(node->where, "the phase function of \"hk\" is isotropic");
+  }
+  out.model = m;
+}
+
+void read_sssbrdf(SceneReader& s, Properties& p, MaterialDescription& out) {
+  s.approximate_loudly(p.node().where,
+                       "\"sssbrdf\" is a rough plastic whose base reflects what a dipole of its "
+                       "coefficients does");
+  PlasticMaterial m;
+  m.eta = relative_index(s, p);
+  m.nonlinear = true;
+  m.roughness = checked_roughness(s, p);
+  const Coefficients c = read_coefficients(s, p);
+  const Spectrum* sigma_s = std::get_if<Spectrum>(&c.sigma_s);
+  const Spectrum* sigma_a = std::get_if<Spectrum>(&c.sigma_a);
+  if (!sigma_s || !sigma_a)
+    return p.error("sigma_s", "the coefficients of \"sssbrdf\" cannot be textures");
+  const float g = float(p.number("g"));
+  // Total diffuse reflectance of the dipole: Jensen et al., "A Practical Model for Subsurface Light
+  // Transport", 2001, section 2.4; internal reflection by their fit.
+  const double eta = m.eta;
+  const double fdr = -1.440 / (eta * eta) + 0.710 / eta + 0.668 + 0.0636 * eta;
+  const double a = (1 + fdr) / (1 - fdr);
+  Spectrum base;
+  for (int i = 0; i < 3; ++i) {
+    const double reduced = double((*sigma_s)[i]) * (1 - double(g));
+    const double sum = reduced + double((*sigma_a)[i]);
+    const double albedo = sum > 0 ? reduced / sum : 0;
+    const double root = std::sqrt(3 * (1 - albedo));
+    const double total = 0.5 * albedo * (1 + std::exp(-4.0 / 3 * a * root)) * std::exp(-root);
+    // What the base of a plastic must be so that the light it gives back is the same.
+    base[i] = float(std::min(total * eta * eta / (1 + total * eta * eta * fdr), 1.0));
+  }
+  m.diffuse_reflectance = base;
+  out.model = m;
+}
+
+}  // namespace duet

@@ -1,0 +1,193 @@
+#include "geometry/curves.h"
+
+#include <doctest/doctest.h>
+
+#include <cmath>
+
+#include "geometry/accel.h"
+#include "geometry/surface.h"
+
+using namespace duet;
+
+namespace {
+
+/// Two B-splines or polylines, as in the file that Mitsuba 3.9.1 was asked about.
+CurveSet two_curves(CurveKind kind) {
+  CurveSet c;
+  c.kind = kind;
+  c.points = {{{-1, 0, 0}, 0.1f}, {{-0.3f, 0, 0.2f}, 0.1f}, {{0.4f, 0.1f, 0}, 0.2f},
+              {{1, 0, 0}, 0.05f}, {{1.5f, 0.3f, 0}, 0.05f}, {{-1, 1, 0}, 0.1f},
+              {{0, 1, 0}, 0.1f},  {{1, 1.2f, 0}, 0.2f},     {{2, 1, 0}, 0.1f}};
+  c.segments = kind == CurveKind::linear ? std::vector<uint32_t>{0, 1, 2, 3, 5, 6, 7}
+                                         : std::vector<uint32_t>{0, 1, 5};
+  return c;
+}
+
+struct Tubes {
+  std::vector<Shape> shapes{1};
+  std::vector<ShapeRange> groups;
+  std::vector<Instance> instances;
+  std::unique_ptr<Accel> accel;
+
+  explicit Tubes(CurveSet curves) {
+    shapes[0].kind = ShapeKind::curves;
+    shapes[0].curves = std::make_shared<CurveSet>(std::move(curves));
+    shapes[0].needs = {.uv = true, .tangents = true};
+    accel = std::make_unique<Accel>(shapes, ShapeRange{0, 1}, groups, instances, 1);
+  }
+  bool hit(const Ray& ray, Surface& s, float& t) const {
+    Hit h;
+    if (!accel->closest_hit(ray, h)) return false;
+    t = h.t;
+    s = make_surface(shapes[0], nullptr, ray, h);
+    return true;
+  }
+};
+
+bool near(const Vector3f& a, const Vector3f& b) {
+  return length(a - b) < 2e-4f * (1 + length(b));
+}
+
+/// What Mitsuba 3.9.1 (scalar_rgb) says of a ray.
+struct Answer {
+  Point3f o;
+  Vector3f d;
+  float t;
+  Normal3f n;
+  Point2f uv;
+  Vector3f s, dp_du;
+};
+
+void compare(const Tubes& tubes, const Answer& a, bool tangents) {
+  CAPTURE(a.o.x);
+  CAPTURE(a.o.y);
+  Surface s;
+  float t;
+  REQUIRE(tubes.hit({a.o, a.d, INFINITY}, s, t));
+  CHECK(t == doctest::Approx(a.t).epsilon(1e-4));
+  CHECK(near(Vector3f(s.ng), Vector3f(a.n)));
+  CHECK(near(Vector3f(s.shading.n), Vector3f(a.n)));
+  CHECK(s.uv.x == doctest::Approx(a.uv.x).epsilon(1e-3));
+  CHECK(s.uv.y == doctest::Approx(a.uv.y).epsilon(1e-3));
+  CHECK(near(s.shading.s, a.s));
+  if (!tangents) return;
+  CHECK(near(s.dp_du, a.dp_du));
+}
+
+}  // namespace
+
+TEST_SUITE("curves") {
+  TEST_CASE("surfaces of B-splines are those of Mitsuba") {
+    const Tubes tubes(two_curves(CurveKind::bspline));
+    compare(tubes,
+            {{0.1f, 0, 5},
+             {0, 0, -1},
+             4.771463f,
+             {0.127414f, -0.34128f, 0.931286f},
+             {0.307279f, 0.17742f},
+             {0.0184774f, -0.937959f, -0.346254f},
+             {0.0172577f, -0.876042f, -0.323396f}},
+            true);
+    compare(tubes,
+            {{0.7f, 1.15f, 5},
+             {0, 0, -1},
+             4.844063f,
+             {-0.0637955f, 0.194749f, 0.978776f},
+             {0.217953f, 0.900976f},
+             {0.0901042f, -0.975644f, 0.199998f},
+             {0.0901027f, -0.975628f, 0.199995f}},
+            true);
+  }
+
+  TEST_CASE("surfaces of linear curves are those of Mitsuba") {
+    const Tubes tubes(two_curves(CurveKind::linear));
+    compare(tubes,
+            {{0.1f, 0, 5},
+             {0, 0, -1},
+             4.765401f,
+             {0.170264f, -0.348158f, 0.921844f},
+             {0.310698f, 0.219159f},
+             {0.984916f, 0.0308447f, -0.170264f},
+             {}},
+            false);
+    compare(tubes,
+            {{0.7f, 1.15f, 5},
+             {0, 0, -1},
+             4.829265f,
+             {-0.107345f, 0.0367225f, 0.993543f},
+             {0.240869f, 0.816921f},
+             {0.99422f, 0.00197737f, 0.107345f},
+             {}},
+            false);
+    // The spherical end.
+    compare(tubes,
+            {{-1.05f, 0, 5},
+             {0, 0, -1},
+             4.913397f,
+             {-0.499999f, 0, 0.866026f},
+             {0.25f, 0},
+             {0.866026f, 0, 0.499999f},
+             {}},
+            false);
+  }
+
+  TEST_CASE("rays from inside see nothing, unless the hair is of 0.6") {
+    for (const CurveKind kind : {CurveKind::linear, CurveKind::bspline}) {
+      CurveSet curves = two_curves(kind);
+      const Ray within{{0.4f, 0.06f, 0.04f}, {0.1f, 0.1f, 1}, INFINITY};
+      Surface s;
+      float t;
+      CHECK_FALSE(Tubes(curves).hit(within, s, t));
+      CHECK_FALSE(Tubes(curves).accel->occluded(within));
+      curves.outside_only = false;
+      const Tubes both(curves);
+      CHECK(both.hit(within, s, t));
+      CHECK(both.accel->occluded(within));
+    }
+  }
+
+  TEST_CASE("the centre's derivatives are those of its position and radius") {
+    const CurveSet c = two_curves(CurveKind::bspline);
+    for (const float u : {0.1f, 0.5f, 0.9f}) {
+      const float h = 1e-2f;
+      const CurveCenter a = curve_center(c, 1, u - h), b = curve_center(c, 1, u + h),
+                        m = curve_center(c, 1, u);
+      CHECK(near((b.position - a.position) * (0.5f / h), m.first));
+      CHECK((b.radius - a.radius) / (2 * h) == doctest::Approx(m.radius_slope).epsilon(2e-3));
+      CHECK(near((b.first - a.first) * (0.5f / h), m.second));
+    }
+  }
+
+  TEST_CASE("segments join smoothly") {
+    const CurveSet c = two_curves(CurveKind::bspline);
+    const CurveCenter a = curve_center(c, 0, 1), b = curve_center(c, 1, 0);
+    CHECK(near(a.position - b.position, Vector3f(0)));
+    CHECK(near(a.first, b.first));
+    CHECK(near(a.second, b.second));
+    CHECK(a.radius == doctest::Approx(b.radius));
+  }
+
+  TEST_CASE("a surface point lies on its tube, and rays that leave it do not meet it again") {
+    for (const CurveKind kind : {CurveKind::linear, CurveKind::bspline}) {
+      const Tubes tubes(two_curves(kind));
+      int hits = 0;
+      for (int i = 0; i < 2000; ++i) {
+        const float angle = 0.37f * float(i), y = -0.3f + 0.001f * float(i);
+        const Ray ray{{-1.5f + 0.002f * float(i), y, 3},
+                      normalize(Vector3f(0.3f * std::cos(angle), 0.3f * std::sin(angle), -1)),
+                      INFINITY};
+        Surface s;
+        float t;
+        if (!tubes.hit(ray, s, t)) continue;
+        ++hits;
+        CHECK(length(s.position - (ray.origin + ray.direction * t)) < 1e-3f);
+        CHECK(dot(Vector3f(s.ng), ray.direction) < 0);
+        // Straight away from the surface: nothing but another tube could be there.
+        Hit again;
+        const Ray away = spawn_ray(s, Vector3f(s.ng));
+        if (tubes.accel->closest_hit(away, again)) CHECK(again.t > 0.05f);
+      }
+      CHECK(hits > 100);
+    }
+  }
+}

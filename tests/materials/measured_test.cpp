@@ -1,0 +1,165 @@
+// Measured materials: against Mitsuba's numbers, and their sampling against their density.
+#include <doctest/doctest.h>
+
+#include <cstring>
+
+#include "materials/special_materials.h"
+#include "math/sampler.h"
+#include "math/statistics.h"
+#include "math/warp.h"
+#include "measured/measured_file.h"
+#include "support/bsdf_checks.h"
+
+using namespace duet;
+using namespace duet::test;
+
+namespace {
+
+const MeasuredBrdf& brdf(bool anisotropic) {
+  static const auto load = [](const char* name) {
+    return MeasuredBrdf(std::make_shared<MeasuredTable>(
+        read_measured(std::string(DUET_SOURCE_DIR "/scenes/bsdf-measured/") + name)));
+  };
+  static const MeasuredBrdf first = load("isotropic.bsdf"), second = load("anisotropic.bsdf");
+  return anisotropic ? second : first;
+}
+
+/// What Mitsuba 3.9.1 (scalar_rgb) says of the files of scenes/bsdf-measured, the first half for
+/// the isotropic one.
+struct Row {
+  Vector3f wo, wi;
+  Spectrum value;
+  float pdf;
+};
+constexpr int kRows = 10;
+const Row* rows() {
+  static const Row table[kRows] = {
+      {{0.3f, 0.2f, 0.8f}, {-0.3f, -0.1f, 0.9f}, {0.253484f, 0.168989f, 0.0844945f}, 1.84f},
+      {{-0.5f, 0.4f, 0.3f}, {0.1f, 0.2f, 0.7f}, {0.088771f, 0.0591807f, 0.0295903f}, 0.00994486f},
+      {{0.2f, -0.7f, 0.5f}, {-0.6f, 0.3f, 0.2f}, {0.0673767f, 0.0449178f, 0.0224589f}, 0.0155819f},
+      {{-0.6f, -0.6f, 0.2f}, {0.7f, 0.5f, 0.3f}, {0.298851f, 0.199234f, 0.0996171f}, 0.359356f},
+      {{0.0f, 0.1f, 1.0f}, {0.3f, -0.3f, 0.4f}, {0.0959828f, 0.0639885f, 0.0319943f}, 0.0632742f},
+      {{0.3f, 0.2f, 0.8f}, {-0.3f, -0.1f, 0.9f}, {0.260592f, 0.173728f, 0.0868641f}, 1.77276f},
+      {{-0.5f, 0.4f, 0.3f}, {0.1f, 0.2f, 0.7f}, {0.0866655f, 0.057777f, 0.0288885f}, 0.0180513f},
+      {{0.2f, -0.7f, 0.5f}, {-0.6f, 0.3f, 0.2f}, {0.066401f, 0.0442673f, 0.0221337f}, 0.0211505f},
+      {{-0.6f, -0.6f, 0.2f}, {0.7f, 0.5f, 0.3f}, {0.304442f, 0.202961f, 0.101481f}, 0.383604f},
+      {{0.0f, 0.1f, 1.0f}, {0.3f, -0.3f, 0.4f}, {0.0919686f, 0.0613124f, 0.0306562f}, 0.081568f},
+  };
+  return table;
+}
+
+std::string bytes_of(const char* name) {
+  ByteReader in(std::string(DUET_SOURCE_DIR "/scenes/bsdf-measured/") + name);
+  const size_t size = size_t(in.size());
+  return {reinterpret_cast<const char*>(in.take(size, "it")), size};
+}
+
+MeasuredTable parse(const std::string& bytes) {
+  ByteReader in("m.bsdf", {reinterpret_cast<const uint8_t*>(bytes.data()), bytes.size()});
+  return parse_measured(in);
+}
+
+std::string error_of(const std::string& bytes) {
+  try {
+    parse(bytes);
+  } catch (const ReadError& e) {
+    return e.what();
+  }
+  return "";
+}
+
+}  // namespace
+
+TEST_SUITE("measured materials") {
+  TEST_CASE("values and densities are those of Mitsuba") {
+    for (int i = 0; i < kRows; ++i) {
+      const Row& r = rows()[i];
+      const MeasuredModel model{&brdf(i >= kRows / 2)};
+      const ModelEval e = model.eval(normalize(r.wo), normalize(r.wi), Transport::radiance);
+      CAPTURE(i);
+      CHECK_MESSAGE(close(e.value, r.value, 1e-3), text(e.value), ", Mitsuba ", text(r.value));
+      CHECK_MESSAGE(close(double(e.pdf), double(r.pdf), 1e-3), e.pdf, ", Mitsuba ", r.pdf);
+    }
+  }
+
+  TEST_CASE("what is sampled has the density") {
+    // Means of smooth functions over samples, against their integrals with the density.
+    for (const bool anisotropic : {false, true})
+      for (const Transport transport : kTransports)
+        for (const Vector3f& view : {Vector3f(0.3f, 0.2f, 0.8f), Vector3f(-0.5f, 0.4f, 0.3f)}) {
+          const MeasuredModel model{&brdf(anisotropic)};
+          const Vector3f wo = normalize(view);
+          const auto g = [](const Vector3f& w, int k) {
+            return k == 0 ? 1.0 : k == 1 ? double(w.x) : k == 2 ? double(w.y * w.y) : double(w.z);
+          };
+          Moments sampled[4], integral[4], values[4], integrated[4];
+          Sampler sampler(SampleSequence::sobol, 3, 1, 0);
+          constexpr int kSamples = 1 << 17;
+          for (int i = 0; i < kSamples; ++i) {
+            sampler.start_sample(uint32_t(i));
+            const auto s = model.sample(wo, 0, sampler.next_2d(), transport);
+            const Vector3f w = square_to_cosine_hemisphere(sampler.next_2d());
+            const ModelEval e = model.eval(wo, w, transport);
+            const double inverse = w.z > 0 ? kPi / double(w.z) : 0;
+            for (int k = 0; k < 4; ++k) {
+              sampled[k].add(s ? g(s->wi, k) : 0.0);
+              integral[k].add(double(e.pdf) * inverse * g(w, k));
+              values[k].add(s ? double(s->weight.g) * g(s->wi, k) : 0.0);
+              integrated[k].add(double(e.value.g) * inverse * g(w, k));
+            }
+          }
+          for (int k = 0; k < 4; ++k) {
+            CAPTURE(anisotropic);
+            CAPTURE(name(transport));
+            CAPTURE(k);
+            CHECK(std::abs(sampled[k].mean() - integral[k].mean()) <
+                  5 * std::hypot(sampled[k].error(), integral[k].error()));
+            CHECK(std::abs(values[k].mean() - integrated[k].mean()) <
+                  5 * std::hypot(values[k].error(), integrated[k].error()));
+          }
+        }
+  }
+
+  TEST_CASE("a warp and its inverse") {
+    MeasuredTable::Grid grid;
+    grid.size = {4, 3};
+    grid.values = {1, 2, 0, 1, 3, 1, 1, 0.5f, 0, 2, 1, 4, 2, 2, 2, 2, 1, 0, 3, 1, 1, 1, 1, 1};
+    const std::vector<float> first{0}, second{0, 1};
+    const WarpGrid warp(grid, first, second);
+    for (const float weight : {0.0f, 0.3f, 1.0f})
+      for (int i = 0; i < 50; ++i) {
+        const Point2f u(0.01f + 0.0193f * float(i), 0.99f - 0.0187f * float(i));
+        const WarpGrid::Mix mix = warp.mix(0, weight);
+        float a, b;
+        const Point2f p = warp.sample(mix, u, a);
+        const Point2f back = warp.invert(mix, p, b);
+        CHECK(back.x == doctest::Approx(u.x).epsilon(1e-3));
+        CHECK(back.y == doctest::Approx(u.y).epsilon(1e-3));
+        CHECK(a == doctest::Approx(b).epsilon(1e-3));
+        CHECK(warp.density(mix, p) == doctest::Approx(b).epsilon(1e-3));
+      }
+  }
+
+  TEST_CASE("files that are not what they should be") {
+    const std::string good = bytes_of("isotropic.bsdf");
+    CHECK(error_of(good).empty());
+    CHECK(error_of("tensor") == "m.bsdf: is not a measured material (a tensor file)");
+    CHECK(error_of(good.substr(0, good.size() - 2000)).find("ends in the middle of the field") !=
+          std::string::npos);
+    std::string other = good;
+    other[12] = 2;
+    CHECK(error_of(other) == "m.bsdf: is of version 2.0; only 1.0 is known");
+    std::string spectral = good;
+    spectral.replace(spectral.find("rgb"), 3, "xyz");
+    CHECK(error_of(spectral) == "m.bsdf: has no field \"rgb\"");
+    std::string negative = good;
+    const MeasuredTable table = parse(good);
+    const float value = table.vndf.values[7];
+    char bytes[4];
+    std::memcpy(bytes, &value, 4);
+    const size_t at = negative.find(std::string(bytes, 4));
+    REQUIRE(at != std::string::npos);
+    negative[at + 3] = char(negative[at + 3] | 0x80);
+    CHECK(error_of(negative).find("the field \"vndf\" has the value -") != std::string::npos);
+  }
+}
