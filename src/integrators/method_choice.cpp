@@ -352,6 +352,8 @@ MethodChoice choose_method(const Scene& scene, const AutoIntegratorDescription& 
   if (!rules.has_lights) return without_pilot(options, "the scene has no lights");
   if (options.max_depth >= 0 && options.max_depth < 2)
     return without_pilot(options, "paths of one segment are seen directly");
+  if (!scene.camera->connectible())
+    return without_pilot(options, "the sensor cannot be joined with walks from lights");
   if (rules.far_lights_only && !rules.needs_light_walks && shows_little(scene, outlook.film))
     return without_pilot(options, "walks from lights so far away would miss what the image shows");
 

@@ -3,16 +3,17 @@
 namespace duet {
 
 MethodRules method_rules(const SceneFeatures& f) {
-  const size_t near_lights = f.area_lights + f.point_lights + f.spot_lights + f.projectors;
-  const size_t far_lights =
-      f.directional_lights + size_t(f.constant_environment) + size_t(f.environment_map);
+  const size_t near_lights =
+      f.area_lights + f.point_lights + f.spot_lights + f.projectors + f.beams;
+  const size_t far_lights = f.directional_lights + size_t(f.constant_environment) +
+                            size_t(f.environment_map) + size_t(f.sky);
   const bool delta_lights =
       f.point_lights + f.spot_lights + f.projectors + f.directional_lights > 0;
   // A surface that lets light pass unchanged stops light samples as glass does.
   const bool delta_surfaces = f.mirrors + f.smooth_glass + f.masks > 0;
   MethodRules rules;
   rules.has_lights = near_lights + far_lights > 0;
-  rules.needs_light_walks = delta_lights && delta_surfaces;
+  rules.needs_light_walks = (delta_lights && delta_surfaces) || f.beams > 0;
   rules.may_merge = rules.has_lights && (delta_surfaces || f.nearly_specular > 0);
   rules.far_lights_only = rules.has_lights && near_lights == 0;
   return rules;
