@@ -17,7 +17,7 @@ mi.set_variant('scalar_rgb')
 DATA = Path(mi.__file__).parent / 'data' / 'sunsky'
 TARGET = Path(__file__).resolve().parent.parent / 'src' / 'lights' / 'sky_tables.cpp'
 # Mitsuba's RGB variants scale the sun so that it fits the sky's data, which are in units of their own.
-SUN_SCALE = 4.384807
+SUN_SCALE = 467.069280386 / 106.7502593994140625
 TO_SRGB = np.array([[3.240479, -1.537150, -0.498535], [-0.969256, 1.875991, 0.041556], [0.055648, -0.204043, 1.057311]])
 
 

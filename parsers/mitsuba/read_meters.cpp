@@ -27,21 +27,20 @@ void check_not_both(Properties& p, std::string_view name) {
 }
 
 void read_target(SceneReader& s, Properties& p, SensorDescription& out) {
-  const Property* target = p.find("target");
-  if (!target) return;
-  const Node* const* node = std::get_if<const Node*>(&target->value);
-  if (!node) {
-    out.target_point = p.triple("target");
-    return;
-  }
-  if ((*node)->kind != PluginKind::shape) return p.wrong_type("target", *target);
-  s.shape(**node, out.target_shape, false);
+  if (p.has("target")) out.target_point = p.triple("target");
+  const auto shapes = p.children(PluginKind::shape);
+  if (shapes.empty()) return;
+  if (shapes.size() > 1 || out.target_point || shapes[0].property->name != "target")
+    return s.report().error(shapes[0].property->where, "{} has one \"target\": a point or a shape",
+                            describe(p.node()));
+  const Node& node = *shapes[0].node;
+  s.shape(node, out.target_shape, false);
   if (out.target_shape.size() == 1 &&
       !std::holds_alternative<InstanceShape>(out.target_shape[0].geometry) &&
       !out.target_shape[0].emission)
     return;
-  if ((*node)->plugin && !s.report().has_errors())
-    p.error("target", "a target is a point or a shape that neither shines nor holds others");
+  if (node.plugin && !s.report().has_errors())
+    s.report().error(node.where, "a target neither shines nor holds other shapes");
   out.target_shape.clear();
 }
 

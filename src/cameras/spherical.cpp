@@ -39,7 +39,9 @@ std::optional<CameraSample> SphericalCamera::sample_lens(const Point3f& from,
   if (!(d2 > 0)) return std::nullopt;
   const Vector3f w = v * (1 / std::sqrt(d2));
   const float x = dot(w, x_), y = dot(w, y_), z = dot(w, z_), r = std::sqrt(x * x + z * z);
-  const Point2f film{atan2_turns(x, -z) * float(film_.x), 2 * atan2_turns(r, y) * float(film_.y)};
+  const float turns = atan2_turns(x, -z);
+  const Point2f film{(turns < 0 ? turns + 1 : turns) * float(film_.x),
+                     2 * atan2_turns(r, y) * float(film_.y)};
   if (!on_film(film, film_)) return std::nullopt;
   return CameraSample{film, -w, eye_, density(r) / d2};
 }

@@ -11,8 +11,6 @@ namespace duet {
 namespace {
 
 constexpr double kPiD = 3.14159265358979323846;
-/// The sun's true aperture, for which its irradiance is tabulated.
-constexpr double kTrueAperture = 0.5358 * kPiD / 180;
 /// The models' units to those of radiance.
 constexpr float kUnit = float(1 / 106.7502593994140625);
 
@@ -170,7 +168,8 @@ float Sky::density(const Vector3f& w, bool in_sun) const {
   const float sun = in_sun ? sun_share_ * sun_density_ : 0.0f;
   if (!(w.z >= lowest_)) return sun;
   const float row = (w.z - lowest_) / (1 - lowest_) * kRows;
-  const float column = atan2_turns(w.y, w.x) * kColumns;
+  const float turns = atan2_turns(w.y, w.x);
+  const float column = (turns < 0 ? turns + 1 : turns) * kColumns;
   const int i = std::clamp(int(row), 0, kRows - 1), j = std::clamp(int(column), 0, kColumns - 1);
   return sun + (1 - sun_share_) * cells_.probability(uint32_t(i * kColumns + j)) * cell_density_;
 }

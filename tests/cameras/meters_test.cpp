@@ -151,7 +151,7 @@ TEST_CASE("a spherical camera sees all directions, and is seen from them") {
     REQUIRE(any);
     area += double(any->importance) * 9 * 4 * 3.14159265 / n;
   }
-  CHECK(area == doctest::Approx(32 * 16).epsilon(0.01));
+  CHECK(area == doctest::Approx(32 * 16).epsilon(0.04));  // 1 / sin θ at the poles
   // The first row is +y, its left edge −z.
   const SphericalCamera plain(Transform(), size);
   CHECK(plain.sample_ray({5, 0}, {}).direction.y > 0.999f);

@@ -23,7 +23,7 @@ TEST_CASE("a beam leaves along its axis with all its power") {
 TEST_CASE("a directional area lights what lies before it, for methods that walk from lights") {
   // A square of side 1 that shines down on a white floor of side 4, seen from below the light.
   const std::string content =
-      camera_xml("0,-3,0.7", "0,0,0", 8) +
+      camera_xml("0,-3,3", "0,0,0", 24) +
       "<shape type='rectangle'><transform name='to_world'><scale value='2'/></transform>" +
       "<bsdf type='diffuse'><rgb name='reflectance' value='0.5'/></bsdf></shape>"
       "<shape type='rectangle'><transform name='to_world'><scale value='0.5'/><rotate x='1' "
@@ -33,10 +33,10 @@ TEST_CASE("a directional area lights what lies before it, for methods that walk 
       "value='3'/></integrator>";
   const TransportScene scene(content);
   const auto sum = [&](const std::string& method) {
-    const RenderResult r = scene.render(method, {}, 256, 7);
+    const RenderResult r = scene.render(method, {}, 64, 7);
     double g = 0;
     for (size_t i = 1; i < r.image.data.size(); i += 4) g += double(r.image.data[i]);
-    return g / 64;
+    return g / (24 * 24);
   };
   const double ptracer = sum("ptracer");
   // Each point of the lit square sends 4 · 0.5 / π; the others nothing.
@@ -45,9 +45,9 @@ TEST_CASE("a directional area lights what lies before it, for methods that walk 
   CHECK(sum("bdpt") == doctest::Approx(ptracer).epsilon(0.03));
   CHECK(sum("vcm") == doctest::Approx(ptracer).epsilon(0.05));
   CHECK(sum("path") == 0);
-  const RenderResult r = scene.render("ptracer", {}, 2048, 3);
+  const RenderResult r = scene.render("ptracer", {}, 256, 3);
   float brightest = 0;
   for (size_t i = 1; i < r.image.data.size(); i += 4)
     brightest = std::max(brightest, r.image.data[i]);
-  CHECK(brightest == doctest::Approx(4 * 0.5 / 3.14159265).epsilon(0.08));
+  CHECK(brightest == doctest::Approx(4 * 0.5 / 3.14159265).epsilon(0.1));
 }

@@ -52,7 +52,7 @@ TEST_CASE("an irradiance meter belongs to its shape") {
   REQUIRE(r.scene);
   REQUIRE(r.description().sensors.size() == 1);
   CHECK(r.description().sensors[0].shape == 1);
-  CHECK(read_sensors("3.0.0", kMeter).has("sensor \"irradiancemeter\" must stand in a shape"));
+  CHECK(read_sensors("3.0.0", kMeter).has("must stand in a shape"));
   CHECK(read_sensors("3.0.0", "<shape type='sphere'><sensor type='perspective'/></shape>")
             .has("cannot stand in a shape"));
   CHECK(read_sensors("3.0.0", "<shape type='shapegroup'><shape type='sphere'>" + kMeter +
@@ -73,6 +73,10 @@ TEST_CASE("sensors that make no sense are errors") {
   bad("<sensor type='distant'><vector name='direction' value='0 0 1'/><transform name='to_world'>"
       "<scale value='2'/></transform></sensor>",
       "can be given");
+  bad("<sensor type='distant'><shape type='sphere'/></sensor>", "one \"target\"");
+  bad("<sensor type='distant'><shape type='sphere' name='target'><emitter type='area'/></shape>"
+      "</sensor>",
+      "neither shines");
   bad("<sensor type='batch'/>", "needs a sensor");
   bad("<sensor type='perspective_rdist'><string name='kc' value='1'/></sensor>",
       "two coefficients");
@@ -86,17 +90,17 @@ TEST_CASE("the sun stands where Mitsuba's stands") {
   const auto sun = [](const std::string& content) {
     return light<SkyLight>("3.0.0", "sunsky", content).first.sun;
   };
-  check_direction(sun(""), {0.05138545, 0.69174796, 0.7203085}, 5e-4);
+  check_direction(sun(""), {0.05138545, 0.69174796, 0.7203085}, 1e-3);
   check_direction(
       sun("<integer name='year' value='2024'/><integer name='month' value='2'/><integer name='day' "
           "value='29'/><float name='hour' value='9.5'/><float name='minute' value='12'/><float "
           "name='second' value='30'/><float name='latitude' value='51.5'/><float name='longitude' "
           "value='-0.12'/><float name='timezone' value='0'/>"),
-      {0.6976201, -0.60466504, 0.38432583}, 5e-4);
+      {0.6976201, -0.60466504, 0.38432583}, 1e-3);
   check_direction(sun("<float name='hour' value='6'/><float name='latitude' value='-33.9'/><float "
                       "name='longitude' value='151.2'/><float name='timezone' value='10'/><integer "
                       "name='month' value='12'/>"),
-                  {0.29459327, -0.92015946, 0.25791726}, 5e-4);
+                  {0.29459327, -0.92015946, 0.25791726}, 1e-3);
   // At noon of the equinox on the equator it stands overhead.
   const SunAngles a = sun_angles({2010, 3, 20, 12.12, 0, 0}, {0, 0, 0});
   CHECK(a.zenith < 0.01);
