@@ -252,6 +252,10 @@ void Properties::report_unused(const Entry& e) {
       report_.error(p.where, "{} is not supported yet", expected(known));
       return;
     }
+    if (known.support == Support::refused) {
+      report_.error(p.where, "{} is refused: {}", expected(known), known.note);
+      return;
+    }
     // Asking for what happens anyway needs no remark.
     const std::string value = std::visit(
         [](const auto& v) -> std::string {

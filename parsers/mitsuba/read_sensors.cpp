@@ -3,49 +3,18 @@
 
 #include "mitsuba/focal_length.h"
 #include "mitsuba/readers.h"
-#include "mitsuba/scene_reader.h"
+#include "mitsuba/sensor_parts.h"
 #include "mitsuba/text.h"
 
 namespace duet {
 
 namespace {
 
-/// Cameras have no size: their transform may turn, mirror and move, not stretch.
-void check_rigid(Properties& p, const Matrix4& m) {
-  for (int i = 0; i < 3; ++i)
-    for (int j = i; j < 3; ++j) {
-      const double product = m[i][0] * m[j][0] + m[i][1] * m[j][1] + m[i][2] * m[j][2];
-      if (std::abs(product - (i == j ? 1 : 0)) > 1e-3) {
-        p.error("to_world", "the transform of {} must not scale", describe(p.node()));
-        return;
-      }
-    }
-}
-
-/// What all sensors have.
-void read_common(SceneReader& s, Properties& p, SensorDescription& out) {
-  out.where = p.node().where;
-  out.label = {p.node().id};
-  out.to_world = p.transform("to_world");
-  out.near_clip = p.number("near_clip");
-  out.far_clip = p.number("far_clip");
-  if (out.near_clip >= out.far_clip)
-    p.error(p.has("far_clip") ? "far_clip" : "near_clip",
-            "the near clip distance {} is not smaller than the far one {}", out.near_clip,
-            out.far_clip);
-  if (const Node* medium = p.child(PluginKind::medium)) out.medium = s.medium(*medium);
-  out.film.where = p.node().where;
-  if (const Node* film = p.child(PluginKind::film)) {
-    out.film.where = film->where;
-    s.read_into(*film, out.film);
-  }
-  if (const Node* sampler = p.child(PluginKind::sampler)) s.read_into(*sampler, out.sampler);
-}
-
 void read_size(SceneReader& s, Properties& p, FilmDescription& out) {
   constexpr int64_t most = int64_t(1) << 28;
-  out.width = p.integer("width");
-  out.height = p.integer("height");
+  const bool tiny = p.node().type == "mfilm";
+  out.width = tiny && !p.has("width") ? 1 : p.integer("width");
+  out.height = tiny && !p.has("height") ? 1 : p.integer("height");
   if (int64_t(out.width) * out.height > most)
     p.error("width", "an image of {} × {} pixels is too large", out.width, out.height);
   CropWindow crop{p.integer("crop_offset_x"), p.integer("crop_offset_y"), out.width, out.height};
@@ -63,7 +32,59 @@ void read_size(SceneReader& s, Properties& p, FilmDescription& out) {
   if (const Node* filter = p.child(PluginKind::rfilter)) s.read_into(*filter, out.filter);
 }
 
+void read_pixel_format(SceneReader& s, Properties& p, FilmDescription& out) {
+  const std::initializer_list<std::pair<std::string_view, PixelFormat>> formats{
+      {"luminance", PixelFormat::luminance},
+      {"luminance_alpha", PixelFormat::luminance_alpha},
+      {"rgb", PixelFormat::rgb},
+      {"rgba", PixelFormat::rgba},
+      {"xyz", PixelFormat::xyz},
+      {"xyza", PixelFormat::xyza}};
+  // A film of 0.6 can have a list of formats for the parts of a "multichannel" integrator.
+  const std::string text = p.string("pixel_format");
+  const auto parts = split_list(text);
+  if (p.is_0x() && parts.size() > 1)
+    for (const auto& [word, format] : formats)
+      if (snake_case(parts.front()) == word) {
+        s.approximate(p.where("pixel_format"),
+                      "layers have the channels of their kinds, whatever \"pixelFormat\" says");
+        out.pixel_format = format;
+        return;
+      }
+  out.pixel_format = p.choice<PixelFormat>("pixel_format", formats);
+}
+
 }  // namespace
+
+void check_rigid(Properties& p, const Matrix4& m) {
+  for (int i = 0; i < 3; ++i)
+    for (int j = i; j < 3; ++j) {
+      const double product = m[i][0] * m[j][0] + m[i][1] * m[j][1] + m[i][2] * m[j][2];
+      if (std::abs(product - (i == j ? 1 : 0)) > 1e-3) {
+        p.error("to_world", "the transform of {} must not scale", describe(p.node()));
+        return;
+      }
+    }
+}
+
+void read_sensor(SceneReader& s, Properties& p, SensorDescription& out) {
+  out.where = p.node().where;
+  out.label = {p.node().id};
+  out.to_world = p.transform("to_world");
+  out.near_clip = p.number("near_clip");
+  out.far_clip = p.number("far_clip");
+  if (out.near_clip >= out.far_clip)
+    p.error(p.has("far_clip") ? "far_clip" : "near_clip",
+            "the near clip distance {} is not smaller than the far one {}", out.near_clip,
+            out.far_clip);
+  if (const Node* medium = p.child(PluginKind::medium)) out.medium = s.medium(*medium);
+  out.film.where = p.node().where;
+  if (const Node* film = p.child(PluginKind::film)) {
+    out.film.where = film->where;
+    s.read_into(*film, out.film);
+  }
+  if (const Node* sampler = p.child(PluginKind::sampler)) s.read_into(*sampler, out.sampler);
+}
 
 double diagonal_fov(double focal_length) {
   const double diagonal = std::sqrt(36.0 * 36 + 24 * 24);
@@ -92,7 +113,7 @@ std::pair<double, FovAxis> read_fov(Properties& p) {
 
 void read_perspective(SceneReader& s, Properties& p, SensorDescription& out) {
   out.kind = SensorKind::perspective;
-  read_common(s, p, out);
+  read_sensor(s, p, out);
   check_rigid(p, out.to_world);
   std::tie(out.fov, out.fov_axis) = read_fov(p);
   out.principal_point_offset_x = p.number("principal_point_offset_x");
@@ -101,7 +122,7 @@ void read_perspective(SceneReader& s, Properties& p, SensorDescription& out) {
 
 void read_thinlens(SceneReader& s, Properties& p, SensorDescription& out) {
   out.kind = SensorKind::thinlens;
-  read_common(s, p, out);
+  read_sensor(s, p, out);
   check_rigid(p, out.to_world);
   std::tie(out.fov, out.fov_axis) = read_fov(p);
   out.aperture_radius = p.number("aperture_radius");
@@ -110,21 +131,23 @@ void read_thinlens(SceneReader& s, Properties& p, SensorDescription& out) {
 
 void read_orthographic(SceneReader& s, Properties& p, SensorDescription& out) {
   out.kind = SensorKind::orthographic;
-  read_common(s, p, out);
+  read_sensor(s, p, out);
 }
 
 void read_hdrfilm(SceneReader& s, Properties& p, FilmDescription& out) {
   read_size(s, p, out);
-  out.pixel_format =
-      p.choice<PixelFormat>("pixel_format", {{"luminance", PixelFormat::luminance},
-                                             {"luminance_alpha", PixelFormat::luminance_alpha},
-                                             {"rgb", PixelFormat::rgb},
-                                             {"rgba", PixelFormat::rgba},
-                                             {"xyz", PixelFormat::xyz},
-                                             {"xyza", PixelFormat::xyza}});
+  read_pixel_format(s, p, out);
   out.component_format = p.choice<ComponentFormat>(
       "component_format",
       {{"float16", ComponentFormat::half}, {"float32", ComponentFormat::single}});
+}
+
+void read_mfilm(SceneReader& s, Properties& p, FilmDescription& out) {
+  read_size(s, p, out);
+  if (!p.child(PluginKind::rfilter)) out.filter = {.kind = FilterKind::box};
+  read_pixel_format(s, p, out);
+  out.component_format = ComponentFormat::single;
+  s.approximate_loudly(p.node().where, "the film \"mfilm\" writes an EXR file, not text");
 }
 
 void read_ldrfilm(SceneReader& s, Properties& p, FilmDescription& out) {

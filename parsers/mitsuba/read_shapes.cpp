@@ -44,6 +44,7 @@ void attach(SceneReader& s, Properties& p, ShapeDescription& out) {
   const auto material = attached_material(s, p);
   if (light) out.emission = s.emission(*light);
   attach_media(s, p, out);
+  p.children(PluginKind::sensor);  // read when the shape has its place in the scene
   // Where only media meet, Mitsuba 0.x sees no surface; Mitsuba 3 does.
   const bool invisible = p.is_0x() && !light && (out.interior || out.exterior);
   out.material = material    ? *material
@@ -88,6 +89,17 @@ void SceneReader::attach_to_surface(Properties& p, ShapeDescription& shape) {
   attach(*this, p, shape);
 }
 
+void SceneReader::sensor_on_shape(const Node& node, bool misplaced, size_t shape) {
+  SensorDescription sensor;
+  sensor.shape = uint32_t(shape);
+  if (!read_into(node, sensor)) return;
+  if (sensor.kind != SensorKind::irradiancemeter || misplaced)
+    report_.error(node.where, "{} cannot stand in {}", describe(node),
+                  misplaced ? "a shape of this place" : "a shape");
+  else
+    description_.sensors.push_back(std::move(sensor));
+}
+
 void SceneReader::shape(const Node& node, std::vector<ShapeDescription>& shapes, bool in_group) {
   if (!node.plugin) return;
   const bool is_group =
@@ -109,6 +121,10 @@ void SceneReader::shape(const Node& node, std::vector<ShapeDescription>& shapes,
     if (in_group && shape.emission)
       report_.error(shape.emission->where, "a shape in a shape group cannot emit light");
     shapes.push_back(std::move(shape));
+    for (const Property& property : node.properties)
+      if (const Node* const* child = std::get_if<const Node*>(&property.value);
+          child && (*child)->kind == PluginKind::sensor)
+        sensor_on_shape(**child, in_group || &shapes != &description_.shapes, shapes.size() - 1);
   }
 }
 

@@ -12,7 +12,7 @@ namespace {
 /// Mitsuba 3 has a transform, 0.x offsets and scales.
 UvTransform uv_transform(Properties& p) {
   UvTransform uv;
-  if (p.has("to_uv")) {
+  if (find_parameter(PluginKind::texture, *p.node().plugin, "to_uv") && p.has("to_uv")) {
     const Matrix4 m = p.transform("to_uv");
     for (int i = 0; i < 2; ++i) uv.m[i] = {m[i][0], m[i][1], m[i][3]};
     for (const char* name : {"uoffset", "voffset", "uscale", "vscale", "uvscale"})
@@ -23,13 +23,6 @@ UvTransform uv_transform(Properties& p) {
   uv.m[0] = {p.optional_number("uscale").value_or(scale), 0, p.number("uoffset")};
   uv.m[1] = {0, p.optional_number("vscale").value_or(scale), p.number("voffset")};
   return uv;
-}
-
-void scale_color(ColorInput& color, const Spectrum& factor, Properties& p) {
-  if (Spectrum* constant = std::get_if<Spectrum>(&color))
-    *constant = *constant * factor;
-  else
-    p.error("scale", "a checkerboard of textures cannot be scaled yet");
 }
 
 /// Two lists of numbers as a spectrum; nothing after an error.
@@ -126,19 +119,16 @@ void read_scale(SceneReader& s, Properties& p, TextureDescription& out) {
     s.report().error(p.node().where, "{} needs a texture", describe(p.node()));
     return;
   }
-  TextureDescription inner;
-  if (!s.read_into(*nested, inner)) return;
-  if (auto* board = std::get_if<CheckerboardTexture>(&inner.model)) {
-    scale_color(board->color0, factor, p);
-    scale_color(board->color1, factor, p);
-  } else if (auto* attribute = std::get_if<MeshAttributeTexture>(&inner.model);
-             attribute && factor.r == factor.g && factor.g == factor.b) {
-    attribute->scale *= double(factor.r);
-  } else if (factor != Spectrum(1.0f)) {
-    p.error("scale", "{} with {} in it is not supported yet", describe(p.node()),
-            describe(*nested));
-  }
-  out.model = inner.model;
+  if (const auto id = s.texture(*nested)) out.model = ScaledTextureDescription{*id, factor};
+}
+
+void read_gridtexture(SceneReader& s, Properties& p, TextureDescription& out) {
+  out.model = GridLinesTexture{s.color(p, "color0"), s.color(p, "color1"), p.number("line_width"),
+                               uv_transform(p)};
+}
+
+void read_volume_texture(SceneReader& s, Properties& p, TextureDescription& out) {
+  out.model = VolumeTextureDescription{s.color_volume(p, "volume")};
 }
 
 void read_uniform(SceneReader&, Properties& p, MeantColor& out) {

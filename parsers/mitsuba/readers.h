@@ -42,6 +42,8 @@ void read_checkerboard(SceneReader&, Properties&, TextureDescription&);
 void read_mesh_attribute(SceneReader&, Properties&, TextureDescription&);
 void read_vertexcolors(SceneReader&, Properties&, TextureDescription&);
 void read_scale(SceneReader&, Properties&, TextureDescription&);
+void read_gridtexture(SceneReader&, Properties&, TextureDescription&);
+void read_volume_texture(SceneReader&, Properties&, TextureDescription&);
 void read_uniform(SceneReader&, Properties&, MeantColor&);
 void read_srgb(SceneReader&, Properties&, MeantColor&);
 void read_d65(SceneReader&, Properties&, MeantColor&);
@@ -74,6 +76,14 @@ void read_directional(SceneReader&, Properties&, LightDescription&);
 void read_constant(SceneReader&, Properties&, LightDescription&);
 void read_envmap(SceneReader&, Properties&, LightDescription&);
 
+// read_sky.cpp
+void read_sky(SceneReader&, Properties&, LightDescription&);
+void read_sun(SceneReader&, Properties&, LightDescription&);
+void read_sunsky(SceneReader&, Properties&, LightDescription&);
+void read_timed_sunsky(SceneReader&, Properties&, LightDescription&);
+void read_collimated(SceneReader&, Properties&, LightDescription&);
+void read_directionalarea(SceneReader&, Properties&, AreaEmission&);
+
 // read_media.cpp
 void read_homogeneous(SceneReader&, Properties&, MediumDescription&);
 void read_heterogeneous(SceneReader&, Properties&, MediumDescription&);
@@ -91,11 +101,22 @@ void read_sggx(SceneReader&, Properties&, PhaseDescription&);
 void read_tabphase(SceneReader&, Properties&, PhaseDescription&);
 void read_fibre_phase(SceneReader&, Properties&, PhaseDescription&);
 
+// read_meters.cpp
+void read_radiancemeter(SceneReader&, Properties&, SensorDescription&);
+void read_irradiancemeter(SceneReader&, Properties&, SensorDescription&);
+void read_fluencemeter(SceneReader&, Properties&, SensorDescription&);
+void read_distant(SceneReader&, Properties&, SensorDescription&);
+void read_spherical(SceneReader&, Properties&, SensorDescription&);
+void read_telecentric(SceneReader&, Properties&, SensorDescription&);
+void read_perspective_rdist(SceneReader&, Properties&, SensorDescription&);
+void read_batch(SceneReader&, Properties&, SensorDescription&);
+
 // read_sensors.cpp
 void read_perspective(SceneReader&, Properties&, SensorDescription&);
 void read_thinlens(SceneReader&, Properties&, SensorDescription&);
 void read_orthographic(SceneReader&, Properties&, SensorDescription&);
 void read_hdrfilm(SceneReader&, Properties&, FilmDescription&);
+void read_mfilm(SceneReader&, Properties&, FilmDescription&);
 void read_ldrfilm(SceneReader&, Properties&, FilmDescription&);
 void read_filter(SceneReader&, Properties&, FilterDescription&);
 void read_sampler(SceneReader&, Properties&, SamplerDescription&);
@@ -107,6 +128,18 @@ void read_direct(SceneReader&, Properties&, IntegratorDescription&);
 void read_depth(SceneReader&, Properties&, IntegratorDescription&);
 void read_aov(SceneReader&, Properties&, IntegratorDescription&);
 void read_moment(SceneReader&, Properties&, IntegratorDescription&);
+
+// read_substitutes.cpp: by another method
+void read_prb(SceneReader&, Properties&, IntegratorDescription&);
+void read_prbvolpath(SceneReader&, Properties&, IntegratorDescription&);
+void read_direct_projective(SceneReader&, Properties&, IntegratorDescription&);
+void read_metropolis(SceneReader&, Properties&, IntegratorDescription&);
+void read_vpl(SceneReader&, Properties&, IntegratorDescription&);
+void read_irrcache(SceneReader&, Properties&, IntegratorDescription&);
+void read_adaptive(SceneReader&, Properties&, IntegratorDescription&);
+void read_stokes(SceneReader&, Properties&, IntegratorDescription&);
+void read_field(SceneReader&, Properties&, IntegratorDescription&);
+void read_multichannel(SceneReader&, Properties&, IntegratorDescription&);
 
 // read_bidirectional.cpp
 void read_auto(SceneReader&, Properties&, IntegratorDescription&);

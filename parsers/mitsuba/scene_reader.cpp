@@ -207,8 +207,11 @@ void SceneReader::top_level(const Node& scene) {
           description_.lights.push_back(std::move(light));
         break;
       case PluginKind::sensor:
-        if (SensorDescription sensor; read_into(node, sensor))
+        if (SensorDescription sensor; read_into(node, sensor)) {
+          if (sensor.kind == SensorKind::irradiancemeter)
+            report_.error(node.where, "{} must stand in a shape", describe(node));
           description_.sensors.push_back(std::move(sensor));
+        }
         break;
       default:
         break;
@@ -253,7 +256,8 @@ void SceneReader::check_scene(const Node& scene, bool have_integrator) {
   const LightDescription* environment = nullptr;
   for (const LightDescription& light : description_.lights) {
     if (!std::holds_alternative<ConstantLight>(light.model) &&
-        !std::holds_alternative<EnvironmentMapLight>(light.model))
+        !std::holds_alternative<EnvironmentMapLight>(light.model) &&
+        !std::holds_alternative<SkyLight>(light.model))
       continue;
     if (environment)
       report_.error(light.where, "a scene can have one environment only; another is at {}",

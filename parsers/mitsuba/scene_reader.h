@@ -74,6 +74,8 @@ class SceneReader {
 
  private:
   void top_level(const Node& scene);
+  /// Reads the irradiance meter on a shape of the scene.
+  void sensor_on_shape(const Node& node, bool misplaced, size_t shape);
   void check_scene(const Node& scene, bool have_integrator);
   /// The colour of a property, or the texture it names; nothing after an error.
   std::optional<ColorInput> color_of(Properties& p, std::string_view name, const Property& property,

@@ -49,7 +49,8 @@ void SceneWriter::write() {
   name_things();
   integrator(d_.integrator);
   for (size_t i = 0; i < d_.media.size(); ++i) medium(d_.media[i], medium_ids_[i]);
-  for (const SensorDescription& s : d_.sensors) sensor(s);
+  for (const SensorDescription& s : d_.sensors)
+    if (s.kind != SensorKind::irradiancemeter) sensor(s);
   for (size_t i = 0; i < d_.textures.size(); ++i) texture(i);
   for (size_t i = 0; i < d_.materials.size(); ++i) material(d_.materials[i], material_ids_[i]);
   for (size_t i = 0; i < d_.groups.size(); ++i) {
@@ -68,21 +69,39 @@ void SceneWriter::fov(double degrees, FovAxis axis) {
   out_.string("fov_axis", axes[size_t(axis)]);
 }
 
-void SceneWriter::sensor(const SensorDescription& s) {
-  constexpr std::string_view kinds[] = {"perspective", "thinlens", "orthographic"};
-  out_.open("sensor", kinds[size_t(s.kind)]);
+void SceneWriter::view(const SensorDescription& s) {
+  if (s.kind == SensorKind::irradiancemeter) return;
   out_.transform("to_world", s.to_world);
-  out_.number("near_clip", s.near_clip);
-  out_.number("far_clip", s.far_clip);
-  if (s.kind != SensorKind::orthographic) fov(s.fov, s.fov_axis);
+  if (has_fov(s.kind) || s.kind == SensorKind::orthographic || s.kind == SensorKind::telecentric) {
+    out_.number("near_clip", s.near_clip);
+    out_.number("far_clip", s.far_clip);
+  }
+  if (has_fov(s.kind)) fov(s.fov, s.fov_axis);
   if (s.kind == SensorKind::perspective) {
     out_.number("principal_point_offset_x", s.principal_point_offset_x);
     out_.number("principal_point_offset_y", s.principal_point_offset_y);
   }
-  if (s.kind == SensorKind::thinlens) {
+  if (s.kind == SensorKind::thinlens || s.kind == SensorKind::telecentric) {
     out_.number("aperture_radius", s.aperture_radius);
     out_.number("focus_distance", s.focus_distance);
   }
+  if (s.kind == SensorKind::perspective_rdist)
+    out_.string("kc", fmt::format("{}, {}", s.distortion[0], s.distortion[1]));
+  if (s.target_point) out_.point("target", *s.target_point);
+  for (const ShapeDescription& target : s.target_shape) shape(target, "", "target");
+  for (const SensorDescription& part : s.parts) {
+    out_.open("sensor", sensor_name(part.kind));
+    view(part);
+    out_.close();
+  }
+  if (s.kind == SensorKind::telecentric || s.kind == SensorKind::perspective_rdist ||
+      s.kind == SensorKind::spherical || s.kind == SensorKind::fluencemeter)
+    lose(fmt::format("the sensor \"{}\" does not exist in Mitsuba 3", sensor_name(s.kind)));
+}
+
+void SceneWriter::sensor(const SensorDescription& s) {
+  out_.open("sensor", sensor_name(s.kind));
+  view(s);
   if (s.medium) out_.reference({}, medium_id(*s.medium));
   film(s.film);
   const bool known = s.sampler.name == "independent" || s.sampler.name == "stratified" ||
@@ -150,7 +169,12 @@ void SceneWriter::mesh(const MeshShape& m) {
     lose("\"max_smooth_angle\" does not exist in Mitsuba 3: normals are those of the file");
 }
 
-void SceneWriter::shape(const ShapeDescription& s, const std::string& id) {
+void SceneWriter::meters(const ShapeDescription& s) {
+  for (const SensorDescription& meter : d_.sensors)
+    if (meter.kind == SensorKind::irradiancemeter && &d_.shapes[meter.shape] == &s) sensor(meter);
+}
+
+void SceneWriter::shape(const ShapeDescription& s, const std::string& id, std::string_view name) {
   constexpr std::string_view types[] = {"",         "rectangle", "cube",    "sphere",     "disk",
                                         "cylinder", "instance",  "sdfgrid", "linearcurve"};
   static_assert(std::size(types) == std::variant_size_v<decltype(s.geometry)>);
@@ -161,7 +185,7 @@ void SceneWriter::shape(const ShapeDescription& s, const std::string& id) {
             m         ? std::string_view(m->source.plugin)
             : splines ? "bsplinecurve"
                       : types[s.geometry.index()],
-            {}, id);
+            name, id);
   if (m) mesh(*m);
   if (tubes) {
     out_.string("filename", tubes->file);
@@ -183,11 +207,12 @@ void SceneWriter::shape(const ShapeDescription& s, const std::string& id) {
   if (s.interior) out_.reference("interior", medium_id(*s.interior));
   if (s.exterior) out_.reference("exterior", medium_id(*s.exterior));
   if (s.emission) {
-    out_.open("emitter", "area");
+    out_.open("emitter", s.emission->directional ? "directionalarea" : "area");
     color("radiance", s.emission->radiance);
     sampling_weight(s.emission->sampling_weight);
     out_.close();
   }
+  meters(s);
   out_.close();
 }
 
@@ -196,8 +221,8 @@ void SceneWriter::sampling_weight(double weight) {
 }
 
 void SceneWriter::light(const LightDescription& l) {
-  constexpr std::string_view types[] = {"point",       "spot",     "projector",
-                                        "directional", "constant", "envmap"};
+  constexpr std::string_view types[] = {"point",    "spot",   "projector", "directional",
+                                        "constant", "envmap", "sunsky",    "collimated"};
   static_assert(std::size(types) == std::variant_size_v<decltype(l.model)>);
   out_.open("emitter", types[l.model.index()]);
   if (const auto* point = std::get_if<PointLight>(&l.model)) {
@@ -219,6 +244,20 @@ void SceneWriter::light(const LightDescription& l) {
     out_.string("filename", map->file);
     out_.number("scale", map->scale);
     if (map->gamma) lose("the gamma value of an environment map is missing");
+  } else if (const auto* sky = std::get_if<SkyLight>(&l.model)) {
+    out_.number("turbidity", sky->turbidity);
+    color("albedo", ColorInput(sky->albedo));
+    out_.number("sky_scale", sky->sky_scale);
+    out_.number("sun_scale", sky->sun_scale);
+    out_.number("sun_aperture", sky->sun_aperture);
+    std::array<double, 3> sun{};
+    for (int i = 0; i < 3; ++i)
+      for (int j = 0; j < 3; ++j) sun[size_t(i)] += l.to_world[i][size_t(j)] * sky->sun[size_t(j)];
+    out_.point("sun_direction", sun);
+    if (sky->stretch != 1 || sky->extend) lose("the sky ends at the horizon");
+  } else if (const auto* beam = std::get_if<CollimatedLight>(&l.model)) {
+    lose("the light \"collimated\" does not exist in Mitsuba 3");
+    color("power", ColorInput(beam->power));
   }
   if (!std::holds_alternative<ConstantLight>(l.model)) out_.transform("to_world", l.to_world);
   sampling_weight(l.sampling_weight);

@@ -35,6 +35,9 @@ class SceneWriter {
   void write_model(const BitmapTexture& t);
   void write_model(const CheckerboardTexture& t);
   void write_model(const MeshAttributeTexture& t);
+  void write_model(const GridLinesTexture& t);
+  void write_model(const ScaledTextureDescription& t);
+  void write_model(const VolumeTextureDescription& t);
   void write_model(const DiffuseMaterial& m);
   void write_model(const ConductorMaterial& m);
   void write_model(const DielectricMaterial& m);
@@ -79,9 +82,13 @@ class SceneWriter {
 
   // scene_writer.cpp
   void sensor(const SensorDescription& s);
+  /// What the sensor is, without its film and sampler.
+  void view(const SensorDescription& s);
   void film(const FilmDescription& f);
   void fov(double degrees, FovAxis axis);
-  void shape(const ShapeDescription& s, const std::string& id);
+  void shape(const ShapeDescription& s, const std::string& id, std::string_view name = {});
+  /// The irradiance meters on a shape of the scene; none on others.
+  void meters(const ShapeDescription& s);
   void mesh(const MeshShape& m);
   void light(const LightDescription& l);
   void sampling_weight(double weight);

@@ -70,6 +70,8 @@ class Marker {
   void model(const DirectionalLight&) {}
   void model(const ConstantLight&) {}
   void model(const EnvironmentMapLight&) {}
+  void model(const SkyLight&) {}
+  void model(const CollimatedLight&) {}
 
  private:
   void input(const ColorInput& i) {
@@ -83,7 +85,12 @@ class Marker {
   }
   void texture(TextureId id, bool TextureUse::*use) {
     if (std::exchange(uses_[size_t(id)].*use, true)) return;
-    const auto* board = std::get_if<CheckerboardTexture>(&scene_.textures[size_t(id)].model);
+    const auto& model = scene_.textures[size_t(id)].model;
+    if (const auto* scaled = std::get_if<ScaledTextureDescription>(&model))
+      return texture(scaled->inner, use);
+    if (const auto* lines = std::get_if<GridLinesTexture>(&model))
+      return mark(lines->color0, lines->color1);
+    const auto* board = std::get_if<CheckerboardTexture>(&model);
     if (!board) return;
     for (const ColorInput* color : {&board->color0, &board->color1})
       if (const TextureId* nested = std::get_if<TextureId>(color)) texture(*nested, use);

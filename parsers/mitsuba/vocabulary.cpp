@@ -87,7 +87,8 @@ bool may_contain(PluginKind outer, PluginKind inner) {
     case integrator:
       return inner == integrator || inner == PluginKind::texture;
     case sensor:
-      return inner == film || inner == sampler || inner == medium || inner == PluginKind::texture;
+      return inner == film || inner == sampler || inner == medium || inner == PluginKind::texture ||
+             inner == sensor || inner == shape;
     case film:
       return inner == rfilter || inner == PluginKind::texture;
     case shape:

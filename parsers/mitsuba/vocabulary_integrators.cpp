@@ -62,9 +62,9 @@ constexpr Parameter kPtracer[] = {
     {.name = "brute_force",
      .type = boolean,
      .preset = "false",
-     .note = "the camera must be hit",
+     .note = "connecting to the camera has the same mean",
      .versions = v0,
-     .support = planned}};
+     .support = inert}};
 constexpr Parameter kBdpt[] = {
     kMaxDepth,
     kRrDepth,
@@ -156,6 +156,76 @@ constexpr Parameter kAov[] = {
     {.name = "hide_emitters", .type = boolean, .support = inert}};
 constexpr Parameter kMoment[] = {{.name = "hide_emitters", .type = boolean, .support = inert}};
 
+/// A parameter that the method run instead does not need.
+constexpr Parameter without_effect(std::string_view name, ParameterType type) {
+  return {.name = name, .type = type, .support = inert};
+}
+constexpr Parameter kPrbDepth{"max_depth", integer, "6", "longest path in segments; -1: no limit",
+                              depth};
+constexpr Parameter kPrb[] = {kPrbDepth, kRrDepth, kHideEmitters};
+constexpr Parameter kPrbProjective[] = {kPrbDepth,
+                                        kRrDepth,
+                                        kHideEmitters,
+                                        without_effect("sppc", integer),
+                                        without_effect("sppp", integer),
+                                        without_effect("sppi", integer),
+                                        without_effect("guiding", string),
+                                        without_effect("guiding_proj", boolean),
+                                        without_effect("guiding_rounds", integer),
+                                        without_effect("project_seed", string)};
+constexpr Parameter kMlt[] = {kMaxDepth,
+                              kRrDepth,
+                              without_effect("direct_samples", integer),
+                              without_effect("luminance_samples", integer),
+                              without_effect("two_stage", boolean),
+                              without_effect("bidirectional_mutation", boolean),
+                              without_effect("lens_perturbation", boolean),
+                              without_effect("multi_chain_perturbation", boolean),
+                              without_effect("caustic_perturbation", boolean),
+                              without_effect("manifold_perturbation", boolean),
+                              without_effect("lambda", number)};
+constexpr Parameter kErpt[] = {kMaxDepth,
+                               kRrDepth,
+                               without_effect("num_chains", number),
+                               without_effect("max_chains", number),
+                               without_effect("chain_length", integer),
+                               without_effect("direct_samples", integer),
+                               without_effect("lens_perturbation", boolean),
+                               without_effect("multi_chain_perturbation", boolean),
+                               without_effect("caustic_perturbation", boolean),
+                               without_effect("manifold_perturbation", boolean),
+                               without_effect("lambda", number)};
+constexpr Parameter kPssmlt[] = {kMaxDepth,
+                                 kRrDepth,
+                                 without_effect("direct_samples", integer),
+                                 without_effect("luminance_samples", integer),
+                                 without_effect("two_stage", boolean),
+                                 without_effect("bidirectional", boolean),
+                                 without_effect("p_large", number)};
+constexpr Parameter kVpl[] = {
+    {"max_depth", integer, "5", "longest path in segments; -1: no limit", depth},
+    {.name = "rr_depth", .type = integer, .preset = "5", .support = inert},
+    without_effect("shadow_map_resolution", integer),
+    without_effect("clamping", number)};
+constexpr Parameter kIrrcache[] = {without_effect("resolution", integer),
+                                   without_effect("quality", number),
+                                   without_effect("gradients", boolean),
+                                   without_effect("clamp_neighbor", boolean),
+                                   without_effect("clamp_screen", boolean),
+                                   without_effect("overture", boolean),
+                                   without_effect("quality_adjustment", number),
+                                   without_effect("indirect_only", boolean),
+                                   without_effect("debug", boolean)};
+constexpr Parameter kAdaptive[] = {without_effect("max_error", number),
+                                   without_effect("max_sample_factor", integer),
+                                   without_effect("p_value", number)};
+constexpr Parameter kField[] = {
+    {.name = "field",
+     .type = string,
+     .note = "position, distance, geoNormal, shNormal, uv, albedo, shapeIndex, primIndex",
+     .required = true},
+    {.name = "undefined", .type = number, .note = "0", .support = inert}};
+
 constexpr Plugin kIntegrators[] = {
     {"auto", both, kAuto, &read_auto,
      "Duet's own: whichever method suits the scene (docs/auto.md)"},
@@ -178,68 +248,42 @@ constexpr Plugin kIntegrators[] = {
     {"depth", v3, kDepth, &read_depth},
     {"aov", v3, kAov, &read_aov, "may hold an integrator"},
     {"moment", v3, kMoment, &read_moment, "holds an integrator"},
-    {.name = "adaptive",
-     .versions = v0,
-     .support = planned,
-     .planned_parameters = "max_error max_sample_factor p_value"},
+    {"prb", v3, kPrb, &read_prb, "by path; no derivatives", approximated},
+    {"prb_basic", v3, kPrb, &read_prb, "by path; no derivatives", approximated},
+    {"prb_projective", v3, kPrbProjective, &read_prb, "by path; no derivatives", approximated},
+    {"prbvolpath", v3, kPrb, &read_prbvolpath, "by volpath; no derivatives", approximated},
+    {"direct_projective", v3, kPrbProjective, &read_direct_projective, "by direct; no derivatives",
+     approximated},
+    {"stokes",
+     v3,
+     {},
+     &read_stokes,
+     "by the integrator in it: light has no polarisation here",
+     approximated},
+    {"mlt", v0, kMlt, &read_metropolis, "by bdpt", approximated},
+    {"erpt", v0, kErpt, &read_metropolis, "by bdpt", approximated},
+    {"pssmlt", v0, kPssmlt, &read_metropolis, "by bdpt", approximated},
+    {"vpl", v0, kVpl, &read_vpl, "by path", approximated},
+    {"irrcache", v0, kIrrcache, &read_irrcache, "by the integrator in it", approximated},
+    {"adaptive", v0, kAdaptive, &read_adaptive, "by the integrator in it", approximated},
+    {"field", v0, kField, &read_field, "by aov", approximated},
+    {"multichannel",
+     v0,
+     {},
+     &read_multichannel,
+     "holds one integrator that makes colours, and fields"},
     {.name = "ao",
      .versions = v0,
-     .support = planned,
+     .note = "how much of the sky a point sees is not what light does: a \"constant\" emitter and "
+             "white surfaces show much the same",
+     .support = refused,
      .planned_parameters = "shading_samples ray_length"},
-    {.name = "direct_projective",
-     .versions = v3,
-     .support = planned,
-     .planned_parameters = "max_depth rr_depth sppc sppp sppi guiding guiding_proj guiding_rounds"},
-    {.name = "erpt",
-     .versions = v0,
-     .support = planned,
-     .planned_parameters =
-         "max_depth rr_depth num_chains max_chains chain_length direct_samples lens_perturbation "
-         "multi_chain_perturbation caustic_perturbation manifold_perturbation lambda"},
-    {.name = "field", .versions = v0, .support = planned, .planned_parameters = "field undefined"},
-    {.name = "irrcache",
-     .versions = v0,
-     .support = planned,
-     .planned_parameters = "resolution quality gradients clamp_neighbor clamp_screen overture "
-                           "quality_adjustment indirect_only debug"},
-    {.name = "mlt",
-     .versions = v0,
-     .support = planned,
-     .planned_parameters = "max_depth direct_samples luminance_samples two_stage "
-                           "bidirectional_mutation lens_perturbation multi_chain_perturbation "
-                           "caustic_perturbation manifold_perturbation lambda"},
-    {.name = "motion", .versions = v0, .support = planned},
-    {.name = "multichannel", .versions = v0, .support = planned},
-    {.name = "prb",
-     .versions = v3,
-     .support = planned,
-     .planned_parameters = "max_depth rr_depth hide_emitters"},
-    {.name = "prb_basic",
-     .versions = v3,
-     .support = planned,
-     .planned_parameters = "max_depth hide_emitters"},
-    {.name = "prb_projective",
-     .versions = v3,
-     .support = planned,
-     .planned_parameters = "max_depth rr_depth sppc sppp sppi guiding guiding_proj guiding_rounds"},
-    {.name = "prbvolpath",
-     .versions = v3,
-     .support = planned,
-     .planned_parameters = "max_depth rr_depth hide_emitters"},
-    {.name = "pssmlt",
-     .versions = v0,
-     .support = planned,
-     .planned_parameters =
-         "max_depth rr_depth direct_samples luminance_samples two_stage bidirectional p_large"},
-    {.name = "stokes", .versions = v3, .support = planned},
+    {.name = "motion", .versions = v0, .note = "nothing moves", .support = refused},
     {.name = "volprim_rf_basic",
      .versions = v3,
-     .support = planned,
+     .note = "radiance fields of volume primitives are not scenes of surfaces and media",
+     .support = refused,
      .planned_parameters = "max_depth srgb_primitives"},
-    {.name = "vpl",
-     .versions = v0,
-     .support = planned,
-     .planned_parameters = "max_depth shadow_map_resolution clamping"},
 };
 
 // How Mitsuba builds its own acceleration structures.

@@ -49,6 +49,87 @@ constexpr Parameter kEnvmap[] = {
     {.name = "cache", .type = boolean, .versions = v0, .support = inert},
     {.name = "mis_compensation", .type = boolean, .versions = v3, .support = inert}};
 
+constexpr Parameter kCollimated[] = {{"power", emission, "1", "in watts"}, kToWorld};
+
+constexpr Parameter kTurbidity{"turbidity", number, "3", "of the air, from 1 to 10"};
+constexpr Parameter kAlbedo{.name = "albedo",
+                            .type = reflectance,
+                            .preset = "0.3",
+                            .note = "of the ground",
+                            .preset_0x = "0.2"};
+constexpr Parameter kYear{"year", integer, "2010"}, kMonth{"month", integer, "7"},
+    kDay{"day", integer, "10"}, kHour{"hour", number, "15", "of the time zone"},
+    kMinute{"minute", number, "0"}, kSecond{"second", number, "0"},
+    kLatitude{"latitude", number, "35.6894", "degrees north"},
+    kLongitude{"longitude", number, "139.6917", "degrees east"},
+    kTimezone{"timezone", number, "9", "hours ahead of universal time"},
+    kSunDirection{"sun_direction", point, "", "either this or time and place"},
+    kSunScale{"sun_scale", number, "1", "multiplies the light of the sun", not_negative},
+    kSkyScale{"sky_scale", number, "1", "multiplies the light of the sky", not_negative},
+    kSunAperture{.name = "sun_aperture",
+                 .type = number,
+                 .preset = "0.5358",
+                 .note = "in degrees",
+                 .versions = v3},
+    kComplexSun{.name = "complex_sun",
+                .type = boolean,
+                .preset = "false",
+                .note = "as if it were false",
+                .versions = v3,
+                .support = approximated},
+    kStretch{.name = "stretch",
+             .type = number,
+             .preset = "1",
+             .note = "draws the sky below the horizon, up to 2",
+             .versions = v0},
+    kExtend{.name = "extend",
+            .type = boolean,
+            .preset = "false",
+            .note = "the horizon goes on below",
+            .versions = v0},
+    kSunRadiusScale{.name = "sun_radius_scale",
+                    .type = number,
+                    .preset = "1",
+                    .range = not_negative,
+                    .versions = v0},
+    kSkyResolution{.name = "resolution",
+                   .type = integer,
+                   .note = "nothing is rasterised",
+                   .versions = v0,
+                   .support = inert};
+constexpr Parameter kSky[] = {kTurbidity, kAlbedo,       kYear,    kMonth,    kDay,
+                              kHour,      kMinute,       kSecond,  kLatitude, kLongitude,
+                              kTimezone,  kSunDirection, kStretch, kExtend,   kSkyResolution,
+                              kScale,     kToWorld};
+constexpr Parameter kSun[] = {kTurbidity,    kYear,           kMonth,         kDay,       kHour,
+                              kMinute,       kSecond,         kLatitude,      kLongitude, kTimezone,
+                              kSunDirection, kSunRadiusScale, kSkyResolution, kScale,     kToWorld};
+constexpr Parameter kSunsky[] = {
+    kTurbidity,      kAlbedo,        kYear,        kMonth,      kDay,      kHour,
+    kMinute,         kSecond,        kLatitude,    kLongitude,  kTimezone, kSunDirection,
+    kSunScale,       kSkyScale,      kSunAperture, kComplexSun, kStretch,  kExtend,
+    kSunRadiusScale, kSkyResolution, kScale,       kToWorld};
+constexpr Parameter kTimedSunsky[] = {kTurbidity,
+                                      kAlbedo,
+                                      {"start_year", integer, "2025"},
+                                      {"start_month", integer, "1"},
+                                      {"start_day", integer, "1"},
+                                      {.name = "end_year", .type = integer, .support = inert},
+                                      {.name = "end_month", .type = integer, .support = inert},
+                                      {.name = "end_day", .type = integer, .support = inert},
+                                      {"window_start_time", number, "7", "hour of the day"},
+                                      {.name = "window_end_time", .type = number, .support = inert},
+                                      kLatitude,
+                                      kLongitude,
+                                      kTimezone,
+                                      kSunScale,
+                                      kSkyScale,
+                                      kSunAperture,
+                                      kComplexSun,
+                                      {.name = "shutter_open", .type = number, .support = inert},
+                                      {.name = "shutter_close", .type = number, .support = inert},
+                                      kToWorld};
+
 constexpr Plugin kEmitters[] = {
     {"area", both, kArea, &read_area, "stands in a shape"},
     {"point", both, kPoint, &read_point},
@@ -57,24 +138,21 @@ constexpr Plugin kEmitters[] = {
     {"directional", both, kDirectional, &read_directional},
     {"constant", both, kConstant, &read_constant},
     {"envmap", both, kEnvmap, &read_envmap},
-    planned_plugin("collimated", v0, "power to_world"),
-    planned_plugin("directionalarea", v3, "radiance to_world"),
-    planned_plugin("sky", v0,
-                   "turbidity albedo year month day hour minute second latitude longitude "
-                   "timezone sun_direction stretch resolution scale to_world extend"),
-    planned_plugin("sun", v0,
-                   "turbidity year month day hour minute second latitude longitude "
-                   "timezone sun_direction resolution scale sun_radius_scale to_world"),
-    planned_plugin("sunsky", both,
-                   "turbidity albedo year month day hour minute second latitude longitude "
-                   "timezone sun_direction stretch resolution scale sun_scale sky_scale "
-                   "sun_radius_scale sun_aperture complex_sun to_world extend"),
-    planned_plugin(
-        "timed_sunsky", v3,
-        "turbidity albedo start_year start_month start_day end_year end_month end_day "
-        "window_start_time window_end_time latitude longitude timezone sun_scale sky_scale "
-        "sun_aperture complex_sun shutter_open shutter_close to_world"),
-    planned_plugin("volumelight", v3, "radiance to_world"),
+    {"directionalarea", v3, kArea, &read_directionalarea,
+     "stands in a shape; only methods that walk from lights carry it"},
+    {"collimated", v0, kCollimated, &read_collimated,
+     "only methods that walk from lights carry it"},
+    {"sunsky", both, kSunsky, &read_sunsky,
+     "Hosek and Wilkie; in 0.x the sun is that of Mitsuba 3"},
+    {"timed_sunsky", v3, kTimedSunsky, &read_timed_sunsky, "at the start of the time",
+     approximated},
+    {"sky", v0, kSky, &read_sky},
+    {"sun", v0, kSun, &read_sun, "that of Mitsuba 3", approximated},
+    {.name = "volumelight",
+     .versions = v3,
+     .note = "a volume that emits is not computed, nor is it in Mitsuba 3.9",
+     .support = refused,
+     .planned_parameters = "radiance to_world"},
 };
 
 }  // namespace

@@ -159,7 +159,11 @@ constexpr Parameter kVolcache[] = {
 constexpr Plugin kVolumes[] = {
     {"constvolume", both, kConstvolume, &read_constvolume},
     {"gridvolume", both, kGridvolume, &read_gridvolume},
-    planned_plugin("hgridvolume", v0, "filename prefix postfix to_world"),
+    {.name = "hgridvolume",
+     .versions = v0,
+     .note = "grids of grids are not read",
+     .support = refused,
+     .planned_parameters = "filename prefix postfix to_world"},
     {"volcache", v0, kVolcache, &read_volcache, "holds a volume"},
 };
 

@@ -9,7 +9,11 @@ constexpr Parameter kFov{"fov", number, "", "in degrees; either this or focal_le
 constexpr Parameter kFovAxis{"fov_axis", string, "x", "x, y, diagonal, smaller or larger"};
 constexpr Parameter kFocalLength{"focal_length", string, "50mm",
                                  "of a lens before 36 mm × 24 mm film"};
-constexpr Parameter kResponse{.name = "srf", .type = texture, .versions = v3, .support = planned};
+constexpr Parameter kResponse{.name = "srf",
+                              .type = texture,
+                              .note = "light is computed as red, green and blue, not by wavelength",
+                              .versions = v3,
+                              .support = refused};
 
 constexpr Parameter kPerspective[] = {kFov,
                                       kFovAxis,
@@ -28,26 +32,57 @@ constexpr Parameter kThinlens[] = {
 constexpr Parameter kOrthographic[] = {{.name = "focus_distance", .type = number, .support = inert},
                                        kResponse};
 
+constexpr Parameter kMeter[] = {kResponse};
+constexpr Parameter kRadianceMeter[] = {
+    {.name = "origin",
+     .type = point,
+     .note = "with direction, instead of to_world",
+     .versions = v3},
+    {.name = "direction", .type = point, .note = "of the ray", .versions = v3},
+    kResponse};
+constexpr Parameter kDistant[] = {
+    {"direction", point, "", "of the rays; either this or to_world, whose +z it is"},
+    {"target", point, "(the scene)", "a point or a shape over which radiance is averaged"},
+    kResponse};
+constexpr Parameter kTelecentric[] = {
+    {"aperture_radius", number, "0", "", not_negative},
+    {"focus_distance", number, "(far_clip)", "along the axis", positive}};
+constexpr Parameter kRdist[] = {
+    kFov,
+    kFovAxis,
+    kFocalLength,
+    {"kc", string, "0, 0", "radial distortion of third and fifth order"},
+    {.name = "focus_distance", .type = number, .support = inert}};
+
 constexpr Plugin kSensors[] = {
     {"perspective", both, kPerspective, &read_perspective},
     {"thinlens", both, kThinlens, &read_thinlens},
     {"orthographic", both, kOrthographic, &read_orthographic},
-    planned_plugin("batch", v3),
-    planned_plugin("distant", v3, "direction target to_world"),
-    planned_plugin("fluencemeter", v0, "to_world"),
-    planned_plugin("irradiancemeter", both),
-    planned_plugin("perspective_rdist", v0,
-                   "kc fov fov_axis focal_length near_clip far_clip to_world"),
-    planned_plugin("radiancemeter", both, "origin direction to_world"),
-    planned_plugin("spherical", v0, "to_world"),
-    planned_plugin("telecentric", v0, "aperture_radius focus_distance near_clip far_clip to_world"),
+    {"radiancemeter", both, kRadianceMeter, &read_radiancemeter, "one pixel"},
+    {"irradiancemeter", both, kMeter, &read_irradiancemeter, "stands in a shape"},
+    {"distant", v3, kDistant, &read_distant, "one pixel"},
+    {"batch", v3, kMeter, &read_batch, "holds sensors, side by side on its film"},
+    {"fluencemeter", v0, {}, &read_fluencemeter, "one pixel"},
+    {"spherical", v0, {}, &read_spherical},
+    {"telecentric", v0, kTelecentric, &read_telecentric},
+    {"perspective_rdist", v0, kRdist, &read_perspective_rdist},
 };
 
 constexpr Parameter kHdrfilm[] = {
     {"pixel_format", string, "rgb", "luminance, luminance_alpha, rgb, rgba, xyz, xyza"},
     {"component_format", string, "float16", "float16 or float32"},
     {.name = "file_format", .type = string, .preset = "openexr", .support = ignored},
-    {.name = "channel_names", .type = string, .versions = v0, .support = planned},
+    {.name = "channel_names",
+     .type = string,
+     .note = "layers keep the names of their fields",
+     .versions = v0,
+     .support = ignored},
+};
+constexpr Parameter kMfilm[] = {
+    {"pixel_format", string, "luminance", "luminance, luminance_alpha, rgb, rgba, xyz, xyza"},
+    {.name = "file_format", .type = string, .support = inert},
+    {.name = "digits", .type = integer, .support = inert},
+    {.name = "variable", .type = string, .support = inert},
 };
 constexpr Parameter kLdrfilm[] = {
     {"pixel_format", string, "rgb", "luminance, luminance_alpha, rgb, rgba"},
@@ -62,17 +97,14 @@ constexpr Parameter kLdrfilm[] = {
 constexpr Plugin kFilms[] = {
     {"hdrfilm", both, kHdrfilm, &read_hdrfilm},
     {"ldrfilm", v0, kLdrfilm, &read_ldrfilm, "tone mapping is for PNG and JPEG output"},
-    planned_plugin("mfilm", v0,
-                   "width height crop_offset_x crop_offset_y crop_width crop_height "
-                   "file_format digits variable pixel_format high_quality_edges"),
+    {"tiledhdrfilm", v0, kHdrfilm, &read_hdrfilm, "written as any other EXR file"},
+    {"mfilm", v0, kMfilm, &read_mfilm, "written as EXR; 1 x 1 pixels unless the file says so",
+     approximated},
     {.name = "specfilm",
      .versions = v3,
      .note = "light is computed as red, green and blue, not by wavelength",
      .support = refused,
      .planned_parameters = "component_format"},
-    planned_plugin("tiledhdrfilm", v0,
-                   "width height crop_offset_x crop_offset_y crop_width crop_height "
-                   "pixel_format component_format"),
 };
 
 constexpr Parameter kBox[] = {

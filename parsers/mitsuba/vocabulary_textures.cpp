@@ -73,7 +73,6 @@ constexpr Parameter kScale[] = {{.name = "scale",
                                  .type = unbounded,
                                  .preset = "1",
                                  .note = "number or colour",
-                                 .support = approximated,
                                  .aliases = "value"}};
 
 constexpr Parameter kUniform[] = {{.name = "value", .type = number, .preset = "1"},
@@ -98,13 +97,24 @@ constexpr Parameter kBlackbody[] = {{.name = "temperature",
                                     {.name = "wavelength_min", .type = number, .support = inert},
                                     {.name = "wavelength_max", .type = number, .support = inert}};
 
+constexpr Parameter kVolume[] = {{"volume", albedo, "0.75"}};
+constexpr Parameter kGridTexture[] = {
+    {"color0", reflectance, "0.2", "of the fields"},
+    {"color1", reflectance, "0.4", "of the lines"},
+    {"line_width", number, "0.01", "into each field", not_negative},
+    kUOffset,
+    kVOffset,
+    kUScale,
+    kVScale,
+    kUvScale,
+    kCoordinates};
+
 constexpr Plugin kTextures[] = {
     {"bitmap", both, kBitmap, &read_bitmap},
     {"checkerboard", both, kCheckerboard, &read_checkerboard},
     {"mesh_attribute", v3, kMeshAttribute, &read_mesh_attribute},
     {"vertexcolors", v0, {}, &read_vertexcolors},
-    {"scale", v0, kScale, &read_scale,
-     "holds a texture: checkerboard, mesh attribute or another scale", approximated},
+    {"scale", v0, kScale, &read_scale, "holds a texture"},
     {"uniform", v3, kUniform, &read_uniform},
     {"srgb", v3, kSrgb, &read_srgb},
     {"d65", v3, kD65, &read_d65},
@@ -112,10 +122,18 @@ constexpr Plugin kTextures[] = {
     {"irregular", v3, kIrregular, &read_irregular},
     {"regular", v3, kRegular, &read_regular},
     {"blackbody", v3, kBlackbody, &read_blackbody},
-    planned_plugin("curvature", v0, "curvature scale"),
-    planned_plugin("gridtexture", v0, "color0 color1 line_width uscale vscale uoffset voffset"),
-    planned_plugin("volume", v3, "volume to_world"),
-    planned_plugin("wireframe", v0, "interior_color edge_color line_width step_width"),
+    {"volume", v3, kVolume, &read_volume_texture, "looked up in the world"},
+    {"gridtexture", v0, kGridTexture, &read_gridtexture},
+    {.name = "curvature",
+     .versions = v0,
+     .note = "the curvature of surfaces is not computed",
+     .support = refused,
+     .planned_parameters = "curvature scale"},
+    {.name = "wireframe",
+     .versions = v0,
+     .note = "the edges of triangles are not looked for",
+     .support = refused,
+     .planned_parameters = "interior_color edge_color line_width step_width"},
 };
 
 }  // namespace

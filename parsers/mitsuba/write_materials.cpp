@@ -6,7 +6,9 @@ namespace duet {
 namespace {
 
 std::string_view type_of(const TextureDescription& t) {
-  constexpr std::string_view names[] = {"bitmap", "checkerboard", "mesh_attribute"};
+  constexpr std::string_view names[] = {"bitmap",      "checkerboard", "mesh_attribute",
+                                        "gridtexture", "scale",        "volume"};
+  static_assert(std::size(names) == std::variant_size_v<decltype(t.model)>);
   return names[t.model.index()];
 }
 
@@ -106,6 +108,24 @@ void SceneWriter::write_model(const CheckerboardTexture& t) {
 void SceneWriter::write_model(const MeshAttributeTexture& t) {
   out_.string("name", t.attribute);
   if (t.scale != 1) out_.number("scale", t.scale);
+}
+
+void SceneWriter::write_model(const GridLinesTexture& t) {
+  lose("the texture \"gridtexture\" does not exist in Mitsuba 3");
+  color("color0", t.color0);
+  color("color1", t.color1);
+  out_.number("line_width", t.line_width);
+  uv_transform(t.to_uv);
+}
+
+void SceneWriter::write_model(const ScaledTextureDescription& t) {
+  lose("the texture \"scale\" does not exist in Mitsuba 3");
+  out_.rgb("scale", t.scale);
+  out_.reference({}, texture_id(t.inner));
+}
+
+void SceneWriter::write_model(const VolumeTextureDescription& t) {
+  volume("volume", ColorVolume(t.volume));
 }
 
 void SceneWriter::material(const MaterialDescription& m, const std::string& id) {

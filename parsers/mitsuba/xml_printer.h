@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <array>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -41,6 +42,9 @@ class XmlPrinter {
   template <class T>  // float or double: as many digits as it has
   void number(std::string_view name, T value) {
     this->value("float", name, fmt::format("{}", value));
+  }
+  void point(std::string_view name, const std::array<double, 3>& p) {
+    value("point", name, fmt::format("{} {} {}", p[0], p[1], p[2]));
   }
   void string(std::string_view name, std::string_view value) { this->value("string", name, value); }
   void rgb(std::string_view name, const Spectrum& s) {

@@ -114,6 +114,7 @@ class SceneChart {
       apply_override(d, m.integrator);
       Diagnostics diagnostics;
       check_support(description_, d, diagnostics);
+      check_support(description_.sensors.at(o_.sensor), d, diagnostics);
       if (report(diagnostics, o_.read.strict)) throw SceneFailure("");
       Prepared p{m.name, integrator_parameters(d), make_integrator(d)};
       return p;

@@ -106,19 +106,29 @@ std::string DescriptionText::input(const FloatInput& input) const {
 
 std::string DescriptionText::texture(const TextureDescription& t) const {
   const std::string label = t.label.text.empty() ? "" : t.label.text + ": ";
-  return label + std::visit(Overloaded{
-                                [](const BitmapTexture& m) {
-                                  return fmt::format("bitmap {}{}", m.file, m.raw ? ", raw" : "");
-                                },
-                                [&](const CheckerboardTexture& m) {
-                                  return fmt::format("checkerboard {} and {}", input(m.color0),
-                                                     input(m.color1));
-                                },
-                                [](const MeshAttributeTexture& m) {
-                                  return fmt::format("mesh_attribute {}", m.attribute);
-                                },
-                            },
-                            t.model);
+  return label +
+         std::visit(
+             Overloaded{
+                 [](const BitmapTexture& m) {
+                   return fmt::format("bitmap {}{}", m.file, m.raw ? ", raw" : "");
+                 },
+                 [&](const CheckerboardTexture& m) {
+                   return fmt::format("checkerboard {} and {}", input(m.color0), input(m.color1));
+                 },
+                 [](const MeshAttributeTexture& m) {
+                   return fmt::format("mesh_attribute {}", m.attribute);
+                 },
+                 [&](const GridLinesTexture& m) {
+                   return fmt::format("gridtexture {} and {}", input(m.color0), input(m.color1));
+                 },
+                 [&](const ScaledTextureDescription& m) {
+                   return fmt::format("{} times {}", text(m.scale), texture_name(m.inner));
+                 },
+                 [&](const VolumeTextureDescription& m) {
+                   return "volume " + input(ColorVolume(m.volume));
+                 },
+             },
+             t.model);
 }
 
 std::string DescriptionText::shape_kind(const ShapeDescription& s) const {
@@ -162,46 +172,61 @@ std::string DescriptionText::shape(const ShapeDescription& s) const {
 }
 
 std::string DescriptionText::area_light(const ShapeDescription& s) const {
-  return fmt::format("area on {}{}: {}", shape_kind(s),
-                     s.label.text.empty() ? "" : " " + s.label.text, input(s.emission->radiance));
+  return fmt::format("{} on {}{}: {}", s.emission->directional ? "directionalarea" : "area",
+                     shape_kind(s), s.label.text.empty() ? "" : " " + s.label.text,
+                     input(s.emission->radiance));
 }
 
 std::string DescriptionText::light(const LightDescription& l) const {
   const Matrix4& m = l.to_world;
-  return std::visit(Overloaded{
-                        [&](const PointLight& p) {
-                          return fmt::format("point {}: {}", place(m), text(p.intensity));
-                        },
-                        [&](const SpotLight& p) {
-                          return fmt::format("spot {} {}, {:g} degrees: {}{}", place(m),
-                                             direction(m), p.cutoff_angle, text(p.intensity),
-                                             p.texture ? " with " + texture_name(*p.texture) : "");
-                        },
-                        [&](const ProjectorLight& p) {
-                          return fmt::format("projector {} {}: {}, scale {:g}", place(m),
-                                             direction(m), input(p.irradiance), p.scale);
-                        },
-                        [&](const DirectionalLight& p) {
-                          return fmt::format("directional {}: {}", direction(m),
-                                             text(p.irradiance));
-                        },
-                        [&](const ConstantLight& p) { return "constant: " + text(p.radiance); },
-                        [&](const EnvironmentMapLight& p) {
-                          return fmt::format("envmap: {}, scale {:g}", p.file, p.scale);
-                        },
-                    },
-                    l.model);
+  return std::visit(
+      Overloaded{
+          [&](const PointLight& p) {
+            return fmt::format("point {}: {}", place(m), text(p.intensity));
+          },
+          [&](const SpotLight& p) {
+            return fmt::format("spot {} {}, {:g} degrees: {}{}", place(m), direction(m),
+                               p.cutoff_angle, text(p.intensity),
+                               p.texture ? " with " + texture_name(*p.texture) : "");
+          },
+          [&](const ProjectorLight& p) {
+            return fmt::format("projector {} {}: {}, scale {:g}", place(m), direction(m),
+                               input(p.irradiance), p.scale);
+          },
+          [&](const DirectionalLight& p) {
+            return fmt::format("directional {}: {}", direction(m), text(p.irradiance));
+          },
+          [&](const ConstantLight& p) { return "constant: " + text(p.radiance); },
+          [&](const EnvironmentMapLight& p) {
+            return fmt::format("envmap: {}, scale {:g}", p.file, p.scale);
+          },
+          [&](const SkyLight& p) {
+            return fmt::format("sky of turbidity {:g}, scale {:g}, sun {:g}", p.turbidity,
+                               p.sky_scale, p.sun_scale);
+          },
+          [&](const CollimatedLight& p) {
+            return fmt::format("collimated {} {}: {}", place(m), direction(m), text(p.power));
+          },
+      },
+      l.model);
 }
 
 std::string DescriptionText::sensor(const SensorDescription& s) const {
-  constexpr const char* kinds[] = {"perspective", "thinlens", "orthographic"};
   constexpr const char* axes[] = {"x", "y", "diagonal", "smaller", "larger"};
   std::string t =
-      fmt::format("{} {} {}", kinds[size_t(s.kind)], place(s.to_world), direction(s.to_world));
-  if (s.kind != SensorKind::orthographic)
-    t += fmt::format(", fov {:.4g} along {}", s.fov, axes[size_t(s.fov_axis)]);
-  if (s.kind == SensorKind::thinlens)
+      fmt::format("{} {} {}", sensor_name(s.kind), place(s.to_world), direction(s.to_world));
+  if (s.kind == SensorKind::batch) t = fmt::format("batch of {} sensors", s.parts.size());
+  if (s.kind == SensorKind::irradiancemeter)
+    t = "irradiancemeter on " + shape_kind(scene_.shapes[s.shape]);
+  if (has_fov(s.kind)) t += fmt::format(", fov {:.4g} along {}", s.fov, axes[size_t(s.fov_axis)]);
+  if (s.kind == SensorKind::thinlens || s.kind == SensorKind::telecentric)
     t += fmt::format(", aperture radius {:g}, focus at {:g}", s.aperture_radius, s.focus_distance);
+  if (s.kind == SensorKind::perspective_rdist)
+    t += fmt::format(", distortion {:g} and {:g}", s.distortion[0], s.distortion[1]);
+  if (s.target_point)
+    t += fmt::format(", target ({:.4g}, {:.4g}, {:.4g})", (*s.target_point)[0],
+                     (*s.target_point)[1], (*s.target_point)[2]);
+  for (const ShapeDescription& shape : s.target_shape) t += ", target " + shape_kind(shape);
   if (s.medium) t += ", in " + name(*s.medium);
   return t;
 }

@@ -23,7 +23,7 @@ std::array<float, 16> exr_matrix(const Matrix4& m) {
 Matrix4 camera_to_ndc(const SensorDescription& view, Point2i size) {
   const double aspect = double(size.x) / size.y;
   Matrix4 m;
-  if (view.kind == SensorKind::orthographic) {
+  if (view.kind == SensorKind::orthographic || view.kind == SensorKind::telecentric) {
     // The film is two units wide.
     m[0] = {0.5, 0, 0, 0.5};
     m[1] = {0, -0.5 * aspect, 0, 0.5};
@@ -79,7 +79,9 @@ std::vector<std::pair<std::string, HeaderValue>> image_header(const RenderRecord
   if (const auto world_to_camera = view.to_world.inverse()) {
     const Matrix4 camera = Matrix4::scale(-1, 1, 1) * *world_to_camera;
     fields.emplace_back("worldToCamera", exr_matrix(camera));
-    fields.emplace_back("worldToNDC", exr_matrix(camera_to_ndc(view, full_size) * camera));
+    if (has_fov(view.kind) || view.kind == SensorKind::orthographic ||
+        view.kind == SensorKind::telecentric)
+      fields.emplace_back("worldToNDC", exr_matrix(camera_to_ndc(view, full_size) * camera));
   }
   return fields;
 }

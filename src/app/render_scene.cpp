@@ -110,6 +110,7 @@ class SceneRenderer {
     }
     Diagnostics diagnostics;
     check_support(description_, description_.integrator, diagnostics);
+    check_support(sensor, description_.integrator, diagnostics);
     if (report(diagnostics, options_.read.strict)) throw SceneFailure("");
     if (const std::string bias = integrator_->bias(); !bias.empty()) warn(bias);
     record_.bias = integrator_->bias();

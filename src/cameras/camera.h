@@ -24,7 +24,7 @@ class Camera {
 
   /// The ray through a film position and, for lenses, a point of the unit square on the aperture.
   /// It starts on the near and ends on the far clipping plane; its direction has unit length. Every
-  /// ray carries the same weight.
+  /// ray carries the same weight, ray_weight().
   virtual Ray sample_ray(const Point2f& film, const Point2f& lens) const = 0;
 
   /// The density per unit area across `ray`, at the distance `t` from its start, with which film
@@ -38,6 +38,16 @@ class Camera {
 
   /// Whether `lens` matters.
   virtual bool has_lens() const { return false; }
+
+  /// What the radiance along a ray is to be multiplied by.
+  virtual float ray_weight() const { return 1; }
+
+  /// Whether points of the scene can be joined with the lens. If not, importance() and
+  /// sample_lens() say nothing, and light is found from this side only.
+  virtual bool connectible() const { return true; }
+
+  /// Tells cameras that look from afar which sphere holds the scene, before any use.
+  virtual void surround(const Point3f&, float) {}
 };
 
 }  // namespace duet

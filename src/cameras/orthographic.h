@@ -30,4 +30,26 @@ class OrthographicCamera final : public Camera {
   FilmAxes axes_;  ///< the third is `direction_`
 };
 
+/// A telecentric lens: rays leave a disk-shaped aperture around the orthographic camera's and meet
+/// in the plane of focus. As in Mitsuba 0.6, points cannot be joined with it.
+class TelecentricCamera final : public Camera {
+ public:
+  /// Radius and distance in world units.
+  TelecentricCamera(const OrthographicView& view, double aperture_radius, double focus_distance);
+  Ray sample_ray(const Point2f& film, const Point2f& lens) const override;
+  float importance(const Ray&, float) const override { return 0; }
+  std::optional<CameraSample> sample_lens(const Point3f&, const Point2f&) const override {
+    return std::nullopt;
+  }
+  bool has_lens() const override { return true; }
+  bool connectible() const override { return false; }
+
+ private:
+  Point3f corner_;            ///< of the film's upper left, on the aperture
+  Vector3f right_, down_;     ///< per pixel
+  Vector3f lens_x_, lens_y_;  ///< the aperture's radii
+  Vector3f focus_;            ///< from the aperture to the plane of focus
+  float near_, length_;
+};
+
 }  // namespace duet

@@ -82,4 +82,49 @@ std::optional<CameraSample> ThinLensCamera::sample_lens(const Point3f& from,
   return seen_from(eye_ + aside, aside * inv_focus_distance_, from);
 }
 
+DistortedCamera::DistortedCamera(const PerspectiveView& view, double k0, double k1)
+    : PerspectiveCamera(view), k0_(float(k0)), k1_(float(k1)) {}
+
+inline float DistortedCamera::stretch(float r2) const {
+  return std::abs((1 + r2 * (k0_ + r2 * k1_)) * (1 + r2 * (3 * k0_ + 5 * k1_ * r2)));
+}
+
+Ray DistortedCamera::sample_ray(const Point2f& film, const Point2f&) const {
+  const Vector3f shown = film_direction(film) - forward_;
+  const float y = length(shown);
+  // Newton's method from the distorted distance.
+  float r = y;
+  for (int i = 0; i < 8 && y > 0; ++i) {
+    const float r2 = r * r;
+    const float off = r * (1 + r2 * (k0_ + r2 * k1_)) - y;
+    r -= off / (1 + r2 * (3 * k0_ + 5 * k1_ * r2));
+  }
+  return clipped_ray(eye_, forward_ + shown * (y > 0 ? r / y : 1.0f));
+}
+
+float DistortedCamera::importance(const Ray& ray, float t) const {
+  const float slope = axes_.depth(ray.direction);
+  return PerspectiveCamera::importance(ray, t) * stretch(1 / (slope * slope) - 1);
+}
+
+std::optional<CameraSample> DistortedCamera::sample_lens(const Point3f& from,
+                                                         const Point2f&) const {
+  const Vector3f v = from - eye_;
+  const float depth = axes_.depth(v);
+  if (!(depth > near_ && depth <= near_ + depth_)) return std::nullopt;
+  const Vector3f direction = v * (1 / depth), aside = direction - forward_;
+  const float r2 = length_squared(aside);
+  // Beyond the radius where the polynomial turns around, no film position leads to the point.
+  for (int i = 1; i <= 8; ++i) {
+    const float q = r2 * sqr(float(i) / 8);
+    if (!(1 + q * (3 * k0_ + 5 * k1_ * q) > 0)) return std::nullopt;
+  }
+  const Vector3f film = axes_.coordinates(forward_ + aside * (1 + r2 * (k0_ + r2 * k1_)));
+  const Point2f position{film.x + center_x_, film.y + center_y_};
+  if (!on_film(position, film_)) return std::nullopt;
+  const float distance = length(v);
+  return CameraSample{position, v * (-1 / distance), eye_ + direction * near_,
+                      stretch(r2) * distance / (axes_.volume() * depth * depth * depth)};
+}
+
 }  // namespace duet

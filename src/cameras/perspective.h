@@ -34,8 +34,6 @@ class PerspectiveCamera : public Camera {
                                         const Point3f& from) const;
 
   Point3f eye_;
-
- private:
   Vector3f right_, down_;  ///< by one pixel, at depth 1
   Vector3f forward_;
   float center_x_, center_y_;
@@ -58,6 +56,23 @@ class ThinLensCamera final : public PerspectiveCamera {
 
   Vector3f lens_x_, lens_y_;  ///< the aperture's radii
   float inv_focus_distance_;
+};
+
+/// A pinhole camera whose picture is distorted radially: what lies at the distance r from the axis,
+/// at depth 1, is shown at r (1 + k₀ r² + k₁ r⁴). The transform must not stretch.
+/// Source: Brown, "Decentering Distortion of Lenses", 1966, the radial part.
+class DistortedCamera final : public PerspectiveCamera {
+ public:
+  DistortedCamera(const PerspectiveView& view, double k0, double k1);
+  Ray sample_ray(const Point2f& film, const Point2f& lens) const override;
+  float importance(const Ray& ray, float t) const override;
+  std::optional<CameraSample> sample_lens(const Point3f& from, const Point2f& lens) const override;
+
+ private:
+  /// Film area per area without distortion, at the squared distance r2 from the axis.
+  float stretch(float r2) const;
+
+  float k0_, k1_;
 };
 
 }  // namespace duet

@@ -151,6 +151,8 @@ void BidirectionalIntegrator::render_pass(const Scene& scene, Film& film,
 void BidirectionalIntegrator::iteration(const Scene& scene, Film& film, const SampleRange& samples,
                                         const PassControl& control, RenderCounters& counters) {
   windows_.light_paths = light_walks(film.full_size());
+  // What the sensor cannot be joined with, it finds by itself.
+  options_.light_image &= scene.camera->connectible();
   LightPassPlan plan;
   plan.set = techniques(film, samples.first);
   plan.walk = {options_.rr_depth, options_.strict_normals};

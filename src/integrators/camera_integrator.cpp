@@ -28,6 +28,7 @@ CameraIntegrator::CameraIntegrator(const CameraOutput& output) : image_(output.i
 size_t CameraIntegrator::add_colour_layer(const std::string& name) {
   const size_t first = channels_.size();
   for (const char* c : {".R", ".G", ".B"}) channels_.push_back(name + c);
+  colour_layers_.push_back(first);
   return first;
 }
 
@@ -42,6 +43,11 @@ void CameraIntegrator::sample(const Scene& scene, const CameraPath& path, Sample
   Spectrum l;
   if (image_) {
     l = radiance(scene, path, sampler, counters, values);
+    if (path.weight != 1) {
+      l *= path.weight;
+      for (const size_t first : colour_layers_)
+        for (size_t c = first; c < first + 3; ++c) values[c] *= path.weight;
+    }
     values[0] = l.r, values[1] = l.g, values[2] = l.b;
   }
   if (layers_.empty()) return;
@@ -70,6 +76,7 @@ void CameraIntegrator::render_tile(const Scene& scene, const Film& film, FilmTil
                                    const SampleRange& range, RenderCounters& counters) const {
   const Camera& camera = *scene.camera;
   const bool has_lens = camera.has_lens();
+  const float weight = camera.ray_weight();
   const bool unit_box = film.filter().is_unit_box();
   std::vector<float> values(channels_.size()), sums(channels_.size());
   const PixelBounds& b = tile.sampled();
@@ -88,7 +95,7 @@ void CameraIntegrator::render_tile(const Scene& scene, const Film& film, FilmTil
           lens = sampler.next_2d();
         }
         std::fill(values.begin(), values.end(), 0.0f);
-        const CameraPath path{camera.sample_ray(position, lens), pixel, range.first + i};
+        const CameraPath path{camera.sample_ray(position, lens), pixel, range.first + i, weight};
         sample(scene, path, sampler, counters, values);
         float zero = 0;
         for (const float v : values) zero += 0 * v;

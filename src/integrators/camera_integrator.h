@@ -31,8 +31,9 @@ struct CameraOutput {
 /// Where a path from the camera begins.
 struct CameraPath {
   Ray ray;
-  uint64_t pixel;   ///< y · width + x of the full image
-  uint32_t sample;  ///< its number in the pixel
+  uint64_t pixel;    ///< y · width + x of the full image
+  uint32_t sample;   ///< its number in the pixel
+  float weight = 1;  ///< of the ray, by which the colours are multiplied
 };
 
 /// A method that estimates the radiance along one camera ray at a time.
@@ -70,6 +71,7 @@ class CameraIntegrator : public Integrator {
   bool image_;
   std::vector<PlacedLayer> layers_;
   std::vector<std::string> channels_;
+  std::vector<size_t> colour_layers_;  ///< where those of add_colour_layer() begin
   bool looks_at_first_hit_ = false;
 };
 

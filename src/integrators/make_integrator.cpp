@@ -211,6 +211,17 @@ void check_support(const SceneDescription& scene, const IntegratorDescription& i
   check_one_way(scene.shapes);
 }
 
+void check_support(const SensorDescription& sensor, const IntegratorDescription& integrator,
+                   Diagnostics& diagnostics) {
+  const auto* d = std::get_if<BidirectionalIntegratorDescription>(&integrator.method);
+  if (!integrator.image || !d || is_connectible(sensor.kind)) return;
+  if (d->method == BidirectionalMethod::ptracer || d->method == BidirectionalMethod::reuse)
+    diagnostics.error(sensor.where,
+                      "integrator \"{}\" needs a sensor with which walks from lights can be "
+                      "joined: this one only sends rays, as \"path\" and \"bdpt\" need it",
+                      integrator_name(integrator));
+}
+
 std::unique_ptr<Integrator> make_integrator(const IntegratorDescription& integrator,
                                             TechniqueOutput techniques) {
   struct Make {

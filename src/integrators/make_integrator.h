@@ -38,6 +38,11 @@ SurfaceNeeds integrator_needs(const IntegratorDescription& integrator);
 void check_support(const SceneDescription& scene, const IntegratorDescription& integrator,
                    Diagnostics& diagnostics);
 
+/// Reports if the method needs what the sensor does not have: that walks from lights can be joined
+/// with it.
+void check_support(const SensorDescription& sensor, const IntegratorDescription& integrator,
+                   Diagnostics& diagnostics);
+
 /// Throws std::invalid_argument if a layer does not exist, or if there are no techniques to show.
 std::unique_ptr<Integrator> make_integrator(const IntegratorDescription& integrator,
                                             TechniqueOutput techniques = TechniqueOutput::none);

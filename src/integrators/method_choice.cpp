@@ -114,6 +114,8 @@ MethodChoice choose_method(const Scene& scene, const AutoIntegratorDescription& 
     return without_pilot(options, "light cannot be followed through tubes from its source");
   if (options.max_depth >= 0 && options.max_depth < 2)
     return without_pilot(options, "paths of one segment are seen directly");
+  if (!scene.camera->connectible())
+    return without_pilot(options, "the sensor cannot be joined with walks from lights");
   if (rules.far_lights_only && !rules.needs_light_walks && shows_little(scene, outlook.film))
     return without_pilot(options, "walks from lights so far away would miss what the image shows");
 

@@ -3,9 +3,10 @@
 namespace duet {
 
 MethodRules method_rules(const SceneFeatures& f) {
-  const size_t near_lights = f.area_lights + f.point_lights + f.spot_lights + f.projectors;
-  const size_t far_lights =
-      f.directional_lights + size_t(f.constant_environment) + size_t(f.environment_map);
+  const size_t near_lights =
+      f.area_lights + f.point_lights + f.spot_lights + f.projectors + f.beams;
+  const size_t far_lights = f.directional_lights + size_t(f.constant_environment) +
+                            size_t(f.environment_map) + size_t(f.sky);
   const bool delta_lights =
       f.point_lights + f.spot_lights + f.projectors + f.directional_lights > 0;
   MethodRules rules;
@@ -15,7 +16,7 @@ MethodRules method_rules(const SceneFeatures& f) {
   // that know media.
   const bool delta_surfaces = f.mirrors + f.smooth_glass > 0 || (f.masks > 0 && !rules.has_media);
   rules.has_lights = near_lights + far_lights > 0;
-  rules.needs_light_walks = delta_lights && delta_surfaces;
+  rules.needs_light_walks = (delta_lights && delta_surfaces) || f.beams > 0;
   rules.may_merge = rules.has_lights && (delta_surfaces || f.nearly_specular > 0);
   rules.far_lights_only = rules.has_lights && near_lights == 0;
   return rules;

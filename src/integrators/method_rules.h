@@ -10,8 +10,8 @@ namespace duet {
 /// Which ways of making paths come into question.
 struct MethodRules {
   bool has_lights = true;
-  /// There are lights that no ray finds and surfaces through which no light sample goes: some paths
-  /// can start at the light only.
+  /// There are lights that no ray finds and surfaces through which no light sample goes, or beams:
+  /// some paths can start at the light only.
   bool needs_light_walks = false;
   /// Merging is worth its cost for reflections of what mirrors or lenses make of light.
   bool may_merge = false;

@@ -11,31 +11,31 @@ namespace {
 
 constexpr double kPiD = 3.14159265358979323846;
 
-/// Power that crosses a sphere of this radius under a mean radiance from everywhere.
-double sphere_power(double radius, double mean) {
+}  // namespace
+
+double EnvironmentLight::sphere_power(double radius, double mean) {
   return 4 * kPiD * kPiD * radius * radius * mean;
 }
 
-LightSample from_afar(const Vector3f& wi, const Spectrum& radiance, PdfW pdf,
-                      const SceneSphere& sphere) {
+LightSample EnvironmentLight::from_afar(const Vector3f& wi, const Spectrum& radiance,
+                                        PdfW pdf) const {
   LightSample s;
   s.wi = wi;
   s.weight = radiance / pdf.value;
   s.pdf = pdf;
-  s.emission = pdf.value * sphere.density();
+  s.emission = pdf.value * sphere_.density();
   s.finite = false;
   return s;
 }
 
-/// A ray into the scene from where a sample says that light comes from.
-std::optional<EmissionSample> from_outside(const std::optional<LightSample>& s,
-                                           const SceneSphere& sphere, const Point2f& position) {
+std::optional<EmissionSample> EnvironmentLight::sample_emission(const Point2f& position,
+                                                                const Point2f& direction) const {
+  const auto s = sample_direct({}, direction);
   if (!s || s->weight.is_black()) return std::nullopt;
-  return EmissionSample{sphere.enter(s->wi, position), s->weight / sphere.density(), s->emission,
+  return EmissionSample{sphere_.enter(s->wi, position), s->weight / sphere_.density(), s->emission,
                         ShapePoint{}};
 }
 
-/// The rotation (and mirroring) in a transform, by Gram and Schmidt.
 Frame rotation(const Matrix4& m) {
   using V = std::array<double, 3>;
   std::array<V, 3> axis;
@@ -52,16 +52,9 @@ Frame rotation(const Matrix4& m) {
   return {vector(axis[0]), vector(axis[1]), Normal3f(vector(axis[2]))};
 }
 
-}  // namespace
-
 std::optional<LightSample> ConstantEnvironment::sample_direct(const Point3f&,
                                                               const Point2f& u) const {
-  return from_afar(square_to_sphere(u), radiance_, pdf_direct({}), sphere_);
-}
-
-std::optional<EmissionSample> ConstantEnvironment::sample_emission(const Point2f& position,
-                                                                   const Point2f& direction) const {
-  return from_outside(sample_direct({}, direction), sphere_, position);
+  return from_afar(square_to_sphere(u), radiance_, pdf_direct({}));
 }
 
 double ConstantEnvironment::power(double scene_radius) const {
@@ -135,12 +128,7 @@ std::optional<LightSample> EnvironmentMap::sample_direct(const Point3f&, const P
   const PdfW pdf = to_pdf(s.density, sin_theta);
   if (!(pdf.value > 0)) return std::nullopt;
   const Vector3f d(sin_phi * sin_theta, cos_theta, -cos_phi * sin_theta);
-  return from_afar(axes_.to_world(d), radiance(place), pdf, sphere_);
-}
-
-std::optional<EmissionSample> EnvironmentMap::sample_emission(const Point2f& position,
-                                                              const Point2f& direction) const {
-  return from_outside(sample_direct({}, direction), sphere_, position);
+  return from_afar(axes_.to_world(d), radiance(place), pdf);
 }
 
 double EnvironmentMap::power(double scene_radius) const {

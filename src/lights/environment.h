@@ -4,12 +4,14 @@
 #include <vector>
 
 #include "lights/light.h"
-#include "lights/scene_sphere.h"
 #include "math/distribution.h"
 #include "math/frame.h"
 #include "math/transform.h"
 
 namespace duet {
+
+/// The rotation (and mirroring) in a transform, by Gram and Schmidt.
+Frame rotation(const Matrix4& m);
 
 /// The same radiance from all directions.
 class ConstantEnvironment final : public EnvironmentLight {
@@ -19,19 +21,9 @@ class ConstantEnvironment final : public EnvironmentLight {
   Spectrum emitted(const Vector3f&) const override { return radiance_; }
   PdfW pdf_direct(const Vector3f&) const override { return {0.25f * kInvPi}; }
   double power(double scene_radius) const override;
-  std::optional<EmissionSample> sample_emission(const Point2f& position,
-                                                const Point2f& direction) const override;
-  float direct_density(const EmissionSample& emission, const Point3f&) const override {
-    return pdf_direct(-emission.ray.direction).value;
-  }
-  float emission_density(const Vector3f& wi) const override {
-    return pdf_direct(wi).value * sphere_.density();
-  }
-  void surround(const Point3f& center, float radius) override { sphere_ = {center, radius}; }
 
  private:
   Spectrum radiance_;
-  SceneSphere sphere_;
 };
 
 /// An image around the scene by latitude and longitude. Its first row is the direction +y, its last
@@ -48,15 +40,6 @@ class EnvironmentMap final : public EnvironmentLight {
   Spectrum emitted(const Vector3f& wi) const override;
   PdfW pdf_direct(const Vector3f& wi) const override;
   double power(double scene_radius) const override;
-  std::optional<EmissionSample> sample_emission(const Point2f& position,
-                                                const Point2f& direction) const override;
-  float direct_density(const EmissionSample& emission, const Point3f&) const override {
-    return pdf_direct(-emission.ray.direction).value;
-  }
-  float emission_density(const Vector3f& wi) const override {
-    return pdf_direct(wi).value * sphere_.density();
-  }
-  void surround(const Point3f& center, float radius) override { sphere_ = {center, radius}; }
 
  private:
   /// A place between four texels: column x (and the next, around the back), row y and the one
@@ -83,7 +66,6 @@ class EnvironmentMap final : public EnvironmentLight {
   BilinearDistribution distribution_;
   Frame axes_;       ///< the image's x, y and z in the world; left-handed if mirrored
   double mean_ = 0;  ///< luminance over the sphere
-  SceneSphere sphere_;
 };
 
 }  // namespace duet

@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "geometry/surface.h"
+#include "lights/scene_sphere.h"
 #include "math/measure.h"
 #include "math/spectrum.h"
 
@@ -100,7 +101,25 @@ class EnvironmentLight : public Light {
   virtual Spectrum emitted(const Vector3f& wi) const = 0;
   virtual PdfW pdf_direct(const Vector3f& wi) const = 0;
   /// EmissionSample::density of a ray that comes from the unit direction `wi`.
-  virtual float emission_density(const Vector3f& wi) const = 0;
+  float emission_density(const Vector3f& wi) const {
+    return pdf_direct(wi).value * sphere_.density();
+  }
+  float direct_density(const EmissionSample& emission, const Point3f&) const final {
+    return pdf_direct(-emission.ray.direction).value;
+  }
+  /// A ray from where sample_direct() says that light comes from.
+  std::optional<EmissionSample> sample_emission(const Point2f& position,
+                                                const Point2f& direction) const final;
+  void surround(const Point3f& center, float radius) final { sphere_ = {center, radius}; }
+
+ protected:
+  /// What sample_direct() returns for a direction that it has chosen.
+  LightSample from_afar(const Vector3f& wi, const Spectrum& radiance, PdfW pdf) const;
+  /// Power that crosses a sphere of this radius under a mean radiance from everywhere.
+  static double sphere_power(double radius, double mean);
+
+ private:
+  SceneSphere sphere_;
 };
 
 }  // namespace duet

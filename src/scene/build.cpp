@@ -1,7 +1,5 @@
 #include "scene/build.h"
 
-#include "cameras/orthographic.h"
-#include "cameras/perspective.h"
 #include "scene/builder.h"
 #include "scene/light_media.h"
 
@@ -29,7 +27,10 @@ std::unique_ptr<Scene> SceneBuilder::build() {
   scene_->features = scene_features(description_);
   shapes();
   lights();
-  camera();
+  SensorDescription& sensor = description_.sensors.at(options_.sensor);
+  scene_->camera = camera(sensor, {sensor.film.width, sensor.film.height});
+  if (const uint32_t m = medium(sensor.medium); m != kNone)
+    scene_->camera_medium = scene_->media[m].get();
   if (diagnostics_.error_count() > errors) return nullptr;
   Scene& scene = *scene_;
   for (const auto& m : scene.materials) scene.has_passable_surfaces |= m->passes_straight();
@@ -40,6 +41,7 @@ std::unique_ptr<Scene> SceneBuilder::build() {
   // Light may be scattered there, too.
   if (outermost)
     if (const auto box = outermost->bounds()) bounds.extend(*box);
+  scene.camera->surround(bounds.center(), bounds.radius());
   for (const auto& light : scene.lights) light->surround(bounds.center(), bounds.radius());
   if (!scene.media.empty())
     for (const auto& light : scene.lights)
@@ -56,30 +58,6 @@ bool SceneBuilder::check_transform(const Matrix4& m, const SourceLocation& where
   else
     return true;
   return false;
-}
-
-void SceneBuilder::camera() {
-  const SensorDescription& d = description_.sensors.at(options_.sensor);
-  if (!check_transform(d.to_world, d.where)) return;
-  if (const uint32_t m = medium(d.medium); m != kNone)
-    scene_->camera_medium = scene_->media[m].get();
-  const Point2i film{d.film.width, d.film.height};
-  if (d.kind == SensorKind::orthographic) {
-    scene_->camera = std::make_unique<OrthographicCamera>(
-        OrthographicView{Transform(d.to_world), film, d.near_clip, d.far_clip});
-    return;
-  }
-  const PerspectiveView view{Transform(d.to_world),
-                             film,
-                             horizontal_fov(d.fov, d.fov_axis, double(film.x) / film.y),
-                             d.principal_point_offset_x,
-                             d.principal_point_offset_y,
-                             d.near_clip,
-                             d.far_clip};
-  if (d.kind == SensorKind::thinlens)
-    scene_->camera = std::make_unique<ThinLensCamera>(view, d.aperture_radius, d.focus_distance);
-  else
-    scene_->camera = std::make_unique<PerspectiveCamera>(view);
 }
 
 }  // namespace duet

@@ -1,7 +1,8 @@
 // Builds lights from their descriptions and prepares the choice among them.
 #include "lights/area.h"
+#include "lights/beam.h"
 #include "lights/delta.h"
-#include "lights/environment.h"
+#include "lights/sky.h"
 #include "scene/builder.h"
 
 namespace duet {
@@ -23,6 +24,14 @@ void SceneBuilder::lights() {
     Shape& shape = scene.shapes[e.shape];
     if (!(surface_area(shape) > 0)) {
       diagnostics_.error(e.where, "this light's shape has no area");
+      continue;
+    }
+    if (e.directional) {
+      // No ray finds it: for those that meet the shape it is dark.
+      if (ShapePoints::is_even(shape))
+        add_light(std::make_unique<DirectionalArea>(shape, e.radiance), e.sampling_weight);
+      else
+        diagnostics_.error(e.where, "this light's shape must not be stretched");
       continue;
     }
     shape.light = uint32_t(scene.lights.size());
@@ -64,6 +73,23 @@ std::unique_ptr<Light> SceneBuilder::make(const DirectionalLight& l, const Light
 
 std::unique_ptr<Light> SceneBuilder::make(const ConstantLight& l, const LightDescription&) {
   return std::make_unique<ConstantEnvironment>(l.radiance);
+}
+
+std::unique_ptr<Light> SceneBuilder::make(const SkyLight& l, const LightDescription& d) {
+  SkyOptions o;
+  o.turbidity = l.turbidity;
+  o.albedo = l.albedo;
+  o.sun = {float(l.sun[0]), float(l.sun[1]), float(l.sun[2])};
+  o.sky_scale = l.sky_scale;
+  o.sun_scale = l.sun_scale;
+  o.sun_aperture = l.sun_aperture;
+  o.stretch = l.stretch;
+  o.extend = l.extend;
+  return std::make_unique<Sky>(o, d.to_world);
+}
+
+std::unique_ptr<Light> SceneBuilder::make(const CollimatedLight& l, const LightDescription& d) {
+  return std::make_unique<CollimatedBeam>(Transform(d.to_world), l.power);
 }
 
 std::unique_ptr<Light> SceneBuilder::make(const EnvironmentMapLight& l, const LightDescription& d) {

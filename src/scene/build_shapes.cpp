@@ -92,23 +92,10 @@ void SceneBuilder::add_instance(const ShapeDescription& d, uint32_t group) {
   scene_->instances.push_back({group, Transform(d.to_world), float(std::sqrt(squares))});
 }
 
-void SceneBuilder::add_shape(ShapeDescription& d) {
-  if (!check_transform(d.to_world, d.where)) return;
-  AttributeSet outer = std::exchange(attributes_, {});
-  const Material* made = material(d.material);
+Shape SceneBuilder::geometry(ShapeDescription& d, const SurfaceNeeds& needs) {
   Shape shape;
   shape.flip_normals = d.flip_normals;
-  shape.needs = options_.layer_needs;
-  if (made) shape.needs = shape.needs | made->needs();
-  shape.material = materials_[size_t(d.material)].index;
-  shape.interior = medium(d.interior);
-  shape.exterior = medium(d.exterior);
-  if (d.emission) {
-    const ColorSlot radiance = slot(d.emission->radiance);
-    shape.needs.uv |= radiance.needs_uv();
-    emissions_.push_back(
-        {scene_->shapes.size(), radiance, d.emission->sampling_weight, d.emission->where});
-  }
+  shape.needs = needs;
   if (std::holds_alternative<SphereShape>(d.geometry)) {
     shape.kind = ShapeKind::sphere;
   } else if (std::holds_alternative<DiskShape>(d.geometry)) {
@@ -136,6 +123,25 @@ void SceneBuilder::add_shape(ShapeDescription& d) {
     shape.to_world = Transform(d.to_world);
     shape.to_local = *d.to_world.inverse();
   }
+  return shape;
+}
+
+void SceneBuilder::add_shape(ShapeDescription& d) {
+  if (!check_transform(d.to_world, d.where)) return;
+  AttributeSet outer = std::exchange(attributes_, {});
+  const Material* made = material(d.material);
+  SurfaceNeeds needs = options_.layer_needs;
+  if (made) needs = needs | made->needs();
+  if (d.emission) {
+    const ColorSlot radiance = slot(d.emission->radiance);
+    needs.uv |= radiance.needs_uv();
+    emissions_.push_back({scene_->shapes.size(), radiance, d.emission->sampling_weight,
+                          d.emission->directional, d.emission->where});
+  }
+  Shape shape = geometry(d, needs);
+  shape.material = materials_[size_t(d.material)].index;
+  shape.interior = medium(d.interior);
+  shape.exterior = medium(d.exterior);
   announce(shape.mesh.get(), d.where);
   attributes_ = std::move(outer);
   scene_->shapes.push_back(std::move(shape));

@@ -1,6 +1,8 @@
 // Builds textures from their descriptions.
+#include "media/volume_texture.h"
 #include "scene/builder.h"
 #include "textures/checkerboard.h"
+#include "textures/grid_texture.h"
 
 namespace duet {
 
@@ -40,6 +42,22 @@ std::unique_ptr<Texture> SceneBuilder::make(const MeshAttributeTexture& t, const
   auto made = std::make_unique<MeshAttributeMap>(t.attribute, float(t.scale));
   attributes_.insert(made.get());
   return made;
+}
+
+std::unique_ptr<Texture> SceneBuilder::make(const GridLinesTexture& t, const SourceLocation&) {
+  return std::make_unique<GridTexture>(slot(t.color0), slot(t.color1), float(t.line_width),
+                                       t.to_uv);
+}
+
+std::unique_ptr<Texture> SceneBuilder::make(const ScaledTextureDescription& t,
+                                            const SourceLocation&) {
+  const Texture* inner = texture(t.inner);
+  return inner ? std::make_unique<ScaledTexture>(*inner, t.scale) : nullptr;
+}
+
+std::unique_ptr<Texture> SceneBuilder::make(const VolumeTextureDescription& t,
+                                            const SourceLocation&) {
+  return std::make_unique<VolumeTexture>(slot(ColorVolume(t.volume)));
 }
 
 std::shared_ptr<const BitmapPixels> SceneBuilder::pixels(const std::string& file,

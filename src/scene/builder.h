@@ -46,6 +46,9 @@ class SceneBuilder {
   std::unique_ptr<Texture> make(const BitmapTexture& t, const SourceLocation& where);
   std::unique_ptr<Texture> make(const CheckerboardTexture& t, const SourceLocation& where);
   std::unique_ptr<Texture> make(const MeshAttributeTexture& t, const SourceLocation& where);
+  std::unique_ptr<Texture> make(const GridLinesTexture& t, const SourceLocation& where);
+  std::unique_ptr<Texture> make(const ScaledTextureDescription& t, const SourceLocation& where);
+  std::unique_ptr<Texture> make(const VolumeTextureDescription& t, const SourceLocation& where);
   std::shared_ptr<const BitmapPixels> pixels(const std::string& file,
                                              const BitmapDecoding& decoding,
                                              const SourceLocation& where);
@@ -101,6 +104,8 @@ class SceneBuilder {
   // build_shapes.cpp
   void shapes();
   void add_shape(ShapeDescription& d);
+  /// The geometry of a description that has passed check_transform().
+  Shape geometry(ShapeDescription& d, const SurfaceNeeds& needs);
   void add_instance(const ShapeDescription& d, uint32_t group);
   std::shared_ptr<TriangleMesh> world_mesh(ShapeDescription& d);
   void announce(const TriangleMesh* mesh, const SourceLocation& where);
@@ -114,9 +119,16 @@ class SceneBuilder {
   std::unique_ptr<Light> make(const DirectionalLight& l, const LightDescription& d);
   std::unique_ptr<Light> make(const ConstantLight& l, const LightDescription& d);
   std::unique_ptr<Light> make(const EnvironmentMapLight& l, const LightDescription& d);
+  std::unique_ptr<Light> make(const SkyLight& l, const LightDescription& d);
+  std::unique_ptr<Light> make(const CollimatedLight& l, const LightDescription& d);
 
-  // build.cpp
-  void camera();
+  // build_cameras.cpp
+  std::unique_ptr<Camera> camera(SensorDescription& d, const Point2i& film);
+  std::unique_ptr<Camera> irradiance_meter(const SensorDescription& d, const Point2i& film);
+  std::unique_ptr<Camera> distant_meter(SensorDescription& d, const Point2i& film);
+  std::unique_ptr<Camera> batch(SensorDescription& d, const Point2i& film);
+  /// Whether a sensor's film has one pixel; an error if not.
+  bool check_single_pixel(const SensorDescription& d, const Point2i& film);
 
   /// Whether the matrix can be made a Transform; an error if not.
   bool check_transform(const Matrix4& m, const SourceLocation& where);
@@ -141,6 +153,7 @@ class SceneBuilder {
     size_t shape;
     ColorSlot radiance;
     double sampling_weight;
+    bool directional;
     SourceLocation where;
   };
   std::vector<Emission> emissions_;

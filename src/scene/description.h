@@ -76,10 +76,31 @@ struct MeshAttributeTexture {
   bool operator==(const MeshAttributeTexture&) const = default;
 };
 
+/// Unit squares of texture coordinates with lines that reach line_width into each.
+struct GridLinesTexture {
+  ColorInput color0 = Spectrum(0.2f), color1 = Spectrum(0.4f);
+  double line_width = 0.01;
+  UvTransform to_uv;
+  bool operator==(const GridLinesTexture&) const = default;
+};
+/// Another texture times a colour.
+struct ScaledTextureDescription {
+  TextureId inner{};
+  Spectrum scale{1.0f};
+  bool operator==(const ScaledTextureDescription&) const = default;
+};
+/// A volume, looked up in the world.
+struct VolumeTextureDescription {
+  std::variant<Spectrum, VolumeId> volume = Spectrum(0.75f);
+  bool operator==(const VolumeTextureDescription&) const = default;
+};
+
 struct TextureDescription {
   SourceLocation where;
   Label label;
-  std::variant<BitmapTexture, CheckerboardTexture, MeshAttributeTexture> model;
+  std::variant<BitmapTexture, CheckerboardTexture, MeshAttributeTexture, GridLinesTexture,
+               ScaledTextureDescription, VolumeTextureDescription>
+      model;
   bool operator==(const TextureDescription&) const = default;
 };
 
@@ -421,6 +442,8 @@ struct AreaEmission {
   SourceLocation where;
   ColorInput radiance = Spectrum(1.0f);
   double sampling_weight = 1;  ///< as in LightDescription
+  /// Light leaves along the normals only; `radiance` is power per unit area.
+  bool directional = false;
   bool operator==(const AreaEmission&) const = default;
 };
 
@@ -487,11 +510,28 @@ struct EnvironmentMapLight {
   bool operator==(const EnvironmentMapLight&) const = default;
 };
 
+/// Hosek and Wilkie's sky with the sun in it; +z is up.
+struct SkyLight {
+  double turbidity = 3;
+  Spectrum albedo{0.3f};
+  std::array<double, 3> sun{0, 0, 1};  ///< direction to the sun, not zero
+  double sky_scale = 1, sun_scale = 1;
+  double sun_aperture = 0.5358;  ///< degrees
+  double stretch = 1;            ///< 0.x: how far the sky is drawn beyond the horizon
+  bool extend = false;           ///< 0.x: the horizon goes on below
+  bool operator==(const SkyLight&) const = default;
+};
+/// A thin beam along +z, in watts.
+struct CollimatedLight {
+  Spectrum power{1.0f};
+  bool operator==(const CollimatedLight&) const = default;
+};
+
 struct LightDescription {
   SourceLocation where;
   Label label;
   std::variant<PointLight, SpotLight, ProjectorLight, DirectionalLight, ConstantLight,
-               EnvironmentMapLight>
+               EnvironmentMapLight, SkyLight, CollimatedLight>
       model;
   Matrix4 to_world;
   /// Multiplies the light's share in the choice of a light (`sampling_weight`).
@@ -502,7 +542,38 @@ struct LightDescription {
 
 // ---- Sensor, film, sampler --------------------------------------------------------------------
 
-enum class SensorKind { perspective, thinlens, orthographic };
+enum class SensorKind {
+  perspective,
+  thinlens,
+  orthographic,
+  telecentric,
+  perspective_rdist,
+  spherical,
+  radiancemeter,
+  irradiancemeter,
+  fluencemeter,
+  distant,
+  batch,
+};
+/// Its name in Mitsuba.
+constexpr const char* sensor_name(SensorKind k) {
+  constexpr const char* names[] = {
+      "perspective",       "thinlens",  "orthographic",  "telecentric",
+      "perspective_rdist", "spherical", "radiancemeter", "irradiancemeter",
+      "fluencemeter",      "distant",   "batch"};
+  return names[size_t(k)];
+}
+/// Whether points of the scene can be joined with the sensor: Camera::connectible().
+constexpr bool is_connectible(SensorKind k) {
+  return k == SensorKind::perspective || k == SensorKind::thinlens ||
+         k == SensorKind::orthographic || k == SensorKind::perspective_rdist ||
+         k == SensorKind::spherical;
+}
+/// Whether a field of view says what the sensor sees.
+constexpr bool has_fov(SensorKind k) {
+  return k == SensorKind::perspective || k == SensorKind::thinlens ||
+         k == SensorKind::perspective_rdist;
+}
 enum class PixelFormat { luminance, luminance_alpha, rgb, rgba, xyz, xyza };
 enum class ComponentFormat { half, single };
 
@@ -548,8 +619,14 @@ struct SensorDescription {
   FovAxis fov_axis = FovAxis::x;
   double principal_point_offset_x = 0, principal_point_offset_y = 0;  ///< in image sizes
   double near_clip = 1e-2, far_clip = 1e4;
-  double aperture_radius = 0, focus_distance = 0;  ///< thinlens
-  std::optional<MediumId> medium;                  ///< that the sensor stands in
+  double aperture_radius = 0, focus_distance = 0;  ///< thinlens, telecentric
+  std::array<double, 2> distortion{};              ///< perspective_rdist: of r³ and r⁵
+  uint32_t shape = 0;                              ///< irradiancemeter: index in `shapes`
+  /// distant: what it averages over; neither is the whole scene.
+  std::optional<std::array<double, 3>> target_point;
+  std::vector<ShapeDescription> target_shape;  ///< none or one
+  std::vector<SensorDescription> parts;        ///< batch; their films and samplers do not count
+  std::optional<MediumId> medium;              ///< that the sensor stands in
   FilmDescription film;
   SamplerDescription sampler;
   bool operator==(const SensorDescription&) const = default;

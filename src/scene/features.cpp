@@ -41,7 +41,7 @@ class Survey {
     for (const ShapeDescription& s : scene.shapes) add(s, features_.bounds);
     for (const LightDescription& l : scene.lights) std::visit(*this, l.model);
     for (const SensorDescription& s : scene.sensors) {
-      features_.depth_of_field |= s.kind == SensorKind::thinlens && s.aperture_radius > 0;
+      features_.depth_of_field |= s.aperture_radius > 0;
       add(s.medium);
     }
     features_.textures = scene.textures.size();
@@ -55,6 +55,8 @@ class Survey {
   void operator()(const DirectionalLight&) { ++features_.directional_lights; }
   void operator()(const ConstantLight&) { features_.constant_environment = true; }
   void operator()(const EnvironmentMapLight&) { features_.environment_map = true; }
+  void operator()(const SkyLight&) { features_.sky = true; }
+  void operator()(const CollimatedLight&) { ++features_.beams; }
 
   // Materials.
   void operator()(const DiffuseMaterial&) { ++features_.diffuse; }
@@ -156,7 +158,9 @@ class Survey {
     }
     add(s.material);
     add(s.interior), add(s.exterior);
-    if (s.emission) {
+    if (s.emission && s.emission->directional) {
+      ++features_.beams;
+    } else if (s.emission) {
       ++features_.area_lights;
       features_.textured_area_lights += std::holds_alternative<TextureId>(s.emission->radiance);
     }
@@ -249,6 +253,8 @@ std::string describe(const SceneFeatures& f) {
                      .add(f.directional_lights, "directional light", "directional lights")
                      .add(f.constant_environment, "constant environment")
                      .add(f.environment_map, "environment map")
+                     .add(f.sky, "sky")
+                     .add(f.beams, "beam of light", "beams of light")
                      .text("no lights");
   text += "; " + List()
                      .add(f.diffuse > 0, "diffuse reflection")

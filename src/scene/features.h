@@ -22,7 +22,8 @@ struct SceneFeatures {
 
   size_t area_lights = 0, textured_area_lights = 0;
   size_t point_lights = 0, spot_lights = 0, projectors = 0, directional_lights = 0;
-  bool constant_environment = false, environment_map = false;
+  size_t beams = 0;  ///< lights that only walks from them find
+  bool constant_environment = false, environment_map = false, sky = false;
 
   /// Materials on surfaces, by how they scatter. One can count several times: smooth plastic is
   /// diffuse and a mirror.

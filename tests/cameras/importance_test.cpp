@@ -45,6 +45,10 @@ std::vector<View> views() {
     add("pinhole with a shifted centre", std::make_unique<PerspectiveCamera>(shifted));
     add("thin lens", std::make_unique<ThinLensCamera>(centered, 0.3, 4));
     add("thin lens with a shifted centre", std::make_unique<ThinLensCamera>(shifted, 0.2, 6));
+    if (std::string(how) == "placed" || std::string(how) == "mirrored") {
+      add("barrel distortion", std::make_unique<DistortedCamera>(centered, 0.1, 0.05));
+      add("pincushion distortion", std::make_unique<DistortedCamera>(centered, -0.1, 0.02));
+    }
     add("orthographic",
         std::make_unique<OrthographicCamera>(OrthographicView{t, kFilm, kNear, kFar}));
   }

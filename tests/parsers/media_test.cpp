@@ -149,7 +149,7 @@ TEST_CASE("grids: where they lie and what they are called in both Mitsubas") {
   fails(
       volume("<string name='filename' value='smoke.vol'/><string name='wrap_mode' value='tile'/>"),
       "cannot be \"tile\"");
-  fails("<volume name='sigma_t' type='hgridvolume'/>", "is not supported yet");
+  fails("<volume name='sigma_t' type='hgridvolume'/>", "is refused");
   fails("<texture name='sigma_t' type='checkerboard'/>", "");
   CHECK(read("0.6.0", "<medium type='heterogeneous'/>").has("needs the parameter \"density\""));
 }

@@ -253,5 +253,5 @@ TEST_CASE("integrators") {
   CHECK(bad("<integrator type='aov'/>", "needs the parameter \"aovs\""));
   CHECK(bad("<integrator type='moment'/>", "needs an integrator"));
   CHECK(bad("<integrator type='path'/><integrator type='path'/>", "can have only one integrator"));
-  CHECK(bad("<integrator type='mlt'/>", "integrator type \"mlt\" is not supported yet"));
+  CHECK(bad("<integrator type='ao'/>", "integrator type \"ao\" is refused"));
 }

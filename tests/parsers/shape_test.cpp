@@ -60,13 +60,11 @@ TEST_CASE("texture: checkerboard, mesh attributes, scale") {
   CHECK(fails("3.0.0",
               "<texture type='mesh_attribute'><string name='name' value='color'/></texture>",
               "begins with \"vertex_\" or \"face_\""));
-  const auto scaled = texture<CheckerboardTexture>("0.6.0", "scale",
-                                                   kBoard + "<rgb name='scale' value='0.5 1 2'/>");
-  CHECK(scaled.color0 == ColorInput(Spectrum(0.2f, 0.4f, 0.8f)));
-  CHECK(fails("0.6.0",
-              "<texture type='scale'><float name='scale' value='2'/><texture type='bitmap'><string "
-              "name='filename' value='a.png'/></texture></texture>",
-              "not supported yet"));
+  const auto scaled = texture<ScaledTextureDescription>(
+      "0.6.0", "scale", kBoard + "<rgb name='scale' value='0.5 1 2'/>");
+  CHECK(scaled.scale == Spectrum(0.5f, 1, 2));
+  CHECK(fails("0.6.0", "<texture type='scale'><float name='scale' value='2'/></texture>",
+              "needs a texture"));
 }
 
 TEST_CASE("shape: places and orientation") {

@@ -25,6 +25,7 @@ inline constexpr double kHeavyTails = 0.992;
 
 inline const std::vector<ReferenceCase>& reference_cases() {
   static const std::vector<ReferenceCase> cases{
+      {"batch", "batch", {}, 256, 0.013},
       {"bsdf-conductors", "bsdf-conductors", {}, 256, 0.06},
       {"bsdf-dielectrics", "bsdf-dielectrics", {}, 256, 0.11},
       {"bsdf-fibres", "bsdf-fibres", {}, 256, 0.2},
@@ -36,6 +37,7 @@ inline const std::vector<ReferenceCase>& reference_cases() {
       {"cornell-box", "cornell-box", {{"size", "128"}}, 512, 0.05},
       {"curves", "curves", {}, 256, 0.2},
       {"depth-of-field", "depth-of-field", {}, 256, 0.017},
+      {"directional-area", "directional-area", {}, 256, 0.16},
       {"environment-map", "environment-map", {}, 256, 0.062},
       {"filters-tent", "filters", {{"filter", "tent"}}, 256, 0.016},
       {"filters-gaussian", "filters", {{"filter", "gaussian"}}, 256, 0.014},
@@ -55,6 +57,7 @@ inline const std::vector<ReferenceCase>& reference_cases() {
       {"sdf-grid", "sdf-grid", {}, 256, 0.06},
       {"shapes", "shapes", {}, 256, 0.011},
       {"spectra", "spectra", {}, 256, 0.018},
+      {"sunsky", "sunsky", {}, 256, 0.056},
       {"textures", "textures", {}, 256, 0.01},
       {"thesis-empty", "thesis-empty", {{"size", "128"}}, 1024, 0.035},
       {"thesis-modified", "thesis-modified", {{"size", "128"}}, 1024, 0.2},

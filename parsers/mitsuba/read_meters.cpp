@@ -1,0 +1,129 @@
+// Sensors that measure, and those that only Mitsuba 0.6 has.
+#include <cmath>
+
+#include "mitsuba/focal_length.h"
+#include "mitsuba/readers.h"
+#include "mitsuba/sensor_parts.h"
+#include "mitsuba/text.h"
+
+namespace duet {
+
+namespace {
+
+/// The transform whose +z is `direction`, from `origin`.
+Matrix4 look_along(Properties& p, const Triple& origin, const Triple& direction) {
+  const Triple up =
+      std::abs(direction[0]) > std::abs(direction[1]) ? Triple{0, 1, 0} : Triple{1, 0, 0};
+  const Triple target{origin[0] + direction[0], origin[1] + direction[1], origin[2] + direction[2]};
+  if (const auto m = Matrix4::look_at(origin, target, up)) return *m;
+  p.error("direction", "the direction of a sensor cannot be zero");
+  return {};
+}
+
+/// Mitsuba 0.6 only has to_world.
+void check_not_both(Properties& p, std::string_view name) {
+  if (p.has(name) && p.has("to_world"))
+    p.error(name, "either \"{}\" or \"to_world\" can be given", name);
+}
+
+void read_target(SceneReader& s, Properties& p, SensorDescription& out) {
+  if (p.has("target")) out.target_point = p.triple("target");
+  const auto shapes = p.children(PluginKind::shape);
+  if (shapes.empty()) return;
+  if (shapes.size() > 1 || out.target_point || shapes[0].property->name != "target")
+    return s.report().error(shapes[0].property->where, "{} has one \"target\": a point or a shape",
+                            describe(p.node()));
+  const Node& node = *shapes[0].node;
+  s.shape(node, out.target_shape, false);
+  if (out.target_shape.size() == 1 &&
+      !std::holds_alternative<InstanceShape>(out.target_shape[0].geometry) &&
+      !out.target_shape[0].emission)
+    return;
+  if (node.plugin && !s.report().has_errors())
+    s.report().error(node.where, "a target neither shines nor holds other shapes");
+  out.target_shape.clear();
+}
+
+}  // namespace
+
+void read_radiancemeter(SceneReader& s, Properties& p, SensorDescription& out) {
+  out.kind = SensorKind::radiancemeter;
+  read_sensor(s, p, out);
+  check_not_both(p, "origin");
+  check_not_both(p, "direction");
+  if (p.has("origin") != p.has("direction"))
+    p.error(p.has("origin") ? "origin" : "direction",
+            "\"origin\" and \"direction\" are given together or not at all");
+  const Triple origin = p.triple("origin"), direction = p.triple("direction");
+  if (p.has("origin") && p.has("direction")) out.to_world = look_along(p, origin, direction);
+}
+
+void read_irradiancemeter(SceneReader& s, Properties& p, SensorDescription& out) {
+  out.kind = SensorKind::irradiancemeter;
+  read_sensor(s, p, out);
+  if (p.has("to_world"))
+    p.error("to_world", "{} stands where its shape is: it has no transform", describe(p.node()));
+}
+
+void read_fluencemeter(SceneReader& s, Properties& p, SensorDescription& out) {
+  out.kind = SensorKind::fluencemeter;
+  read_sensor(s, p, out);
+  check_rigid(p, out.to_world);
+}
+
+void read_distant(SceneReader& s, Properties& p, SensorDescription& out) {
+  out.kind = SensorKind::distant;
+  read_sensor(s, p, out);
+  check_not_both(p, "direction");
+  const Triple direction = p.triple("direction");
+  if (p.has("direction")) out.to_world = look_along(p, {0, 0, 0}, direction);
+  read_target(s, p, out);
+}
+
+void read_spherical(SceneReader& s, Properties& p, SensorDescription& out) {
+  out.kind = SensorKind::spherical;
+  read_sensor(s, p, out);
+  check_rigid(p, out.to_world);
+}
+
+void read_telecentric(SceneReader& s, Properties& p, SensorDescription& out) {
+  out.kind = SensorKind::telecentric;
+  read_sensor(s, p, out);
+  out.aperture_radius = p.number("aperture_radius");
+  out.focus_distance = p.optional_number("focus_distance").value_or(out.far_clip);
+}
+
+void read_perspective_rdist(SceneReader& s, Properties& p, SensorDescription& out) {
+  out.kind = SensorKind::perspective_rdist;
+  read_sensor(s, p, out);
+  check_rigid(p, out.to_world);
+  std::tie(out.fov, out.fov_axis) = read_fov(p);
+  const std::string text = p.string("kc");
+  const auto numbers = parse_numbers(text);
+  if (numbers && numbers->size() == 2)
+    out.distortion = {(*numbers)[0], (*numbers)[1]};
+  else if (!numbers || !numbers->empty())
+    p.error("kc", "{} are not two coefficients of distortion", in_quotes(text));
+}
+
+void read_batch(SceneReader& s, Properties& p, SensorDescription& out) {
+  out.kind = SensorKind::batch;
+  read_sensor(s, p, out);
+  for (const Properties::Child& child : p.children(PluginKind::sensor)) {
+    SensorDescription part;
+    if (!s.read_into(*child.node, part)) continue;
+    if (part.kind == SensorKind::irradiancemeter || part.kind == SensorKind::batch) {
+      s.report().error(part.where, "{} cannot stand in {}", describe(*child.node),
+                       describe(p.node()));
+      continue;
+    }
+    // The batch's own count.
+    part.film = {};
+    part.sampler = {};
+    out.parts.push_back(std::move(part));
+  }
+  if (out.parts.empty() && !s.report().has_errors())
+    s.report().error(p.node().where, "{} needs a sensor", describe(p.node()));
+}
+
+}  // namespace duet

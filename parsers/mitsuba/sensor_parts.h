@@ -1,0 +1,13 @@
+// What the readers of sensors share.
+#pragma once
+
+#include "mitsuba/scene_reader.h"
+
+namespace duet {
+
+/// What all sensors have: place, clipping planes, medium, film and sampler.
+void read_sensor(SceneReader& s, Properties& p, SensorDescription& out);
+/// An error if the transform does more than turn, mirror and move: cameras have no size.
+void check_rigid(Properties& p, const Matrix4& m);
+
+}  // namespace duet

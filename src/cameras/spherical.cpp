@@ -1,0 +1,49 @@
+#include "cameras/spherical.h"
+
+#include <cmath>
+
+#include "math/frame.h"
+#include "math/trig.h"
+
+namespace duet {
+
+SphericalCamera::SphericalCamera(const Transform& to_world, const Point2i& film)
+    : eye_(to_world(Point3f(0))),
+      x_(normalize(to_world(Vector3f(1, 0, 0)))),
+      y_(normalize(to_world(Vector3f(0, 1, 0)))),
+      z_(normalize(to_world(Vector3f(0, 0, 1)))),
+      film_(film) {}
+
+/// Film positions of density 1 per pixel, per solid angle: (x, y) = (φ W / 2π, θ H / π).
+inline float SphericalCamera::density(float sin_theta) const {
+  return float(film_.x) * float(film_.y) / (2 * kPi * kPi * std::max(sin_theta, 1e-6f));
+}
+
+Ray SphericalCamera::sample_ray(const Point2f& film, const Point2f&) const {
+  float sin_phi, cos_phi, sin_theta, cos_theta;
+  sincos_turns(film.x / float(film_.x), sin_phi, cos_phi);
+  sincos_turns(0.5f * film.y / float(film_.y), sin_theta, cos_theta);
+  const Vector3f w = x_ * (sin_phi * sin_theta) + y_ * cos_theta - z_ * (cos_phi * sin_theta);
+  return {eye_, normalize(w), INFINITY};
+}
+
+float SphericalCamera::importance(const Ray& ray, float t) const {
+  const float cosine = dot(ray.direction, y_);
+  return density(safe_sqrt(1 - cosine * cosine)) / (t * t);
+}
+
+std::optional<CameraSample> SphericalCamera::sample_lens(const Point3f& from,
+                                                         const Point2f&) const {
+  const Vector3f v = from - eye_;
+  const float d2 = length_squared(v);
+  if (!(d2 > 0)) return std::nullopt;
+  const Vector3f w = v * (1 / std::sqrt(d2));
+  const float x = dot(w, x_), y = dot(w, y_), z = dot(w, z_), r = std::sqrt(x * x + z * z);
+  const float turns = atan2_turns(x, -z);
+  const Point2f film{(turns < 0 ? turns + 1 : turns) * float(film_.x),
+                     2 * atan2_turns(r, y) * float(film_.y)};
+  if (!on_film(film, film_)) return std::nullopt;
+  return CameraSample{film, -w, eye_, density(r) / d2};
+}
+
+}  // namespace duet

@@ -1,0 +1,115 @@
+// Builds the sensor that a scene is seen by.
+#include "cameras/batch.h"
+#include "cameras/meters.h"
+#include "cameras/orthographic.h"
+#include "cameras/perspective.h"
+#include "cameras/spherical.h"
+#include "scene/builder.h"
+
+namespace duet {
+
+std::unique_ptr<Camera> SceneBuilder::camera(SensorDescription& d, const Point2i& film) {
+  if (!check_transform(d.to_world, d.where)) return nullptr;
+  const Transform to_world(d.to_world);
+  const auto orthographic = [&] {
+    return OrthographicView{to_world, film, d.near_clip, d.far_clip};
+  };
+  const auto perspective = [&] {
+    return PerspectiveView{to_world,
+                           film,
+                           horizontal_fov(d.fov, d.fov_axis, double(film.x) / film.y),
+                           d.principal_point_offset_x,
+                           d.principal_point_offset_y,
+                           d.near_clip,
+                           d.far_clip};
+  };
+  switch (d.kind) {
+    case SensorKind::perspective:
+      return std::make_unique<PerspectiveCamera>(perspective());
+    case SensorKind::thinlens:
+      return std::make_unique<ThinLensCamera>(perspective(), d.aperture_radius, d.focus_distance);
+    case SensorKind::orthographic:
+      return std::make_unique<OrthographicCamera>(orthographic());
+    case SensorKind::telecentric:
+      return std::make_unique<TelecentricCamera>(orthographic(), d.aperture_radius,
+                                                 d.focus_distance);
+    case SensorKind::perspective_rdist:
+      return std::make_unique<DistortedCamera>(perspective(), d.distortion[0], d.distortion[1]);
+    case SensorKind::spherical:
+      return std::make_unique<SphericalCamera>(to_world, film);
+    case SensorKind::radiancemeter:
+      return check_single_pixel(d, film) ? std::make_unique<RadianceMeter>(to_world) : nullptr;
+    case SensorKind::irradiancemeter:
+      return irradiance_meter(d, film);
+    case SensorKind::fluencemeter:
+      return check_single_pixel(d, film) ? std::make_unique<FluenceMeter>(to_world) : nullptr;
+    case SensorKind::distant:
+      return distant_meter(d, film);
+    case SensorKind::batch:
+      return batch(d, film);
+  }
+  return nullptr;
+}
+
+bool SceneBuilder::check_single_pixel(const SensorDescription& d, const Point2i& film) {
+  if (film.x == 1 && film.y == 1) return true;
+  diagnostics_.error(d.where, "this sensor measures one number: its film has 1x1 pixels, not {}x{}",
+                     film.x, film.y);
+  return false;
+}
+
+std::unique_ptr<Camera> SceneBuilder::irradiance_meter(const SensorDescription& d,
+                                                       const Point2i& film) {
+  // Instances come after all other shapes, which keep their order.
+  size_t index = scene_->top.first;
+  for (uint32_t i = 0; i < d.shape; ++i)
+    index += !std::holds_alternative<InstanceShape>(description_.shapes[i].geometry);
+  if (index >= scene_->shapes.size()) return nullptr;  // after an error
+  const Shape& shape = scene_->shapes[index];
+  if (ShapePoints::is_even(shape) && surface_area(shape) > 0)
+    return std::make_unique<IrradianceMeter>(shape, film);
+  diagnostics_.error(d.where,
+                     "irradiance is measured on meshes, disks, and spheres and cylinders that are "
+                     "not stretched, with an area");
+  return nullptr;
+}
+
+std::unique_ptr<Camera> SceneBuilder::distant_meter(SensorDescription& d, const Point2i& film) {
+  if (!check_single_pixel(d, film)) return nullptr;
+  const Transform to_world(d.to_world);
+  if (d.target_point) {
+    const auto& p = *d.target_point;
+    return std::make_unique<DistantMeter>(to_world, Point3f(float(p[0]), float(p[1]), float(p[2])));
+  }
+  if (d.target_shape.empty()) return std::make_unique<DistantMeter>(to_world);
+  ShapeDescription& target = d.target_shape.front();
+  if (!check_transform(target.to_world, target.where)) return nullptr;
+  Shape shape = geometry(target, {});
+  if (ShapePoints::is_even(shape) && surface_area(shape) > 0)
+    return std::make_unique<DistantMeter>(to_world, std::move(shape));
+  diagnostics_.error(target.where,
+                     "a target is a mesh, a disk, or a sphere or cylinder that is not stretched, "
+                     "with an area");
+  return nullptr;
+}
+
+std::unique_ptr<Camera> SceneBuilder::batch(SensorDescription& d, const Point2i& film) {
+  const int count = int(d.parts.size());
+  if (film.x % count != 0) {
+    diagnostics_.error(d.where, "a film {} pixels wide cannot be divided among {} sensors", film.x,
+                       count);
+    return nullptr;
+  }
+  std::vector<std::unique_ptr<Camera>> cameras;
+  for (SensorDescription& part : d.parts) {
+    auto made = camera(part, {film.x / count, film.y});
+    if (made && made->ray_weight() != 1)
+      diagnostics_.error(part.where, "a batch cannot hold a sensor that measures irradiance");
+    else if (made)
+      cameras.push_back(std::move(made));
+  }
+  if (cameras.size() != d.parts.size()) return nullptr;
+  return std::make_unique<CameraBatch>(std::move(cameras), film.x / count);
+}
+
+}  // namespace duet
