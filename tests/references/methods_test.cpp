@@ -27,10 +27,11 @@ bool has_media(const ReferenceCase& c) {
   return c.reference.starts_with("media-");
 }
 
-/// What glass makes of the light of a lamp without size is in no image of `volpath`, by which the
-/// reference has been made.
-bool lacks_caustics(const ReferenceCase& c) {
-  return c.reference == "media-homogeneous";
+/// Scenes with media that this test cannot judge. In `media-homogeneous` glass makes caustics of a
+/// lamp without size, which are in no image of `volpath`, by which the reference has been made; the
+/// light that glass brings to the media of `media-nested` comes too rarely for so few samples.
+bool is_left_out(const ReferenceCase& c) {
+  return c.reference == "media-homogeneous" || c.reference == "media-nested";
 }
 
 /// Whether the light image alone shows the scene: no specular surfaces, and none so glossy that
@@ -52,7 +53,7 @@ TEST_SUITE("references") {
       double total = 0;
       int count = 0;
       for (const ReferenceCase& c : cases) {
-        if (lacks_caustics(c) || (name == "ptracer" && !suits_light_tracing(c))) continue;
+        if (is_left_out(c) || (name == "ptracer" && !suits_light_tracing(c))) continue;
         const Reference reference(c.reference);
         const ReferenceComparison r = compare_tiles(render(c, name), reference);
         CAPTURE(c.reference);
@@ -71,7 +72,7 @@ TEST_SUITE("references") {
     for (const auto& [name, bias] :
          {std::pair<std::string, double>{"vcm", 0.005}, {"bpm", 0.025}, {"ppm", 0.025}}) {
       for (const ReferenceCase& c : reference_cases()) {
-        if (name == "vcm" ? lacks_caustics(c) : has_media(c)) continue;
+        if (name == "vcm" ? is_left_out(c) : has_media(c)) continue;
         const Reference reference(c.reference);
         const ReferenceComparison r = compare_tiles(render(c, name), reference);
         CAPTURE(name);
