@@ -5,7 +5,6 @@
 #include <cmath>
 #include <cstring>
 #include <limits>
-#include <new>
 
 namespace duet {
 
@@ -115,17 +114,6 @@ void read_binary_hair(ByteReader& in, Builder& builder, float radius) {
   builder.end_curve(true);
 }
 
-template <class Parse>
-CurveSet read(const std::string& file, const Parse& parse) {
-  ByteReader in(file);
-  try {
-    return parse(in);
-  } catch (const std::bad_alloc&) {
-    in.end_text();
-    in.fail("is too large for the memory");
-  }
-}
-
 }  // namespace
 
 CurveSet parse_curves(ByteReader& in, CurveKind kind) {
@@ -162,11 +150,11 @@ CurveSet parse_hair(ByteReader& in, float radius) {
 }
 
 CurveSet read_curves(const std::string& file, CurveKind kind) {
-  return read(file, [&](ByteReader& in) { return parse_curves(in, kind); });
+  return parse_file(file, [&](ByteReader& in) { return parse_curves(in, kind); });
 }
 
 CurveSet read_hair(const std::string& file, float radius) {
-  return read(file, [&](ByteReader& in) { return parse_hair(in, radius); });
+  return parse_file(file, [&](ByteReader& in) { return parse_hair(in, radius); });
 }
 
 }  // namespace duet

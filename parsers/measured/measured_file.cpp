@@ -5,7 +5,6 @@
 #include <cstring>
 #include <limits>
 #include <map>
-#include <new>
 
 namespace duet {
 
@@ -136,13 +135,7 @@ MeasuredTable parse_measured(ByteReader& in) {
 }
 
 MeasuredTable read_measured(const std::string& file) {
-  ByteReader in(file);
-  try {
-    return parse_measured(in);
-  } catch (const std::bad_alloc&) {
-    in.end_text();
-    in.fail("is too large for the memory");
-  }
+  return parse_file(file, parse_measured);
 }
 
 }  // namespace duet

@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <cstdio>
 #include <memory>
+#include <new>
 #include <span>
 #include <string>
 #include <string_view>
@@ -90,5 +91,17 @@ class ByteReader {
   int line_ = 0;
   int pending_lines_ = 1;  ///< line ends passed since the last text, to be added to line_
 };
+
+/// What `parse` makes of a file; a lack of memory is the file's fault, too.
+template <class Parse>
+auto parse_file(const std::string& path, const Parse& parse) {
+  ByteReader in(path);
+  try {
+    return parse(in);
+  } catch (const std::bad_alloc&) {
+    in.end_text();
+    in.fail("is too large for the memory");
+  }
+}
 
 }  // namespace duet

@@ -1,7 +1,6 @@
 #include "mesh/ellipsoids.h"
 
 #include <array>
-#include <new>
 
 #include "mesh/ply_header.h"
 #include "mesh/ply_values.h"
@@ -54,13 +53,7 @@ std::vector<Ellipsoid> parse_ellipsoids(ByteReader& in) {
 }
 
 std::vector<Ellipsoid> read_ellipsoids(const std::string& file) {
-  ByteReader in(file);
-  try {
-    return parse_ellipsoids(in);
-  } catch (const std::bad_alloc&) {
-    in.end_text();
-    in.fail("is too large for the memory");
-  }
+  return parse_file(file, parse_ellipsoids);
 }
 
 }  // namespace duet

@@ -1,52 +1,35 @@
 #include "mesh/mesh_file.h"
 
 #include <algorithm>
-#include <new>
 #include <stdexcept>
 
 #include "mesh/formats.h"
 
 namespace duet {
 
-namespace {
-
-/// Opens the file and parses it; a lack of memory is the file's fault, too.
-template <class Parse>
-auto read(const std::string& file, Parse parse) {
-  ByteReader in(file);
-  try {
-    return parse(in);
-  } catch (const std::bad_alloc&) {
-    in.end_text();
-    in.fail("is too large for the memory");
-  }
-}
-
-}  // namespace
-
 TriangleMesh read_obj(const std::string& file, const MeshOptions& options) {
   if (options.obj_part)
-    return read(file, [&](ByteReader& in) {
+    return parse_file(file, [&](ByteReader& in) {
       std::vector<ObjPart> parts = parse_obj(in, options, true);
       if (size_t(*options.obj_part) >= parts.size())
         in.fail("has {} part{}: there is none with index {}", parts.size(),
                 parts.size() == 1 ? "" : "s", *options.obj_part);
       return std::move(parts[size_t(*options.obj_part)].mesh);
     });
-  return read(file,
-              [&](ByteReader& in) { return std::move(parse_obj(in, options, false)[0].mesh); });
+  return parse_file(
+      file, [&](ByteReader& in) { return std::move(parse_obj(in, options, false)[0].mesh); });
 }
 
 std::vector<ObjPart> read_obj_parts(const std::string& file, const MeshOptions& options) {
-  return read(file, [&](ByteReader& in) { return parse_obj(in, options, true); });
+  return parse_file(file, [&](ByteReader& in) { return parse_obj(in, options, true); });
 }
 
 TriangleMesh read_ply(const std::string& file, const MeshOptions& options) {
-  return read(file, [&](ByteReader& in) { return parse_ply(in, options); });
+  return parse_file(file, [&](ByteReader& in) { return parse_ply(in, options); });
 }
 
 TriangleMesh read_serialized(const std::string& file, const MeshOptions& options) {
-  return read(file, [&](ByteReader& in) { return parse_serialized(in, options); });
+  return parse_file(file, [&](ByteReader& in) { return parse_serialized(in, options); });
 }
 
 void finish_mesh(const ByteReader& in, const MeshOptions& options, TriangleMesh& mesh) {

@@ -44,6 +44,11 @@ std::optional<std::string> field_layer(Properties& p) {
   return std::nullopt;
 }
 
+/// Of methods that only Mitsuba 3 has, where there are no strict normals.
+PathLimits read_limits(Properties& p) {
+  return {p.integer("max_depth"), p.integer("rr_depth"), p.boolean("hide_emitters")};
+}
+
 /// The integrator that stands in `p`; null after an error.
 const Node* nested_integrator(SceneReader& s, Properties& p) {
   const Node* nested = p.child(PluginKind::integrator);
@@ -54,20 +59,12 @@ const Node* nested_integrator(SceneReader& s, Properties& p) {
 }  // namespace
 
 void read_prb(SceneReader& s, Properties& p, IntegratorDescription& out) {
-  PathIntegratorDescription path;
-  path.max_depth = p.integer("max_depth");
-  path.rr_depth = p.integer("rr_depth");
-  path.hide_emitters = p.boolean("hide_emitters");
-  out.method = path;
+  out.method = PathIntegratorDescription{read_limits(p)};
   note(s, p, "path", kNoDerivatives);
 }
 
 void read_prbvolpath(SceneReader& s, Properties& p, IntegratorDescription& out) {
-  VolumePathIntegratorDescription path;
-  path.max_depth = p.integer("max_depth");
-  path.rr_depth = p.integer("rr_depth");
-  path.hide_emitters = p.boolean("hide_emitters");
-  out.method = path;
+  out.method = VolumePathIntegratorDescription{read_limits(p)};
   note(s, p, "volpath", kNoDerivatives);
 }
 

@@ -3,7 +3,6 @@
 #include <bit>
 #include <cmath>
 #include <cstring>
-#include <new>
 
 namespace duet {
 
@@ -119,13 +118,7 @@ VolumeFile parse_vol(ByteReader& in) {
 }
 
 VolumeFile read_vol(const std::string& file) {
-  ByteReader in(file);
-  try {
-    return parse_vol(in);
-  } catch (const std::bad_alloc&) {
-    in.end_text();
-    in.fail("is too large for the memory");
-  }
+  return parse_file(file, parse_vol);
 }
 
 }  // namespace duet

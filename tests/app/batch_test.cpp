@@ -102,7 +102,7 @@ TEST_SUITE("program") {
                  {.directory = place.path(""), .environment = {{"TMPDIR", refuge.path("")}}});
     std::this_thread::sleep_for(std::chrono::milliseconds(700));
     std::filesystem::remove_all(place.path("out"));
-    const Outcome o = duet.wait(30);
+    const Outcome o = duet.wait(120);
     CAPTURE(o.err);
     CHECK(o.code == 1);
     CHECK(contains(o.err, "the image is saved as " + refuge.path("duet-image")));

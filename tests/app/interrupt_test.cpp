@@ -33,7 +33,7 @@ TEST_SUITE("program") {
           {.directory = place.path("")});
       REQUIRE(duet.wait_for_message("error", 20));  // some passes are done
       duet.send(signal);
-      const Outcome o = duet.wait(20);
+      const Outcome o = duet.wait(120);
       CAPTURE(o.err);
       CHECK(o.code == 128 + signal);
       CHECK(contains(o.err, "interrupted"));
@@ -57,7 +57,7 @@ TEST_SUITE("program") {
     duet.send(SIGINT);
     std::this_thread::sleep_for(std::chrono::milliseconds(100));
     duet.send(SIGINT);
-    const Outcome o = duet.wait(5);
+    const Outcome o = duet.wait(30);
     CHECK(o.code == 130);
     CHECK(!place.has("endless.exr"));
   }

@@ -85,17 +85,25 @@ TEST_CASE("a slab that only absorbs lets through what Beer and Lambert say") {
   render(scene, 512, {{"max_depth", "1"}}).check(std::exp(-0.5), std::exp(-1), std::exp(-2));
 }
 
+namespace {
+
+/// Light along the line of sight, scattered once in a slab of thickness 2.
+const std::string kSun =
+    "<emitter type='directional'><vector name='direction' x='0' y='0' z='1'/><rgb "
+    "name='irradiance' value='3'/></emitter>";
+const std::string kPhase = "<phase type='hg'><float name='g' value='-0.3'/></phase>";
+const double kBack = (1 - 0.09) / (4 * M_PI * std::pow(1 + 0.09 - 0.6, 1.5));
+
+double once(double sigma_t, double albedo) {
+  return 3 * kBack * albedo * (1 - std::exp(-2 * sigma_t)) / 2;
+}
+
+}  // namespace
+
 TEST_CASE("light that is scattered once in a slab") {
   // Light falls along the line of sight: it has passed as much of the slab as is before it.
-  const std::string sun =
-      "<emitter type='directional'><vector name='direction' x='0' y='0' z='1'/><rgb "
-      "name='irradiance' value='3'/></emitter>";
-  const std::string phase = "<phase type='hg'><float name='g' value='-0.3'/></phase>";
-  const TransportScene scene(view(8) + homogeneous("0.5 1 4", "0.9 0.5 0.2", phase) + kSlab + sun);
-  const double back = (1 - 0.09) / (4 * M_PI * std::pow(1 + 0.09 - 0.6, 1.5));
-  const auto once = [&](double sigma_t, double albedo) {
-    return 3 * back * albedo * (1 - std::exp(-2 * sigma_t)) / 2;
-  };
+  const TransportScene scene(view(8) + homogeneous("0.5 1 4", "0.9 0.5 0.2", kPhase) + kSlab +
+                             kSun);
   render(scene, 1024, {{"max_depth", "2"}}).check(once(0.5, 0.9), once(1, 0.5), once(4, 0.2));
   // The same from a grid.
   const TemporaryDirectory folder;
@@ -103,8 +111,8 @@ TEST_CASE("light that is scattered once in a slab") {
       folder, view(8) +
                   constant_grid(folder, {0.5f, 1, 4}, "0.9 0.5 0.2",
                                 "<translate x='-.5' y='-.5'/><scale x='99' y='99' z='1'/>") +
-                  kSlab + sun);
-  const double turned = back * 4 * M_PI;  // isotropic here
+                  kSlab + kSun);
+  const double turned = kBack * 4 * M_PI;  // isotropic here
   render(grid, 1024, {{"max_depth", "2"}})
       .check(once(0.5, 0.9) / turned, once(1, 0.5) / turned, once(4, 0.2) / turned);
 }
@@ -115,15 +123,7 @@ TEST_CASE("walks from both ends find the light that is scattered once in a slab"
       "<shape type='cube'><transform name='to_world'><scale x='1.5' y='1.5' z='0.5'/><translate "
       "z='0.5'/></transform>" +
       kNull + "</shape>";
-  const std::string sun =
-      "<emitter type='directional'><vector name='direction' x='0' y='0' z='1'/><rgb "
-      "name='irradiance' value='3'/></emitter>";
-  const std::string phase = "<phase type='hg'><float name='g' value='-0.3'/></phase>";
-  const TransportScene scene(view(8) + homogeneous("0.5 1 4", "0.9 0.5 0.2", phase) + slab + sun);
-  const double back = (1 - 0.09) / (4 * M_PI * std::pow(1 + 0.09 - 0.6, 1.5));
-  const auto once = [&](double sigma_t, double albedo) {
-    return 3 * back * albedo * (1 - std::exp(-2 * sigma_t)) / 2;
-  };
+  const TransportScene scene(view(8) + homogeneous("0.5 1 4", "0.9 0.5 0.2", kPhase) + slab + kSun);
   for (const auto& [method, effort] :
        {std::pair("bdpt", 1), {"reuse", 1}, {"vcm", 1}, {"ptracer", 4}}) {
     CAPTURE(method);

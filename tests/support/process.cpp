@@ -91,7 +91,7 @@ Outcome Process::wait(double seconds) {
 }
 
 Outcome run_duet(const std::vector<std::string>& arguments, const ProcessOptions& options) {
-  return Process(arguments, options).wait(30);
+  return Process(arguments, options).wait(300);
 }
 
 }  // namespace duet::test

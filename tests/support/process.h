@@ -47,7 +47,8 @@ class Process {
   double start_;
 };
 
-/// Runs `duet` with these arguments to the end, which must come within half a minute.
+/// Runs `duet` with these arguments to the end, which must come within five minutes: seconds are
+/// expected, but a machine may stand still for a while, and only what never ends is an error.
 Outcome run_duet(const std::vector<std::string>& arguments, const ProcessOptions& options);
 
 }  // namespace duet::test
