@@ -75,6 +75,15 @@ const Property* Properties::find(std::string_view name) {
   return nullptr;
 }
 
+const Property* Properties::find_own(std::string_view written) {
+  for (Entry& e : entries_)
+    if (!e.parameter && e.property->written == written) {
+      e.used = true;
+      return e.property;
+    }
+  return nullptr;
+}
+
 std::string_view Properties::preset(std::string_view name) const {
   const Parameter& p = parameter(name);
   return is_0x() && !p.preset_0x.empty() ? p.preset_0x : p.preset;

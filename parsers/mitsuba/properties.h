@@ -27,6 +27,9 @@ class Properties {
   bool has(std::string_view name) const;
   /// The property, or null (after an error if it is required).
   const Property* find(std::string_view name);
+  /// A parameter that the vocabulary cannot know, since a file of the plugin's defines it: by the
+  /// name that the scene writes; null if there is none.
+  const Property* find_own(std::string_view written);
   /// The value that holds where the file gives none.
   std::string_view preset(std::string_view name) const;
   /// Where the value stands, or the plugin if there is none.

@@ -4,6 +4,7 @@
 #include "mitsuba/readers.h"
 #include "mitsuba/scene_reader.h"
 #include "mitsuba/text.h"
+#include "mitsuba/two_lobes.h"
 
 namespace duet {
 
@@ -178,9 +179,6 @@ void read_principledthin(SceneReader& s, Properties& p, MaterialDescription& out
   out.model = m;
 }
 
-namespace {
-
-/// Mitsuba 0.6 scales the two lobes of a material that would reflect more light than there is.
 void conserve_energy(SceneReader& s, Properties& p, ColorInput& diffuse, ColorInput& specular) {
   Spectrum* const a = std::get_if<Spectrum>(&diffuse);
   Spectrum* const b = std::get_if<Spectrum>(&specular);
@@ -194,8 +192,6 @@ void conserve_energy(SceneReader& s, Properties& p, ColorInput& diffuse, ColorIn
                      "scaled by {:.3g}",
                      describe(p.node()), sum, scale);
 }
-
-}  // namespace
 
 void read_phong(SceneReader& s, Properties& p, MaterialDescription& out) {
   PhongMaterial m;

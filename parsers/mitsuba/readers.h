@@ -26,6 +26,7 @@ void read_pplastic(SceneReader&, Properties&, MaterialDescription&);
 void read_filter_of_light(SceneReader&, Properties&, MaterialDescription&);
 void read_coating(SceneReader&, Properties&, MaterialDescription&);
 void read_hk(SceneReader&, Properties&, MaterialDescription&);
+void read_irawan(SceneReader&, Properties&, MaterialDescription&);
 void read_sssbrdf(SceneReader&, Properties&, MaterialDescription&);
 
 // read_adapters.cpp: materials made of others

@@ -120,6 +120,13 @@ constexpr Parameter kHair[] = {
     {"pheomelanin", number, "0.2", "concentration", not_negative},
     {"sigma_a", unbounded, "", "absorption per radius, instead of pigments"},
     {"scale", number, "1", "multiplies sigma_a", not_negative}};
+constexpr const char* kNormalised = "Mitsuba 0.6 refuses it, too: highlights are normalised";
+constexpr Parameter kCloth[] = {
+    {.name = "filename", .type = file, .note = "a .wv file", .required = true},
+    {.name = "repeat_u", .type = number, .note = "threads are not simulated", .support = inert},
+    {.name = "repeat_v", .type = number, .note = "threads are not simulated", .support = inert},
+    {.name = "ks_multiplier", .type = number, .note = kNormalised, .support = refused},
+    {.name = "kd_multiplier", .type = number, .note = kNormalised, .support = refused}};
 constexpr Parameter kMeasured[] = {
     {.name = "filename", .type = file, .note = "a .bsdf file in RGB", .required = true}};
 constexpr Parameter kPolarizedPlastic[] = {
@@ -226,11 +233,10 @@ constexpr Plugin kBsdfs[] = {
      .parameters = kThinLayer,
      .reader = &read_hk,
      .note = "may hold a phase function: isotropic or hg; Mitsuba 3 has none"},
-    {.name = "irawan",
-     .versions = v0,
-     .note = "woven cloth is not simulated; Mitsuba 3 has none",
-     .support = refused,
-     .planned_parameters = "filename repeat_u repeat_v ks_multiplier kd_multiplier"},
+    {"irawan", v0, kCloth, &read_irawan,
+     "woven cloth is its average colours and a wide highlight; the file's own parameters are "
+     "colours; Mitsuba 3 has none",
+     approximated},
     {"measured", v3, kMeasured, &read_measured, "files in RGB"},
     {.name = "measured_polarized",
      .versions = v3,

@@ -138,7 +138,6 @@ TEST_CASE("bsdf: hk and sssbrdf") {
 }
 
 TEST_CASE("what cannot be is refused with a reason") {
-  CHECK(fails("0.6.0", "<bsdf type='irawan'/>", "woven cloth"));
   CHECK(fails("3.0.0", "<bsdf type='measured_polarized'/>", "no polarisation"));
   CHECK(fails("0.6.0", "<shape type='heightfield'/>", "use a mesh"));
   CHECK(fails("0.6.0", "<shape type='sphere'><subsurface type='dipole'/></shape>", "volpath"));

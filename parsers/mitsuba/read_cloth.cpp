@@ -1,0 +1,72 @@
+// Mitsuba 0.6's woven cloth, approximated: Irawan and Marschner's model needs the light on every
+// thread.
+#include "mitsuba/readers.h"
+#include "mitsuba/scene_reader.h"
+#include "mitsuba/two_lobes.h"
+#include "weave/weave.h"
+
+namespace duet {
+
+namespace {
+
+/// How wide the highlights of cloth are, as the roughness of a microfacet surface.
+constexpr double kClothRoughness = 0.4;
+
+/// The value of a weave's colour, which may be a parameter of the scene.
+Spectrum cloth_color(Properties& p, const WeaveColor& color) {
+  if (color.parameter.empty()) return color.value;
+  const Property* property = p.find_own(color.parameter);
+  if (!property) {
+    p.report().error(p.node().where, "the weave needs the parameter \"{}\"", color.parameter);
+    return {};
+  }
+  const PropertyValue& v = property->value;
+  Triple value{};
+  if (const RgbColor* rgb = std::get_if<RgbColor>(&v))
+    value = rgb->value;
+  else if (const ScalarSpectrum* grey = std::get_if<ScalarSpectrum>(&v))
+    value.fill(grey->value);
+  else if (const double* number = std::get_if<double>(&v))
+    value.fill(*number);
+  else if (!std::holds_alternative<Broken>(v))
+    p.report().error(property->where, "the parameter \"{}\" of a weave must be a colour",
+                     color.parameter);
+  for (double& x : value)
+    if (!(x >= 0)) {
+      p.report().error(property->where, "the colour has a negative component");
+      x = 0;
+    }
+  return {float(value[0]), float(value[1]), float(value[2])};
+}
+
+}  // namespace
+
+void read_irawan(SceneReader& s, Properties& p, MaterialDescription& out) {
+  const std::string file = s.file(p, "filename");
+  if (file.empty()) return;
+  WardMaterial m;
+  m.alpha_u = m.alpha_v = kClothRoughness;
+  try {
+    const auto text = s.files().read(file);
+    if (!text) throw ReadError(file + ": cannot be read");
+    const Weave weave = parse_weave(*text, file);
+    Spectrum diffuse, specular;
+    std::vector<size_t> cells(weave.yarns.size());
+    for (const uint32_t yarn : weave.pattern) ++cells[yarn];
+    for (size_t i = 0; i < cells.size(); ++i) {
+      const float share = float(double(cells[i]) / double(weave.pattern.size()));
+      diffuse += cloth_color(p, weave.yarns[i].diffuse) * share;
+      specular += cloth_color(p, weave.yarns[i].specular) * share;
+    }
+    m.diffuse_reflectance = diffuse, m.specular_reflectance = specular;
+  } catch (const ReadError& error) {
+    return s.report().error(p.where("filename"), "{}", error.what());
+  }
+  conserve_energy(s, p, m.diffuse_reflectance, m.specular_reflectance);
+  s.approximate_loudly(p.node().where,
+                       "the woven cloth has the average colours of its yarns and a wide highlight: "
+                       "threads are not simulated");
+  out.model = m;
+}
+
+}  // namespace duet
