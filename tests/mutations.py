@@ -29,9 +29,9 @@ MUTATIONS = [
     ("probability of the light dropped from light samples", "src/transport/join.h",
      "sample->weight * (1 / pick.probability)", "sample->weight", MEAN),
     ("T off by one", "src/transport/window_weights.h",
-     "if (t <= eye + 1 && s <= light + 1)", "if (t <= eye && s <= light + 1)", MEAN),
+     "if (t <= eye + 1 && s <= light + 1)", "if (t <= eye && s <= light + 1)", WEIGHTS),
     ("S off by one", "src/transport/window_weights.h",
-     "if (t <= eye + 1 && s <= light + 1)", "if (t <= eye + 1 && s <= light)", MEAN),
+     "if (t <= eye + 1 && s <= light + 1)", "if (t <= eye + 1 && s <= light)", WEIGHTS),
     ("number of light walks dropped from the weight of splats", "src/transport/weights.h",
      "camera_scale_(set.connection_share / set.light_paths)", "camera_scale_(set.connection_share)",
      SUMS),
@@ -117,7 +117,7 @@ def main():
         shutil.copytree(ROOT / folder, work / folder, dirs_exist_ok=True)
     shutil.copy(ROOT / "CMakeLists.txt", work)
     run(["cmake", "-S", str(work), "-B", str(work / "build"), "-G", "Ninja", "-DCMAKE_BUILD_TYPE=None",
-         "-DCMAKE_CXX_FLAGS=-O1 -DNDEBUG -Wno-error"])
+         "-DCMAKE_CXX_FLAGS=-O1 -DNDEBUG -w"])
     build(work)
     for test in {m[4] for m in MUTATIONS}:
         if fails(work, test):

@@ -67,6 +67,11 @@ std::vector<Case> cases() {
                "value='0.2'/><float name='color1' value='0.8'/></texture>"
                "<float name='scale' value='0.3'/>" +
                    material("roughconductor", "<float name='alpha' value='0.3'/>"));
+  const std::string tilted =
+      material("normalmap",
+               "<texture type='checkerboard' name='normalmap'><rgb name='color0' value='0.75, 0.5, "
+               "0.933'/><rgb name='color1' value='0.25, 0.5, 0.933'/></texture>" +
+                   grey("0.7, 0.6, 0.5"));
   const std::string checker =
       "<texture type='checkerboard' name='radiance'><rgb name='color0' value='0.9, 0.6, 0.3'/>"
       "<rgb name='color1' value='0.05'/><transform name='to_uv'><scale value='3'/></transform>"
@@ -98,7 +103,8 @@ std::vector<Case> cases() {
             sphere_xml("-0.4, 0, 0.6", "0.4",
                        glass("1.5", "1", "roughdielectric", "<float name='alpha' value='0.25'/>")) +
             sphere_xml("0.5, 0, 0.5", "0.35", material("plastic")))},
-      {"smooth normals", [](int n) { return TransportScene("mesh-lumpy", n); }, false, 1, true},
+      {"smooth normals", [](int n) { return TransportScene("mesh-lumpy", n); }},
+      {"tilted normals", text(room_xml(material("twosided", tilted)) + lamp), true, 1, true},
       {"bumps", text(room_xml(material("twosided", bumps)) + lamp), true, 1, true},
       {"a textured lamp",
        text(room +

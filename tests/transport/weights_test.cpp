@@ -58,6 +58,9 @@ std::vector<std::string> scenes() {
           ball("0.5, 0, 0.5", rough_metal),
       lens + grey_walls + sun + sky + bulb + ball("0, 0, 0.7", glass),
       camera + room_xml(plastic) + lamp + point + ball("0, 0, 0.7", rough_glass),
+      // A path from within glass refracts once more often one way than the other.
+      camera + grey_walls + lamp + bulb + sphere_xml("0.4, -0.3, 1.4", "0.35", glass) +
+          ball("-0.5, 0.2, 0.5", glass) + sphere_xml("-0.5, 0.1, 0.5", "0.2", grey("0.8")),
   };
 }
 
@@ -118,13 +121,12 @@ const Medium* medium_of(const MediaVertex& v) {
   return v.in_medium ? v.medium : nullptr;
 }
 
-/// eta as a path from the light to the eye sees it, at a surface that only glass can refract at.
-double eta_towards_eye(const Surface& s, const Vector3f& to_light, const Vector3f& to_eye,
-                       bool specular) {
+/// eta as a path from the light to the eye sees it, at a surface that is left by a delta lobe: only
+/// glass refracts, what passes holes goes straight on.
+double eta_towards_eye(const Scene& scene, const Surface& s, const Vector3f& to_light,
+                       const Vector3f& to_eye) {
   const float light = dot(s.shading.n, to_light), eye = dot(s.shading.n, to_eye);
-  if (!specular || light * eye > 0) return 1;
-  // Straight on is a hole, not a refraction.
-  if (dot(to_light, to_eye) < -0.99999f) return 1;
+  if (light * eye > 0 || scene.materials[s.shape->material]->passes_straight()) return 1;
   return light > 0 ? double(kGlass) : 1 / double(kGlass);
 }
 
@@ -148,7 +150,12 @@ class Checker {
  private:
   using Record = Recorded<Vertex>;
   double share(int s, int t) const {
-    if (windows_) return windows_->share(s, t);
+    if (windows_) {
+      // Of the definition: walks of T and S segments have T + 1 and S + 1 vertices.
+      const bool head = t - 1 <= windows_->eye && s - 1 <= windows_->light;
+      if (head) return t == 1 ? windows_->light_paths : 1.0;
+      return t - 1 > windows_->eye && s < 2 ? windows_->tail : 0.0;
+    }
     return t == 1 ? double(set_.light_paths) : s >= 2 ? double(set_.connection_share) : 1.0;
   }
   double merge_share(int) const { return set_.merges ? double(set_.light_paths) : 0.0; }
@@ -195,7 +202,7 @@ class Checker {
       path.surfaces.push_back(v.surface);
       path.media.push_back(medium_of(v));
       path.specular.push_back(specular);
-      path.eta.push_back(specular ? eta_towards_eye(v.surface, to_light, v.wo, specular) : 1.0);
+      path.eta.push_back(specular ? eta_towards_eye(scene_, v.surface, to_light, v.wo) : 1.0);
     }
     const Vertex& first = eye.vertices[0];
     path.to_lens = first.wo;
@@ -218,7 +225,7 @@ class Checker {
       path.surfaces.push_back(v.surface);
       path.media.push_back(medium_of(v));
       path.specular.push_back(specular);
-      path.eta.push_back(specular ? eta_towards_eye(v.surface, v.wo, to_eye, specular) : 1.0);
+      path.eta.push_back(specular ? eta_towards_eye(scene_, v.surface, v.wo, to_eye) : 1.0);
     }
   }
 
@@ -342,7 +349,7 @@ void Checker<Vertex>::eye_walk(Weights weights, const Ray& camera_ray, int max_d
         path.specular[0] = walk.from_specular;
         if (walk.from_specular)
           path.eta[0] =
-              eta_towards_eye(path.surfaces[0], path.to_light, eye.vertices.back().wo, true);
+              eta_towards_eye(scene_, path.surfaces[0], path.to_light, eye.vertices.back().wo);
         check(path, 0, join.weight, s.position, camera_ray.origin);
       }
     }
