@@ -31,7 +31,7 @@ class Renderer {
     const int films = request.budget.target_error ? kErrorBatches : 1;
     for (int i = 0; i < films; ++i)
       integrator.prepare(films_.emplace_back(layout, integrator.channels()));
-    start_ = std::chrono::steady_clock::now();
+    prepared_ = seconds();
   }
 
   RenderResult run() {
@@ -47,8 +47,9 @@ class Renderer {
     return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
   }
   bool cancelled() const { return request_.cancel && request_.cancel->load(); }
+  /// Trying methods may use up the time, but there is always an image.
   bool out_of_time() const {
-    return request_.budget.seconds && seconds() >= *request_.budget.seconds;
+    return spp_ > 0 && request_.budget.seconds && seconds() >= *request_.budget.seconds;
   }
 
   /// One pass: `count` further samples of every pixel, into one film.
@@ -116,7 +117,7 @@ class Renderer {
     int part = int(std::clamp(needed, 1.0, double(length)));
     if (request_.budget.seconds) {
       const double left = *request_.budget.seconds - seconds();
-      const double per_sample = seconds() / (double(length) * kErrorBatches);
+      const double per_sample = (seconds() - prepared_) / (double(length) * kErrorBatches);
       part = int(std::clamp(left / (per_sample * kErrorBatches), 1.0, double(part)));
     }
     return part;
@@ -173,7 +174,8 @@ class Renderer {
   const RenderRequest& request_;
   std::vector<Film> films_;
   RenderCounters counters_;
-  std::chrono::steady_clock::time_point start_;
+  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+  double prepared_ = 0;  ///< seconds until a method was chosen and ready
   int spp_ = 0;
   std::optional<double> relative_rmse_;
   bool is_upper_bound_ = false;

@@ -16,14 +16,14 @@ inline constexpr int kErrorBatches = 8;
 /// When to stop; the first limit that is reached wins. At least one must be set.
 struct RenderBudget {
   std::optional<int> spp;
-  std::optional<double> seconds;
+  std::optional<double> seconds;  ///< including the choice of a method
   /// Relative root mean square error, estimated from independent batches.
   std::optional<double> target_error;
 };
 
 struct RenderProgress {
   double fraction = 0;                  ///< of the budget, as far as it is known
-  double seconds = 0;                   ///< since rendering began
+  double seconds = 0;                   ///< since the choice of a method began
   int spp = 0;                          ///< samples that every pixel has
   double samples = 0;                   ///< samples taken in all pixels together
   std::optional<double> relative_rmse;  ///< estimate so far
@@ -43,8 +43,8 @@ struct RenderRequest {
 struct RenderResult {
   Image image;
   RenderCounters counters;
-  int spp = 0;  ///< samples that every pixel has
-  double seconds = 0;
+  int spp = 0;         ///< samples that every pixel has
+  double seconds = 0;  ///< including the choice of a method
   bool interrupted = false;
   /// Estimate of the root mean square error over all pixels, relative to the mean of the image.
   std::optional<double> relative_rmse;

@@ -1,6 +1,7 @@
 // Which method is chosen for which scene, and that the choice depends on nothing else.
 #include "integrators/auto.h"
 
+#include <chrono>
 #include <cmath>
 
 #include "integrators/method_choice.h"
@@ -184,6 +185,19 @@ TEST_CASE("parameters of other methods are kept, and those it has not are refuse
   CHECK(!undecided->decision());
   Film film({{4, 4}, {0, 0, 4, 4}, {}}, undecided->channels());
   CHECK_THROWS_AS(undecided->prepare(film), std::logic_error);
+}
+
+TEST_CASE("the choice counts towards the time, and there is an image even so") {
+  const TransportScene s(camera_xml("0, -3, 1", "0, 0, 1", 12) + kWalls + kPoint + kGlassBall);
+  RenderRequest request;
+  request.budget.seconds = 1e-3;
+  const auto method = s.method("auto", {{"max_depth", "5"}});
+  const auto start = std::chrono::steady_clock::now();
+  const RenderResult result = render(*s.scene, *method, s.layout, request);
+  const double all =
+      std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  CHECK(result.spp == 1);
+  CHECK(result.seconds > 0.9 * all);
 }
 
 // A pilot that decides on what it sees, and whose samples are in the image, would be wrong here.

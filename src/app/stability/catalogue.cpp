@@ -132,6 +132,10 @@ void read_methods(Object& o, Row& row) {
   for (const auto& [method, ignored] : j->items())
     if (method != "*") check_method(o, method);
   for (const std::string method : kMethods) {
+    if (method == kChoice && !j->contains(method)) {
+      row.methods[method] = {Expected::not_applicable, 0, 0, "runs one of the others"};
+      continue;
+    }
     const auto at = j->contains(method) ? j->find(method) : j->find("*");
     if (at == j->end()) o.fail(fmt::format("nothing is expected of \"{}\"", method));
     row.methods[method] = read_expectation(o, method, *at);
@@ -267,7 +271,7 @@ Row read_row(const Json& j, const std::string& folder, size_t index) {
 }  // namespace
 
 bool merges(const std::string& method) {
-  return method == "ppm" || method == "bpm" || method == "vcm";
+  return method == "ppm" || method == "bpm" || method == "vcm" || method == kChoice;
 }
 
 int Catalogue::measured_cells() const {

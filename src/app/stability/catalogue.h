@@ -8,6 +8,7 @@
 #include <optional>
 #include <stdexcept>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace duet::stability {
@@ -19,9 +20,12 @@ class CatalogueError : public std::runtime_error {
 };
 
 /// The methods whose behaviour the catalogue knows, in the order of the table.
-inline constexpr std::array<const char*, 7> kMethods{"path", "ptracer", "bdpt", "reuse",
-                                                     "ppm",  "bpm",     "vcm"};
-/// Whether a method merges, and so is biased however many samples it takes of one radius.
+inline constexpr std::array<const char*, 8> kMethods{"path", "ptracer", "bdpt", "reuse",
+                                                     "ppm",  "bpm",     "vcm",  "auto"};
+/// It runs one of the others, so it is looked at only in rows that name it.
+inline constexpr std::string_view kChoice = "auto";
+/// Whether a method merges or may do so, and so is biased however many samples it takes of one
+/// radius.
 bool merges(const std::string& method);
 
 /// Names and values: of a scene's $parameters or of a method's.
