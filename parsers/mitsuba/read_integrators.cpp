@@ -87,6 +87,13 @@ void read_depth(SceneReader&, Properties&, IntegratorDescription& out) {
   out.method = DepthIntegratorDescription{};
 }
 
+void read_ao(SceneReader&, Properties& p, IntegratorDescription& out) {
+  OcclusionIntegratorDescription ao;
+  ao.shading_samples = p.integer("shading_samples");
+  ao.ray_length = std::max(p.number("ray_length"), 0.0);
+  out.method = ao;
+}
+
 void read_aov(SceneReader& s, Properties& p, IntegratorDescription& out) {
   const Node* nested = p.child(PluginKind::integrator);
   if (nested)

@@ -127,6 +127,7 @@ void read_path(SceneReader&, Properties&, IntegratorDescription&);
 void read_volpath(SceneReader&, Properties&, IntegratorDescription&);
 void read_direct(SceneReader&, Properties&, IntegratorDescription&);
 void read_depth(SceneReader&, Properties&, IntegratorDescription&);
+void read_ao(SceneReader&, Properties&, IntegratorDescription&);
 void read_aov(SceneReader&, Properties&, IntegratorDescription&);
 void read_moment(SceneReader&, Properties&, IntegratorDescription&);
 

@@ -77,6 +77,7 @@ class SceneWriter {
   void write_method(const VolumePathIntegratorDescription& m);
   void write_method(const DirectIntegratorDescription& m);
   void write_method(const DepthIntegratorDescription& m);
+  void write_method(const OcclusionIntegratorDescription& m);
   void write_method(const BidirectionalIntegratorDescription& m);
   void write_method(const AutoIntegratorDescription& m);
 

@@ -32,6 +32,9 @@ constexpr Parameter kVolpathmis[] = {kVolumeDepth,
                                       .preset = "true",
                                       .versions = v3,
                                       .support = inert}};
+constexpr Parameter kOcclusion[] = {
+    {"shading_samples", integer, "1", "", size},
+    {"ray_length", number, "-1", "not above 0: half the radius of a sphere around the scene"}};
 constexpr Parameter kDirect[] = {
     {"shading_samples", integer, "", "sets both of the following", positive},
     {.name = "emitter_samples",
@@ -272,12 +275,7 @@ constexpr Plugin kIntegrators[] = {
      {},
      &read_multichannel,
      "holds one integrator that makes colours, and fields"},
-    {.name = "ao",
-     .versions = v0,
-     .note = "how much of the sky a point sees is not what light does: a \"constant\" emitter and "
-             "white surfaces show much the same",
-     .support = refused,
-     .planned_parameters = "shading_samples ray_length"},
+    {"ao", v0, kOcclusion, &read_ao, "in Duet; Mitsuba 3 has none"},
     {.name = "motion", .versions = v0, .note = "nothing moves", .support = refused},
     {.name = "volprim_rf_basic",
      .versions = v3,

@@ -63,6 +63,14 @@ void SceneWriter::write_method(const DepthIntegratorDescription&) {
   out_.close();
 }
 
+void SceneWriter::write_method(const OcclusionIntegratorDescription& m) {
+  lose("Mitsuba 3 has no integrator \"ao\"");
+  out_.open("integrator", "ao");
+  out_.integer("shading_samples", m.shading_samples);
+  out_.number("ray_length", m.ray_length);
+  out_.close();
+}
+
 void SceneWriter::write_method(const BidirectionalIntegratorDescription& m) {
   using enum BidirectionalMethod;
   constexpr std::array<std::string_view, 6> names{"ptracer", "bdpt", "reuse", "ppm", "bpm", "vcm"};

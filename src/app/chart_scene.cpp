@@ -109,7 +109,7 @@ class SceneChart {
     d.moments = false;
     try {
       // Distances and layers are no light that a reference could have.
-      if (m.integrator.name == "depth" || m.integrator.name == "aov")
+      if (m.integrator.name == "depth" || m.integrator.name == "ao" || m.integrator.name == "aov")
         throw std::invalid_argument(fmt::format("\"{}\" makes no colours to compare", m.name));
       apply_override(d, m.integrator);
       Diagnostics diagnostics;

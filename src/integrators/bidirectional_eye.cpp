@@ -192,8 +192,8 @@ void BidirectionalIntegrator::join(const Weights& weights, const Vertex& v,
                                    Eye<Vertex>& eye) const {
   if (set_.connections && eye.scene.picker.size() > 0)
     add(eye, 1, v.depth + 1,
-        join_light(eye.scene, weights, v, options_.strict_normals, eye.sampler, eye.counters,
-                   &eye.shadows));
+        join_light(eye.scene, weights, v, options_.strict_normals, eye.sampler, eye.roulette,
+                   eye.counters, &eye.shadows));
   if (set_.merges && v.merges()) find_photons(v, eye);
   if (set_.connections) {
     if (options_.connections < 0)
@@ -332,7 +332,8 @@ void BidirectionalIntegrator::thesis_tail(const PathVertex& limit, Walk& walk,
     if (!v->bsdf.has_smooth() || scene.picker.size() == 0) continue;
     eye.sampler.start_dimension(kFirstVertexDimension + kDimensionsPerVertex * uint32_t(depth - 1));
     add(eye, 1, depth + 1,
-        join_light(scene, TailWeights(), *v, options_.strict_normals, eye.sampler, eye.counters));
+        join_light(scene, TailWeights(), *v, options_.strict_normals, eye.sampler, eye.roulette,
+                   eye.counters));
   }
 }
 

@@ -11,6 +11,7 @@
 #include "integrators/bidirectional.h"
 #include "integrators/depth.h"
 #include "integrators/direct.h"
+#include "integrators/occlusion.h"
 #include "integrators/parameters.h"
 #include "integrators/path.h"
 #include "integrators/volpath.h"
@@ -34,6 +35,7 @@ std::optional<Method> find_method(const std::string& name) {
   if (name == "volpathmis") return VolumePathIntegratorDescription{{}, VolumePathName::volpathmis};
   if (name == "direct") return DirectIntegratorDescription{};
   if (name == "depth") return DepthIntegratorDescription{};
+  if (name == "ao") return OcclusionIntegratorDescription{};
   for (size_t i = 0; i < kBidirectionalNames.size(); ++i)
     if (name == kBidirectionalNames[i])
       return BidirectionalIntegratorDescription{.method = BidirectionalMethod(i)};
@@ -120,6 +122,7 @@ const std::vector<IntegratorName>& integrator_names() {
       {"bpm", "bidirectional photon mapping"},
       {"vcm", "vertex connection and merging"},
       {"depth", "distance to the first surface"},
+      {"ao", "ambient occlusion: how much of the space above a surface is free"},
       {"aov", "layers only, chosen with --aov"},
   };
   return names;
@@ -144,6 +147,7 @@ std::string integrator_name(const IntegratorDescription& integrator) {
     const char* operator()(const PathIntegratorDescription&) const { return "path"; }
     const char* operator()(const DirectIntegratorDescription&) const { return "direct"; }
     const char* operator()(const DepthIntegratorDescription&) const { return "depth"; }
+    const char* operator()(const OcclusionIntegratorDescription&) const { return "ao"; }
     const char* operator()(const VolumePathIntegratorDescription& d) const {
       return d.name == VolumePathName::volpath ? "volpath" : "volpathmis";
     }
@@ -239,6 +243,9 @@ std::unique_ptr<Integrator> make_integrator(const IntegratorDescription& integra
     }
     std::unique_ptr<Integrator> operator()(const DepthIntegratorDescription&) const {
       return std::make_unique<DepthIntegrator>(output);
+    }
+    std::unique_ptr<Integrator> operator()(const OcclusionIntegratorDescription& d) const {
+      return std::make_unique<OcclusionIntegrator>(d, output);
     }
     std::unique_ptr<Integrator> operator()(const BidirectionalIntegratorDescription& d) const {
       return make_bidirectional(d, output);

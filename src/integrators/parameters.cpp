@@ -113,6 +113,11 @@ Parameters parameters(DirectIntegratorDescription& d) {
           boolean("hide_emitters", d.hide_emitters), boolean("strict_normals", d.strict_normals)};
 }
 
+Parameters parameters(OcclusionIntegratorDescription& d) {
+  return {integer("shading_samples", d.shading_samples, 1, kMost),
+          real("ray_length", d.ray_length, true, double(std::numeric_limits<float>::max()))};
+}
+
 Parameters parameters(DepthIntegratorDescription&) {
   return {};
 }

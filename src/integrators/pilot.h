@@ -16,7 +16,7 @@ struct Pilot {
   double first_radius() const { return 1.5 * footprint; }
   /// Contributions below which joins are left to chance: too little to be seen in the noise of a
   /// sample.
-  float roulette_threshold() const { return float(0.05 * brightness); }
+  float roulette_threshold() const { return float(0.1 * brightness); }
 };
 
 /// `plan` is that of a whole iteration. The result depends on its seed alone.

@@ -225,7 +225,9 @@ class PricingPilot {
       const uint32_t dimension = kFirstVertexDimension + kDimensionsPerVertex * uint32_t(depth - 1);
       if (v.bsdf.has_smooth()) {
         sampler.start_dimension(dimension);
-        const Join direct = join_light(scene_, weights, v, plan_.strict_normals, sampler, counters);
+        JoinRoulette none(0, 0);  // path tracing has none
+        const Join direct =
+            join_light(scene_, weights, v, plan_.strict_normals, sampler, none, counters);
         add(out.eye, direct.value * direct.weight, weights.shares(), Technique::unidirectional, at);
         connect(index, v, weights, roulette, at, out);
         merge(index, v, weights, at, out);

@@ -8,7 +8,7 @@ namespace duet {
 /// Two unit vectors that complete `n` (unit length) to a right-handed basis.
 /// Source: Duff et al., "Building an Orthonormal Basis, Revisited", JCGT 6(1), 2017. Mitsuba uses
 /// the same construction where texture coordinates are degenerate, so anisotropic BSDFs agree.
-inline void coordinate_system(const Normal3f& n, Vector3f& s, Vector3f& t) {
+[[gnu::always_inline]] inline void coordinate_system(const Normal3f& n, Vector3f& s, Vector3f& t) {
   const float sign = std::copysign(1.0f, n.z);
   const float a = -1.0f / (sign + n.z);
   const float b = n.x * n.y * a;

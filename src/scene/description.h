@@ -663,6 +663,13 @@ struct DepthIntegratorDescription {
   bool operator==(const DepthIntegratorDescription&) const = default;
 };
 
+/// Ambient occlusion.
+struct OcclusionIntegratorDescription {
+  int shading_samples = 1;
+  double ray_length = 0;  ///< world units; 0: half the radius of a sphere around the scene
+  bool operator==(const OcclusionIntegratorDescription&) const = default;
+};
+
 /// Methods that trace sub-paths from the lights, too.
 enum class BidirectionalMethod { ptracer, bdpt, reuse, ppm, bpm, vcm };
 /// How `reuse` weights its techniques: exactly, or as the thesis does (docs/mis.md), in
@@ -705,7 +712,7 @@ struct IntegratorDescription {
   SourceLocation where;
   std::variant<PathIntegratorDescription, DirectIntegratorDescription, DepthIntegratorDescription,
                BidirectionalIntegratorDescription, VolumePathIntegratorDescription,
-               AutoIntegratorDescription>
+               AutoIntegratorDescription, OcclusionIntegratorDescription>
       method;
   AovDescription aovs;   ///< layers asked for by an `aov` integrator
   bool image = true;     ///< false if an `aov` integrator has no nested integrator

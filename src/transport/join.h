@@ -90,8 +90,8 @@ inline Join join_escape(const Scene& scene, const Weights& weights, const Walk& 
 /// A light sample from an eye vertex. Uses up to three dimensions of the sampler.
 template <class Weights, class Vertex>
 inline Join join_light(const Scene& scene, const Weights& weights, const Vertex& eye,
-                       bool strict_normals, Sampler& sampler, RenderCounters& counters,
-                       [[maybe_unused]] RandomStream* random = nullptr) {
+                       bool strict_normals, Sampler& sampler, JoinRoulette& roulette,
+                       RenderCounters& counters, [[maybe_unused]] RandomStream* random = nullptr) {
   const Point2f u = sampler.next_2d();
   const LightPicker::Pick pick =
       scene.picker.size() == 1 ? LightPicker::Pick{0, 1} : scene.picker.pick(sampler.next_1d());
@@ -100,29 +100,34 @@ inline Join join_light(const Scene& scene, const Weights& weights, const Vertex&
   if (!sample || (strict_normals && eye.has_two_sides(sample->wi))) return {};
   const BsdfEval f = eye.eval(sample->wi, Transport::radiance);
   if (f.value.is_black()) return {};
-  Spectrum value = eye.throughput * f.value * sample->weight * (1 / pick.probability);
-  float transmittance = 1;
+  float direct = sample->pdf.value;
+  if (sample->delta)
+    direct = sample->finite ? length_squared(sample->target - eye.position()) : 1.0f;
+  const float hit = sample->delta ? 0.0f : f.pdf.value;
+  JoinEnd eye_end{sample->emission * eye.cosine(sample->wi) / direct,
+                  eye.reverse_pdf(sample->wi, Transport::radiance)};
+  Join join{eye.throughput * f.value * sample->weight * (1 / pick.probability),
+            weights.light_sample(eye, direct * pick.probability, hit, eye_end)};
+  const float kept = roulette.keep(join.value * join.weight);
+  if (kept == 0) return {};
+  join.value *= kept;
   if constexpr (Vertex::kMedia) {
     const Point3f origin = eye.outside(sample->wi);
     const auto passage = pass_through_media(
         scene, sample->finite ? ray_to(origin, sample->target) : Ray{origin, sample->wi, INFINITY},
         eye.medium_towards(scene, sample->wi), *random, counters);
     if (!passage) return {};
-    value *= passage->value;
-    transmittance = passage->nominal;
+    join.value *= passage->value;
+    eye_end.arrival *= passage->nominal;
+    join.weight =
+        weights.light_sample(eye, direct * pick.probability, hit * passage->nominal, eye_end);
   } else {
     const Ray shadow = sample->finite ? spawn_ray_to(eye.surface, sample->target)
                                       : spawn_ray(eye.surface, sample->wi);
     ++counters.shadow_rays;
     if (scene.accel->occluded(shadow)) return {};
   }
-  float direct = sample->pdf.value;
-  if (sample->delta)
-    direct = sample->finite ? length_squared(sample->target - eye.position()) : 1.0f;
-  const JoinEnd eye_end{sample->emission * eye.cosine(sample->wi) / direct * transmittance,
-                        eye.reverse_pdf(sample->wi, Transport::radiance)};
-  return {value, weights.light_sample(eye, direct * pick.probability,
-                                      sample->delta ? 0.0f : f.pdf.value * transmittance, eye_end)};
+  return join;
 }
 
 /// Where a light vertex is seen, and how bright it makes that place if the image is a function per

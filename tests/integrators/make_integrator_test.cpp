@@ -49,10 +49,10 @@ TEST_CASE("every method can be selected by its name and says it again") {
     CHECK(integrator_name(with({}, n.name)) == n.name);
     CHECK(integrator_name(with(describe(Bidirectional{}), n.name)) == n.name);
   }
-  CHECK(all == "auto path volpath volpathmis direct ptracer bdpt reuse ppm bpm vcm depth aov ");
+  CHECK(all == "auto path volpath volpathmis direct ptracer bdpt reuse ppm bpm vcm depth ao aov ");
   CHECK(refusal("bdtp", {}) ==
         "there is no integrator \"bdtp\" (did you mean \"bdpt\"?); there are auto, path, "
-        "volpath, volpathmis, direct, ptracer, bdpt, reuse, ppm, bpm, vcm, depth, aov");
+        "volpath, volpathmis, direct, ptracer, bdpt, reuse, ppm, bpm, vcm, depth, ao, aov");
 }
 
 TEST_CASE("the parameters of each method, with their presets") {

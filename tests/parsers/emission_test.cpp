@@ -264,5 +264,5 @@ TEST_CASE("fields are layers, alone or beside an image") {
       "</integrator>",
       "not two");
   bad("<integrator type='multichannel'/>", "needs an integrator");
-  bad("<integrator type='ao'/>", "is refused");
+  bad("<integrator type='motion'/>", "is refused");
 }

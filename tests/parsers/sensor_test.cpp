@@ -212,6 +212,13 @@ TEST_CASE("integrators") {
                 .method) == Direct{3, 2, false, false});
   CHECK(std::holds_alternative<DepthIntegratorDescription>(
       integrator("3.0.0", "<integrator type='depth'/>").method));
+  using Occlusion = OcclusionIntegratorDescription;
+  CHECK(std::get<Occlusion>(integrator("0.6.0", "<integrator type='ao'/>").method) == Occlusion{});
+  CHECK(std::get<Occlusion>(
+            integrator("0.6.0",
+                       "<integrator type='ao'><integer name='shadingSamples' value='4'/>"
+                       "<float name='rayLength' value='2.5'/></integrator>")
+                .method) == Occlusion{4, 2.5});
 
   const IntegratorDescription aov = integrator(
       "3.0.0",
@@ -253,5 +260,5 @@ TEST_CASE("integrators") {
   CHECK(bad("<integrator type='aov'/>", "needs the parameter \"aovs\""));
   CHECK(bad("<integrator type='moment'/>", "needs an integrator"));
   CHECK(bad("<integrator type='path'/><integrator type='path'/>", "can have only one integrator"));
-  CHECK(bad("<integrator type='ao'/>", "integrator type \"ao\" is refused"));
+  CHECK(bad("<integrator type='motion'/>", "integrator type \"motion\" is refused"));
 }

@@ -123,7 +123,7 @@ std::vector<Observation> observe(const Scene& scene, const TechniqueSet& set, ui
     const PathVertex v(scene, s, -walk.ray.direction, walk.throughput, partials, depth);
     if (v.bsdf.has_smooth()) {
       Sampler same = sampler;
-      note('u', join_light(scene, weights, v, false, same, counters));
+      note('u', join_light(scene, weights, v, false, same, roulette, counters));
       for (const PathVertex& l : light)
         note('v', join_ends(scene, weights, l, v, false, roulette, counters));
       // How far the two vertices are apart does not matter to the weight.
