@@ -6,10 +6,10 @@
 Each of --rounds rounds renders both boxes at the size of the reference with every method, 64 iterations and a
 new seed. These independent images show bias and error, and the median of the rounds' ratios is that of the
 times (user + system CPU seconds of a process). Then the boxes are rendered as in the thesis (--size; 100 and
-200 iterations unless --iterations says otherwise) for the pictures. The tables replace those between
-<!-- NAME --> and <!-- end --> in docs/thesis.md; the pictures are docs/images/thesis-*.png. --folder keeps all
-images, and a run that was interrupted goes on with what is there. --quick (4 rounds) prints the tables and
-writes nothing. Needs numpy and mitsuba, which reads and writes the images.
+200 iterations unless --iterations says otherwise) for the pictures, with their times. The tables replace those
+between <!-- NAME --> and <!-- end --> in docs/thesis.md; the pictures are docs/images/thesis-*.png. --folder
+keeps all images, and a run that was interrupted goes on with what is there. --quick (4 rounds) prints the tables
+and writes nothing. Needs numpy and mitsuba, which reads and writes the images.
 """
 import argparse
 import json
@@ -106,11 +106,16 @@ def cpu_ratio(rounds, method):
     return statistics.median(a['cpu'] / b['cpu'] for a, b in zip(rounds[method], rounds['path']))
 
 
-def time_table(scene, rounds):
+def time_table(scene, rounds, pictures, size):
     seconds = SCENES[scene][2]
-    return table(['', 'thesis: s', 'ratio', 'Duet: ratio'],
-                 [[METHODS[m][0], f'{seconds[METHODS[m][1]]:.2f}', f'{seconds[METHODS[m][1]] / seconds["PT"]:.2f}',
-                   f'{cpu_ratio(rounds, m):.2f}'] for m in rounds])
+    rows = []
+    for m in rounds:
+        thesis = seconds[METHODS[m][1]]
+        row = [METHODS[m][0], f'{thesis:.2f}', f'{thesis / seconds["PT"]:.2f}', f'{cpu_ratio(rounds, m):.2f}']
+        picture = pictures.get(m)
+        row += [f'{picture["cpu"]:.0f}', f'{picture["cpu"] / pictures["path"]["cpu"]:.2f}'] if picture else ['', '']
+        rows.append(row)
+    return table(['', 'thesis: s', 'ratio', 'Duet: ratio', f'at {size}²: CPU s', 'ratio'], rows)
 
 
 def connection_table(rounds):
@@ -171,12 +176,13 @@ def bench(args):
         for seed in range(1, args.rounds + 1):
             for m in METHODS:
                 rounds[m].append(render(scene, m, REFERENCE_SIZE, ROUND_ITERATIONS, seed, args))
-        tables[f'times {scene}'] = time_table(scene, rounds)
+        pictures = {} if args.quick else {
+            m: render(scene, m, args.size, args.iterations or iterations, 1, args) for m in pictured}
+        tables[f'times {scene}'] = time_table(scene, rounds, pictures, args.size)
         tables[f'connections {scene}'] = connection_table(rounds)
         tables[f'errors {scene}'] = error_table(rounds, reference)
-        if not args.quick:
-            write_figures(scene, {m: render(scene, m, args.size, args.iterations or iterations, 1, args)
-                                  for m in pictured})
+        if pictures:
+            write_figures(scene, pictures)
     return tables
 
 

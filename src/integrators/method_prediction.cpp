@@ -16,6 +16,9 @@ constexpr double kTrimmedPixels = 0.001;
 /// Of the square of the image's mean, in what errors are relative to.
 constexpr double kDarkShare = 0.1;
 
+/// Of the squares of contributions: a pilot cannot tell a smaller variance from none at all.
+constexpr double kLeastVariance = 0.05;
+
 /// Squared contributions by their size, in half octaves.
 class SquareHistogram {
  public:
@@ -109,7 +112,7 @@ class Prediction {
     PredictedMethod p;
     const double walks = double(record_.walks());
     p.missing = all_ > 0 ? missing_ / all_ : 0;
-    p.variance = std::max(squares_ + products_, 0.0) / walks;
+    p.variance = std::max(squares_ + products_, kLeastVariance * squares_) / walks;
     double lost = 0;
     for (size_t t = 0; t < trimmed_.size(); ++t)
       if (tile_walks_[t] > 0) lost += trimmed_[t] * trimmed_[t] / tile_walks_[t];
