@@ -110,7 +110,7 @@ TEST_SUITE("program") {
     CHECK(c.stability({"-q", "-t", "3", "--json", "b.json"}).out == one.out);
     const json a = json::parse(read_file(c.path("a.json")));
     REQUIRE(a.size() == 3);
-    CHECK(a[0]["cells"].size() == 7);
+    CHECK(a[0]["cells"].size() == 8);
     CHECK(a[1]["cells"][0]["holds"] == false);
     CHECK(a[1]["cells"][0]["as_expected"] == true);
     CHECK(a[2]["planned"] == "not yet");
