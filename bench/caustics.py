@@ -12,7 +12,6 @@ the reference in the repository, which is Mitsuba's, at a size of its own. --fol
 mitsuba and numpy.
 """
 import argparse
-import json
 import math
 import statistics
 import sys
@@ -22,6 +21,7 @@ from pathlib import Path
 import numpy as np
 
 from peers import RENDER_WITH_MITSUBA, ROOT, cpu_seconds, read
+from thesis import read_reference
 from unbiased import Reference, trimmed_relmse
 
 SCENE = ROOT / 'scenes' / 'thesis-modified' / 'scene.xml'
@@ -52,12 +52,9 @@ def reference(args):
 
 def mitsubas_mean():
     """The mean of the repository's reference and its standard error."""
-    folder = ROOT / 'reference' / 'thesis-modified'
-    mean, variance = read(folder / 'mean.exr'), read(folder / 'variance.exr')
-    spp = json.loads((folder / 'provenance.json').read_text())['spp']
-    # Its channels are correlated: the deviation of their mean is at most the mean of their deviations.
-    grey = np.sqrt(variance / spp).mean(axis=2) ** 2
-    return mean.mean(), math.sqrt(grey.sum()) / grey.size
+    mitsubas = read_reference('thesis-modified')
+    variance = mitsubas.grey_variance
+    return mitsubas.mean.mean(), math.sqrt(variance.sum()) / variance.size
 
 
 def main():

@@ -28,9 +28,9 @@ class Parser {
       else if (name == "yarn")
         yarn();
       else if (expect('='); name == "tileWidth")
-        width_ = cells();
+        width_ = side();
       else if (name == "tileHeight")
-        height_ = cells();
+        height_ = side();
       else
         value();
     });
@@ -94,12 +94,13 @@ class Parser {
     return v;
   }
 
-  double cells() {
+  /// A whole number from 1 on; `rule` says so.
+  double count(const char* rule) {
     const double n = number();
-    if (!(n >= 1 && n <= kMostCells && n == std::floor(n)))
-      fail("the sides of a tile are whole numbers from 1 on");
+    if (!(n >= 1 && n <= kMostCells && n == std::floor(n))) fail(rule);
     return n;
   }
+  double side() { return count("the sides of a tile are whole numbers from 1 on"); }
 
   /// `{ entry, entry, … }`; commas may be left out or be too many.
   template <class Entry>
@@ -145,9 +146,7 @@ class Parser {
   void pattern() {
     expect('{');
     while (!accept('}')) {
-      const double n = number();
-      if (!(n >= 1 && n <= kMostCells && n == std::floor(n)))
-        fail("the cells of a pattern are numbers of yarns, from 1 on");
+      const double n = count("the cells of a pattern are numbers of yarns, from 1 on");
       weave_.pattern.push_back(uint32_t(n) - 1);
       accept(',');
     }
