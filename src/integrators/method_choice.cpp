@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "base/log.h"
+#include "integrators/merge_parts.h"
 #include "integrators/method_rules.h"
 
 namespace duet {
@@ -77,6 +78,26 @@ bool shows_little(const Scene& scene, Point2i film) {
   return !seen.empty() && scene.accel->bounds().radius() > kFarRatio * double(seen.radius());
 }
 
+/// Adds what comes of merging in parts of the image only, for the candidates that merge.
+void add_partly_merged(MethodPrices& prices) {
+  const size_t count = prices.candidates.size();
+  for (size_t with = 0; with < count; ++with)
+    for (size_t without = 0; without < count; ++without) {
+      MethodCandidate c = prices.candidates[with];
+      const MethodCandidate& plain = prices.candidates[without];
+      if (c.merges == 0 || plain.merges > 0 || plain.light_paths != c.light_paths ||
+          plain.connections != c.connections)
+        continue;
+      PartlyMerged part =
+          merge_where_it_pays(prices.predictions[without], prices.predictions[with]);
+      if (part.share == 0 || part.share == 1) continue;
+      std::get<BidirectionalIntegratorDescription>(c.method).merge_parts = std::move(part.parts);
+      c.name += fmt::format(", merging in {:.0f} % of the image", 100 * part.share);
+      prices.candidates.push_back(std::move(c));
+      prices.predictions.push_back(std::move(part.prediction));
+    }
+}
+
 MethodChoice without_pilot(const PathLimits& o, const std::string& why) {
   return {PathIntegratorDescription{o}, "path: " + why, ""};
 }
@@ -102,6 +123,7 @@ MethodPrices price_methods(const Scene& scene, const AutoIntegratorDescription& 
   prices.walks = record.walks();
   for (const MethodCandidate& c : prices.candidates)
     prices.predictions.push_back(predict(record, c, outlook.spp));
+  add_partly_merged(prices);
   return prices;
 }
 
