@@ -19,6 +19,8 @@ constexpr double kPilotShare = 0.04, kPilotWalkCost = 14;
 constexpr int kFewestPixels = 16, kMostPixels = 64;  ///< per side
 /// How much better than path tracing a method has to be.
 constexpr double kHysteresis = 1.15;
+/// Share of the image above which merging in a part of it is merging in all of it.
+constexpr double kNearlyAll = 0.95;
 /// Share of the light that may be missed.
 constexpr double kNegligible = 1e-4;
 /// Between the sphere of all surfaces and that of the visible ones: beyond, walks from lights that
@@ -50,16 +52,18 @@ std::vector<MethodCandidate> candidates(const MethodRules& rules, const PathLimi
   using enum BidirectionalMethod;
   std::vector<MethodCandidate> list;
   list.push_back({PathIntegratorDescription{o}, "path"});
-  const auto text = [](double light_paths) { return fmt::format("light_paths={:g}", light_paths); };
+  const auto add = [&](BidirectionalMethod method, double light, int connections, double merges) {
+    list.push_back({bidirectional(o, method, light, connections),
+                    fmt::format("{} light_paths={:g}{}", method == vcm ? "vcm" : "bdpt", light,
+                                connections == 0 ? " connections=0" : ""),
+                    light, connections != 0, merges});
+  };
   for (const double light : {1 / 16.0, 1 / 4.0, 1.0})
-    for (const int connections : {-1, 0})
-      list.push_back({bidirectional(o, bdpt, light, connections),
-                      "bdpt " + text(light) + (connections == 0 ? " connections=0" : ""), light,
-                      connections != 0});
+    for (const int connections : {-1, 0}) add(bdpt, light, connections, 0);
   if (!rules.may_merge) return list;
   for (const double light : {1 / 4.0, 1.0})
-    list.push_back({bidirectional(o, vcm, light, -1), "vcm " + text(light), light, true,
-                    light / mean_shrinkage(0.75, spp)});
+    for (const int connections : {-1, 0})
+      add(vcm, light, connections, light / mean_shrinkage(0.75, spp));
   return list;
 }
 
@@ -90,7 +94,7 @@ void add_partly_merged(MethodPrices& prices) {
         continue;
       PartlyMerged part =
           merge_where_it_pays(prices.predictions[without], prices.predictions[with]);
-      if (part.share == 0 || part.share == 1) continue;
+      if (part.share == 0 || part.share > kNearlyAll) continue;
       std::get<BidirectionalIntegratorDescription>(c.method).merge_parts = std::move(part.parts);
       c.name += fmt::format(", merging in {:.0f} % of the image", 100 * part.share);
       prices.candidates.push_back(std::move(c));
