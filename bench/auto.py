@@ -25,7 +25,7 @@ ROOT = Path(__file__).resolve().parent.parent
 SCENES = ['thesis-empty', 'thesis-modified', 'box-point', 'box-spheres', 'door-ajar', 'sun-glass', 'many-lights',
           'environment-map', 'lamp-in-glass', 'glossy-kitchen', 'textures', 'instances', 'lights-area', 'cornell-box']
 FIXED = ['path', 'bdpt', 'vcm', 'ppm']
-REFERENCE_SPP = 4096
+REFERENCE_SPP = 1024
 BDPT_SUFFICES = {'door-ajar', 'many-lights', 'glossy-kitchen'}
 
 

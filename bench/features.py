@@ -3,7 +3,7 @@
 
     features.py --duet build-profile/duet [--size 48] [--spp 4] [--triangles 400000]
 
-Time: scenes/cornell-box (diffuse meshes under an area light) is rendered with path and bdpt under callgrind, which
+Time: scenes/thesis-empty (diffuse meshes under an area light) is rendered with path and bdpt under callgrind, which
 counts the instructions of every source line, inlined or not. The lines that exist for the sake of a feature are known
 by the folder of their file or by a pattern; a line that also does other work counts in full, so shares are upper bounds.
 Start and end of the process, measured with fewer samples, are taken off. At most 2 % are allowed for each feature.
@@ -27,7 +27,7 @@ from pathlib import Path
 from make_big_mesh import torus, write_ply
 
 ROOT = Path(__file__).resolve().parent.parent
-SCENE = ROOT / 'scenes' / 'cornell-box' / 'scene.xml'
+SCENE = ROOT / 'scenes' / 'thesis-empty' / 'scene.xml'
 METHODS = ['path', 'bdpt']
 LARGEST_SHARE, LARGEST_BYTES = 0.02, 1.0
 
@@ -38,7 +38,7 @@ FEATURES = {
     'textures, coordinates': (r'/textures/', r'texture|\.uv\b|\bdp_d[uv]|tangent'),
     'bump and normal maps': (r'/tilt\.', r'bump|normal_map|tilt'),
     'instances': (r'$^', r'instance|instID'),
-    'analytic shapes': (r'/analytic\.|/sdf_grid\.|/curves\.', r'analytic|sdf|curve'),
+    'analytic shapes': (r'/analytic\.|/sdf_grid\.|/curves\.', r'analytic|sdf_grid|\bcurve'),
     'environments and skies': (r'/environment\.|/sky', r'[eE]nvironment'),
     'points, spots and beams': (r'lights/(delta|beam)\.', r'->delta|\bbeam|\.finite|->finite'),
     'lenses': (r'$^', r'\blens|has_lens'),

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """How honest `--target-error` is: the error it promises against the one that is really made.
 
-    target_error.py [--duet build/duet] [--runs 50] [--size 96] [--references DIR] [SCENE:METHOD:TARGET...]
+    target_error.py [--duet build/duet] [--runs 50] [--size 64] [--references DIR] [SCENE:METHOD:TARGET...]
 
 Renders each scene many times with different seeds until the estimated relative error is below the target, and
 compares each image with a converged reference, which is made once by the first unbiased method that suits the scene
@@ -19,7 +19,7 @@ from pathlib import Path
 ROOT = Path(__file__).resolve().parent.parent
 CASES = ['cornell-box:path:5%', 'thesis-empty:bdpt:3%', 'thesis-modified:bdpt:5%', 'lights-area:auto:3%',
          'environment-map:auto:3%', 'many-lights:auto:4%', 'textures:auto:3%', 'instances:auto:3%']
-REFERENCE_SPP = 32768
+REFERENCE_SPP = 16384
 
 
 def json_of(command):
@@ -31,7 +31,7 @@ def main():
     p.add_argument('cases', nargs='*', default=CASES)
     p.add_argument('--duet', default=str(ROOT / 'build/duet'))
     p.add_argument('--runs', type=int, default=50)
-    p.add_argument('--size', type=int, default=96)
+    p.add_argument('--size', type=int, default=64)
     p.add_argument('--references', type=Path, default=Path.home() / '.cache/duet/target-error')
     o = p.parse_args()
     o.references.mkdir(parents=True, exist_ok=True)
