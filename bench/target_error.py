@@ -1,11 +1,10 @@
 #!/usr/bin/env python3
 """How honest `--target-error` is: the error it promises against the one that is really made.
 
-    target_error.py [--duet build/duet] [--runs 50] [--size 64] [--references DIR] [SCENE:METHOD:TARGET...]
+    target_error.py [--duet build/duet] [--runs 50] [--references DIR] [SCENE:METHOD:TARGET...]
 
 Renders each scene many times with different seeds until the estimated relative error is below the target, and
-compares each image with a converged reference, which is made once by the first unbiased method that suits the scene
-and kept in --references. Printed are the share of the runs whose true relative root mean square error is within
+compares each image with the converged reference that bench/auto.py uses, too. Printed are the share of the runs whose true relative root mean square error is within
 20 % of the estimate (asked for are 90 %), the median and the extremes of true over estimated, the mean of all runs
 over the reference's with its standard error, and samples per pixel.
 """
@@ -16,10 +15,10 @@ import subprocess
 import tempfile
 from pathlib import Path
 
-ROOT = Path(__file__).resolve().parent.parent
-CASES = ['cornell-box:path:5%', 'thesis-empty:bdpt:3%', 'thesis-modified:bdpt:5%', 'lights-area:auto:3%',
-         'environment-map:auto:3%', 'many-lights:auto:4%', 'textures:auto:3%', 'instances:auto:3%']
-REFERENCE_SPP = 16384
+from auto import ROOT, reference, size_of
+
+CASES = ['cornell-box:auto:10%', 'thesis-empty:auto:8%', 'thesis-empty:bdpt:8%', 'lights-area:auto:8%',
+         'environment-map:auto:8%', 'many-lights:auto:10%', 'textures:auto:8%', 'instances:auto:8%']
 
 
 def json_of(command):
@@ -31,21 +30,16 @@ def main():
     p.add_argument('cases', nargs='*', default=CASES)
     p.add_argument('--duet', default=str(ROOT / 'build/duet'))
     p.add_argument('--runs', type=int, default=50)
-    p.add_argument('--size', type=int, default=64)
-    p.add_argument('--references', type=Path, default=Path.home() / '.cache/duet/target-error')
+    p.add_argument('--references', type=Path, default=Path.home() / '.cache/duet/auto')
     o = p.parse_args()
-    o.references.mkdir(parents=True, exist_ok=True)
     print(f'{"scene":18}{"method":8}{"target":>7}{"within 20 %":>13}{"true / estimated":>22}'
           f'{"mean - 1, %":>20}{"spp":>8}')
     for case in o.cases:
         name, method, target = case.split(':')
         scene = ROOT / 'scenes' / name / 'scene.xml'
-        size = f'{o.size}x{o.size}'
-        truth = o.references / f'{name}-{size}.exr'
-        if not truth.exists():
-            unbiased = 'bdpt' if name.startswith('thesis') else 'path'
-            subprocess.run([o.duet, str(scene), '-q', '-i', unbiased, '--spp', str(REFERENCE_SPP), '--seed', '999',
-                            '--size', size, '-o', str(truth)], check=True)
+        size = size_of(name)
+        truth = reference(o.duet, name, scene, size, o.references)
+        size = f'{size[0]}x{size[1]}'
         ratios, means, spp = [], [], []
         with tempfile.TemporaryDirectory() as folder:
             image, stats = Path(folder) / 'image.exr', Path(folder) / 'stats.json'
