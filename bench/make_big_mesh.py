@@ -46,8 +46,9 @@ def torus(triangles):
             faces.reshape(-1, 3).astype('<i4'))
 
 
-def write_ply(path, p, n, faces):
-    names = ['x', 'y', 'z'] + (['nx', 'ny', 'nz'] if n is not None else [])
+def write_ply(path, p, n, faces, uv=None):
+    """Normals `n` and texture coordinates `uv`, n × 2, may be None."""
+    names = ['x', 'y', 'z'] + (['nx', 'ny', 'nz'] if n is not None else []) + (['u', 'v'] if uv is not None else [])
     header = ['ply', 'format binary_little_endian 1.0', f'element vertex {len(p)}',
               *(f'property float {name}' for name in names), f'element face {len(faces)}',
               'property list uchar int vertex_indices', 'end_header', '']
@@ -55,7 +56,7 @@ def write_ply(path, p, n, faces):
     rows['count'], rows['v'] = 3, faces
     with open(path, 'wb') as file:
         file.write('\n'.join(header).encode())
-        file.write((p if n is None else np.hstack([p, n])).tobytes())
+        file.write(np.hstack([a for a in (p, n, uv) if a is not None]).tobytes())
         file.write(rows.tobytes())
 
 

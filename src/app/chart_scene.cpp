@@ -145,8 +145,7 @@ class SceneChart {
   }
 
   static bool is_biased(const std::string& name, const Integrator& integrator) {
-    return name == "ppm" || name == "bpm" || name == "vcm" || name == "direct" ||
-           !integrator.bias().empty();
+    return name == "direct" || integrator.blurs() || !integrator.bias().empty();
   }
 
   void build() {

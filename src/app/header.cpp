@@ -75,6 +75,7 @@ std::vector<std::pair<std::string, HeaderValue>> image_header(const RenderRecord
   if (result.relative_rmse) {
     fields.emplace_back("relativeRmseEstimate", float(*result.relative_rmse));
     fields.emplace_back("relativeRmseIsUpperBound", int(result.rmse_is_upper_bound));
+    fields.emplace_back("relativeRmseIsNoiseOnly", int(record.noise_only));
   }
   if (const auto world_to_camera = view.to_world.inverse()) {
     const Matrix4 camera = Matrix4::scale(-1, 1, 1) * *world_to_camera;

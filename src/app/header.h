@@ -19,6 +19,7 @@ struct RenderRecord {
   std::string bias;  ///< what is known to be wrong with the method, or ""
   std::string integrator, integrator_parameters;
   std::optional<MethodDecision> decision;  ///< if the method has chosen another
+  bool noise_only = false;                 ///< whether an estimate of the error leaves out a bias
   std::string sampler;
   uint64_t seed = 0;
   int threads = 1;

@@ -75,6 +75,7 @@ class SceneRenderer {
       return;
     }
     decide();
+    record_.noise_only = integrator_->blurs() || !record_.bias.empty();
     check_memory(layout_, *integrator_, request_.budget);
     const RenderResult result = render_with_progress();
     seconds_.render = watch_.lap();
@@ -234,8 +235,9 @@ class SceneRenderer {
         fmt::format("{}: {}{} spp in {}", file_, r.interrupted ? "interrupted, " : "", r.spp,
                     format_seconds(r.seconds));
     if (r.relative_rmse)
-      text += fmt::format(", estimated relative error {}{:.2g} %",
-                          r.rmse_is_upper_bound ? "below " : "", 100 * *r.relative_rmse);
+      text += fmt::format(", estimated relative error {}{:.2g} %{}",
+                          r.rmse_is_upper_bound ? "below " : "", 100 * *r.relative_rmse,
+                          record_.noise_only ? " (noise only)" : "");
     for (const std::string& p : paths(r.spp)) text += " -> " + p;
     log::info("{}", text);
     if (request_.budget.target_error && !r.relative_rmse && !r.interrupted)

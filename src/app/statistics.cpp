@@ -55,6 +55,7 @@ void StatisticsFile::add(const RenderRecord& record, const RenderResult& result,
   j["error"]["relative_rmse_estimate"] =
       result.relative_rmse ? nlohmann::ordered_json(*result.relative_rmse) : nullptr;
   j["error"]["is_upper_bound"] = result.rmse_is_upper_bound;
+  j["error"]["noise_only"] = record.noise_only;
   j["emitters"] = counts.emitters;
   j["triangles"] = counts.triangles;
   j["instances"] = counts.instances;

@@ -46,6 +46,12 @@ std::vector<double> filter_integrals(const ReconstructionFilter& filter, int fir
   return integrals;
 }
 
+/// By what to multiply the sums of this many samples to make them sums of `wanted` ones: exactly
+/// one if all have the same number.
+double sample_scale(double wanted, uint64_t samples) {
+  return samples > 0 ? wanted / double(samples) : 1.0;
+}
+
 }  // namespace
 
 PixelBounds PixelBounds::intersect(const PixelBounds& o) const {
@@ -77,10 +83,6 @@ void FilmTile::add_sample(const ReconstructionFilter& filter, const Point2f& p,
   });
 }
 
-void FilmTile::add(const FilmTile& other) {
-  for (size_t i = 0; i < data_.size(); ++i) data_[i] += other.data_[i];
-}
-
 Film::Film(const FilmLayout& layout, std::vector<std::string> channels)
     : full_(layout.full),
       crop_(layout.crop),
@@ -103,12 +105,15 @@ Image Film::develop() const {
   const int n = int(channels_.size());
   Image image(crop_.width(), crop_.height(), channels_);
   std::vector<double> sums(size_t(crop_.width()) * crop_.height() * (n + 1));
+  uint64_t most = 0;
+  for (const FilmTile& tile : tiles_) most = std::max(most, tile.samples_);
   for (const FilmTile& tile : tiles_) {
+    const double scale = sample_scale(double(most), tile.samples_);
     const PixelBounds& b = tile.stored_;
     const double* from = tile.data_.data();
     for (int y = b.y0; y < b.y1; ++y) {
       double* to = &sums[(size_t(y - crop_.y0) * crop_.width() + (b.x0 - crop_.x0)) * (n + 1)];
-      for (int i = 0; i < b.width() * (n + 1); ++i) *to++ += *from++;
+      for (int i = 0; i < b.width() * (n + 1); ++i) *to++ += scale * *from++;
     }
   }
   float* out = image.data.data();
@@ -194,14 +199,32 @@ void Film::add_splats(size_t layer, std::span<const Splat> splats, float scale, 
   });
 }
 
-void Film::add(const Film& other) {
-  assert(tiles_.size() == other.tiles_.size());
-  for (size_t i = 0; i < tiles_.size(); ++i) tiles_[i].add(other.tiles_[i]);
-  for (size_t k = 0; k < splats_.size(); ++k)
-    for (size_t i = 0; i < splats_[k].sums.size(); ++i)
-      splats_[k].sums[i] += other.splats_[k].sums[i];
-  for (size_t i = 0; i < squares_.size(); ++i) squares_[i] += other.squares_[i];
-  passes_ += other.passes_;
+void Film::average(std::span<Film> films) {
+  Film& first = films[0];
+  const double count = double(films.size());
+  // Sums of `part`, with the scale of its film, take the place of those of the first film.
+  const auto add_up = [&](const auto& samples, const auto& part) {
+    double mean = 0;
+    for (const Film& f : films) mean += double(samples(f)) / count;
+    const double own = sample_scale(mean, samples(first));
+    std::vector<double>& to = part(first);
+    for (double& v : to) v *= own;
+    for (Film& f : films.subspan(1)) {
+      const double scale = sample_scale(mean, samples(f));
+      const std::vector<double>& from = part(f);
+      for (size_t i = 0; i < to.size(); ++i) to[i] += scale * from[i];
+    }
+  };
+  for (size_t k = 0; k < first.tiles_.size(); ++k) {
+    add_up([&](const Film& f) { return f.tiles_[k].samples_; },
+           [&](Film& f) -> std::vector<double>& { return f.tiles_[k].data_; });
+    for (const Film& f : films.subspan(1)) first.tiles_[k].samples_ += f.tiles_[k].samples_;
+  }
+  const auto passes = [](const Film& f) { return uint64_t(f.passes_); };
+  for (size_t k = 0; k < first.splats_.size(); ++k)
+    add_up(passes, [&](Film& f) -> std::vector<double>& { return f.splats_[k].sums; });
+  add_up(passes, [](Film& f) -> std::vector<double>& { return f.squares_; });
+  for (const Film& f : films.subspan(1)) first.passes_ += f.passes_;
 }
 
 }  // namespace duet

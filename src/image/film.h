@@ -42,8 +42,10 @@ class FilmTile {
   /// Adds a sample at a film position to all pixels within the filter's reach.
   void add_sample(const ReconstructionFilter& filter, const Point2f& position,
                   std::span<const float> values);
-  /// Adds the sums of another tile of the same bounds.
-  void add(const FilmTile& other);
+  /// Takes note of `count` more samples in every pixel.
+  void count_samples(uint32_t count) { samples_ += count; }
+  /// Samples that every pixel has, as far as they have been counted.
+  uint64_t samples() const { return samples_; }
   /// Per stored pixel the sum of weights, then the weighted sum of each channel.
   std::span<const double> data() const { return data_; }
 
@@ -54,6 +56,7 @@ class FilmTile {
   }
   PixelBounds sampled_, stored_;
   int channels_;
+  uint64_t samples_ = 0;
   std::vector<double> data_;
 };
 
@@ -105,9 +108,12 @@ class Film {
   int passes() const { return passes_; }
 
   /// The weighted means of the window's pixels, with splats; a pixel that nothing reached is zero.
+  /// Where tiles have samples of different numbers, each tile counts for a pixel between them as
+  /// much as its share of the filter, however many samples it has.
   Image develop() const;
-  /// Adds the sums of another film of the same layout.
-  void add(const Film& other);
+  /// Makes the first film the mean of all, which have the same layout. Each counts the same in
+  /// every tile, so that numbers of samples which depend on other films leave the mean unbiased.
+  static void average(std::span<Film> films);
 
  private:
   Point2i full_;

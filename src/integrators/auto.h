@@ -20,6 +20,8 @@ class AutoIntegrator final : public Integrator {
   void begin(const Scene& scene, const RenderOutlook& outlook) override;
   const MethodDecision* decision() const override { return decided_ ? &decision_ : nullptr; }
   std::string bias() const override { return bias_; }
+  bool blurs() const override { return chosen_->blurs(); }
+  bool tiles_may_differ() const override { return chosen_->tiles_may_differ(); }
   double memory_bytes(const FilmLayout& film) const override { return chosen_->memory_bytes(film); }
   void prepare(Film& film) const override;
   void render_pass(const Scene& scene, Film& film, const SampleRange& samples,

@@ -88,6 +88,10 @@ std::string BidirectionalIntegrator::bias() const {
                            "too dark to 10 % too bright in places");
 }
 
+bool BidirectionalIntegrator::blurs() const {
+  return merges(options_.method);
+}
+
 double BidirectionalIntegrator::memory_bytes(const FilmLayout& film) const {
   // Roulette leaves few walks with more vertices than this.
   constexpr int kVertices = 6;
@@ -124,6 +128,7 @@ TechniqueSet BidirectionalIntegrator::techniques(const Film& film, uint32_t iter
       options_.light_image && (set.connections || options_.method == Method::ptracer);
   set.merges = merges(options_.method);
   set.light_paths = float(light_walks(film.full_size()));
+  set.partly_merged = set.merges && set.connections && !options_.merge_parts.empty();
   if (!pilot_) return set;
   if (set.connections && options_.connections >= 0 && pilot_->vertices_per_walk > 0)
     set.connection_share = float(std::max(1e-6, options_.connections / pilot_->vertices_per_walk));
@@ -134,10 +139,14 @@ TechniqueSet BidirectionalIntegrator::techniques(const Film& film, uint32_t iter
 void BidirectionalIntegrator::render_pass(const Scene& scene, Film& film,
                                           const SampleRange& samples, const PassControl& control,
                                           RenderCounters& counters) {
+  std::vector<TileSamples> tiles(samples.tiles.size());
   for (uint32_t i = 0; i < samples.count && !control.cancelled(); ++i) {
     SampleRange one = samples;
     one.first = samples.first + i;
     one.count = 1;
+    for (size_t k = 0; k < tiles.size(); ++k)
+      tiles[k] = {samples.tiles[k].first + i, i < samples.tiles[k].count ? 1u : 0u};
+    one.tiles = tiles;
     PassControl whole = control;
     // Eye and light walks belong together: an iteration that has begun is finished.
     whole.cancelled = [] { return false; };
@@ -153,8 +162,10 @@ void BidirectionalIntegrator::iteration(const Scene& scene, Film& film, const Sa
   windows_.light_paths = light_walks(film.full_size());
   // What the sensor cannot be joined with, it finds by itself.
   options_.light_image &= scene.camera->connectible();
+  mask_ = {film.full_size(), options_.merge_parts};
   LightPassPlan plan;
   plan.set = techniques(film, samples.first);
+  plan.mask = &mask_;
   plan.walk = {options_.rr_depth, options_.strict_normals};
   plan.max_depth = max_depth_ - 1;
   if (options_.method == Method::reuse)

@@ -22,6 +22,7 @@ class BidirectionalIntegrator final : public CameraIntegrator {
   BidirectionalIntegrator(const Options& options, const CameraOutput& output);
 
   std::string bias() const override;
+  bool blurs() const override;
   double memory_bytes(const FilmLayout& film) const override;
   void prepare(Film& film) const override;
   void render_pass(const Scene& scene, Film& film, const SampleRange& samples,
@@ -63,6 +64,8 @@ class BidirectionalIntegrator final : public CameraIntegrator {
   /// Vertices of the pixel's light walk that are near enough in length to be joined with `v`.
   template <class Vertex>
   int candidates(const Vertex& v, const Eye<Vertex>& eye) const;
+  /// Whether the method merges in a pixel, whose number is that of CameraPath.
+  bool merges_in(uint64_t pixel) const;
   template <class Vertex>
   bool enter_tail(Walk& walk, Eye<Vertex>& eye) const;
   /// What the thesis does at the end of an eye walk that cannot connect.
@@ -76,6 +79,7 @@ class BidirectionalIntegrator final : public CameraIntegrator {
   bool raw_techniques_ = false;
   TechniqueLayers layers_;
   Windows windows_;
+  MergeMask mask_;
   std::optional<Pilot> pilot_;
 
   // Of the iteration under way.

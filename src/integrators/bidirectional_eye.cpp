@@ -36,6 +36,7 @@ struct BidirectionalIntegrator::Eye {
   uint64_t random;       ///< key of numbers that no dimension of the sampler is set aside for
   RandomStream shadows;  ///< for shadow rays through media
   std::vector<uint32_t>& photons;  ///< those near the vertex under way
+  bool merging;                    ///< in this pixel, if the method merges
   Spectrum sum{};
   size_t light_walk = 0;  ///< the one that belongs to the pixel
   /// Its vertices, once the walk has a vertex to join them with.
@@ -166,7 +167,7 @@ void BidirectionalIntegrator::walk(const Weights& weights, Trail* trail, Eye<Ver
     }
     ++eye.counters.path_vertices;
     const Surface s = scene.surface(walk.ray, hit);
-    if (set_.merges) eye.around = grid_.locate(s.position);
+    if (eye.merging) eye.around = grid_.locate(s.position);
     float d2 = hit.t * hit.t;
     if constexpr (Vertex::kMedia) d2 = length_squared(s.position - walk.from);
     const float cosine = std::abs(dot(s.ng, walk.ray.direction));
@@ -194,7 +195,7 @@ void BidirectionalIntegrator::join(const Weights& weights, const Vertex& v,
     add(eye, 1, v.depth + 1,
         join_light(eye.scene, weights, v, options_.strict_normals, eye.sampler, eye.roulette,
                    eye.counters, &eye.shadows));
-  if (set_.merges && v.merges()) find_photons(v, eye);
+  if (eye.merging && v.merges()) find_photons(v, eye);
   if (set_.connections) {
     if (options_.connections < 0)
       connect(weights, v, eye);
@@ -202,7 +203,7 @@ void BidirectionalIntegrator::join(const Weights& weights, const Vertex& v,
       connect_to_cache(weights, v, eye);
   }
   if constexpr (!std::is_same_v<Weights, WindowWeights>)
-    if (set_.merges && v.merges()) merge(weights, v, eye);
+    if (eye.merging && v.merges()) merge(weights, v, eye);
 }
 
 template <class Vertex>
@@ -287,6 +288,12 @@ void BidirectionalIntegrator::merge(const Weights& weights, const Vertex& v,
   }
 }
 
+bool BidirectionalIntegrator::merges_in(uint64_t pixel) const {
+  if (!set_.partly_merged) return set_.merges;
+  const uint64_t width = uint64_t(mask_.film.x);
+  return mask_.merges({float(pixel % width) + 0.5f, float(pixel / width) + 0.5f});
+}
+
 template <class Vertex>
 bool BidirectionalIntegrator::enter_tail(Walk& walk, Eye<Vertex>& eye) const {
   ++eye.counters.eye_subpaths_at_limit;
@@ -347,7 +354,7 @@ Spectrum BidirectionalIntegrator::trace(const Scene& scene, const CameraPath& pa
                   sampler, counters,
                   values,  JoinRoulette(pilot_->roulette_threshold(), ~key),
                   key,     RandomStream(key + kShadowStream),
-                  photons};
+                  photons, merges_in(path.pixel)};
   const size_t walks = lights_.vertices().ends.size();
   if (walks > 0) eye.light_walk = size_t(double(path.pixel) * options_.light_paths) % walks;
   if (options_.method == Method::reuse && options_.weights == ReuseWeights::exact) {
@@ -359,7 +366,7 @@ Spectrum BidirectionalIntegrator::trace(const Scene& scene, const CameraPath& pa
   } else if (options_.method == Method::ptracer || options_.method == Method::ppm) {
     walk(UnitWeights(), nullptr, eye);
   } else {
-    walk(BalanceWeights(set_), nullptr, eye);
+    walk(BalanceWeights(set_, eye.merging || !set_.merges), nullptr, eye);
   }
   return eye.sum;
 }

@@ -32,6 +32,12 @@ size_t CameraIntegrator::add_colour_layer(const std::string& name) {
   return first;
 }
 
+bool CameraIntegrator::tiles_may_differ() const {
+  for (const PlacedLayer& layer : layers_)
+    if (is_statistic(layer.kind)) return false;
+  return true;
+}
+
 void CameraIntegrator::gather_moments(Film& film) const {
   for (const PlacedLayer& layer : layers_)
     if (is_moment(layer.kind)) film.add_moments(layer.first);
@@ -68,7 +74,12 @@ void CameraIntegrator::sample(const Scene& scene, const CameraPath& path, Sample
 void CameraIntegrator::render_pass(const Scene& scene, Film& film, const SampleRange& samples,
                                    const PassControl& control, RenderCounters& counters) {
   for_each_tile(film, control, counters, [&](FilmTile& tile, RenderCounters& c) {
-    render_tile(scene, film, tile, samples, c);
+    SampleRange own = samples;
+    if (!samples.tiles.empty()) {
+      const TileSamples& s = samples.tiles[size_t(&tile - film.tiles().data())];
+      own.first = s.first, own.count = s.count;
+    }
+    if (own.count > 0) render_tile(scene, film, tile, own, c);
   });
 }
 
@@ -80,6 +91,7 @@ void CameraIntegrator::render_tile(const Scene& scene, const Film& film, FilmTil
   const bool unit_box = film.filter().is_unit_box();
   std::vector<float> values(channels_.size()), sums(channels_.size());
   const PixelBounds& b = tile.sampled();
+  tile.count_samples(range.count);
   for (int y = b.y0; y < b.y1; ++y)
     for (int x = b.x0; x < b.x1; ++x) {
       const uint64_t pixel = uint64_t(y) * uint64_t(film.full_size().x) + uint64_t(x);

@@ -45,6 +45,8 @@ class CameraIntegrator : public Integrator {
   void render_pass(const Scene& scene, Film& film, const SampleRange& samples,
                    const PassControl& control, RenderCounters& counters) override;
   void finish(Image& image, int spp) const final;
+  /// Not if a layer tells how many samples there are, or needs to know.
+  bool tiles_may_differ() const final;
 
  protected:
   /// An estimate of the radiance that arrives along the path's ray. `values` are the channels of

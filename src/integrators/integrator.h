@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -13,12 +14,20 @@
 
 namespace duet {
 
+/// Samples first … first + count − 1 of the pixels of a tile.
+struct TileSamples {
+  uint32_t first = 0, count = 0;
+};
+
 /// Samples first … first + count − 1 of every pixel, of one random sequence.
 struct SampleRange {
   SampleSequence sequence = SampleSequence::sobol;
   uint64_t seed = 0;
   uint32_t scramble = 0;  ///< number of the batch; batches are independent
   uint32_t first = 0, count = 0;
+  /// If not empty, what each tile of the film gets instead; `count` is the greatest of theirs.
+  /// Walks that start at lights are not part of a tile and follow the range.
+  std::span<const TileSamples> tiles = {};
 };
 
 /// How a pass is to be run.
@@ -61,6 +70,11 @@ class Integrator {
   virtual const MethodDecision* decision() const { return nullptr; }
   /// For people: why even the mean of many images is wrong, if it is.
   virtual std::string bias() const { return ""; }
+  /// Whether the image is blurred, less with every sample, so that its noise is not all of its
+  /// error.
+  virtual bool blurs() const { return false; }
+  /// Whether tiles may have different numbers of samples.
+  virtual bool tiles_may_differ() const { return true; }
   /// What the method keeps in memory besides the film, in bytes, estimated before it is known. To
   /// be asked after begin().
   virtual double memory_bytes(const FilmLayout&) const { return 0; }

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "base/log.h"
+#include "integrators/merge_parts.h"
 #include "integrators/method_rules.h"
 
 namespace duet {
@@ -18,6 +19,8 @@ constexpr double kPilotShare = 0.04, kPilotWalkCost = 14;
 constexpr int kFewestPixels = 16, kMostPixels = 64;  ///< per side
 /// How much better than path tracing a method has to be.
 constexpr double kHysteresis = 1.15;
+/// Share of the image above which merging in a part of it is merging in all of it.
+constexpr double kNearlyAll = 0.95;
 /// Share of the light that may be missed.
 constexpr double kNegligible = 1e-4;
 /// Between the sphere of all surfaces and that of the visible ones: beyond, walks from lights that
@@ -49,16 +52,18 @@ std::vector<MethodCandidate> candidates(const MethodRules& rules, const PathLimi
   using enum BidirectionalMethod;
   std::vector<MethodCandidate> list;
   list.push_back({PathIntegratorDescription{o}, "path"});
-  const auto text = [](double light_paths) { return fmt::format("light_paths={:g}", light_paths); };
+  const auto add = [&](BidirectionalMethod method, double light, int connections, double merges) {
+    list.push_back({bidirectional(o, method, light, connections),
+                    fmt::format("{} light_paths={:g}{}", method == vcm ? "vcm" : "bdpt", light,
+                                connections == 0 ? " connections=0" : ""),
+                    light, connections != 0, merges});
+  };
   for (const double light : {1 / 16.0, 1 / 4.0, 1.0})
-    for (const int connections : {-1, 0})
-      list.push_back({bidirectional(o, bdpt, light, connections),
-                      "bdpt " + text(light) + (connections == 0 ? " connections=0" : ""), light,
-                      connections != 0});
+    for (const int connections : {-1, 0}) add(bdpt, light, connections, 0);
   if (!rules.may_merge) return list;
   for (const double light : {1 / 4.0, 1.0})
-    list.push_back({bidirectional(o, vcm, light, -1), "vcm " + text(light), light, true,
-                    light / mean_shrinkage(0.75, spp)});
+    for (const int connections : {-1, 0})
+      add(vcm, light, connections, light / mean_shrinkage(0.75, spp));
   return list;
 }
 
@@ -75,6 +80,26 @@ bool shows_little(const Scene& scene, Point2i film) {
       if (scene.accel->closest_hit(ray, hit)) seen.extend(scene.surface(ray, hit).position);
     }
   return !seen.empty() && scene.accel->bounds().radius() > kFarRatio * double(seen.radius());
+}
+
+/// Adds what comes of merging in parts of the image only, for the candidates that merge.
+void add_partly_merged(MethodPrices& prices) {
+  const size_t count = prices.candidates.size();
+  for (size_t with = 0; with < count; ++with)
+    for (size_t without = 0; without < count; ++without) {
+      MethodCandidate c = prices.candidates[with];
+      const MethodCandidate& plain = prices.candidates[without];
+      if (c.merges == 0 || plain.merges > 0 || plain.light_paths != c.light_paths ||
+          plain.connections != c.connections)
+        continue;
+      PartlyMerged part =
+          merge_where_it_pays(prices.predictions[without], prices.predictions[with]);
+      if (part.share == 0 || part.share > kNearlyAll) continue;
+      std::get<BidirectionalIntegratorDescription>(c.method).merge_parts = std::move(part.parts);
+      c.name += fmt::format(", merging in {:.0f} % of the image", 100 * part.share);
+      prices.candidates.push_back(std::move(c));
+      prices.predictions.push_back(std::move(part.prediction));
+    }
 }
 
 MethodChoice without_pilot(const PathLimits& o, const std::string& why) {
@@ -102,6 +127,7 @@ MethodPrices price_methods(const Scene& scene, const AutoIntegratorDescription& 
   prices.walks = record.walks();
   for (const MethodCandidate& c : prices.candidates)
     prices.predictions.push_back(predict(record, c, outlook.spp));
+  add_partly_merged(prices);
   return prices;
 }
 

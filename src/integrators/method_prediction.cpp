@@ -6,6 +6,7 @@
 #include <numeric>
 
 #include "integrators/method_costs.h"
+#include "transport/merge_mask.h"
 
 namespace duet {
 
@@ -62,7 +63,7 @@ double copies(const PricedContribution& v) {
 }
 
 /// Cells of the pilot's image belong to this number squared of tiles.
-constexpr int kTilesPerSide = 16;
+constexpr int kTilesPerSide = MergeMask::kSide;
 
 size_t tile_of(size_t cell, int side) {
   const size_t y = cell / size_t(side), x = cell % size_t(side);
@@ -100,8 +101,8 @@ class Prediction {
         candidate_(candidate),
         spp_(spp),
         norms_(normalization(record)),
-        trimmed_(kTilesPerSide * kTilesPerSide),
-        tile_walks_(trimmed_.size()) {
+        tiles_(kTilesPerSide * kTilesPerSide),
+        tile_walks_(tiles_.size()) {
     for (size_t c = 0; c < norms_.size(); ++c) tile_walks_[tile_of(c, record.side)] += 2;
   }
 
@@ -111,12 +112,18 @@ class Prediction {
     add_walks();
     PredictedMethod p;
     const double walks = double(record_.walks());
-    p.missing = all_ > 0 ? missing_ / all_ : 0;
-    p.variance = std::max(squares_ + products_, kLeastVariance * squares_) / walks;
-    double lost = 0;
-    for (size_t t = 0; t < trimmed_.size(); ++t)
-      if (tile_walks_[t] > 0) lost += trimmed_[t] * trimmed_[t] / tile_walks_[t];
-    p.error = p.variance / spp_ + lost / walks;
+    double squares = 0, products = 0, lost = 0;
+    for (size_t t = 0; t < tiles_.size(); ++t) {
+      const Tile& tile = tiles_[t];
+      const double bias =
+          tile_walks_[t] > 0 ? tile.trimmed * tile.trimmed / tile_walks_[t] / walks : 0.0;
+      const double variance = (tile.squares + tile.products) / walks;
+      p.parts.push_back({all_ > 0 ? tile.missing / all_ : 0, variance, variance / spp_ + bias});
+      p.missing += p.parts.back().missing;
+      squares += tile.squares, products += tile.products, lost += bias;
+    }
+    p.variance = std::max(squares + products, kLeastVariance * squares) / walks;
+    p.error = p.variance / spp_ + lost;
     p.cost = cost();
     return p;
   }
@@ -145,16 +152,17 @@ class Prediction {
       for (const PricedContribution& v : *list) {
         const double value = copies(v) * double(v.value);
         all_ += value;
+        Tile& tile = tiles_[tile_of(v.cell, record_.side)];
         const double density = relative_density(v.shares, candidate_);
         if (!(density > kLeast)) {
-          missing_ += value;
+          tile.missing += value;
           continue;
         }
         const double square = double(v.square) * norms_[v.cell];
         if (square / (density * density) > limit_)
-          trimmed_[tile_of(v.cell, record_.side)] += value * std::sqrt(norms_[v.cell]);
+          tile.trimmed += value * std::sqrt(norms_[v.cell]);
         else
-          squares_ += copies(v) * square / density;
+          tile.squares += copies(v) * square / density;
       }
   }
 
@@ -163,13 +171,15 @@ class Prediction {
   void add_walks() {
     const double rate = candidate_.merges / PricingRecord::kMergeShare;
     for (size_t w = 0; w + 1 < record_.walks(); w += 2) {
+      // Walks of the same cell follow each other, cell after cell.
+      double& products = tiles_[tile_of(w / 2, record_.side)].products;
       double means[2];
       for (size_t k = 0; k < 2; ++k) {
         const WalkSums s = walk(w + k);
         means[k] = s.joins + rate * s.merges;
-        products_ += means[k] * means[k] - s.join_squares - rate * rate * s.merge_squares;
+        products += means[k] * means[k] - s.join_squares - rate * rate * s.merge_squares;
       }
-      products_ -= 2 * means[0] * means[1];
+      products -= 2 * means[0] * means[1];
     }
   }
 
@@ -232,9 +242,15 @@ class Prediction {
   const PricingRecord& record_;
   const MethodCandidate& candidate_;
   double spp_;
-  std::vector<double> norms_, trimmed_, tile_walks_;
+  std::vector<double> norms_;
+  struct Tile {
+    double squares = 0, products = 0;  ///< of contributions
+    double trimmed = 0, missing = 0;   ///< light left out as too rare, and that cannot be found
+  };
+  std::vector<Tile> tiles_;
+  std::vector<double> tile_walks_;
   double limit_ = 0;
-  double squares_ = 0, products_ = 0, missing_ = 0, all_ = 0;
+  double all_ = 0;
 };
 
 }  // namespace

@@ -19,12 +19,18 @@ struct MethodCandidate {
   double merges = 0;         ///< light paths times merging area, over those of the pilot
 };
 
+/// What one part of the image adds to the figures of PredictedMethod, as far as they are sums.
+struct PredictedPart {
+  double missing = 0, variance = 0, error = 0;
+};
+
 /// What a candidate would do with the render's samples.
 struct PredictedMethod {
   double missing = 0;   ///< share of the light that it cannot find
   double variance = 0;  ///< of one sample per pixel, relative to the square of the image
   double error = 0;     ///< mean squared relative error of the image
   double cost = 0;      ///< of one sample of one pixel
+  std::vector<PredictedPart> parts;  ///< of MergeMask's grid, before variance is bounded from below
 };
 
 PredictedMethod predict(const PricingRecord& record, const MethodCandidate& candidate, int spp);

@@ -7,6 +7,7 @@
 #include <mutex>
 
 #include "integrators/error_estimate.h"
+#include "integrators/sample_allocation.h"
 
 namespace duet {
 
@@ -17,6 +18,11 @@ constexpr int kParts = 8;
 /// Samples of each batch after which an image that is still black is taken to be so: there is no
 /// error relative to nothing.
 constexpr int kBlackSamples = 256;
+/// Samples of each batch after which the noise of tiles may be known, and is known.
+constexpr int kShortPilot = 4, kLongPilot = 32;
+/// Between these two, samples yet to come, as a multiple of those that there are, for which it is
+/// not worth waiting.
+constexpr double kPilotShare = 8;
 
 class Renderer {
  public:
@@ -52,10 +58,8 @@ class Renderer {
     return spp_ > 0 && request_.budget.seconds && seconds() >= *request_.budget.seconds;
   }
 
-  /// One pass: `count` further samples of every pixel, into one film.
-  void pass(Film& film, uint32_t scramble, int first, int count) {
-    const SampleRange range{request_.sequence, request_.seed, scramble, uint32_t(first),
-                            uint32_t(count)};
+  /// A pass over a film; `count` is the mean number of samples that pixels get.
+  void pass(Film& film, const SampleRange& range, int count) {
     PassControl control;
     control.threads = request_.threads;
     control.cancelled = [&] { return cancelled(); };
@@ -74,7 +78,7 @@ class Renderer {
     while (spp_ < total && !cancelled() && !out_of_time()) {
       const double before = seconds();
       const int count = std::min(part, total - spp_);
-      pass(film, 0, spp_, count);
+      pass(film, {request_.sequence, request_.seed, 0, uint32_t(spp_), uint32_t(count)}, count);
       if (cancelled()) break;
       spp_ += count;
       parts.add_part(film);
@@ -85,11 +89,13 @@ class Renderer {
   }
 
   /// Several sequences that know nothing of each other, all of the same length: their spread is the
-  /// error. Lengths double until the target is met.
+  /// error. Lengths double until the target is met. If that takes a while, the noisier tiles get
+  /// more samples.
   void run_batches() {
     const double target = *request_.budget.target_error;
     const int total = request_.budget.spp.value_or(std::numeric_limits<int>::max() / 2);
     int length = 0, part = 1;
+    SampleAllocation allocation(films_);
     // The budget may not divide evenly among the batches: the first ones get what remains.
     const auto limit = [&](int batch) {
       return total / kErrorBatches + (batch < total % kErrorBatches);
@@ -98,15 +104,24 @@ class Renderer {
       for (int b = 0; b < kErrorBatches && !cancelled(); ++b) {
         const int count = std::min(part, limit(b) - length);
         if (count <= 0) continue;
-        pass(films_[b], uint32_t(b), length, count);
+        SampleRange range{request_.sequence, request_.seed, uint32_t(b)};
+        allocation.next(size_t(b), uint32_t(count), range);
+        pass(films_[b], range, count);
         if (!cancelled()) spp_ += count;
       }
       if (cancelled()) break;
       length += part;
       relative_rmse_ = batch_relative_rmse(films_);
       if (relative_rmse_ ? *relative_rmse_ <= target : length >= kBlackSamples) break;
+      if (!allocation.is_spread() && knows_tiles(length, target)) allocation.spread();
       part = next_batch_part(length, target);
     }
+  }
+
+  /// Whether batches of this length tell the noise of tiles as well as need be.
+  bool knows_tiles(int length, double target) const {
+    if (!integrator_.tiles_may_differ() || !relative_rmse_ || length < kShortPilot) return false;
+    return length >= kLongPilot || std::pow(*relative_rmse_ / target, 2) < kPilotShare;
   }
 
   /// By how much to lengthen the batches: towards the length that should meet the target, but at
@@ -156,7 +171,7 @@ class Renderer {
   }
 
   RenderResult finish() {
-    for (size_t i = 1; i < films_.size(); ++i) films_[0].add(films_[i]);
+    if (films_.size() > 1) Film::average(films_);
     RenderResult r;
     r.image = films_[0].develop();
     integrator_.finish(r.image, spp_);

@@ -690,6 +690,9 @@ struct BidirectionalIntegratorDescription {
   int max_eye_depth = 4, max_light_depth = 3;  ///< reuse
   ReuseWeights weights = ReuseWeights::exact;  ///< reuse
   double continue_probability = 1;             ///< reuse
+  /// vcm: the parts of the image in which it merges (transport/merge_mask.h), as chosen by `auto`;
+  /// empty: all of it.
+  std::vector<uint8_t> merge_parts = {};
   bool operator==(const BidirectionalIntegratorDescription&) const = default;
 };
 

@@ -137,6 +137,16 @@ struct CameraJoin {
   Join join;
 };
 
+/// The weight of a light vertex seen at a film position, which only few weights ask for.
+template <class Weights, class Vertex>
+inline float camera_weight(const Weights& weights, const Vertex& light, const JoinEnd& light_end,
+                           const Point2f& film) {
+  if constexpr (requires { weights.camera(light, light_end, film); })
+    return weights.camera(light, light_end, film);
+  else
+    return weights.camera(light, light_end);
+}
+
 /// What lies between the camera and a vertex where there are media; empty if the vertex cannot be
 /// seen. Light is followed as eye walks follow it, from the camera.
 inline std::optional<Passage> seen_through_media(const Scene& scene, const MediaVertex& v,
@@ -169,7 +179,7 @@ inline std::optional<CameraJoin> join_camera(const Scene& scene, const Weights& 
   if (!(adjoint > 0)) return std::nullopt;
   JoinEnd light_end{seen->importance * light.cosine(seen->direction), f.reverse.value};
   Join join{light.throughput * f.value * (adjoint * seen->importance),
-            weights.camera(light, light_end)};
+            camera_weight(weights, light, light_end, seen->film)};
   const float kept = roulette.keep(join.value * join.weight);
   if (kept == 0) return std::nullopt;
   join.value *= kept;
@@ -178,7 +188,7 @@ inline std::optional<CameraJoin> join_camera(const Scene& scene, const Weights& 
     if (!passage) return std::nullopt;
     join.value *= passage->value;
     light_end.arrival *= passage->nominal;
-    join.weight = weights.camera(light, light_end);
+    join.weight = camera_weight(weights, light, light_end, seen->film);
   } else {
     const Ray ray = spawn_ray_to(light.surface, seen->target);
     if (hide_emitters ? occluded_by_others(scene, ray, counters)

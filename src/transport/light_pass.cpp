@@ -70,6 +70,8 @@ void LightPass::trace(const Scene& scene, const LightPassPlan& plan, uint32_t fi
                   block);
   } else if (plan.unit_weights) {
     trace<Vertex>(scene, plan, UnitWeights(), first, end, nullptr, block);
+  } else if (plan.set.partly_merged) {
+    trace<Vertex>(scene, plan, MaskedWeights(plan.set, *plan.mask), first, end, nullptr, block);
   } else {
     trace<Vertex>(scene, plan, BalanceWeights(plan.set), first, end, nullptr, block);
   }

@@ -17,6 +17,7 @@ struct LightPassPlan {
   uint32_t walks = 0;
   bool unit_weights = false;         ///< each path is made by one technique alone
   const Windows* windows = nullptr;  ///< if the walks of the method are limited
+  const MergeMask* mask = nullptr;   ///< if the set is partly merged
   bool hide_emitters = false;
   float roulette_threshold = 0;  ///< for what a walk adds to the film; see JoinRoulette
   bool keep_vertices = false;

@@ -57,7 +57,7 @@ inline Partials first_light_partials(const LightStart& start, const Point3f& at,
   Partials p;
   p.vcm = start.direct(at) * scale / transmittance;
   p.vc = is_delta(start.light->kind()) ? 0.0f : scale;
-  p.vm = p.vc * set.connection_term();
+  p.vm = p.vc * set.walk_connection_term();
   return p;
 }
 

@@ -133,8 +133,8 @@ inline bool scatter_in_medium(const MediaVertex& v, const TechniqueSet& set,
   walk.throughput = v.throughput;
   if (!survives(v.depth, options, sampler, walk)) return false;
   const float reverse = phase.eval(v.position(), s.wi, v.wo).value;
-  walk.partials =
-      leave(v.partials, {s.pdf.value, reverse, v.extinction}, 0.0f, set.connection_term(), 0.0f);
+  walk.partials = leave(v.partials, {s.pdf.value, reverse, v.extinction}, 0.0f,
+                        set.walk_connection_term(), 0.0f);
   walk.forward = s.pdf.value;
   walk.specular = walk.from_specular = false;
   record_departure(walk, reverse, false);

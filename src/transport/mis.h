@@ -23,6 +23,10 @@ struct TechniqueSet {
   float light_paths = 1;       ///< N_L: light walks per iteration
   float connection_share = 1;  ///< n_VC: samples of each connection per eye walk
   float merge_area = 0;        ///< π r², of the merging disk
+  /// Merging, beside connections, is part of the method in some pixels only. Walks carry the sums
+  /// of both methods then: without merges Partials::vm is what vc is, and with them it is vc / η,
+  /// which need not be kept.
+  bool partly_merged = false;
 
   /// η = n_VM π r² / n_VC: by how much a merge outweighs the connection that it extends.
   float eta() const { return light_paths * merge_area / connection_share; }
@@ -30,6 +34,9 @@ struct TechniqueSet {
   float merge_term() const { return merges ? eta() : 0.0f; }
   /// The reverse: the connection relative to the merge.
   float connection_term() const { return merges && connections ? 1 / eta() : 0.0f; }
+  /// What walks take for it in Partials::vm, and for the merge at a vertex itself.
+  float walk_connection_term() const { return partly_merged ? 1.0f : connection_term(); }
+  float walk_merges() const { return partly_merged ? 0.0f : 1.0f; }
 };
 
 /// What a walk knows at a vertex about the techniques that would have made its part of the path

@@ -105,7 +105,7 @@ inline bool scatter_on_surface(const PathVertex& v, const TechniqueSet& set,
   } else {
     const float reverse = v.bsdf.reverse_pdf(s->wi, transport).value;
     walk.partials = leave(v.partials, {s->pdf.value, reverse, cosine_out}, set.merge_term(),
-                          set.connection_term());
+                          set.walk_connection_term(), set.walk_merges());
     walk.forward = s->pdf.value;
     walk.specular = false;
     record_departure(walk, reverse, false);

@@ -2,20 +2,24 @@
 #pragma once
 
 #include "transport/join.h"
+#include "transport/merge_mask.h"
 
 namespace duet {
 
-/// The balance heuristic over all techniques of a set, by running sums.
+/// The balance heuristic over all techniques of a set, by running sums. With `merging` false they
+/// are those of a pixel in which a partly merged method does not merge.
 class BalanceWeights {
  public:
-  explicit BalanceWeights(const TechniqueSet& set)
-      : merge_term_(set.merge_term()),
+  explicit BalanceWeights(const TechniqueSet& set, bool merging = true)
+      : merge_term_(merging ? set.merge_term() : 0.0f),
         connection_term_(set.connection_term()),
         share_(set.connection_share),
-        camera_scale_(set.connection_share / set.light_paths) {}
+        camera_scale_(set.connection_share / set.light_paths),
+        partly_merged_(set.partly_merged),
+        unmerged_(!merging) {}
 
   float hit(const Walk& walk, float direct, float emission) const {
-    return 1 / (1 + direct * walk.partials.vcm + share_ * emission * walk.partials.vc);
+    return 1 / (1 + direct * walk.partials.vcm + share_ * emission * connections(walk.partials));
   }
   template <class Vertex>
   float light_sample(const Vertex& eye, float direct, float bsdf, const JoinEnd& eye_end) const {
@@ -32,16 +36,39 @@ class BalanceWeights {
   }
   float merge(const LightVertex& light, float light_reverse, const PathVertex& eye,
               float eye_reverse) const {
-    return merge_weight(light.partials, light_reverse, eye.partials, eye_reverse, connection_term_);
+    return merge_weight(merges(light.partials), light_reverse, merges(eye.partials), eye_reverse,
+                        connection_term_);
   }
 
  private:
   template <class Vertex>
   float beyond(const Vertex& v, const JoinEnd& end) const {
-    return beyond_end(v.partials, end, v.merges() ? merge_term_ : 0.0f);
+    return beyond_end({v.partials.vcm, connections(v.partials), 0}, end,
+                      v.merges() ? merge_term_ : 0.0f);
+  }
+  float connections(const Partials& p) const { return unmerged_ ? p.vm : p.vc; }
+  Partials merges(const Partials& p) const {
+    return {p.vcm, p.vc, partly_merged_ ? p.vc * connection_term_ : p.vm};
   }
 
   float merge_term_, connection_term_, share_, camera_scale_;
+  bool partly_merged_, unmerged_;
+};
+
+/// Those of light vertices that the camera sees: it depends on the pixel whether there are merges.
+class MaskedWeights {
+ public:
+  MaskedWeights(const TechniqueSet& set, const MergeMask& mask)
+      : merged_(set), unmerged_(set, false), mask_(mask) {}
+
+  template <class Vertex>
+  float camera(const Vertex& light, const JoinEnd& light_end, const Point2f& film) const {
+    return (mask_.merges(film) ? merged_ : unmerged_).camera(light, light_end);
+  }
+
+ private:
+  BalanceWeights merged_, unmerged_;
+  const MergeMask& mask_;
 };
 
 /// For methods in which each path can be made in one way only.

@@ -22,24 +22,28 @@ FilterDescription describe(FilterKind kind) {
   return d;
 }
 
-/// Fills the film with samples that depend on the pixel only, as a renderer does.
+/// Fills a tile with samples that depend on the pixel only, as a renderer does.
+template <class Value>
+void fill_tile(const Film& film, FilmTile& tile, int spp, const Value& value) {
+  for (int y = tile.sampled().y0; y < tile.sampled().y1; ++y)
+    for (int x = tile.sampled().x0; x < tile.sampled().x1; ++x) {
+      Sampler sampler(SampleSequence::independent, 3, 0, uint64_t(y) * 1000 + uint64_t(x));
+      for (int i = 0; i < spp; ++i) {
+        sampler.start_sample(uint32_t(i));
+        const Point2f u = sampler.next_2d();
+        const Point2f p{float(x) + u.x, float(y) + u.y};
+        const std::array<float, 2> v = value(p);
+        if (film.filter().is_unit_box())
+          tile.add_to_pixel(x, y, v, 1);
+        else
+          tile.add_sample(film.filter(), p, v);
+      }
+    }
+}
+
 template <class Value>
 void fill(Film& film, int spp, const Value& value) {
-  for (FilmTile& tile : film.tiles())
-    for (int y = tile.sampled().y0; y < tile.sampled().y1; ++y)
-      for (int x = tile.sampled().x0; x < tile.sampled().x1; ++x) {
-        Sampler sampler(SampleSequence::independent, 3, 0, uint64_t(y) * 1000 + uint64_t(x));
-        for (int i = 0; i < spp; ++i) {
-          sampler.start_sample(uint32_t(i));
-          const Point2f u = sampler.next_2d();
-          const Point2f p{float(x) + u.x, float(y) + u.y};
-          const std::array<float, 2> v = value(p);
-          if (film.filter().is_unit_box())
-            tile.add_to_pixel(x, y, v, 1);
-          else
-            tile.add_sample(film.filter(), p, v);
-        }
-      }
+  for (FilmTile& tile : film.tiles()) fill_tile(film, tile, spp, value);
 }
 
 std::array<float, 2> pattern(const Point2f& p) {
@@ -120,13 +124,47 @@ TEST_CASE("pixels are means weighted by the filter at the distance of the sample
   }
 }
 
-TEST_CASE("films of the same layout add up") {
+TEST_CASE("each film counts the same in a mean, however many samples its tiles have") {
   const PixelBounds crop{3, 2, 30, 20};
-  const FilterDescription filter = describe(FilterKind::gaussian);
-  Film one({{33, 21}, crop, filter}, {"a", "b"}), two({{33, 21}, crop, filter}, {"a", "b"});
-  fill(one, 2, pattern);
-  fill(two, 2, pattern);
-  const Image before = one.develop();
-  one.add(two);
-  CHECK(one.develop().data == before.data);
+  for (const FilterKind kind : {FilterKind::box, FilterKind::gaussian}) {
+    const auto film = [&](int spp) {
+      Film f({{33, 21}, crop, describe(kind)}, {"a", "b"});
+      for (FilmTile& tile : f.tiles()) tile.count_samples(uint32_t(spp));
+      return f;
+    };
+    std::vector<Film> films{film(2), film(2), film(6)};
+    fill(films[0], 2, pattern);
+    fill(films[1], 2, pattern);
+    const Image before = films[0].develop();
+    // The same samples three times: the weight of the film must not show.
+    for (int i = 0; i < 3; ++i) fill(films[2], 2, pattern);
+    Film::average(std::span(films).first(2));
+    CHECK(films[0].develop().data == before.data);
+    Film::average(films);
+    const Image mean = films[0].develop();
+    for (size_t i = 0; i < mean.data.size(); ++i)
+      CHECK(mean.data[i] == doctest::Approx(before.data[i]).epsilon(1e-6));
+    CHECK(films[0].tiles()[0].samples() == 12);
+
+    std::vector<Film> unequal{film(1), film(4)};
+    fill(unequal[0], 1, [](const Point2f&) { return std::array<float, 2>{1, 0}; });
+    fill(unequal[1], 4, [](const Point2f&) { return std::array<float, 2>{3, 0}; });
+    if (kind == FilterKind::box) {
+      Film::average(unequal);
+      CHECK(unequal[0].develop().pixel(5, 5)[0] == doctest::Approx(2));
+    }
+  }
+}
+
+TEST_CASE("a tile with more samples does not weigh more beside its neighbours") {
+  Film film({{32, 16}, {0, 0, 32, 16}, describe(FilterKind::gaussian)}, {"a", "b"});
+  for (FilmTile& tile : film.tiles()) tile.count_samples(3);
+  fill(film, 3, pattern);
+  const Image even = film.develop();
+  // The second tile gets the same samples five times over.
+  film.tiles()[1].count_samples(12);
+  for (int i = 0; i < 4; ++i) fill_tile(film, film.tiles()[1], 3, pattern);
+  const Image uneven = film.develop();
+  for (size_t i = 0; i < even.data.size(); ++i)
+    CHECK(uneven.data[i] == doctest::Approx(even.data[i]).epsilon(1e-6));
 }

@@ -91,14 +91,14 @@ struct Sums {
       const float out = to_light ? x.cos_light[v] : x.cos_eye[v];
       const float forward = to_light ? x.sigma_eye[v] : x.sigma_light[v];
       const float reverse = to_light ? x.sigma_light[v] : x.sigma_eye[v];
-      return x.specular[v]
-                 ? leave_specular(at, out, reverse / forward)
-                 : leave(at, {forward, reverse, out}, set.merge_term(), set.connection_term());
+      return x.specular[v] ? leave_specular(at, out, reverse / forward)
+                           : leave(at, {forward, reverse, out}, set.merge_term(),
+                                   set.walk_connection_term(), set.walk_merges());
     };
     const float scale = 1 / (x.emission * x.cos_light[1] * set.connection_share);
     light[1].vcm = x.direct * scale;
     light[1].vc = x.light_can_be_hit ? scale : 0.0f;
-    light[1].vm = light[1].vc * set.connection_term();
+    light[1].vm = light[1].vc * set.walk_connection_term();
     for (int i = 1; i + 1 < x.k; ++i)
       light[size_t(i + 1)] =
           arrive(next(light[size_t(i)], i, false), x.d2[size_t(i)], x.cos_light[size_t(i + 1)]);
@@ -110,11 +110,18 @@ struct Sums {
   }
 };
 
-/// Weights of all techniques as joins would get them.
-double check_path(const RandomPath& x, const TechniqueSet& set, const PathVertex& any) {
-  const Densities expected(x, set);
+/// The techniques of a pixel.
+TechniqueSet in_pixel(TechniqueSet set, bool merging) {
+  set.merges &= merging;
+  return set;
+}
+
+/// Weights of all techniques as joins would get them in a pixel with or without merging.
+double check_path(const RandomPath& x, const TechniqueSet& set, bool merging,
+                  const PathVertex& any) {
+  const Densities expected(x, in_pixel(set, merging));
   const Sums sums(x, set);
-  const BalanceWeights weights(set);
+  const BalanceWeights weights(set, merging);
   double total = 0, worst = 0;
   const auto compare = [&](double got, double density) {
     total += got;
@@ -182,10 +189,14 @@ TEST_CASE("running sums give the weights of the definition, which sum to one") {
     set.connection_share = random.next_1d() < 0.5f ? 1.0f : 0.05f + 3 * random.next_1d();
     set.merges = random.next_1d() < 0.6f;
     set.merge_area = std::pow(10.0f, -1 - 5 * random.next_1d());
-    const Densities d(x, set);
-    if (!(d.sum > 0)) continue;  // a chain of specular vertices that nothing can make
-    ++summed;
-    CHECK(std::abs(check_path(x, set, any) - 1) < 1e-4);
+    set.partly_merged = set.merges && random.next_1d() < 0.5f;
+    for (const bool merging : {true, false}) {
+      if (!merging && !set.partly_merged) continue;
+      const Densities d(x, in_pixel(set, merging));
+      if (!(d.sum > 0)) continue;  // a chain of specular vertices that nothing can make
+      ++summed;
+      CHECK(std::abs(check_path(x, set, merging, any) - 1) < 1e-4);
+    }
   }
   CHECK(summed > 80000);
 }

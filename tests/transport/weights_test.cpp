@@ -138,6 +138,9 @@ class Checker {
           const FoggyScene* fog = nullptr)
       : scene_(scene), set_(set), windows_(windows), fog_(fog) {}
 
+  /// Looks at pixels in which a partly merged method does not merge.
+  void do_not_merge() { merging_ = false; }
+
   void run(uint32_t paths, int max_depth) {
     for (uint32_t i = 0; i < paths; ++i) pair(i, max_depth);
   }
@@ -158,7 +161,7 @@ class Checker {
     }
     return t == 1 ? double(set_.light_paths) : s >= 2 ? double(set_.connection_share) : 1.0;
   }
-  double merge_share(int) const { return set_.merges ? double(set_.light_paths) : 0.0; }
+  double merge_share(int) const { return set_.merges && merging_ ? double(set_.light_paths) : 0.0; }
 
   /// `on_light` and `on_lens` are the ends of the path.
   void check(OraclePath path, int s, float weight, const Point3f& on_light,
@@ -237,6 +240,7 @@ class Checker {
 
   const Scene& scene_;
   TechniqueSet set_;
+  bool merging_ = true;
   const Windows* windows_;
   const FoggyScene* fog_;
   RenderCounters counters_;
@@ -418,8 +422,9 @@ void Checker<Vertex>::pair(uint32_t index, int max_depth) {
     weights.set_light(light_trail_);
     eye_walk(weights, camera_ray, max_depth, sampler, &eye_trail, light, start);
   } else {
-    trace(BalanceWeights(set_));
-    eye_walk(BalanceWeights(set_), camera_ray, max_depth, sampler, nullptr, light, start);
+    const BalanceWeights weights(set_, merging_);
+    trace(weights);
+    eye_walk(weights, camera_ray, max_depth, sampler, nullptr, light, start);
   }
 }
 
@@ -448,6 +453,25 @@ TEST_CASE("weights of BDPT and VCM are the balance heuristic") {
       }
   }
   CHECK(compared > 100000);
+  CHECK(double(inexact) < 2e-3 * double(compared));
+}
+
+TEST_CASE("weights are the balance heuristic in pixels with and without merging") {
+  int64_t compared = 0, inexact = 0;
+  for (const std::string& content : scenes()) {
+    const TransportScene s(content);
+    for (const bool merging : {false, true}) {
+      TechniqueSet set = all_techniques(500);
+      set.merges = set.partly_merged = true;
+      set.merge_area = 0.002f;
+      set.connection_share = 0.4f;
+      Checker<PathVertex> checker(*s.scene, set, nullptr);
+      if (!merging) checker.do_not_merge();
+      checker.run(1500, 7);
+      compared += checker.compared(), inexact += checker.inexact();
+    }
+  }
+  CHECK(compared > 50000);
   CHECK(double(inexact) < 2e-3 * double(compared));
 }
 

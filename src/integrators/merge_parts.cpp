@@ -1,0 +1,59 @@
+#include "integrators/merge_parts.h"
+
+#include <algorithm>
+
+#include "transport/merge_mask.h"
+
+namespace duet {
+
+namespace {
+
+constexpr int kSide = MergeMask::kSide;
+/// Each pass decides by the totals of the one before; they settle quickly.
+constexpr int kPasses = 4;
+
+PredictedPart around(const std::vector<PredictedPart>& parts, int x, int y) {
+  PredictedPart sum;
+  double count = 0;
+  for (int j = std::max(0, y - 1); j <= std::min(kSide - 1, y + 1); ++j)
+    for (int i = std::max(0, x - 1); i <= std::min(kSide - 1, x + 1); ++i) {
+      const PredictedPart& p = parts[size_t(j * kSide + i)];
+      sum.missing += p.missing, sum.variance += p.variance, sum.error += p.error;
+      ++count;
+    }
+  return {sum.missing / count, sum.variance / count, sum.error / count};
+}
+
+}  // namespace
+
+PartlyMerged merge_where_it_pays(const PredictedMethod& without, const PredictedMethod& with) {
+  constexpr double kParts = double(kSide * kSide);
+  PartlyMerged result{std::vector<uint8_t>(size_t(kParts), 1), 1, with};
+  for (int pass = 0; pass < kPasses; ++pass) {
+    // Turning a part off makes the error larger and the cost smaller.
+    const double cheaper = (with.cost - without.cost) / kParts / result.prediction.cost;
+    PredictedMethod mixed;
+    std::vector<uint8_t> parts;
+    for (int y = 0; y < kSide; ++y)
+      for (int x = 0; x < kSide; ++x) {
+        const PredictedPart a = around(without.parts, x, y), b = around(with.parts, x, y);
+        const bool merge = a.missing > b.missing ||
+                           a.error - b.error > cheaper * std::max(result.prediction.error, 0.0);
+        parts.push_back(merge);
+        const size_t k = parts.size() - 1;
+        mixed.parts.push_back((merge ? with : without).parts[k]);
+        mixed.missing += mixed.parts.back().missing;
+        mixed.variance += mixed.parts.back().variance;
+        mixed.error += mixed.parts.back().error;
+      }
+    result.share = double(std::count(parts.begin(), parts.end(), 1)) / kParts;
+    result.parts = std::move(parts);
+    mixed.cost = without.cost + result.share * (with.cost - without.cost);
+    // To take the smaller of two noisy figures in every part promises too much.
+    mixed.error = std::max(mixed.error, std::min(with.error, without.error));
+    result.prediction = std::move(mixed);
+  }
+  return result;
+}
+
+}  // namespace duet
