@@ -7,11 +7,12 @@ namespace duet {
 
 namespace {
 
-/// How far the rates of tiles may be from their mean, either way.
-constexpr double kLargestRate = 4;
-/// The same where passes also trace walks from lights: their number is that of the tile with the
-/// most samples.
-constexpr double kLargestRateWithSplats = 2;
+/// How far below and above their mean the rates of tiles may be: a few samples may miss what makes
+/// noise, but do not make up what they see.
+constexpr double kLeastRate = 0.25, kLargestRate = 16;
+/// The largest where passes also trace walks from lights: there are as many of those as the tile
+/// with the most samples has.
+constexpr double kLargestRateWithSplats = 4;
 /// Share of the image's mean variance that every tile is taken to have, for what has not been seen.
 constexpr double kUnseenVariance = 0.05;
 
@@ -58,7 +59,7 @@ std::vector<double> tile_rates(std::span<const Film> films) {
   for (double& d : deviation) d = std::sqrt(d + kUnseenVariance * mean / pixels);
   const double largest = films[0].splat_layer_count() > 0 ? kLargestRateWithSplats : kLargestRate;
   const auto rate = [&](size_t k, double scale) {
-    return std::clamp(scale * deviation[k], 1 / largest, largest);
+    return std::clamp(scale * deviation[k], kLeastRate, largest);
   };
   // The scale at which the mean of the rates is one, by bisection of its logarithm.
   const auto [least, most] = std::minmax_element(deviation.begin(), deviation.end());

@@ -76,7 +76,7 @@ TEST_CASE("rates have bounds, and there are no samples without noise to tell") {
   Sparks rare(0.0001f);
   for (const double r : tile_rates(films(rare, 160, 2000))) {
     CHECK(r >= 0.25 - 1e-9);
-    CHECK(r <= 4 + 1e-9);
+    CHECK(r <= 16 + 1e-9);
   }
   Sparks certain(1);
   const std::vector<Film> f = films(certain, 48, 3);
