@@ -42,11 +42,14 @@ SCENES = {'thesis-empty': (100, ('path', 'bdpt', 'exact', 'vcm'),
 ALL_CONNECTIONS = ['light_paths=1', 'connections=-1']
 LIMITED = [f'max_eye_depth={EYE}', f'max_light_depth={LIGHT}', 'light_paths=1']
 # name -> (title, the technique of the thesis, method, parameters). An eye walk that goes on with a
-# probability of 1e-60 never does, which leaves BDPT within the limits, with exact weights.
+# probability of 1e-60 never does, which leaves BDPT within the limits, with exact weights; and none
+# comes to the end of K segments, which leaves the weights that the thesis gives to heads.
 METHODS = {
     'path': ('path tracing', 'PT', 'path', []),
     'bdpt': ('BDPT', 'BDPT', 'bdpt', ALL_CONNECTIONS),
     'limited': ('BDPT within T and S', 'BDPT', 'reuse', LIMITED + ['weights=exact', 'continue_probability=1e-60']),
+    'stock': ('BDPT within S, weights of BDPT without limits', 'BDPT', 'reuse',
+              [f'max_eye_depth={MAX_DEPTH}', f'max_light_depth={LIGHT}', 'light_paths=1', 'weights=thesis']),
     'vcm': ('VCM', 'VCM', 'vcm', ALL_CONNECTIONS),
     'exact': ('reuse, exact weights', 'reuse', 'reuse', LIMITED + ['weights=exact']),
     'thesis-a': ('reuse, thesis’s weights, reading a', 'reuse', 'reuse',
