@@ -48,7 +48,7 @@ METHODS = {
     'path': ('path tracing', 'PT', 'path', []),
     'bdpt': ('BDPT', 'BDPT', 'bdpt', ALL_CONNECTIONS),
     'limited': ('BDPT within T and S', 'BDPT', 'reuse', LIMITED + ['weights=exact', 'continue_probability=1e-60']),
-    'stock': ('BDPT within S, weights of BDPT without limits', 'BDPT', 'reuse',
+    'stock': ('BDPT within S, stock weights', 'BDPT', 'reuse',
               [f'max_eye_depth={MAX_DEPTH}', f'max_light_depth={LIGHT}', 'light_paths=1', 'weights=thesis']),
     'vcm': ('VCM', 'VCM', 'vcm', ALL_CONNECTIONS),
     'exact': ('reuse, exact weights', 'reuse', 'reuse', LIMITED + ['weights=exact']),
