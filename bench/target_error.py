@@ -22,8 +22,8 @@ from auto import ROOT, size_of
 
 mi.set_variant('scalar_rgb')
 
-CASES = ['cornell-box:auto:8%', 'thesis-empty:path:8%', 'thesis-empty:bdpt:8%', 'lights-area:auto:8%',
-         'lights-delta:auto:5%', 'environment-map:auto:8%', 'textures:auto:5%',
+CASES = ['cornell-box:auto:8%', 'thesis-empty:path:8%', 'thesis-empty:bdpt:8%', 'thesis-modified:auto:8%',
+         'lights-area:auto:8%', 'lights-delta:auto:5%', 'environment-map:auto:8%', 'textures:auto:5%',
          'instances:auto:5%', 'depth-of-field:auto:5%']
 
 
