@@ -366,7 +366,7 @@ Spectrum BidirectionalIntegrator::trace(const Scene& scene, const CameraPath& pa
   } else if (options_.method == Method::ptracer || options_.method == Method::ppm) {
     walk(UnitWeights(), nullptr, eye);
   } else {
-    walk(BalanceWeights(set_, eye.merging || !set_.merges), nullptr, eye);
+    walk(BalanceWeights(set_, eye.merging), nullptr, eye);
   }
   return eye.sum;
 }

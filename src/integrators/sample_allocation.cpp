@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "math/statistics.h"
+
 namespace duet {
 
 namespace {
@@ -21,7 +23,6 @@ double tile_variance(std::span<const Film> films, size_t k) {
   const FilmTile& tile = films[0].tiles()[k];
   const PixelBounds own = tile.stored().intersect(tile.sampled());
   const size_t stride = films[0].channels().size() + 1;
-  const double n = double(films.size());
   double sum = 0, pixels = 0;
   for (int y = own.y0; y < own.y1; ++y)
     for (int x = own.x0; x < own.x1; ++x) {
@@ -29,13 +30,12 @@ double tile_variance(std::span<const Film> films, size_t k) {
                          size_t(x - tile.stored().x0)) *
                         stride;
       for (size_t c = 1; c <= 3; ++c) {
-        double mean = 0, squares = 0;
+        Moments means;
         for (const Film& f : films) {
           const double* s = &f.tiles()[k].data()[at];
-          const double v = s[0] != 0 ? s[c] / s[0] : 0;
-          mean += v / n, squares += v * v / n;
+          means.add(s[0] != 0 ? s[c] / s[0] : 0);
         }
-        sum += std::max(0.0, squares - mean * mean) * n / (n - 1);
+        sum += means.variance();
       }
       pixels += 1;
     }

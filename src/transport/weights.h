@@ -11,12 +11,12 @@ namespace duet {
 class BalanceWeights {
  public:
   explicit BalanceWeights(const TechniqueSet& set, bool merging = true)
-      : merge_term_(merging ? set.merge_term() : 0.0f),
+      : partly_merged_(set.partly_merged),
+        unmerged_(set.partly_merged && !merging),
+        merge_term_(unmerged_ ? 0.0f : set.merge_term()),
         connection_term_(set.connection_term()),
         share_(set.connection_share),
-        camera_scale_(set.connection_share / set.light_paths),
-        partly_merged_(set.partly_merged),
-        unmerged_(!merging) {}
+        camera_scale_(set.connection_share / set.light_paths) {}
 
   float hit(const Walk& walk, float direct, float emission) const {
     return 1 / (1 + direct * walk.partials.vcm + share_ * emission * connections(walk.partials));
@@ -51,8 +51,8 @@ class BalanceWeights {
     return {p.vcm, p.vc, partly_merged_ ? p.vc * connection_term_ : p.vm};
   }
 
-  float merge_term_, connection_term_, share_, camera_scale_;
   bool partly_merged_, unmerged_;
+  float merge_term_, connection_term_, share_, camera_scale_;
 };
 
 /// Those of light vertices that the camera sees: it depends on the pixel whether there are merges.
