@@ -12,16 +12,21 @@ constexpr int kSide = MergeMask::kSide;
 /// Each pass decides by the totals of the one before; they settle quickly.
 constexpr int kPasses = 4;
 
-PredictedPart around(const std::vector<PredictedPart>& parts, int x, int y) {
-  PredictedPart sum;
+struct Around {
+  double missing = 0, error = 0;
+};
+
+/// The means over a part and those beside it.
+Around around(const std::vector<PredictedPart>& parts, int x, int y) {
+  Around sum;
   double count = 0;
   for (int j = std::max(0, y - 1); j <= std::min(kSide - 1, y + 1); ++j)
     for (int i = std::max(0, x - 1); i <= std::min(kSide - 1, x + 1); ++i) {
       const PredictedPart& p = parts[size_t(j * kSide + i)];
-      sum.missing += p.missing, sum.variance += p.variance, sum.error += p.error;
+      sum.missing += p.missing, sum.error += p.error;
       ++count;
     }
-  return {sum.missing / count, sum.variance / count, sum.error / count};
+  return {sum.missing / count, sum.error / count};
 }
 
 }  // namespace
@@ -36,15 +41,14 @@ PartlyMerged merge_where_it_pays(const PredictedMethod& without, const Predicted
     std::vector<uint8_t> parts;
     for (int y = 0; y < kSide; ++y)
       for (int x = 0; x < kSide; ++x) {
-        const PredictedPart a = around(without.parts, x, y), b = around(with.parts, x, y);
-        const bool merge = a.missing > b.missing ||
-                           a.error - b.error > cheaper * std::max(result.prediction.error, 0.0);
+        const Around a = around(without.parts, x, y), b = around(with.parts, x, y);
+        const bool merge =
+            a.missing > b.missing || a.error - b.error > cheaper * result.prediction.error;
+        const PredictedPart& p = (merge ? with : without).parts[parts.size()];
         parts.push_back(merge);
-        const size_t k = parts.size() - 1;
-        mixed.parts.push_back((merge ? with : without).parts[k]);
-        mixed.missing += mixed.parts.back().missing;
-        mixed.variance += mixed.parts.back().variance;
-        mixed.error += mixed.parts.back().error;
+        mixed.missing += p.missing;
+        mixed.variance += p.variance;
+        mixed.error += p.error;
       }
     result.share = double(std::count(parts.begin(), parts.end(), 1)) / kParts;
     result.parts = std::move(parts);

@@ -9,15 +9,13 @@
 
 namespace duet {
 
-/// A grid of parts over the whole image, row by row: those that are not zero are merged in. No
-/// parts at all stand for the whole image.
+/// A grid of parts over the whole image, row by row: those that are not zero are merged in.
 struct MergeMask {
   static constexpr int kSide = 16;  ///< parts per side
 
   Point2i film;  ///< size of the whole image
   std::vector<uint8_t> parts;
 
-  bool empty() const { return parts.empty(); }
   bool merges(const Point2f& position) const {
     const auto part = [](float p, int size) {
       return std::clamp(int(p * kSide / float(size)), 0, kSide - 1);
