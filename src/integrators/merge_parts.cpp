@@ -47,6 +47,7 @@ PartlyMerged merge_where_it_pays(const PredictedMethod& without, const Predicted
         const PredictedPart& p = (merge ? with : without).parts[parts.size()];
         parts.push_back(merge);
         mixed.missing += p.missing;
+        mixed.merged += p.merged;
         mixed.variance += p.variance;
         mixed.error += p.error;
       }

@@ -21,6 +21,9 @@ constexpr int kFewestPixels = 16, kMostPixels = 64;  ///< per side
 constexpr double kHysteresis = 1.15;
 /// Share of the image above which merging in a part of it is merging in all of it.
 constexpr double kNearlyAll = 0.95;
+/// Share of the light above which `ppm`, which merges all of it, may take the place of a method
+/// that merges this much and finds the rest without a blur.
+constexpr double kMuch = 1 / 3.0;
 /// Share of the light that may be missed.
 constexpr double kNegligible = 1e-4;
 /// Between the sphere of all surfaces and that of the visible ones: beyond, walks from lights that
@@ -64,6 +67,11 @@ std::vector<MethodCandidate> candidates(const MethodRules& rules, const PathLimi
   for (const double light : {1 / 4.0, 1.0})
     for (const int connections : {-1, 0})
       add(vcm, light, connections, light / mean_shrinkage(0.75, spp));
+  list.push_back({.method = bidirectional(o, ppm, 1, -1),
+                  .name = "ppm light_paths=1",
+                  .light_paths = 1,
+                  .merges = 1 / mean_shrinkage(2.0 / 3, spp),
+                  .photons_only = true});
   return list;
 }
 
@@ -89,8 +97,8 @@ void add_partly_merged(MethodPrices& prices) {
     for (size_t without = 0; without < count; ++without) {
       MethodCandidate c = prices.candidates[with];
       const MethodCandidate& plain = prices.candidates[without];
-      if (c.merges == 0 || plain.merges > 0 || plain.light_paths != c.light_paths ||
-          plain.connections != c.connections)
+      if (c.merges == 0 || c.photons_only || plain.merges > 0 ||
+          plain.light_paths != c.light_paths || plain.connections != c.connections)
         continue;
       PartlyMerged part =
           merge_where_it_pays(prices.predictions[without], prices.predictions[with]);
@@ -155,13 +163,19 @@ MethodChoice choose_method(const Scene& scene, const AutoIntegratorDescription& 
            !(rules.needs_light_walks && c[i].light_paths == 0);
   };
   const auto price = [&](size_t i) { return p[i].error * p[i].cost; };
-  size_t best = c.size();
+  size_t best = c.size(), photons = c.size();
   for (size_t i = 0; i < c.size(); ++i) {
     log::detail(
-        "auto: {:36} misses {:.2e}, variance {:.3g}, error² {:.3g}, cost {:.3g}, price {:.3g}",
-        c[i].name, p[i].missing, p[i].variance, p[i].error, p[i].cost, price(i));
-    if (covers(i) && (best == c.size() || price(i) < price(best))) best = i;
+        "auto: {:36} misses {:.2e}, merges {:.3f}, variance {:.3g}, error² {:.3g}, cost {:.3g}, "
+        "price {:.3g}",
+        c[i].name, p[i].missing, p[i].merged, p[i].variance, p[i].error, p[i].cost, price(i));
+    if (!covers(i)) continue;
+    if (c[i].photons_only)
+      photons = i;
+    else if (best == c.size() || price(i) < price(best))
+      best = i;
   }
+  if (photons < c.size() && p[best].merged > kMuch && price(photons) < price(best)) best = photons;
   if (covers(0) && !(price(0) > kHysteresis * price(best))) best = 0;
   bool covered_unbiased = false;
   for (size_t i = 0; i < c.size(); ++i) covered_unbiased |= covers(i) && c[i].merges == 0;

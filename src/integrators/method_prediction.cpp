@@ -52,14 +52,20 @@ class SquareHistogram {
 
 /// The density of a candidate's techniques for a path over that of the pilot's.
 double relative_density(const FamilyShares& s, const MethodCandidate& c) {
+  if (c.photons_only)
+    return s.merges > 0 ? c.merges * double(s.first_merge) : double(s.unidirectional);
   return double(s.unidirectional) +
          c.light_paths / PricingRecord::kLightPaths * double(s.light_image) +
          (c.connections ? double(s.connections) : 0.0) + c.merges * double(s.merges);
 }
 
+bool is_merge(const PricedContribution& v) {
+  return v.technique == Technique::first_merge || v.technique == Technique::later_merge;
+}
+
 /// How many times the pilot's sample stands for one of an iteration.
 double copies(const PricedContribution& v) {
-  return v.technique == Technique::merge ? 1 / PricingRecord::kMergeShare : 1.0;
+  return is_merge(v) ? 1 / PricingRecord::kMergeShare : 1.0;
 }
 
 /// Cells of the pilot's image belong to this number squared of tiles.
@@ -118,8 +124,10 @@ class Prediction {
       const double bias =
           tile_walks_[t] > 0 ? tile.trimmed * tile.trimmed / tile_walks_[t] / walks : 0.0;
       const double variance = (tile.squares + tile.products) / walks;
-      p.parts.push_back({all_ > 0 ? tile.missing / all_ : 0, variance, variance / spp_ + bias});
-      p.missing += p.parts.back().missing;
+      p.parts.push_back({all_ > 0 ? tile.missing / all_ : 0,
+                         may_merge_ > 0 ? tile.merged / may_merge_ : 0, variance,
+                         variance / spp_ + bias});
+      p.missing += p.parts.back().missing, p.merged += p.parts.back().merged;
       squares += tile.squares, products += tile.products, lost += bias;
     }
     p.variance = std::max(squares + products, kLeastVariance * squares) / walks;
@@ -158,12 +166,26 @@ class Prediction {
           tile.missing += value;
           continue;
         }
+        if (v.shares.merges > 0) may_merge_ += value;
+        const float merges = candidate_.photons_only ? v.shares.first_merge : v.shares.merges;
+        tile.merged += value * candidate_.merges * double(merges) / density;
         const double square = double(v.square) * norms_[v.cell];
         if (square / (density * density) > limit_)
           tile.trimmed += value * std::sqrt(norms_[v.cell]);
         else
-          tile.squares += copies(v) * square / density;
+          tile.squares += copies(v) * square / density * (1 + 2 * seen_twice(v.shares, density));
       }
+  }
+
+  /// Where a light vertex both is seen from the camera and merged with what the same pixel sees,
+  /// the two come together: share of the first, times the probability of the second. That is for an
+  /// eye vertex anywhere in a square pixel (1 − exp(−K) is within 0.02 of it), with K the merging
+  /// area over the pixel's.
+  double seen_twice(const FamilyShares& s, double density) const {
+    if (candidate_.photons_only || !(candidate_.merges > 0) || !(s.light_image > 0)) return 0;
+    const double seen = candidate_.light_paths / PricingRecord::kLightPaths * double(s.light_image);
+    const double merged = candidate_.merges * double(s.first_merge);
+    return seen / density * -std::expm1(-merged / seen);
   }
 
   /// Contributions of one walk come together: their mean products, less the squared means of the
@@ -192,7 +214,7 @@ class Prediction {
       const double scaled = double(v.value) * std::sqrt(norms_[v.cell]) / density;
       const double square = scaled * scaled;
       if (square > limit_) continue;
-      const bool merged = v.technique == Technique::merge;
+      const bool merged = is_merge(v);
       (merged ? s.merges : s.joins) += scaled;
       (merged ? s.merge_squares : s.join_squares) += square;
     }
@@ -203,13 +225,15 @@ class Prediction {
   bool takes(const PricedContribution& v) const {
     switch (v.technique) {
       case Technique::unidirectional:
-        return true;
+        return !candidate_.photons_only || v.shares.merges == 0;
       case Technique::light_image:
-        return candidate_.light_paths > 0;
+        return candidate_.light_paths > 0 && !candidate_.photons_only;
       case Technique::connection:
         return candidate_.connections;
-      case Technique::merge:
+      case Technique::first_merge:
         return candidate_.merges > 0;
+      case Technique::later_merge:
+        return candidate_.merges > 0 && !candidate_.photons_only;
     }
     return false;
   }
@@ -222,20 +246,29 @@ class Prediction {
     w.light_samples = double(record_.eye_counters.shadow_rays) / walks;
     if (c.light_paths == 0) return path_cost(w);
     w.light_rays = c.light_paths * double(record_.light_counters.closest_rays) / walks;
+    if (c.connections || c.merges > 0)
+      w.stored_vertices = c.light_paths * record_.light_vertices / walks;
+    if (c.photons_only) {
+      w.eye_rays = double(record_.first_counters.closest_rays) / walks;
+      w.light_samples = 0;
+      add_merges(record_.first_counters, w);
+      return bidirectional_cost(w);
+    }
     w.camera_rays = c.light_paths * double(record_.light_counters.shadow_rays) / walks;
     if (c.connections) {
       const ConnectionCounters& n = record_.connection_counters.connections;
       w.connections = double(n.attempted()) / walks;
       w.connection_rays = double(record_.connection_counters.shadow_rays) / walks;
     }
-    if (c.merges > 0) {
-      w.merge_queries = double(record_.merge_counters.merge_queries) / walks;
-      w.merges = c.light_paths * double(record_.merge_counters.merges) /
-                 (walks * PricingRecord::kMergeShare);
-    }
-    if (c.connections || c.merges > 0)
-      w.stored_vertices = c.light_paths * record_.light_vertices / walks;
+    if (c.merges > 0) add_merges(record_.merge_counters, w);
     return bidirectional_cost(w);
+  }
+
+  void add_merges(const RenderCounters& counters, WorkPerSample& w) const {
+    const double walks = double(record_.walks());
+    w.merge_queries = double(counters.merge_queries) / walks;
+    w.merges =
+        candidate_.light_paths * double(counters.merges) / (walks * PricingRecord::kMergeShare);
   }
 
   static constexpr double kLeast = 1e-12;
@@ -246,11 +279,12 @@ class Prediction {
   struct Tile {
     double squares = 0, products = 0;  ///< of contributions
     double trimmed = 0, missing = 0;   ///< light left out as too rare, and that cannot be found
+    double merged = 0;                 ///< light that merging finds
   };
   std::vector<Tile> tiles_;
   std::vector<double> tile_walks_;
   double limit_ = 0;
-  double all_ = 0;
+  double all_ = 0, may_merge_ = 0;  ///< light, and that of it which could be merged
 };
 
 }  // namespace

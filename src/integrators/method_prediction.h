@@ -17,16 +17,19 @@ struct MethodCandidate {
   double light_paths = 0;    ///< per pixel
   bool connections = false;  ///< with all vertices of a light walk
   double merges = 0;         ///< light paths times merging area, over those of the pilot
+  /// Nothing but merges at the first vertex that does not scatter by a delta lobe, and hits before.
+  bool photons_only = false;
 };
 
 /// What one part of the image adds to the figures of PredictedMethod, as far as they are sums.
 struct PredictedPart {
-  double missing = 0, variance = 0, error = 0;
+  double missing = 0, merged = 0, variance = 0, error = 0;
 };
 
 /// What a candidate would do with the render's samples.
 struct PredictedMethod {
   double missing = 0;   ///< share of the light that it cannot find
+  double merged = 0;    ///< share of the light with smooth scattering that it finds by merging
   double variance = 0;  ///< of one sample per pixel, relative to the square of the image
   double error = 0;     ///< mean squared relative error of the image
   double cost = 0;      ///< of one sample of one pixel

@@ -163,6 +163,7 @@ class PricingPilot {
       record_.eye_counters.add(b.record.eye_counters);
       record_.connection_counters.add(b.record.connection_counters);
       record_.merge_counters.add(b.record.merge_counters);
+      record_.first_counters.add(b.record.first_counters);
     }
   }
 
@@ -197,6 +198,7 @@ class PricingPilot {
     walk.trail = &trail;
     FamilyWeights weights(set_);
     JoinRoulette roulette(threshold_, hash_combine(kSeed, index));
+    bool first = true;  // nothing but delta lobes so far
     for (int depth = 1; depth <= max_depth_; ++depth) {
       weights.set_eye(trail);
       const auto found = [&](const Join& join) {
@@ -208,6 +210,7 @@ class PricingPilot {
       };
       Hit hit;
       ++counters.closest_rays;
+      out.first_counters.closest_rays += first;
       if (!scene_.accel->closest_hit(walk.ray, hit)) {
         if (scene_.environment && !(depth == 1 && plan_.hide_emitters))
           found(join_escape(scene_, weights, walk));
@@ -230,10 +233,11 @@ class PricingPilot {
             join_light(scene_, weights, v, plan_.strict_normals, sampler, none, counters);
         add(out.eye, direct.value * direct.weight, weights.shares(), Technique::unidirectional, at);
         connect(index, v, weights, roulette, at, out);
-        merge(index, v, weights, at, out);
+        merge(index, v, weights, first, at, out);
       }
       sampler.start_dimension(dimension + kScatteringDimension);
       if (!scatter<Transport::radiance>(v, set_, options_, sampler, walk)) return;
+      first &= walk.specular;
     }
   }
 
@@ -249,10 +253,11 @@ class PricingPilot {
   }
 
   /// The two walks of a pixel meet different photons, so that they are independent.
-  void merge(size_t index, const PathVertex& v, FamilyWeights& weights, uint16_t at,
+  void merge(size_t index, const PathVertex& v, FamilyWeights& weights, bool first, uint16_t at,
              PricingRecord& out) const {
     const float kernel = 1 / (set_.merge_area * set_.light_paths);
     ++out.merge_counters.merge_queries;
+    out.first_counters.merge_queries += first;
     grid_.query(v.position(), grid_.locate(v.position()), [&](uint32_t i, float) {
       const LightVertex& photon = light_.vertices[i];
       if (int(photon.depth) + v.depth > max_depth_ || (light_.owner[i] ^ index) & 1) return;
@@ -260,7 +265,9 @@ class PricingPilot {
       const Join join = join_merge(weights, photon, v, kernel, plan_.strict_normals);
       if (join.value.is_black()) return;
       ++out.merge_counters.merges;
-      add(out.eye, join.value * join.weight, weights.shares(), Technique::merge, at);
+      out.first_counters.merges += first;
+      add(out.eye, join.value * join.weight, weights.shares(),
+          first ? Technique::first_merge : Technique::later_merge, at);
     });
   }
 

@@ -11,7 +11,13 @@
 namespace duet {
 
 /// Which kind of technique made a contribution.
-enum class Technique : uint8_t { unidirectional, light_image, connection, merge };
+enum class Technique : uint8_t {
+  unidirectional,
+  light_image,
+  connection,
+  first_merge,  ///< at the first vertex of the eye walk that does not scatter by a delta lobe
+  later_merge
+};
 
 /// A weighted contribution, f / Σ n_i p_i of its path.
 struct PricedContribution {
@@ -44,8 +50,10 @@ struct PricingRecord {
   RenderCounters eye_counters;         ///< eye walks and light samples
   RenderCounters connection_counters;  ///< connections
   RenderCounters merge_counters;       ///< of the pairs that were looked at
-  RenderCounters light_counters;       ///< light walks and what the camera sees of them
-  double light_vertices = 0;           ///< that can be connected
+  /// Of both, what eye walks do until they first scatter by a smooth lobe.
+  RenderCounters first_counters;
+  RenderCounters light_counters;  ///< light walks and what the camera sees of them
+  double light_vertices = 0;      ///< that can be connected
 
   size_t walks() const { return ends.size(); }
 };

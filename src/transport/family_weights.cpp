@@ -7,6 +7,7 @@ namespace {
 /// Densities by family, relative to those of the technique at hand.
 struct Sums {
   double unidirectional = 0, light_image = 0, connections = 0, merges = 0;
+  double first_merge = 0;  ///< is among `merges`
   double all() const { return unidirectional + light_image + connections + merges; }
 };
 
@@ -52,7 +53,13 @@ float FamilyWeights::weigh(const Path& path, int s, bool merges) const {
   const auto joins = [&](int i) {  // the two ends between vertex i and the next
     return (i == 0 || smooth(i)) && (i == last || smooth(i + 1));
   };
+  int first = last;  // smooth vertex, seen from the eye
+  while (first >= 1 && !smooth(first)) --first;
   Sums sums;
+  const auto add_merge = [&](int i, double density) {
+    if (smooth(i)) sums.merges += density * eta_;
+    if (i == first) sums.first_merge = density * eta_;
+  };
   double own = 0;
   const auto add = [&](int light_vertices, double density) {
     if (light_vertices <= 1) {
@@ -67,7 +74,7 @@ float FamilyWeights::weigh(const Path& path, int s, bool merges) const {
   double ratio = 1;
   for (int i = s - 1; i >= 1; --i) {
     const double both = ratio * path.eye[size_t(i)];
-    if (smooth(i)) sums.merges += both * eta_;
+    add_merge(i, both);
     if (merges && i == s - 1) own = both * eta_;
     if (i > 1) {
       ratio = both / path.light[size_t(i)];
@@ -84,20 +91,21 @@ float FamilyWeights::weigh(const Path& path, int s, bool merges) const {
     const double both = i > 1    ? ratio * path.light[size_t(i)]
                         : s == 0 ? path.emitted / path.found
                                  : path.emitted / path.direct;
-    if (smooth(i)) sums.merges += both * eta_;
+    add_merge(i, both);
     ratio = both / path.eye[size_t(i)];
     add(i + 1, ratio);
   }
   const double inverse = 1 / sums.all();
   shares_ = {float(sums.unidirectional * inverse), float(sums.light_image * inverse),
-             float(sums.connections * inverse), float(sums.merges * inverse)};
+             float(sums.connections * inverse), float(sums.merges * inverse),
+             float(sums.first_merge * inverse)};
   return float(own * inverse);
 }
 
 float FamilyWeights::hit(const Walk& walk, float direct, float emission) const {
   const int n = int(eye_.size()) - 1;  // the last vertex before the light
   if (n == 0) {
-    shares_ = {1, 0, 0, 0};
+    shares_ = {1, 0, 0, 0, 0};
     return 1;
   }
   Path& path = start(n);

@@ -10,12 +10,14 @@
 namespace duet {
 
 /// Shares of kinds of techniques in the density Σ n_i p_i of a path, over all techniques of a
-/// method with connections and merges. They sum to one.
+/// method with connections and merges. The first four sum to one.
 struct FamilyShares {
   float unidirectional = 0;  ///< s = 0 and s = 1: what path tracing has
   float light_image = 0;     ///< t = 1
   float connections = 0;     ///< s, t >= 2
   float merges = 0;
+  /// Of these the one at the first vertex from the eye that does not scatter by a delta lobe.
+  float first_merge = 0;
 };
 
 /// The balance heuristic for joins (join.h) by the densities of all vertices of the path, in time

@@ -41,7 +41,7 @@ Choice choose(const TransportScene& s, int max_depth = 8, int threads = 2) {
 }
 
 bool merges(const Choice& c) {
-  return c.name == "vcm";
+  return c.name == "vcm" || c.name == "ppm";
 }
 
 }  // namespace
@@ -149,6 +149,14 @@ TEST_CASE("caustics in mirrors are merged") {
   CAPTURE(c.reason);
   CHECK(merges(c));
   CHECK(!c.bias.empty());
+}
+
+TEST_CASE("photons alone are enough where much light is merged anyway") {
+  const Choice lamp = choose(TransportScene("lamp-in-glass", 64));
+  CAPTURE(lamp.reason);
+  CHECK(lamp.name == "ppm");
+  CHECK(!lamp.bias.empty());
+  CHECK(choose(TransportScene("box-spheres", 64)).name == "vcm");
 }
 
 TEST_CASE("the choice does not depend on threads or windows") {

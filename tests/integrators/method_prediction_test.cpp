@@ -1,0 +1,80 @@
+// What the pilot says of methods that merge, against the spread of their images.
+#include "integrators/method_prediction.h"
+
+#include <cmath>
+
+#include "support/transport_scene.h"
+
+using namespace duet;
+using namespace duet::test;
+
+namespace {
+
+constexpr int kSize = 64, kImages = 24;
+
+/// Variance of one sample per pixel, relative to about what predictions are relative to.
+double measured_variance(const TransportScene& s, const std::string& method,
+                         TransportScene::Parameters parameters) {
+  parameters.emplace_back("alpha", "1");
+  const size_t pixels = size_t(kSize) * kSize;
+  std::vector<double> sums(pixels), squares(pixels);
+  for (uint64_t seed = 0; seed < kImages; ++seed) {
+    const Image image = s.render(method, parameters, 1, seed).image;
+    for (size_t i = 0; i < pixels; ++i) {
+      const float* p = &image.data[i * image.channels.size()];
+      const double v = double(p[0] + p[1] + p[2]) / 3;
+      sums[i] += v, squares[i] += v * v;
+    }
+  }
+  double mean = 0;
+  for (const double v : sums) mean += v / kImages / double(pixels);
+  std::vector<double> relative;
+  for (size_t i = 0; i < pixels; ++i) {
+    const double m = sums[i] / kImages;
+    const double variance = (squares[i] / kImages - m * m) * kImages / (kImages - 1);
+    relative.push_back(variance / (m * m + 0.1 * mean * mean));
+  }
+  std::sort(relative.begin(), relative.end());
+  double sum = 0;
+  for (size_t i = 0; i < pixels - pixels / 1000; ++i) sum += relative[i];
+  return sum / double(pixels);
+}
+
+MethodCandidate merging(bool photons_only) {
+  return {.method = {},
+          .name = "",
+          .light_paths = 1,
+          .connections = false,
+          .merges = 1,
+          .photons_only = photons_only};
+}
+
+}  // namespace
+
+// Most light here is both merged and seen from the camera, by the same light vertices: were the two
+// taken for independent, vcm would seem to have three quarters of the variance of ppm.
+TEST_CASE("the variance of merging is foreseen, alone and beside light that the camera sees") {
+  const TransportScene s("lamp-in-glass", kSize);
+  PricingPlan plan;
+  plan.film = {kSize, kSize};
+  plan.pixels_per_side = 64;
+  plan.max_depth = 8;
+  const PricingRecord record = run_pricing_pilot(*s.scene, plan);
+  const PredictedMethod photons = predict(record, merging(true), 1);
+  const PredictedMethod vcm = predict(record, merging(false), 1);
+  const double measured_photons = measured_variance(s, "ppm", {});
+  const double measured_vcm =
+      measured_variance(s, "vcm", {{"light_paths", "1"}, {"connections", "0"}});
+  CAPTURE(photons.variance);
+  CAPTURE(vcm.variance);
+  CAPTURE(measured_photons);
+  CAPTURE(measured_vcm);
+  CHECK(std::abs(std::log(photons.variance / measured_photons)) < std::log(1.4));
+  CHECK(std::abs(std::log(vcm.variance / photons.variance * measured_photons / measured_vcm)) <
+        std::log(1.25));
+  CHECK(photons.merged == doctest::Approx(1).epsilon(1e-4));
+  CHECK(vcm.merged > 0.5);
+  CHECK(vcm.merged < 0.95);
+  CHECK(photons.missing < 1e-6);
+  CHECK(photons.cost < 0.6 * vcm.cost);
+}
