@@ -22,7 +22,7 @@ FilmLayout film_layout(FilmDescription& film, const std::optional<Point2i>& size
       throw UsageError(fmt::format("--crop: the window reaches beyond the image of {}x{}",
                                    film.width, film.height));
   }
-  return {{film.width, film.height}, window, film.filter};
+  return {{film.width, film.height}, window, film.filter, film.crop && !crop};
 }
 
 }  // namespace duet

@@ -30,14 +30,15 @@ void for_reached_rows(const ReconstructionFilter& filter, const Point2f& p,
     f(x0, y, std::span<const float>(wx, size_t(x1 - x0 + 1)), filter.weight(float(y) + 0.5f - p.y));
 }
 
-/// The filter around each pixel of [first, end), integrated over [0, size).
+/// The filter around each pixel of [first, end), integrated over [lower, upper).
 std::vector<double> filter_integrals(const ReconstructionFilter& filter, int first, int end,
-                                     int size) {
+                                     int lower, int upper) {
   constexpr int kSteps = 1024;
   std::vector<double> integrals;
   for (int i = first; i < end; ++i) {
     const double center = i + 0.5, r = double(filter.radius());
-    const double from = std::max(center - r, 0.0), to = std::min(center + r, double(size));
+    const double from = std::max(center - r, double(lower)),
+                 to = std::min(center + r, double(upper));
     double sum = 0;
     for (int k = 0; k < kSteps; ++k)
       sum += double(filter.weight(float(from + (to - from) * (k + 0.5) / kSteps - center)));
@@ -86,10 +87,10 @@ void FilmTile::add_sample(const ReconstructionFilter& filter, const Point2f& p,
 Film::Film(const FilmLayout& layout, std::vector<std::string> channels)
     : full_(layout.full),
       crop_(layout.crop),
+      image_(layout.ends_at_crop ? crop_ : PixelBounds{0, 0, full_.x, full_.y}),
       filter_(layout.filter),
       channels_(std::move(channels)) {
-  const PixelBounds image{0, 0, full_.x, full_.y};
-  const PixelBounds sampled = crop_.grow(filter_.border()).intersect(image);
+  const PixelBounds sampled = crop_.grow(filter_.border()).intersect(image_);
   const int n = int(channels_.size());
   for (int ty = sampled.y0 / kTileSize; ty * kTileSize < sampled.y1; ++ty)
     for (int tx = sampled.x0 / kTileSize; tx * kTileSize < sampled.x1; ++tx) {
@@ -153,8 +154,8 @@ void Film::end_pass() {
 
 size_t Film::add_splat_layer(size_t first_channel) {
   if (splats_.empty() && !filter_.is_unit_box()) {
-    filter_x_ = filter_integrals(filter_, crop_.x0, crop_.x1, full_.x);
-    filter_y_ = filter_integrals(filter_, crop_.y0, crop_.y1, full_.y);
+    filter_x_ = filter_integrals(filter_, crop_.x0, crop_.x1, image_.x0, image_.x1);
+    filter_y_ = filter_integrals(filter_, crop_.y0, crop_.y1, image_.y0, image_.y1);
   }
   splats_.push_back(
       {first_channel, std::vector<double>(3 * size_t(crop_.width()) * size_t(crop_.height()))});
@@ -190,6 +191,7 @@ void Film::add_splats(size_t layer, std::span<const Splat> splats, float scale, 
         if (b.contains(x, y)) add(row(x, y), s.value, double(scale));
         continue;
       }
+      if (!image_.contains(int(std::floor(s.position.x)), int(std::floor(s.position.y)))) continue;
       for_reached_rows(filter_, s.position, b,
                        [&](int x0, int y, std::span<const float> wx, float wy) {
                          double* to = row(x0, y);

@@ -71,6 +71,9 @@ struct FilmLayout {
   Point2i full;      ///< size of the whole image
   PixelBounds crop;  ///< the window to be developed within it
   FilterDescription filter;
+  /// Samples are taken in the window alone, as if the image ended there: that is what the window of
+  /// a scene file means. Otherwise the window is cut out of the whole image.
+  bool ends_at_crop = false;
 };
 
 /// A film is the set of its tiles. Their grid is anchored at the full image's origin, so that a
@@ -80,7 +83,7 @@ class Film {
   static constexpr int kTileSize = 16;
 
   /// Samples are taken in the window and within the filter's reach around it, but never outside the
-  /// image.
+  /// image, or outside the window if the image ends there.
   Film(const FilmLayout& layout, std::vector<std::string> channels);
 
   const ReconstructionFilter& filter() const { return filter_; }
@@ -118,6 +121,7 @@ class Film {
  private:
   Point2i full_;
   PixelBounds crop_;
+  PixelBounds image_;  ///< where there is light: all of the image, or the window
   ReconstructionFilter filter_;
   std::vector<std::string> channels_;
   std::vector<FilmTile> tiles_;
@@ -132,7 +136,7 @@ class Film {
   /// squares: three per pixel of the window, or none.
   std::vector<size_t> moment_channels_;
   std::vector<double> colour_sums_, squares_;
-  /// Per column and row of the window: integral of the filter over the image.
+  /// Per column and row of the window: integral of the filter over image_.
   std::vector<double> filter_x_, filter_y_;
 };
 

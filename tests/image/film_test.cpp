@@ -77,6 +77,54 @@ TEST_CASE("a crop window has the very pixels of the full image") {
   }
 }
 
+TEST_CASE("where the image ends at the window nothing beyond counts") {
+  const Point2i size{50, 37};
+  const PixelBounds crop{10, 4, 41, 33};
+  for (const FilterKind kind : kKinds) {
+    Film cut_out({size, crop, describe(kind)}, {"a", "b"});
+    Film window({size, crop, describe(kind), true}, {"a", "b"});
+    for (Film* film : {&cut_out, &window}) fill(*film, 16, pattern);
+    PixelBounds sampled = crop;
+    for (const FilmTile& tile : window.tiles()) {
+      const PixelBounds& b = tile.sampled();
+      sampled = {std::min(sampled.x0, b.x0), std::min(sampled.y0, b.y0), std::max(sampled.x1, b.x1),
+                 std::max(sampled.y1, b.y1)};
+    }
+    CHECK(sampled == crop);
+    const Image a = cut_out.develop(), b = window.develop();
+    const int reach = 2 * cut_out.filter().border();
+    int within = 0, at_border = 0;
+    for (int y = 0; y < a.height; ++y)
+      for (int x = 0; x < a.width; ++x) {
+        const bool inner = x >= reach && y >= reach && x < a.width - reach && y < a.height - reach;
+        (inner ? within : at_border) += a.pixel(x, y)[0] != b.pixel(x, y)[0];
+      }
+    CHECK(within == 0);
+    CHECK((at_border > 0) == (reach > 0));
+  }
+}
+
+TEST_CASE("splats beyond the window do not count where the image ends there") {
+  const PixelBounds crop{8, 8, 24, 24};
+  for (const FilterKind kind : kKinds) {
+    Film film({{32, 32}, crop, describe(kind), true}, {"R", "G", "B"});
+    const size_t layer = film.add_splat_layer(0);
+    std::vector<Splat> splats;
+    constexpr int kPerPixel = 8;  // in each direction
+    for (int y = 0; y < 32 * kPerPixel; ++y)
+      for (int x = 0; x < 32 * kPerPixel; ++x) {
+        const Point2f p{(float(x) + 0.5f) / kPerPixel, (float(y) + 0.5f) / kPerPixel};
+        const bool beyond = p.x < 8 || p.y < 8 || p.x >= 24 || p.y >= 24;
+        splats.push_back({p, Spectrum(beyond ? 100.0f : 1.0f)});
+      }
+    film.add_splats(layer, splats, 1.0f / (kPerPixel * kPerPixel), 2);
+    film.end_pass();
+    const Image image = film.develop();
+    for (size_t i = 0; i < image.data.size(); ++i)
+      CHECK(image.data[i] == doctest::Approx(1).epsilon(0.01));
+  }
+}
+
 TEST_CASE("a constant stays constant under every filter, also at the border") {
   for (const FilterKind kind : kKinds) {
     Film film({{21, 19}, {0, 0, 21, 19}, describe(kind)}, {"a", "b"});

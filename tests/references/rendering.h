@@ -34,6 +34,7 @@ class PreparedScene {
     SceneDescription& d = read->description;
     const FilmDescription& film = d.sensors.at(0).film;
     layout = {{film.width, film.height}, {0, 0, film.width, film.height}, film.filter};
+    layout.ends_at_crop = film.crop.has_value();
     if (film.crop)
       layout.crop = {film.crop->x, film.crop->y, film.crop->x + film.crop->width,
                      film.crop->y + film.crop->height};
