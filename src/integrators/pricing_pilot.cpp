@@ -197,6 +197,7 @@ class PricingPilot {
     walk.trail = &trail;
     FamilyWeights weights(set_);
     JoinRoulette roulette(threshold_, hash_combine(kSeed, index));
+    bool sees_sky = !plan_.hide_emitters;  // not before light has been scattered
     for (int depth = 1; depth <= max_depth_; ++depth) {
       weights.set_eye(trail);
       const auto found = [&](const Join& join) {
@@ -209,8 +210,7 @@ class PricingPilot {
       Hit hit;
       ++counters.closest_rays;
       if (!scene_.accel->closest_hit(walk.ray, hit)) {
-        if (scene_.environment && !(depth == 1 && plan_.hide_emitters))
-          found(join_escape(scene_, weights, walk));
+        if (scene_.environment && sees_sky) found(join_escape(scene_, weights, walk));
         return;
       }
       ++counters.path_vertices;
@@ -233,7 +233,9 @@ class PricingPilot {
         merge(index, v, weights, at, out);
       }
       sampler.start_dimension(dimension + kScatteringDimension);
-      if (!scatter<Transport::radiance>(v, set_, options_, sampler, walk)) return;
+      bool straight = false;
+      if (!scatter<Transport::radiance>(v, set_, options_, sampler, walk, &straight)) return;
+      sees_sky |= !straight;
     }
   }
 
