@@ -271,12 +271,15 @@ def main():
         write_png(SCENES / scene / 'bumps.png', bump_texture())
         write_png(SCENES / scene / 'normals.png', normal_texture())
         write_png(SCENES / scene / 'holes.png', mask_texture())
+    write_png(SCENES / 'texture-slots' / 'patches.png', colour_texture()[3::6, 4::8])
     write_attribute_ply(SCENES / 'textures' / 'attributes.ply')
     write_serialized(SCENES / 'mesh-lumpy' / 'lumpy.serialized', *lumpy_sphere(120))
 
     folder = SCENES / 'media-heterogeneous'
     write_volume(folder / 'smoke.vol', smoke_volume())
     write_volume(folder / 'colours.vol', colour_volume())
+    for scene in ('media-boundaries', 'texture-slots'):
+        write_volume(SCENES / scene / 'patches.vol', colour_volume())
     folder = SCENES / 'media-phase'
     write_volume(folder / 'weight.vol', colour_volume()[..., 0])
     write_volume(folder / 'flakes.vol', flake_volume())

@@ -35,9 +35,9 @@ TRIM = 0.001            # share of the worst pixels left out of the error, as in
 # name of the reference -> (scene folder, definitions)
 REFERENCES = {name: (name, {}) for name in (
     'batch', 'bsdf-conductors', 'bsdf-dielectrics', 'bsdf-fibres', 'bsdf-measured', 'bsdf-plastics', 'bsdf-principled',
-    'bsdf-wrappers', 'camera', 'curves', 'depth-of-field', 'directional-area', 'environment-map', 'hide-emitters', 'instances',
-    'lights-area', 'lights-delta', 'media-heterogeneous', 'media-homogeneous', 'media-nested', 'media-phase', 'orthographic',
-    'sdf-grid', 'shapes', 'spectra', 'sunsky', 'textures', 'two-versions')}
+    'bsdf-wrappers', 'camera', 'curves', 'depth-of-field', 'directional-area', 'environment-map', 'hide-behind', 'hide-emitters',
+    'instances', 'lights-area', 'lights-delta', 'media-boundaries', 'media-heterogeneous', 'media-homogeneous', 'media-nested',
+    'media-phase', 'orthographic', 'sdf-grid', 'shapes', 'spectra', 'sunsky', 'texture-slots', 'textures', 'two-versions')}
 REFERENCES.update({name: (name, {'size': '128'}) for name in (
     'cornell-box', 'mesh-lumpy', 'thesis-empty', 'thesis-modified')})
 REFERENCES.update({f'filters-{kind}': ('filters', {'filter': kind}) for kind in (

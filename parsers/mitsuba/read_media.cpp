@@ -1,4 +1,6 @@
 // Media and the volumes in them.
+#include <memory>
+
 #include "mitsuba/medium_presets.h"
 #include "mitsuba/readers.h"
 #include "mitsuba/scene_reader.h"
@@ -77,6 +79,26 @@ void read_coefficients(SceneReader& s, Properties& p, MediumDescription& out) {
   out.albedo = quotient(sigma_s, sigma_t);
 }
 
+/// In Mitsuba 3 a constant extinction fills a box as a grid does: the unit cube, as the "to_world"
+/// of its <volume> places it. It becomes a grid of one cell.
+VolumeId extinction_box(SceneReader& s, Properties& p, const Spectrum& value) {
+  VolumeDescription v;
+  v.where = p.node().where;
+  v.filter = VolumeFilter::nearest;
+  const Property* property = p.has("sigma_t") ? p.find("sigma_t") : nullptr;
+  const Node* const* node = property ? std::get_if<const Node*>(&property->value) : nullptr;
+  if (node && (*node)->plugin && (*node)->plugin->name == "constvolume")
+    v.to_world = Properties(**node, s.report()).transform("to_world");
+  auto grid = std::make_shared<VolumeGrid>();
+  grid->values = {value.r};
+  if (value.g != value.r || value.b != value.r) {
+    grid->channels = 3;
+    grid->values = {value.r, value.g, value.b};
+  }
+  v.grid = std::move(grid);
+  return s.add_volume(std::move(v));
+}
+
 Matrix4 box_to_world(const VolumeGrid& grid) {
   const auto& a = grid.lower;
   const auto& b = grid.upper;
@@ -109,12 +131,15 @@ void read_heterogeneous(SceneReader& s, Properties& p, MediumDescription& out) {
   if (p.is_0x() && !p.has("albedo"))
     s.report().error(p.node().where, "{} needs the parameter \"albedo\"", describe(p.node()));
   out.sigma_t = s.color_volume(p, density ? "density" : "sigma_t");
+  const Spectrum* constant = std::get_if<Spectrum>(&out.sigma_t);
+  if (constant && !p.is_0x()) out.sigma_t = extinction_box(s, p, *constant);
   out.albedo = s.color_volume(p, "albedo");
   if (p.has("orientation")) s.color_volume(p, "orientation");
   out.phase = phase_of(s, p);
 }
 
 void read_constvolume(SceneReader& s, Properties& p, MeantVolume& out) {
+  p.transform("to_world");  // of interest to extinction_box() only
   const Property* value = p.find("value");
   if (const Triple* triple = value ? std::get_if<Triple>(&value->value) : nullptr) {
     out.value = Spectrum(float((*triple)[0]), float((*triple)[1]), float((*triple)[2]));

@@ -120,7 +120,10 @@ constexpr Plugin kPhases[] = {
 };
 
 constexpr Parameter kConstvolume[] = {{"value", coefficient, "1"},
-                                      {.name = "to_world", .type = transform, .support = inert}};
+                                      {.name = "to_world",
+                                       .type = transform,
+                                       .note = "places the box that a heterogeneous medium of "
+                                               "constant extinction fills in 3.x"}};
 constexpr Parameter kGridvolume[] = {
     {.name = "filename", .type = file, .required = true},
     {"to_world", transform},

@@ -5,6 +5,13 @@ namespace duet {
 
 void SceneWriter::volume(std::string_view name, VolumeId id) {
   const VolumeDescription& v = d_.volumes[size_t(id)];
+  if (v.file.empty() && v.grid->node_count() == 1 && v.grid->channels != 6) {
+    const std::vector<float>& c = v.grid->values;
+    out_.open("volume", "constvolume", name);
+    color("value", ColorInput(v.grid->channels == 1 ? Spectrum(c[0]) : Spectrum(c[0], c[1], c[2])));
+    out_.transform("to_world", v.to_world);
+    return out_.close();
+  }
   constexpr std::string_view wraps[] = {"clamp", "repeat", "mirror"};
   out_.open("volume", "gridvolume", name);
   out_.string("filename", v.file);

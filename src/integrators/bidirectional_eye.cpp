@@ -157,8 +157,9 @@ void BidirectionalIntegrator::walk(const Weights& weights, Trail* trail, Eye<Ver
       }
       transmittance = walk.counted_transmittance();
     }
-    // Lights that are not to be seen are surfaces like others behind those that light passes.
-    const bool hidden = depth == 1 && options_.hide_emitters;
+    // Lights that are not to be seen are surfaces like others behind those that light passes, and
+    // the sky stays hidden there.
+    const bool hidden = options_.hide_emitters && alpha == 0;
     if (!found) {
       if (!scene.environment || hidden) return;
       if (hits) add(eye, 0, depth + 1, join_escape(scene, weights, walk, transmittance));

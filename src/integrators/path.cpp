@@ -26,7 +26,8 @@ Spectrum PathIntegrator::radiance(const Scene& scene, const CameraPath& start, S
     Hit hit;
     ++counters.closest_rays;
     if (!scene.accel->closest_hit(path.ray, hit)) {
-      if (depth == 1 && options_.hide_emitters) break;
+      // Also behind surfaces that light passes straight: nothing else has made the path opaque.
+      if (options_.hide_emitters && path.alpha == 0) break;
       path.sum +=
           path.throughput * weighted_environment(scene, path.ray.direction, path.bsdf_pdf, {});
       if (scene.environment) path.alpha = 1;

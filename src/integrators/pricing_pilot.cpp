@@ -198,7 +198,8 @@ class PricingPilot {
     walk.trail = &trail;
     FamilyWeights weights(set_);
     JoinRoulette roulette(threshold_, hash_combine(kSeed, index));
-    bool first = true;  // nothing but delta lobes so far
+    bool first = true;                     // nothing but delta lobes so far
+    bool sees_sky = !plan_.hide_emitters;  // not before light has been scattered
     for (int depth = 1; depth <= max_depth_; ++depth) {
       weights.set_eye(trail);
       const auto found = [&](const Join& join) {
@@ -212,8 +213,7 @@ class PricingPilot {
       ++counters.closest_rays;
       out.first_counters.closest_rays += first;
       if (!scene_.accel->closest_hit(walk.ray, hit)) {
-        if (scene_.environment && !(depth == 1 && plan_.hide_emitters))
-          found(join_escape(scene_, weights, walk));
+        if (scene_.environment && sees_sky) found(join_escape(scene_, weights, walk));
         return;
       }
       ++counters.path_vertices;
@@ -236,8 +236,10 @@ class PricingPilot {
         merge(index, v, weights, first, at, out);
       }
       sampler.start_dimension(dimension + kScatteringDimension);
-      if (!scatter<Transport::radiance>(v, set_, options_, sampler, walk)) return;
+      bool straight = false;
+      if (!scatter<Transport::radiance>(v, set_, options_, sampler, walk, &straight)) return;
       first &= walk.specular;
+      sees_sky |= !straight;
     }
   }
 

@@ -264,6 +264,13 @@ TEST_CASE("hidden lights stay hidden behind surfaces that light passes straight"
     render(scene, 4).check(1, 1, 1);
     render(scene, 4, hidden).check(0, 0, 0);
   }
+  // Those methods that do not look for media see such a surface, but not the sky behind it.
+  const TransportScene scene(view(2) + pane + kSky);
+  for (const char* method : {"path", "bdpt", "vcm"}) {
+    CAPTURE(std::string(method));
+    render(scene, 4, {}, method).check(1, 1, 1);
+    render(scene, 4, hidden, method).check(0, 0, 0);
+  }
 }
 
 TEST_CASE("methods that cannot render media say so, and path does as in Mitsuba") {

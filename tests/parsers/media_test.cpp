@@ -154,6 +154,34 @@ TEST_CASE("grids: where they lie and what they are called in both Mitsubas") {
   CHECK(read("0.6.0", "<medium type='heterogeneous'/>").has("needs the parameter \"density\""));
 }
 
+// Mitsuba 3 has nothing outside of the unit cube of the volume, even if that is constant.
+TEST_CASE("a constant extinction of a heterogeneous medium fills a box in Mitsuba 3") {
+  const auto check = [](const SceneDescription& d, const std::vector<float>& values,
+                        const Matrix4& to_world) {
+    const VolumeDescription& v = d.volumes.at(size_t(std::get<VolumeId>(d.media.at(0).sigma_t)));
+    CHECK(v.grid->values == values);
+    CHECK(v.grid->node_count() == 1);
+    CHECK(v.to_world == to_world);
+  };
+  const std::string scaled =
+      "<volume name='sigma_t' type='constvolume'><rgb name='value' value='5 6 7'/><transform "
+      "name='to_world'><scale value='3'/></transform></volume>";
+  check(scene_of("3.0.0", "heterogeneous", ""), {1}, Matrix4{});
+  check(scene_of("3.0.0", "heterogeneous", "<float name='sigma_t' value='2'/>"), {2}, Matrix4{});
+  const SceneDescription placed = scene_of("3.0.0", "heterogeneous", scaled);
+  check(placed, {5, 6, 7}, Matrix4::scale(3, 3, 3));
+  const MitsubaXml xml = write_mitsuba_xml(placed);
+  CHECK(xml.losses.empty());
+  const ReadResult again = read_text(xml.text);
+  REQUIRE_MESSAGE(again.scene, again.messages());
+  CHECK(again.description().media == placed.media);
+  CHECK(again.description().volumes == placed.volumes);
+  CHECK(again.messages().find("to_world") == std::string::npos);
+  CHECK(homogeneous("3.0.0", scaled).sigma_t == ColorVolume(Spectrum(5, 6, 7)));
+  const std::string old = "<float name='density' value='2'/><float name='albedo' value='.5'/>";
+  CHECK(scene_of("0.6.0", "heterogeneous", old).media.at(0).sigma_t == ColorVolume(Spectrum(2)));
+}
+
 TEST_CASE("phase functions") {
   const auto phase = [](const std::string& version, const std::string& content) {
     const SceneDescription d = scene_of(version, "homogeneous", content);
