@@ -148,13 +148,26 @@ def lumpy_sphere(n):
     return points[used].astype('<f4'), remap[triangles].astype('<u4')
 
 
-def write_serialized(path, points, triangles):
-    """Mitsuba's .serialized format, version 4: one mesh without normals."""
-    flags = 0x1000  # single precision
-    body = struct.pack('<I', flags) + b'lumpy sphere\0' + struct.pack('<QQ', len(points), len(triangles))
-    body += points.tobytes() + triangles.tobytes()
-    mesh = struct.pack('<HH', 0x041C, 4) + zlib.compress(body, 9)
-    path.write_bytes(mesh + struct.pack('<QI', 0, 1))
+def write_serialized(path, *meshes):
+    """Mitsuba's .serialized format, version 4: meshes as (name, points, normals or None, texture
+    coordinates or None, triangles)."""
+    content, offsets = b'', []
+    for name, points, normals, uvs, triangles in meshes:
+        flags = 0x1000 | (normals is not None) | 2 * (uvs is not None)  # single precision
+        body = struct.pack('<I', flags) + name.encode() + b'\0' + struct.pack('<QQ', len(points), len(triangles))
+        body += b''.join(np.asarray(a, '<f4').tobytes() for a in (points, normals, uvs) if a is not None)
+        offsets.append(len(content))
+        content += struct.pack('<HH', 0x041C, 4) + zlib.compress(body + np.asarray(triangles, '<u4').tobytes(), 9)
+    path.write_bytes(content + struct.pack(f'<{len(offsets)}QI', *offsets, len(offsets)))
+
+
+def strips():
+    """The same bent strip without and with normals."""
+    points = [(-1, -1, 0), (0, -1, .5), (1, -1, 0), (-1, 1, .1), (0, 1, .6), (1, 1, .2)]
+    normals = [(-.4, -.2, .9), (0, -.3, .95), (.5, -.1, .85), (-.4, .2, .9), (0, .2, .98), (.4, .3, .86)]
+    uvs = [(0, 0), (.5, .1), (1, 0), (0, 1), (.4, .9), (1, 1)]
+    triangles = [(0, 1, 4), (0, 4, 3), (1, 2, 5), (1, 5, 4)]
+    return ('strip', points, None, uvs, triangles), ('smooth', points, normals, uvs, triangles)
 
 
 def write_attribute_ply(path):
@@ -265,7 +278,8 @@ def main():
     write_tensors(SCENES / 'bsdf-measured' / 'isotropic.bsdf', measured_material(False))
     write_tensors(SCENES / 'bsdf-measured' / 'anisotropic.bsdf', measured_material(True))
 
-    for scene in ('textures', 'two-versions', 'lights-area', 'lights-delta', 'bsdf-wrappers', 'bsdf-plastics'):
+    for scene in ('textures', 'two-versions', 'lights-area', 'lights-delta', 'lights-placed', 'bsdf-wrappers',
+                  'bsdf-plastics'):
         write_png(SCENES / scene / 'colours.png', colour_texture())
     for scene in ('bsdf-wrappers',):
         write_png(SCENES / scene / 'bumps.png', bump_texture())
@@ -273,7 +287,9 @@ def main():
         write_png(SCENES / scene / 'holes.png', mask_texture())
     write_png(SCENES / 'texture-slots' / 'patches.png', colour_texture()[3::6, 4::8])
     write_attribute_ply(SCENES / 'textures' / 'attributes.ply')
-    write_serialized(SCENES / 'mesh-lumpy' / 'lumpy.serialized', *lumpy_sphere(120))
+    points, triangles = lumpy_sphere(120)
+    write_serialized(SCENES / 'mesh-lumpy' / 'lumpy.serialized', ('lumpy sphere', points, None, None, triangles))
+    write_serialized(SCENES / 'shapes-files' / 'meshes' / 'strips.serialized', *strips())
 
     folder = SCENES / 'media-heterogeneous'
     write_volume(folder / 'smoke.vol', smoke_volume())

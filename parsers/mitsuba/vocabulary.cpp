@@ -42,8 +42,9 @@ constexpr Parameter kFilmCommon[] = {
     {.name = "sample_border",
      .type = boolean,
      .preset = "false",
+     .note = "as if it were false at the edges of the image, and true at those of a crop window",
      .versions = v3,
-     .support = ignored},
+     .support = approximated},
     {.name = "attach_log", .type = boolean, .preset = "false", .versions = v0, .support = ignored},
     {.name = "compensate", .type = boolean, .versions = v3, .support = inert}};
 constexpr Parameter kSamplerCommon[] = {

@@ -176,6 +176,10 @@ TEST_CASE("films and filters") {
   CHECK(bad("<rfilter type='gaussian'><float name='stddev' value='1e6'/></rfilter>", "too wide"));
   CHECK(bad("<boolean name='banner' value='true'/>", "warning: the parameter \"banner\""));
   CHECK(!bad("<boolean name='banner' value='false'/>", "banner"));
+  const std::string border = "<boolean name='sample_border' value='true'/>";
+  CHECK(bad(border, "warning: no samples are taken beyond the edges of the image"));
+  CHECK(!bad(border + "<rfilter type='box'/>", "no samples"));
+  CHECK(!bad("<boolean name='sample_border' value='false'/>", "no samples"));
 }
 
 TEST_CASE("samplers") {
