@@ -109,6 +109,13 @@ constexpr Parameter kGridTexture[] = {
     kUvScale,
     kCoordinates};
 
+constexpr Parameter kWireframe[] = {
+    {"interior_color", unbounded, "0.5", "constant"},
+    {"edge_color", unbounded, "0.1", "constant"},
+    {"line_width", number, "0", "0: a tenth of a mesh's mean edge length", not_negative},
+    {"step_width", number, "0.5",
+     "share of the line width over which the colours change; limited to 0 to 1"}};
+
 constexpr Plugin kTextures[] = {
     {"bitmap", both, kBitmap, &read_bitmap},
     {"checkerboard", both, kCheckerboard, &read_checkerboard},
@@ -129,11 +136,9 @@ constexpr Plugin kTextures[] = {
      .note = "the curvature of surfaces is not computed",
      .support = refused,
      .planned_parameters = "curvature scale"},
-    {.name = "wireframe",
-     .versions = v0,
-     .note = "the edges of triangles are not looked for",
-     .support = refused,
-     .planned_parameters = "interior_color edge_color line_width step_width"},
+    {"wireframe", v0, kWireframe, &read_wireframe,
+     "on meshes and cubes, other shapes are all interior; instances show the lines of the mesh "
+     "before it is placed"},
 };
 
 }  // namespace

@@ -83,6 +83,15 @@ struct GridLinesTexture {
   UvTransform to_uv;
   bool operator==(const GridLinesTexture&) const = default;
 };
+/// The edges of triangles.
+struct WireframeTexture {
+  Spectrum interior{0.5f}, edge{0.1f};
+  /// As far from an edge as it reaches; without: a tenth of a mesh's mean edge length.
+  std::optional<double> line_width;
+  /// The share of the line width, at its end, over which the colours change.
+  double step_width = 0.5;
+  bool operator==(const WireframeTexture&) const = default;
+};
 /// Another texture times a colour.
 struct ScaledTextureDescription {
   TextureId inner{};
@@ -99,7 +108,7 @@ struct TextureDescription {
   SourceLocation where;
   Label label;
   std::variant<BitmapTexture, CheckerboardTexture, MeshAttributeTexture, GridLinesTexture,
-               ScaledTextureDescription, VolumeTextureDescription>
+               WireframeTexture, ScaledTextureDescription, VolumeTextureDescription>
       model;
   bool operator==(const TextureDescription&) const = default;
 };
