@@ -134,6 +134,12 @@ void read_wireframe(SceneReader& s, Properties& p, TextureDescription& out) {
   out.model = t;
 }
 
+void read_curvature(SceneReader&, Properties& p, TextureDescription& out) {
+  const CurvatureKind shown = p.choice<CurvatureKind>(
+      "curvature", {{"gaussian", CurvatureKind::gaussian}, {"mean", CurvatureKind::mean}});
+  out.model = CurvatureTexture{shown, p.number("scale")};
+}
+
 void read_volume_texture(SceneReader& s, Properties& p, TextureDescription& out) {
   out.model = VolumeTextureDescription{s.color_volume(p, "volume")};
 }

@@ -45,6 +45,7 @@ void read_vertexcolors(SceneReader&, Properties&, TextureDescription&);
 void read_scale(SceneReader&, Properties&, TextureDescription&);
 void read_gridtexture(SceneReader&, Properties&, TextureDescription&);
 void read_wireframe(SceneReader&, Properties&, TextureDescription&);
+void read_curvature(SceneReader&, Properties&, TextureDescription&);
 void read_volume_texture(SceneReader&, Properties&, TextureDescription&);
 void read_uniform(SceneReader&, Properties&, MeantColor&);
 void read_srgb(SceneReader&, Properties&, MeantColor&);

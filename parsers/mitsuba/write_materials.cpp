@@ -7,8 +7,8 @@ namespace {
 
 std::string_view type_of(const TextureDescription& t) {
   constexpr std::string_view names[] = {"bitmap",      "checkerboard", "mesh_attribute",
-                                        "gridtexture", "wireframe",    "scale",
-                                        "volume"};
+                                        "gridtexture", "wireframe",    "curvature",
+                                        "scale",       "volume"};
   static_assert(std::size(names) == std::variant_size_v<decltype(t.model)>);
   return names[t.model.index()];
 }
@@ -125,6 +125,12 @@ void SceneWriter::write_model(const WireframeTexture& t) {
   out_.rgb("edge_color", t.edge);
   if (t.line_width) out_.number("line_width", *t.line_width);
   out_.number("step_width", t.step_width);
+}
+
+void SceneWriter::write_model(const CurvatureTexture& t) {
+  lose("the texture \"curvature\" does not exist in Mitsuba 3");
+  out_.string("curvature", t.shown == CurvatureKind::mean ? "mean" : "gaussian");
+  out_.number("scale", t.scale);
 }
 
 void SceneWriter::write_model(const ScaledTextureDescription& t) {

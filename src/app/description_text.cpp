@@ -124,6 +124,11 @@ std::string DescriptionText::texture(const TextureDescription& t) const {
                  [](const WireframeTexture& m) {
                    return fmt::format("wireframe {} and {}", text(m.interior), text(m.edge));
                  },
+                 [](const CurvatureTexture& m) {
+                   return fmt::format("{} curvature times {:.4g}",
+                                      m.shown == CurvatureKind::mean ? "mean" : "gaussian",
+                                      m.scale);
+                 },
                  [&](const ScaledTextureDescription& m) {
                    return fmt::format("{} times {}", text(m.scale), texture_name(m.inner));
                  },

@@ -2,6 +2,7 @@
 #include "media/volume_texture.h"
 #include "scene/builder.h"
 #include "textures/checkerboard.h"
+#include "textures/curvature_texture.h"
 #include "textures/grid_texture.h"
 #include "textures/mesh_attribute.h"
 #include "textures/wireframe.h"
@@ -55,6 +56,12 @@ std::unique_ptr<Texture> SceneBuilder::make(const WireframeTexture& t, const Sou
   WireframeOptions o{t.interior, t.edge, std::nullopt, float(t.step_width)};
   if (t.line_width) o.line_width = float(*t.line_width);
   auto made = std::make_unique<Wireframe>(o);
+  shape_textures_.insert(made.get());
+  return made;
+}
+
+std::unique_ptr<Texture> SceneBuilder::make(const CurvatureTexture& t, const SourceLocation&) {
+  auto made = std::make_unique<CurvatureMap>(t.shown, float(t.scale));
   shape_textures_.insert(made.get());
   return made;
 }

@@ -48,6 +48,7 @@ class SceneBuilder {
   std::unique_ptr<Texture> make(const MeshAttributeTexture& t, const SourceLocation& where);
   std::unique_ptr<Texture> make(const GridLinesTexture& t, const SourceLocation& where);
   std::unique_ptr<Texture> make(const WireframeTexture& t, const SourceLocation& where);
+  std::unique_ptr<Texture> make(const CurvatureTexture& t, const SourceLocation& where);
   std::unique_ptr<Texture> make(const ScaledTextureDescription& t, const SourceLocation& where);
   std::unique_ptr<Texture> make(const VolumeTextureDescription& t, const SourceLocation& where);
   std::shared_ptr<const BitmapPixels> pixels(const std::string& file,

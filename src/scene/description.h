@@ -25,6 +25,7 @@
 #include "math/transform.h"
 #include "media/volume_grid.h"
 #include "textures/bitmap_options.h"
+#include "textures/curvature_kind.h"
 
 namespace duet {
 
@@ -92,6 +93,12 @@ struct WireframeTexture {
   double step_width = 0.5;
   bool operator==(const WireframeTexture&) const = default;
 };
+/// Curvature times a scale: positive red, negative blue.
+struct CurvatureTexture {
+  CurvatureKind shown = CurvatureKind::gaussian;
+  double scale = 1;
+  bool operator==(const CurvatureTexture&) const = default;
+};
 /// Another texture times a colour.
 struct ScaledTextureDescription {
   TextureId inner{};
@@ -108,7 +115,8 @@ struct TextureDescription {
   SourceLocation where;
   Label label;
   std::variant<BitmapTexture, CheckerboardTexture, MeshAttributeTexture, GridLinesTexture,
-               WireframeTexture, ScaledTextureDescription, VolumeTextureDescription>
+               WireframeTexture, CurvatureTexture, ScaledTextureDescription,
+               VolumeTextureDescription>
       model;
   bool operator==(const TextureDescription&) const = default;
 };

@@ -68,7 +68,7 @@ TEST_CASE("texture: checkerboard, mesh attributes, scale") {
               "needs a texture"));
 }
 
-TEST_CASE("texture: wireframe of 0.6") {
+TEST_CASE("texture: wireframe and curvature of 0.6") {
   WireframeTexture wireframe;
   CHECK(texture<WireframeTexture>("0.6.0", "wireframe") == wireframe);
   CHECK(texture<WireframeTexture>("0.6.0", "wireframe", "<float name='lineWidth' value='0'/>") ==
@@ -86,12 +86,26 @@ TEST_CASE("texture: wireframe of 0.6") {
   CHECK(fails("0.6.0",
               "<texture type='wireframe'><texture name='edgeColor' type='wireframe'/></texture>",
               "cannot be a texture"));
+
+  const std::string scale = "<float name='scale' value='2'/>";
+  CHECK(texture<CurvatureTexture>("0.6.0", "curvature", scale) ==
+        CurvatureTexture{CurvatureKind::gaussian, 2});
+  CHECK(texture<CurvatureTexture>("0.6.0", "curvature",
+                                  scale + "<string name='curvature' value='mean'/>") ==
+        CurvatureTexture{CurvatureKind::mean, 2});
+  CHECK(fails("0.6.0", "<texture type='curvature'/>", "needs the parameter \"scale\""));
+  CHECK(fails(
+      "0.6.0",
+      "<texture type='curvature'>" + scale + "<string name='curvature' value='men'/></texture>",
+      "(did you mean \"mean\"?); it is one of gaussian, mean"));
 }
 
-TEST_CASE("texture: wireframes are written, with the remark that Mitsuba 3 has none") {
+TEST_CASE("texture: wireframe and curvature are written, with the remark that Mitsuba 3 has none") {
   for (const char* content : {"wireframe'><float name='lineWidth' value='0.5'/><rgb "
                               "name='edgeColor' value='0.5 0.25 1'/>",
-                              "wireframe'>"}) {
+                              "wireframe'>",
+                              "curvature'><float name='scale' value='2'/><string name='curvature' "
+                              "value='mean'/>"}) {
     const SceneDescription d =
         good("0.6.0", std::string("<shape type='sphere'><bsdf type='diffuse'><texture "
                                   "name='reflectance' type='") +
