@@ -283,7 +283,7 @@ constexpr Plugin kIntegrators[] = {
      .versions = v3,
      .note = "radiance fields of volume primitives are not scenes of surfaces and media",
      .support = refused,
-     .planned_parameters = "max_depth srgb_primitives"},
+     .refused_parameters = "max_depth srgb_primitives"},
 };
 
 // How Mitsuba builds its own acceleration structures.
