@@ -150,7 +150,8 @@ constexpr Plugin kShapes[] = {
      .support = refused,
      .refused_parameters =
          "name mesh verts loops loop_tris polys uvs cols face_normals flip_normals"},
-    {"bsplinecurve", v3, kCurves, &read_curves, "cannot emit light"},
+    {"bsplinecurve", v3, kCurves, &read_curves,
+     "cannot emit light; dp_dv is that of uv, where Mitsuba's twists as the curve's torsion does"},
     {.name = "deformable",
      .versions = v0,
      .note = "nothing moves here: use a mesh",
