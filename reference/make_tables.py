@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Ask Mitsuba how its small parts behave and write the answers to reference/tables/*.json.
 
-    make_tables.py [NAME...]        filters cameras surfaces textures lights (default: all)
+    make_tables.py [NAME...]        filters cameras surfaces uv_partials textures lights (default: all)
 
 The tests compare Duet's filters, cameras, shapes, textures and lights with these tables number by
 number. Mitsuba (pip install mitsuba==3.9.1) is needed only to make them anew. The inputs are drawn
@@ -192,6 +192,40 @@ def surfaces():
           'dp/du, dp/dv, tangent of the shading frame]', mesh=MESH, cases=rows)
 
 
+def uv_partials():
+    t = mi.ScalarTransform4f
+    look = t().look_at([1, 2, 3], [0, .2, 0], [0, 1, 0])
+    sheared = t(np.array([[1.2, .3, .1, .2], [-.2, .9, .4, -.5], [.1, -.3, 1.5, .7], [0, 0, 0, 1]]))
+    # Mitsuba lets the neighbours of a pinhole's ray begin on the near plane, not in the pinhole: with
+    # a plane so near, nobody sees it.
+    near = {'near_clip': 1e-4, 'far_clip': 100.}
+    sensors = [('perspective', look, {'fov': 50., **near}),
+               ('perspective', look @ t().scale([-1, 1, 1]), {'fov': 20., **near}),
+               ('thinlens', look, {'fov': 50., 'aperture_radius': .2, 'focus_distance': 2.5, **near}),
+               ('orthographic', look, near), ('orthographic', look @ t().scale([2, 3, 4]), near)]
+    rng = np.random.default_rng(17)
+    size = (48, 32)
+    rows = []
+    for kind, to_world, parameters in sensors:
+        camera = mi.load_dict({'type': kind, 'film': {'type': 'hdrfilm', 'width': size[0], 'height': size[1]},
+                               'to_world': to_world, **parameters})
+        for shape, place in [('rectangle', sheared), ('sphere', t().scale(.8)), ('cylinder', t())]:
+            scene = mi.load_dict({'type': 'scene', 'shape': {'type': shape, 'to_world': place}})
+            found = []
+            while len(found) < 3:
+                (x, y), lens = rng.uniform(.2, .8, 2).astype(np.float32), rng.uniform(0, 1, 2).astype(np.float32)
+                ray, _ = camera.sample_ray_differential(0, .5, mi.Point2f(x, y), mi.Point2f(*lens))
+                si = scene.ray_intersect(ray)
+                if not si.is_valid() or abs(np.dot(si.n, ray.d)) < .1:
+                    continue
+                si.compute_uv_partials(ray)
+                found.append([x * size[0], y * size[1], *lens, *si.duv_dx, *si.duv_dy])
+            rows.append({'kind': kind, 'size': size, 'to_world': np.array(to_world.matrix),
+                         'parameters': parameters, 'shape': shape, 'place': np.array(place.matrix),
+                         'found': found})
+    write('uv_partials', 'found: [film x, y, lens u, v, duv/dx, duv/dy]; film in pixels', cases=rows)
+
+
 # ---- Textures ------------------------------------------------------------------------------------
 
 def at_uv(u, v):
@@ -328,8 +362,8 @@ def lights():
           environments=environments)
 
 
-TABLES = {'filters': filters, 'cameras': cameras, 'surfaces': surfaces, 'textures': textures,
-          'lights': lights}
+TABLES = {'filters': filters, 'cameras': cameras, 'surfaces': surfaces,
+          'uv_partials': uv_partials, 'textures': textures, 'lights': lights}
 
 if __name__ == '__main__':
     for table in sys.argv[1:] or TABLES:

@@ -216,11 +216,9 @@ class Loader {
     const std::string_view tag = tag_of(node.kind);
     if (plugin && plugin->support == Support::refused) {
       report_.error(where, "{} type \"{}\" is refused: {}", tag, node.type, plugin->note);
-    } else if (plugin && plugin->support != Support::planned) {
+    } else if (plugin) {
       node.plugin = plugin;
       node.type = plugin->name;
-    } else if (plugin) {
-      report_.error(where, "{} type \"{}\" is not supported yet", tag, node.type);
     } else {
       std::string hint = did_you_mean(node.type, plugin_names(node.kind));
       for (int i = 0; i < kPluginKinds && hint.empty(); ++i)

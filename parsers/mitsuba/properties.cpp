@@ -255,12 +255,6 @@ void Properties::report_unused(const Entry& e) {
   if (e.parameter) {
     const Parameter& known = *e.parameter;
     if (known.support == Support::inert || std::holds_alternative<Broken>(p.value)) return;
-    if (known.support == Support::planned) {
-      const bool* flag = std::get_if<bool>(&p.value);
-      if (flag && known.preset == (*flag ? "true" : "false")) return;
-      report_.error(p.where, "{} is not supported yet", expected(known));
-      return;
-    }
     if (known.support == Support::refused) {
       report_.error(p.where, "{} is refused: {}", expected(known), known.note);
       return;

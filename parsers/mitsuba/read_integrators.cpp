@@ -8,9 +8,9 @@ namespace duet {
 namespace {
 
 const std::vector<std::string>& layer_kinds() {
-  static const std::vector<std::string> kinds{"albedo",     "depth",      "position", "uv",
-                                              "geo_normal", "sh_normal",  "dp_du",    "dp_dv",
-                                              "prim_index", "shape_index"};
+  static const std::vector<std::string> kinds{
+      "albedo", "depth", "position", "uv",     "geo_normal", "sh_normal",
+      "dp_du",  "dp_dv", "duv_dx",   "duv_dy", "prim_index", "shape_index"};
   return kinds;
 }
 
@@ -32,8 +32,6 @@ void read_layers(Properties& p, AovDescription& out) {
     const auto same_name = [&](const auto& layer) { return layer.name == name; };
     if (name.empty() || kind.empty())
       p.error("aovs", "{} is not of the form name:kind", in_quotes(part));
-    else if (kind == "duv_dx" || kind == "duv_dy")
-      p.error("aovs", "layers of kind {} are planned and not there yet", in_quotes(kind));
     else if (std::find(kinds.begin(), kinds.end(), kind) == kinds.end())
       p.error("aovs", "unknown kind of layer {}{}", in_quotes(kind), did_you_mean(kind, kinds));
     else if (std::any_of(out.layers.begin(), out.layers.end(), same_name))

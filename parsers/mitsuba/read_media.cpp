@@ -51,6 +51,27 @@ Spectrum coefficient(SceneReader& s, Properties& p, std::string_view name,
   return otherwise;
 }
 
+/// Mitsuba 0.x: a medium that samples distances by one colour channel may be given the coefficients
+/// of this channel in all of them.
+void make_monochromatic(Properties& p, Spectrum& sigma_s, Spectrum& sigma_a) {
+  enum class Strategy { single, other };
+  const Strategy strategy = p.choice<Strategy>("strategy", {{"balance", Strategy::other},
+                                                            {"single", Strategy::single},
+                                                            {"maximum", Strategy::other},
+                                                            {"manual", Strategy::other}});
+  int channel = 0;
+  for (const int c : {1, 2})
+    if (sigma_s[c] + sigma_a[c] < sigma_s[channel] + sigma_a[channel]) channel = c;
+  if (p.has("channel")) channel = p.integer("channel");
+  if (channel < 0 || channel > 2) {
+    p.error("channel", "a colour channel is 0, 1 or 2, not {}", channel);
+    return;
+  }
+  if (!p.boolean("monochromatic") || strategy != Strategy::single) return;
+  sigma_s = Spectrum(sigma_s[channel]);
+  sigma_a = Spectrum(sigma_a[channel]);
+}
+
 /// Mitsuba 0.x: coefficients in pairs, or a material's.
 void read_coefficients(SceneReader& s, Properties& p, MediumDescription& out) {
   const bool pair = any(p, "sigma_s", "sigma_a"), other_pair = any(p, "sigma_t", "albedo");
@@ -74,6 +95,7 @@ void read_coefficients(SceneReader& s, Properties& p, MediumDescription& out) {
   if (!(g.max() < 1)) p.error("g", "the anisotropy must be less than 1");
   // Anisotropy is not modelled here, only that light which goes straight on is not scattered.
   sigma_s *= Spectrum(1) - g;
+  make_monochromatic(p, sigma_s, sigma_a);
   const Spectrum sigma_t = sigma_s + sigma_a;
   out.sigma_t = sigma_t;
   out.albedo = quotient(sigma_s, sigma_t);
@@ -112,7 +134,8 @@ Matrix4 box_to_world(const VolumeGrid& grid) {
 void read_homogeneous(SceneReader& s, Properties& p, MediumDescription& out) {
   out.scale = p.number("scale");
   // Files that use the coefficients of 0.x mean them, whatever their version says.
-  if (p.is_0x() || any(p, "sigma_s", "sigma_a") || any(p, "material", "g")) {
+  if (p.is_0x() || any(p, "sigma_s", "sigma_a") || any(p, "material", "g") ||
+      p.boolean("monochromatic")) {
     read_coefficients(s, p, out);
   } else {
     out.sigma_t = s.color_volume(p, "sigma_t");

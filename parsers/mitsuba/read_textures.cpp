@@ -127,6 +127,19 @@ void read_gridtexture(SceneReader& s, Properties& p, TextureDescription& out) {
                                uv_transform(p)};
 }
 
+void read_wireframe(SceneReader& s, Properties& p, TextureDescription& out) {
+  WireframeTexture t{s.constant_color(p, "interior_color"), s.constant_color(p, "edge_color"),
+                     std::nullopt, std::clamp(p.number("step_width"), 0.0, 1.0)};
+  if (const double width = p.number("line_width"); width != 0) t.line_width = width;
+  out.model = t;
+}
+
+void read_curvature(SceneReader&, Properties& p, TextureDescription& out) {
+  const CurvatureKind shown = p.choice<CurvatureKind>(
+      "curvature", {{"gaussian", CurvatureKind::gaussian}, {"mean", CurvatureKind::mean}});
+  out.model = CurvatureTexture{shown, p.number("scale")};
+}
+
 void read_volume_texture(SceneReader& s, Properties& p, TextureDescription& out) {
   out.model = VolumeTextureDescription{s.color_volume(p, "volume")};
 }

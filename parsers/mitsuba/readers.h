@@ -44,6 +44,8 @@ void read_mesh_attribute(SceneReader&, Properties&, TextureDescription&);
 void read_vertexcolors(SceneReader&, Properties&, TextureDescription&);
 void read_scale(SceneReader&, Properties&, TextureDescription&);
 void read_gridtexture(SceneReader&, Properties&, TextureDescription&);
+void read_wireframe(SceneReader&, Properties&, TextureDescription&);
+void read_curvature(SceneReader&, Properties&, TextureDescription&);
 void read_volume_texture(SceneReader&, Properties&, TextureDescription&);
 void read_uniform(SceneReader&, Properties&, MeantColor&);
 void read_srgb(SceneReader&, Properties&, MeantColor&);

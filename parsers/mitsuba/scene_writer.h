@@ -36,6 +36,8 @@ class SceneWriter {
   void write_model(const CheckerboardTexture& t);
   void write_model(const MeshAttributeTexture& t);
   void write_model(const GridLinesTexture& t);
+  void write_model(const WireframeTexture& t);
+  void write_model(const CurvatureTexture& t);
   void write_model(const ScaledTextureDescription& t);
   void write_model(const VolumeTextureDescription& t);
   void write_model(const DiffuseMaterial& m);

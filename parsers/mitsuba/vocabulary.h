@@ -80,7 +80,6 @@ enum class Support : uint8_t {
   approximated,
   inert,    ///< changes nothing that Duet does: accepted without a word
   ignored,  ///< would change something but not the linear image: accepted with a warning
-  planned,  ///< known, not supported yet
   refused,  ///< known, never supported: the note says why
 };
 
@@ -136,8 +135,8 @@ struct Plugin {
   std::string_view note = "";
   Support support = Support::done;
   std::string_view aliases = "";
-  /// The names of its parameters, separated by spaces, if it is not supported (yet).
-  std::string_view planned_parameters = "";
+  /// The names of its parameters, separated by spaces, if it is refused.
+  std::string_view refused_parameters = "";
 };
 
 /// The plugins of a kind, and the parameters that all of them have.

@@ -153,8 +153,10 @@ constexpr Parameter kDepth[] = {{.name = "hide_emitters", .type = boolean, .supp
 constexpr Parameter kAov[] = {
     {.name = "aovs",
      .type = string,
-     .note = "name:kind, …; albedo depth position uv geo_normal sh_normal dp_du dp_dv "
-             "prim_index shape_index (planned: duv_dx duv_dy)",
+     .note =
+         "name:kind, …; albedo depth position uv geo_normal sh_normal dp_du dp_dv "
+         "prim_index shape_index, and duv_dx duv_dy, which are per pixel: Mitsuba 3.9.1 divides "
+         "them by the square root of the sample count",
      .required = true},
     {.name = "hide_emitters", .type = boolean, .support = inert}};
 constexpr Parameter kMoment[] = {{.name = "hide_emitters", .type = boolean, .support = inert}};
@@ -281,7 +283,7 @@ constexpr Plugin kIntegrators[] = {
      .versions = v3,
      .note = "radiance fields of volume primitives are not scenes of surfaces and media",
      .support = refused,
-     .planned_parameters = "max_depth srgb_primitives"},
+     .refused_parameters = "max_depth srgb_primitives"},
 };
 
 // How Mitsuba builds its own acceleration structures.

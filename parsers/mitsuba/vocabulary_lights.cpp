@@ -152,7 +152,7 @@ constexpr Plugin kEmitters[] = {
      .versions = v3,
      .note = "a volume that emits is not computed, nor is it in Mitsuba 3.9",
      .support = refused,
-     .planned_parameters = "radiance to_world"},
+     .refused_parameters = "radiance to_world"},
 };
 
 }  // namespace

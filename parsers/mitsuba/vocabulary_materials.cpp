@@ -243,7 +243,7 @@ constexpr Plugin kBsdfs[] = {
      .versions = v3,
      .note = "light has no polarisation here",
      .support = refused,
-     .planned_parameters = "filename alpha_sample wavelength"},
+     .refused_parameters = "filename alpha_sample wavelength"},
     {"polarizer", v3, kPolarizer, &read_filter_of_light, kUnpolarized},
     {"pplastic", v3, kPolarizedPlastic, &read_pplastic,
      "as Mitsuba's variants without polarisation"},

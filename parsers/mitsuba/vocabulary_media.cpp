@@ -51,13 +51,21 @@ constexpr Parameter kHomogeneous[] = {
     kScale,
     kSampleEmitters,
     kSpectralExtinction,
-    {.name = "strategy", .type = string, .versions = v0, .support = inert},
-    {.name = "channel", .type = integer, .versions = v0, .support = inert},
+    {.name = "strategy",
+     .type = string,
+     .preset = "balance",
+     .note = "balance, single, maximum or manual; matters to monochromatic only",
+     .versions = v0},
+    {.name = "channel",
+     .type = integer,
+     .preset = "(of least extinction)",
+     .note = "0 to 2; matters to monochromatic only",
+     .versions = v0},
     {.name = "monochromatic",
      .type = boolean,
      .preset = "false",
-     .versions = v0,
-     .support = planned},
+     .note = "with strategy single: all channels are like the one chosen",
+     .versions = v0},
     {.name = "sampling_density", .type = number, .versions = v0, .support = inert},
     {.name = "medium_sampling_weight", .type = number, .versions = v0, .support = inert},
 };
@@ -166,7 +174,7 @@ constexpr Plugin kVolumes[] = {
      .versions = v0,
      .note = "grids of grids are not read",
      .support = refused,
-     .planned_parameters = "filename prefix postfix to_world"},
+     .refused_parameters = "filename prefix postfix to_world"},
     {"volcache", v0, kVolcache, &read_volcache, "holds a volume"},
 };
 
@@ -175,13 +183,13 @@ constexpr Plugin kSubsurfaces[] = {
      .versions = v0,
      .note = "light leaves a surface where it entered: use an interior medium with volpath",
      .support = refused,
-     .planned_parameters =
+     .refused_parameters =
          "material sigma_s sigma_a sigma_t albedo int_ior ext_ior scale irr_samples quality"},
     {.name = "singlescatter",
      .versions = v0,
      .note = "light leaves a surface where it entered: use an interior medium with volpath",
      .support = refused,
-     .planned_parameters = "fast_single_scatter fast_single_scatter_samples "
+     .refused_parameters = "fast_single_scatter fast_single_scatter_samples "
                            "single_scatter_shadow_rays single_scatter_transmittance "
                            "single_scatter_depth"},
 };

@@ -104,7 +104,7 @@ constexpr Plugin kFilms[] = {
      .versions = v3,
      .note = "light is computed as red, green and blue, not by wavelength",
      .support = refused,
-     .planned_parameters = "component_format"},
+     .refused_parameters = "component_format"},
 };
 
 constexpr Parameter kBox[] = {

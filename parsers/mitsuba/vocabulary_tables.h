@@ -11,12 +11,6 @@ using enum Support;
 inline constexpr FileVersions v0 = FileVersions::v0, v3 = FileVersions::v3,
                               both = FileVersions::all;
 
-/// `parameters` are the names of its parameters, separated by spaces.
-constexpr Plugin planned_plugin(std::string_view name, FileVersions versions,
-                                std::string_view parameters = "") {
-  return {.name = name, .versions = versions, .support = planned, .planned_parameters = parameters};
-}
-
 // vocabulary_materials.cpp, vocabulary_textures.cpp
 std::span<const Plugin> bsdfs();
 std::span<const Plugin> textures();

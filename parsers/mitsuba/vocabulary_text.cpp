@@ -20,7 +20,6 @@ a test compares the two.
 | approximated | rendered, differently; `duet info` says so for the scene at hand |
 | no effect | accepted without a word: it changes nothing that Duet computes |
 | ignored | accepted with a warning: it does not change the linear image |
-| planned | an error that names the plugin or parameter; a later version will know it |
 | refused | an error that gives the reason |
 
 Names are those of Mitsuba 3. All files may also write them as Mitsuba 0.x does (`toWorld` for
@@ -101,8 +100,6 @@ std::string_view support_name(Support support) {
       return "no effect";
     case Support::ignored:
       return "ignored";
-    case Support::planned:
-      return "planned";
     case Support::refused:
       return "refused";
   }
@@ -126,7 +123,7 @@ std::string compatibility_section(PluginKind kind) {
   out += "| Plugin | Files | Status | |\n|---|---|---|---|\n";
   for (const Plugin& p : plugins(kind)) {
     std::string others;
-    for (const std::string_view name : split_list(p.planned_parameters))
+    for (const std::string_view name : split_list(p.refused_parameters))
       others += (others.empty() ? "parameters " : ", ") + code(name);
     out +=
         fmt::format("| {} | {} | {} | {} |\n", code(p.name), versions_name(p.versions),

@@ -109,6 +109,19 @@ constexpr Parameter kGridTexture[] = {
     kUvScale,
     kCoordinates};
 
+constexpr Parameter kCurvature[] = {{"curvature", string, "gaussian", "gaussian or mean"},
+                                    {.name = "scale",
+                                     .type = number,
+                                     .note = "of the curvature: red up to 1, blue down to -1",
+                                     .range = not_negative,
+                                     .required = true}};
+constexpr Parameter kWireframe[] = {
+    {"interior_color", unbounded, "0.5", "constant"},
+    {"edge_color", unbounded, "0.1", "constant"},
+    {"line_width", number, "0", "0: a tenth of a mesh's mean edge length", not_negative},
+    {"step_width", number, "0.5",
+     "share of the line width over which the colours change; limited to 0 to 1"}};
+
 constexpr Plugin kTextures[] = {
     {"bitmap", both, kBitmap, &read_bitmap},
     {"checkerboard", both, kCheckerboard, &read_checkerboard},
@@ -124,16 +137,11 @@ constexpr Plugin kTextures[] = {
     {"blackbody", v3, kBlackbody, &read_blackbody},
     {"volume", v3, kVolume, &read_volume_texture, "looked up in the world"},
     {"gridtexture", v0, kGridTexture, &read_gridtexture},
-    {.name = "curvature",
-     .versions = v0,
-     .note = "the curvature of surfaces is not computed",
-     .support = refused,
-     .planned_parameters = "curvature scale"},
-    {.name = "wireframe",
-     .versions = v0,
-     .note = "the edges of triangles are not looked for",
-     .support = refused,
-     .planned_parameters = "interior_color edge_color line_width step_width"},
+    {"curvature", v0, kCurvature, &read_curvature,
+     "not on curves; instances show that of the shape before it is placed"},
+    {"wireframe", v0, kWireframe, &read_wireframe,
+     "on meshes and cubes, other shapes are all interior; instances show the lines of the mesh "
+     "before it is placed"},
 };
 
 }  // namespace

@@ -7,7 +7,8 @@ namespace {
 
 std::string_view type_of(const TextureDescription& t) {
   constexpr std::string_view names[] = {"bitmap",      "checkerboard", "mesh_attribute",
-                                        "gridtexture", "scale",        "volume"};
+                                        "gridtexture", "wireframe",    "curvature",
+                                        "scale",       "volume"};
   static_assert(std::size(names) == std::variant_size_v<decltype(t.model)>);
   return names[t.model.index()];
 }
@@ -116,6 +117,20 @@ void SceneWriter::write_model(const GridLinesTexture& t) {
   color("color1", t.color1);
   out_.number("line_width", t.line_width);
   uv_transform(t.to_uv);
+}
+
+void SceneWriter::write_model(const WireframeTexture& t) {
+  lose("the texture \"wireframe\" does not exist in Mitsuba 3");
+  out_.rgb("interior_color", t.interior);
+  out_.rgb("edge_color", t.edge);
+  if (t.line_width) out_.number("line_width", *t.line_width);
+  out_.number("step_width", t.step_width);
+}
+
+void SceneWriter::write_model(const CurvatureTexture& t) {
+  lose("the texture \"curvature\" does not exist in Mitsuba 3");
+  out_.string("curvature", t.shown == CurvatureKind::mean ? "mean" : "gaussian");
+  out_.number("scale", t.scale);
 }
 
 void SceneWriter::write_model(const ScaledTextureDescription& t) {

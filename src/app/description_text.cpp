@@ -121,6 +121,14 @@ std::string DescriptionText::texture(const TextureDescription& t) const {
                  [&](const GridLinesTexture& m) {
                    return fmt::format("gridtexture {} and {}", input(m.color0), input(m.color1));
                  },
+                 [](const WireframeTexture& m) {
+                   return fmt::format("wireframe {} and {}", text(m.interior), text(m.edge));
+                 },
+                 [](const CurvatureTexture& m) {
+                   return fmt::format("{} curvature times {:.4g}",
+                                      m.shown == CurvatureKind::mean ? "mean" : "gaussian",
+                                      m.scale);
+                 },
                  [&](const ScaledTextureDescription& m) {
                    return fmt::format("{} times {}", text(m.scale), texture_name(m.inner));
                  },

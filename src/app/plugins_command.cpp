@@ -73,8 +73,7 @@ void add_plugins_command(CLI::App& app, int& exit_code) {
   c->add_flag("--markdown", o->markdown, "Print docs/compatibility.md");
   c->footer(
       "Each line says what becomes of a name: done; approximated; no effect, because it changes\n"
-      "nothing that Duet does; ignored with a warning; planned, until when it is an error; "
-      "refused.\n"
+      "nothing that Duet does; ignored with a warning; refused, which is an error.\n"
       "Examples:\n"
       "  duet plugins bsdf\n"
       "  duet plugins --markdown > docs/compatibility.md");

@@ -15,6 +15,7 @@ class CameraBatch final : public Camera {
   /// One camera at least, each made for a film of `strip` pixels across.
   CameraBatch(std::vector<std::unique_ptr<Camera>> cameras, int strip);
   Ray sample_ray(const Point2f& film, const Point2f& lens) const override;
+  std::optional<NextRays> next_rays(const Point2f& film, const Point2f& lens) const override;
   bool connectible() const override { return false; }
   float importance(const Ray&, float) const override { return 0; }
   std::optional<CameraSample> sample_lens(const Point3f&, const Point2f&) const override {
@@ -26,6 +27,9 @@ class CameraBatch final : public Camera {
   }
 
  private:
+  /// The camera that sees a film position, which becomes one of its own film.
+  const Camera& camera_at(Point2f& film) const;
+
   std::vector<std::unique_ptr<Camera>> cameras_;
   float strip_;
   bool has_lens_ = false;

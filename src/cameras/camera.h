@@ -16,6 +16,11 @@ struct CameraSample {
   float importance = 0;  ///< see Camera::importance()
 };
 
+/// The rays through the film positions one pixel to the right and one below.
+struct NextRays {
+  Ray right, below;
+};
+
 /// A sensor in front of the scene. Film positions are in pixels of the full image, from the top
 /// left.
 class Camera {
@@ -26,6 +31,12 @@ class Camera {
   /// It starts on the near and ends on the far clipping plane; its direction has unit length. Every
   /// ray carries the same weight, ray_weight().
   virtual Ray sample_ray(const Point2f& film, const Point2f& lens) const = 0;
+
+  /// The neighbours of sample_ray()'s ray, through the same point of the lens. Empty if the film
+  /// shows no picture.
+  virtual std::optional<NextRays> next_rays(const Point2f& film, const Point2f& lens) const {
+    return NextRays{sample_ray({film.x + 1, film.y}, lens), sample_ray({film.x, film.y + 1}, lens)};
+  }
 
   /// The density per unit area across `ray`, at the distance `t` from its start, with which film
   /// positions of density 1 per pixel area make rays through one point of the lens arrive there.

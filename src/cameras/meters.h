@@ -13,6 +13,9 @@ class Meter : public Camera {
  public:
   bool connectible() const final { return false; }
   float importance(const Ray&, float) const final { return 0; }
+  std::optional<NextRays> next_rays(const Point2f&, const Point2f&) const final {
+    return std::nullopt;
+  }
   std::optional<CameraSample> sample_lens(const Point3f&, const Point2f&) const final {
     return std::nullopt;
   }

@@ -109,6 +109,10 @@ Bounds analytic_bounds(const Shape& shape, uint32_t part) {
   return placed_box(shape, lower, upper);
 }
 
+bool faces_inwards(const Shape& s) {
+  return s.flip_normals != (s.kind == ShapeKind::sphere && s.to_world.mirrors());
+}
+
 float area_stretch(const Shape& shape, const Normal3f& local_normal) {
   // |det M| |M^-T n|, the general law for how an affine map stretches oriented areas.
   const auto& r = shape.to_world.rows();
@@ -144,12 +148,6 @@ void unit_point(ShapeKind kind, const Point2f& u, Point3f& p, Normal3f& n) {
       p = {n.x, n.y, u.y};
     }
   }
-}
-
-/// True if the surface faces the other way than the transformed normal of the unit shape. A sphere
-/// mirrored by its transform is inside out, the other shapes are not; so it is in Mitsuba.
-bool faces_inwards(const Shape& s) {
-  return s.flip_normals != (s.kind == ShapeKind::sphere && s.to_world.mirrors());
 }
 
 Normal3f world_normal(const Shape& shape, const Normal3f& local) {

@@ -53,6 +53,20 @@ void around(const Vector3f& axis, Vector3f& up, Vector3f& side) {
   side = cross(up, axis);
 }
 
+/// The derivative of the surface point by the segment's parameter, at the same angle from `side`:
+/// the centre moves on, the radius grows, a bend turns the cross-section, and `side` turns around
+/// the axis, because it stays across z.
+Vector3f along_v(const CurveCenter& c, const Vector3f& axis, const Vector3f& side,
+                 const Vector3f& outwards, const Vector3f& sideways) {
+  const float speed = length(c.first);
+  if (!(speed > 0)) return outwards * c.radius_slope;
+  const float bend = dot(outwards, c.second) / speed;
+  const float across_z = 1 - axis.z * axis.z;
+  const float twist =
+      across_z > 1e-12f ? axis.z * dot(side, c.second) / (speed * std::sqrt(across_z)) : 0.0f;
+  return c.first + outwards * c.radius_slope + (sideways * twist - axis * bend) * c.radius;
+}
+
 }  // namespace
 
 Surface make_curve_surface(const Shape& shape, const Ray& ray, const Hit& hit) {
@@ -102,8 +116,9 @@ Surface make_curve_surface(const Shape& shape, const Ray& ray, const Hit& hit) {
     s.dp_du = s.shading.s, s.dp_dv = s.shading.t;
     return s;
   }
-  s.dp_du = cross(axis, outwards) * (2 * kPi * c.radius);
-  s.dp_dv = (c.first + outwards * c.radius_slope) * float(curves.segments.size());
+  const Vector3f sideways = cross(axis, outwards);
+  s.dp_du = sideways * (2 * kPi * c.radius);
+  s.dp_dv = along_v(c, axis, side, outwards, sideways) * float(curves.segments.size());
   s.shading = Frame::from_tangent(n, s.dp_du);
   return s;
 }

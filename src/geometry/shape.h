@@ -122,6 +122,9 @@ ShapePoint point_on_triangle(const Shape& shape, uint32_t primitive, const Point
 ShapePoint sample_triangle(const Shape& shape, uint32_t primitive, const Point2f& u);
 /// A point of an analytic shape; `pdf` is exact also where a stretched shape makes it uneven.
 ShapePoint sample_analytic(const Shape& shape, const Point2f& u);
+/// Whether an analytic surface faces the other way than the transformed normal of the unit shape. A
+/// sphere mirrored by its transform is inside out, the other shapes are not; so it is in Mitsuba.
+bool faces_inwards(const Shape& shape);
 /// Texture coordinates of a point of the unit shape.
 Point2f analytic_uv(ShapeKind kind, const Point3f& local);
 /// The density with which sample_analytic makes the point whose normal in the shape's own space is

@@ -22,6 +22,7 @@ CameraIntegrator::CameraIntegrator(const CameraOutput& output) : image_(output.i
     layers_.push_back({layer.kind, channels_.size()});
     for (std::string& name : layer_channels(layer)) channels_.push_back(std::move(name));
     looks_at_first_hit_ |= !is_statistic(layer.kind);
+    looks_at_next_rays_ |= layer_needs_next_rays(layer.kind);
   }
 }
 
@@ -67,7 +68,7 @@ void CameraIntegrator::sample(const Scene& scene, const CameraPath& path, Sample
     if (is_moment(layer.kind))
       out[0] = l.r * l.r, out[1] = l.g * l.g, out[2] = l.b * l.b;
     else if (found)
-      evaluate_layer(layer.kind, scene, surface, -ray.direction, hit, out);
+      evaluate_layer(layer.kind, scene, surface, -ray.direction, hit, path.next, out);
   }
 }
 
@@ -79,10 +80,15 @@ void CameraIntegrator::render_pass(const Scene& scene, Film& film, const SampleR
       const TileSamples& s = samples.tiles[size_t(&tile - film.tiles().data())];
       own.first = s.first, own.count = s.count;
     }
-    if (own.count > 0) render_tile(scene, film, tile, own, c);
+    if (own.count == 0) return;
+    if (looks_at_next_rays_)
+      render_tile<true>(scene, film, tile, own, c);
+    else
+      render_tile<false>(scene, film, tile, own, c);
   });
 }
 
+template <bool kWithNextRays>
 void CameraIntegrator::render_tile(const Scene& scene, const Film& film, FilmTile& tile,
                                    const SampleRange& range, RenderCounters& counters) const {
   const Camera& camera = *scene.camera;
@@ -90,6 +96,7 @@ void CameraIntegrator::render_tile(const Scene& scene, const Film& film, FilmTil
   const float weight = camera.ray_weight();
   const bool unit_box = film.filter().is_unit_box();
   std::vector<float> values(channels_.size()), sums(channels_.size());
+  [[maybe_unused]] std::optional<NextRays> next;
   const PixelBounds& b = tile.sampled();
   tile.count_samples(range.count);
   for (int y = b.y0; y < b.y1; ++y)
@@ -107,7 +114,9 @@ void CameraIntegrator::render_tile(const Scene& scene, const Film& film, FilmTil
           lens = sampler.next_2d();
         }
         std::fill(values.begin(), values.end(), 0.0f);
-        const CameraPath path{camera.sample_ray(position, lens), pixel, range.first + i, weight};
+        CameraPath path{camera.sample_ray(position, lens), pixel, range.first + i, weight};
+        if constexpr (kWithNextRays)
+          if ((next = camera.next_rays(position, lens))) path.next = &*next;
         sample(scene, path, sampler, counters, values);
         float zero = 0;
         for (const float v : values) zero += 0 * v;

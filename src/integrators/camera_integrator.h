@@ -34,6 +34,8 @@ struct CameraPath {
   uint64_t pixel;    ///< y · width + x of the full image
   uint32_t sample;   ///< its number in the pixel
   float weight = 1;  ///< of the ray, by which the colours are multiplied
+  /// Those beside it, if a layer needs them and the camera has any.
+  const NextRays* next = nullptr;
 };
 
 /// A method that estimates the radiance along one camera ray at a time.
@@ -61,6 +63,8 @@ class CameraIntegrator : public Integrator {
   void gather_moments(Film& film) const;
 
  private:
+  /// In two forms, so that neighbours cost nothing where no layer looks at them.
+  template <bool kWithNextRays>
   void render_tile(const Scene& scene, const Film& film, FilmTile& tile, const SampleRange& samples,
                    RenderCounters& counters) const;
   void sample(const Scene& scene, const CameraPath& path, Sampler& sampler,
@@ -74,7 +78,7 @@ class CameraIntegrator : public Integrator {
   std::vector<PlacedLayer> layers_;
   std::vector<std::string> channels_;
   std::vector<size_t> colour_layers_;  ///< where those of add_colour_layer() begin
-  bool looks_at_first_hit_ = false;
+  bool looks_at_first_hit_ = false, looks_at_next_rays_ = false;
 };
 
 }  // namespace duet

@@ -7,7 +7,7 @@ namespace duet {
 
 namespace {
 
-const std::array<std::pair<const char*, LayerKind>, 15> kNames{{
+const std::array<std::pair<const char*, LayerKind>, 17> kNames{{
     {"albedo", LayerKind::albedo},
     {"depth", LayerKind::depth},
     {"position", LayerKind::position},
@@ -17,6 +17,8 @@ const std::array<std::pair<const char*, LayerKind>, 15> kNames{{
     {"geo_normal", LayerKind::geo_normal},
     {"dp_du", LayerKind::dp_du},
     {"dp_dv", LayerKind::dp_dv},
+    {"duv_dx", LayerKind::duv_dx},
+    {"duv_dy", LayerKind::duv_dy},
     {"prim_index", LayerKind::prim_index},
     {"shape", LayerKind::shape_index},
     {"shape_index", LayerKind::shape_index},
@@ -34,6 +36,8 @@ std::vector<const char*> suffixes(LayerKind kind) {
     case LayerKind::depth:
       return {"T"};
     case LayerKind::uv:
+    case LayerKind::duv_dx:
+    case LayerKind::duv_dy:
       return {"U", "V"};
     case LayerKind::prim_index:
     case LayerKind::shape_index:
@@ -47,6 +51,28 @@ std::vector<const char*> suffixes(LayerKind kind) {
 template <class Triple>
 void put(const Triple& t, std::span<float> out) {
   out[0] = t.x, out[1] = t.y, out[2] = t.z;
+}
+
+/// Mitsuba knows no derivatives on linear curves and grids of distances. A surface has some even
+/// there, for materials that cannot do without.
+bool has_derivatives(const Shape& s) {
+  return s.kind == ShapeKind::curves ? s.curves->kind != CurveKind::linear
+                                     : s.kind != ShapeKind::sdf_grid;
+}
+
+/// The change of uv between the surface's point and the one of its tangent plane where `next` meets
+/// it: what dp_du and dp_dv make up best of the step from one to the other, by least squares. Zero
+/// if there is no such point, or no coordinates. Source: Igehy, "Tracing Ray Differentials", 1999.
+Point2f uv_change(const Surface& s, const Ray& next) {
+  const float distance = dot(s.ng, s.position - next.origin) / dot(s.ng, next.direction);
+  const Vector3f step = next.origin + next.direction * distance - s.position;
+  const float uu = length_squared(s.dp_du), vv = length_squared(s.dp_dv),
+              uv = dot(s.dp_du, s.dp_dv);
+  const float determinant = uu * vv - uv * uv;
+  const float along_u = dot(s.dp_du, step), along_v = dot(s.dp_dv, step);
+  const Point2f change{(vv * along_u - uv * along_v) / determinant,
+                       (uu * along_v - uv * along_u) / determinant};
+  return std::isfinite(change.x) && std::isfinite(change.y) ? change : Point2f{0, 0};
 }
 
 }  // namespace
@@ -73,12 +99,17 @@ std::vector<std::string> layer_channels(const Layer& layer) {
 }
 
 SurfaceNeeds layer_needs(LayerKind kind) {
-  const bool tangents = kind == LayerKind::dp_du || kind == LayerKind::dp_dv;
+  const bool tangents =
+      kind == LayerKind::dp_du || kind == LayerKind::dp_dv || layer_needs_next_rays(kind);
   return {kind == LayerKind::uv, tangents};
 }
 
+bool layer_needs_next_rays(LayerKind kind) {
+  return kind == LayerKind::duv_dx || kind == LayerKind::duv_dy;
+}
+
 void evaluate_layer(LayerKind kind, const Scene& scene, const Surface& s, const Vector3f& wo,
-                    const Hit& hit, std::span<float> out) {
+                    const Hit& hit, const NextRays* next, std::span<float> out) {
   switch (kind) {
     case LayerKind::albedo: {
       const Spectrum a = scene.materials[s.shape->material]->albedo(s, wo);
@@ -101,10 +132,15 @@ void evaluate_layer(LayerKind kind, const Scene& scene, const Surface& s, const 
       put(s.ng, out);
       break;
     case LayerKind::dp_du:
-      put(s.dp_du, out);
-      break;
     case LayerKind::dp_dv:
-      put(s.dp_dv, out);
+      if (has_derivatives(*s.shape)) put(kind == LayerKind::dp_du ? s.dp_du : s.dp_dv, out);
+      break;
+    case LayerKind::duv_dx:
+    case LayerKind::duv_dy:
+      if (next && has_derivatives(*s.shape)) {
+        const Point2f c = uv_change(s, kind == LayerKind::duv_dx ? next->right : next->below);
+        out[0] = c.x, out[1] = c.y;
+      }
       break;
     case LayerKind::prim_index:
       out[0] = float(hit.primitive);

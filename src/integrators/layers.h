@@ -19,6 +19,8 @@ enum class LayerKind {
   geo_normal,
   dp_du,
   dp_dv,
+  duv_dx,  ///< change of uv from one pixel to the next on the right
+  duv_dy,  ///< the same to the one below
   prim_index,
   shape_index,
   moments,   ///< mean of the squares of the samples' colours
@@ -41,9 +43,13 @@ std::vector<std::string> layer_channels(const Layer& layer);
 /// What a layer asks of surfaces.
 SurfaceNeeds layer_needs(LayerKind kind);
 
+/// Whether a layer looks at where the neighbouring pixels' rays go.
+bool layer_needs_next_rays(LayerKind kind);
+
 /// Writes the layer's value at a hit seen from the unit direction `wo`; nothing for statistics. A
-/// miss leaves zeros.
+/// miss leaves zeros. `next` are the rays beside the one that hit, or null if there are none or
+/// the layer does not need them.
 void evaluate_layer(LayerKind kind, const Scene& scene, const Surface& surface, const Vector3f& wo,
-                    const Hit& hit, std::span<float> out);
+                    const Hit& hit, const NextRays* next, std::span<float> out);
 
 }  // namespace duet

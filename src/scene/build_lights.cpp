@@ -39,7 +39,10 @@ void SceneBuilder::lights() {
   }
   for (const LightDescription& d : description_.lights) {
     if (!check_transform(d.to_world, d.where)) continue;
+    shape_textures_.clear();
     auto light = std::visit([&](const auto& l) { return make(l, d); }, d.model);
+    if (!shape_textures_.empty())
+      diagnostics_.error(d.where, "this light has no shape, which a texture of it reads");
     if (!light) continue;
     if (light->kind() == LightKind::environment) {
       scene.environment = static_cast<const EnvironmentLight*>(light.get());

@@ -32,13 +32,12 @@ bool has_finite_points(const CurveSet& curves) {
 }
 
 /// Leaves out what neither the materials and lights nor the layers of the image read.
-void strip(TriangleMesh& mesh, const SurfaceNeeds& needs,
-           const std::set<MeshAttributeMap*>& attributes) {
+void strip(TriangleMesh& mesh, const SurfaceNeeds& needs, const std::set<ShapeTexture*>& textures) {
   if (!needs.uv && !needs.tangents) mesh.uvs = {};
   if (!mesh.normals.empty()) drop_flat_normals(mesh);
   std::erase_if(mesh.attributes, [&](const MeshAttribute& a) {
-    for (const MeshAttributeMap* used : attributes)
-      if (used->attribute() == a.name) return false;
+    for (const ShapeTexture* t : textures)
+      if (t->reads_attribute(a.name)) return false;
     return true;
   });
 }
@@ -116,7 +115,7 @@ Shape SceneBuilder::geometry(ShapeDescription& d, const SurfaceNeeds& needs) {
     auto mesh = world_mesh(d);
     if (!has_finite_positions(*mesh))
       diagnostics_.error(d.where, "the transform moves vertices beyond the range of numbers");
-    strip(*mesh, shape.needs, attributes_);
+    strip(*mesh, shape.needs, shape_textures_);
     shape.mesh = std::move(mesh);
   }
   if (!shape.mesh && !shape.curves) {
@@ -128,7 +127,7 @@ Shape SceneBuilder::geometry(ShapeDescription& d, const SurfaceNeeds& needs) {
 
 void SceneBuilder::add_shape(ShapeDescription& d) {
   if (!check_transform(d.to_world, d.where)) return;
-  AttributeSet outer = std::exchange(attributes_, {});
+  ShapeTextureSet outer = std::exchange(shape_textures_, {});
   const Material* made = material(d.material);
   SurfaceNeeds needs = options_.layer_needs;
   if (made) needs = needs | made->needs();
@@ -142,16 +141,17 @@ void SceneBuilder::add_shape(ShapeDescription& d) {
   shape.material = materials_[size_t(d.material)].index;
   shape.interior = medium(d.interior);
   shape.exterior = medium(d.exterior);
-  announce(shape.mesh.get(), d.where);
-  attributes_ = std::move(outer);
+  announce(shape, d);
+  shape_textures_ = std::move(outer);
   scene_->shapes.push_back(std::move(shape));
 }
 
-void SceneBuilder::announce(const TriangleMesh* mesh, const SourceLocation& where) {
-  for (MeshAttributeMap* a : attributes_)
-    if (!mesh || !a->add_mesh(*mesh))
-      diagnostics_.error(where, "this shape has no attribute \"{}\", which a texture on it reads",
-                         a->attribute());
+void SceneBuilder::announce(const Shape& shape, const ShapeDescription& d) {
+  // In Mitsuba 0.x a rectangle has no triangles.
+  const bool is_mesh = shape.mesh && !std::holds_alternative<RectangleShape>(d.geometry);
+  for (ShapeTexture* t : shape_textures_)
+    if (const std::string lack = t->add_shape(shape, is_mesh); !lack.empty())
+      diagnostics_.error(d.where, "this shape has no {}, which a texture on it reads", lack);
 }
 
 }  // namespace duet

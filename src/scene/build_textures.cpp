@@ -2,7 +2,10 @@
 #include "media/volume_texture.h"
 #include "scene/builder.h"
 #include "textures/checkerboard.h"
+#include "textures/curvature_texture.h"
 #include "textures/grid_texture.h"
+#include "textures/mesh_attribute.h"
+#include "textures/wireframe.h"
 
 namespace duet {
 
@@ -40,13 +43,27 @@ std::unique_ptr<Texture> SceneBuilder::make(const CheckerboardTexture& t, const 
 
 std::unique_ptr<Texture> SceneBuilder::make(const MeshAttributeTexture& t, const SourceLocation&) {
   auto made = std::make_unique<MeshAttributeMap>(t.attribute, float(t.scale));
-  attributes_.insert(made.get());
+  shape_textures_.insert(made.get());
   return made;
 }
 
 std::unique_ptr<Texture> SceneBuilder::make(const GridLinesTexture& t, const SourceLocation&) {
   return std::make_unique<GridTexture>(slot(t.color0), slot(t.color1), float(t.line_width),
                                        t.to_uv);
+}
+
+std::unique_ptr<Texture> SceneBuilder::make(const WireframeTexture& t, const SourceLocation&) {
+  WireframeOptions o{t.interior, t.edge, std::nullopt, float(t.step_width)};
+  if (t.line_width) o.line_width = float(*t.line_width);
+  auto made = std::make_unique<Wireframe>(o);
+  shape_textures_.insert(made.get());
+  return made;
+}
+
+std::unique_ptr<Texture> SceneBuilder::make(const CurvatureTexture& t, const SourceLocation&) {
+  auto made = std::make_unique<CurvatureMap>(t.shown, float(t.scale));
+  shape_textures_.insert(made.get());
+  return made;
 }
 
 std::unique_ptr<Texture> SceneBuilder::make(const ScaledTextureDescription& t,

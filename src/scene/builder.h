@@ -10,7 +10,7 @@
 #include "media/phase_functions.h"
 #include "scene/build.h"
 #include "textures/bitmap.h"
-#include "textures/mesh_attribute.h"
+#include "textures/shape_texture.h"
 
 namespace duet {
 
@@ -26,15 +26,15 @@ class SceneBuilder {
   std::unique_ptr<Scene> build();
 
  private:
-  using AttributeSet = std::set<MeshAttributeMap*>;
+  using ShapeTextureSet = std::set<ShapeTexture*>;
   /// A texture or material once it has been asked for.
   template <class T>
   struct Made {
     bool done = false;
     const T* thing = nullptr;  ///< null after an error
     uint32_t index = kNone;    ///< in the scene
-    /// Textures within it that must be told on which meshes they are used.
-    AttributeSet attributes;
+    /// Textures within it that must be told on which shapes they are used.
+    ShapeTextureSet shape_textures;
   };
   template <class T, class Make>
   const T* once(Made<T>& made, const Make& make);
@@ -47,6 +47,8 @@ class SceneBuilder {
   std::unique_ptr<Texture> make(const CheckerboardTexture& t, const SourceLocation& where);
   std::unique_ptr<Texture> make(const MeshAttributeTexture& t, const SourceLocation& where);
   std::unique_ptr<Texture> make(const GridLinesTexture& t, const SourceLocation& where);
+  std::unique_ptr<Texture> make(const WireframeTexture& t, const SourceLocation& where);
+  std::unique_ptr<Texture> make(const CurvatureTexture& t, const SourceLocation& where);
   std::unique_ptr<Texture> make(const ScaledTextureDescription& t, const SourceLocation& where);
   std::unique_ptr<Texture> make(const VolumeTextureDescription& t, const SourceLocation& where);
   std::shared_ptr<const BitmapPixels> pixels(const std::string& file,
@@ -108,7 +110,8 @@ class SceneBuilder {
   Shape geometry(ShapeDescription& d, const SurfaceNeeds& needs);
   void add_instance(const ShapeDescription& d, uint32_t group);
   std::shared_ptr<TriangleMesh> world_mesh(ShapeDescription& d);
-  void announce(const TriangleMesh* mesh, const SourceLocation& where);
+  /// Tells the textures on a shape about it.
+  void announce(const Shape& shape, const ShapeDescription& d);
 
   // build_lights.cpp
   void lights();
@@ -143,7 +146,7 @@ class SceneBuilder {
   std::vector<Made<PhaseFunction>> phases_;
   std::vector<Made<Medium>> media_;
   /// Of what is being made.
-  AttributeSet attributes_;
+  ShapeTextureSet shape_textures_;
   /// Images by file and by how they are decoded; null after an error.
   std::map<std::tuple<std::string, bool, double, TextureChannel>,
            std::shared_ptr<const BitmapPixels>>
@@ -165,11 +168,11 @@ template <class T, class Make>
 const T* SceneBuilder::once(Made<T>& made, const Make& make) {
   if (!made.done) {
     made.done = true;
-    AttributeSet outer = std::exchange(attributes_, {});
+    ShapeTextureSet outer = std::exchange(shape_textures_, {});
     made.thing = make();
-    made.attributes = std::exchange(attributes_, std::move(outer));
+    made.shape_textures = std::exchange(shape_textures_, std::move(outer));
   }
-  attributes_.insert(made.attributes.begin(), made.attributes.end());
+  shape_textures_.insert(made.shape_textures.begin(), made.shape_textures.end());
   return made.thing;
 }
 

@@ -25,6 +25,7 @@
 #include "math/transform.h"
 #include "media/volume_grid.h"
 #include "textures/bitmap_options.h"
+#include "textures/curvature_kind.h"
 
 namespace duet {
 
@@ -83,6 +84,21 @@ struct GridLinesTexture {
   UvTransform to_uv;
   bool operator==(const GridLinesTexture&) const = default;
 };
+/// The edges of triangles.
+struct WireframeTexture {
+  Spectrum interior{0.5f}, edge{0.1f};
+  /// As far from an edge as it reaches; without: a tenth of a mesh's mean edge length.
+  std::optional<double> line_width;
+  /// The share of the line width, at its end, over which the colours change.
+  double step_width = 0.5;
+  bool operator==(const WireframeTexture&) const = default;
+};
+/// Curvature times a scale: positive red, negative blue.
+struct CurvatureTexture {
+  CurvatureKind shown = CurvatureKind::gaussian;
+  double scale = 1;
+  bool operator==(const CurvatureTexture&) const = default;
+};
 /// Another texture times a colour.
 struct ScaledTextureDescription {
   TextureId inner{};
@@ -99,7 +115,8 @@ struct TextureDescription {
   SourceLocation where;
   Label label;
   std::variant<BitmapTexture, CheckerboardTexture, MeshAttributeTexture, GridLinesTexture,
-               ScaledTextureDescription, VolumeTextureDescription>
+               WireframeTexture, CurvatureTexture, ScaledTextureDescription,
+               VolumeTextureDescription>
       model;
   bool operator==(const TextureDescription&) const = default;
 };

@@ -2,21 +2,19 @@
 #pragma once
 
 #include <string>
-#include <vector>
 
-#include "textures/texture.h"
+#include "textures/shape_texture.h"
 
 namespace duet {
 
 /// An attribute of the mesh that is hit, times a scale: interpolated between vertices, or constant
-/// on each face. Every mesh on which the texture is used must be announced first.
-class MeshAttributeMap final : public Texture {
+/// on each face.
+class MeshAttributeMap final : public ShapeTexture {
  public:
   MeshAttributeMap(std::string attribute, float scale);
 
-  /// Announces a mesh; false if it has no such attribute. The mesh must stay where it is.
-  bool add_mesh(const TriangleMesh& mesh);
-  const std::string& attribute() const { return attribute_; }
+  std::string add_shape(const Shape& shape, bool is_mesh) override;
+  bool reads_attribute(const std::string& name) const override { return name == attribute_; }
 
   Spectrum color(const Surface& s) const override;
   float value(const Surface& s) const override;
@@ -27,18 +25,14 @@ class MeshAttributeMap final : public Texture {
   bool needs_uv() const override { return false; }
 
  private:
-  struct Entry {
-    const TriangleMesh* mesh;
-    const MeshAttribute* data;
-  };
-  const Entry& find(const Surface& s) const;
-  Spectrum color(const Entry& e, const Surface& s) const;
+  const MeshAttribute& find(const Surface& s) const { return **data_.find(s.shape->mesh.get()); }
+  Spectrum color(const MeshAttribute& data, const Surface& s) const;
   /// The value at a vertex or on a face.
   Spectrum element(const MeshAttribute& data, uint32_t index) const;
 
   std::string attribute_;
   float scale_;
-  std::vector<Entry> entries_;  ///< ordered by mesh
+  PerMesh<const MeshAttribute*> data_;
 };
 
 }  // namespace duet

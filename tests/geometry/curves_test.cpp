@@ -158,6 +158,41 @@ TEST_SUITE("curves") {
     }
   }
 
+  TEST_CASE("a step along a B-spline's derivatives changes the texture coordinates by as much") {
+    const Tubes tubes(two_curves(CurveKind::bspline));
+    int found = 0;
+    for (int i = 0; i < 400; ++i) {
+      const float x = -0.2f + 0.007f * float(i % 100), angle = 1.5f * float(i);
+      const Vector3f d(0.2f, std::cos(angle), std::sin(angle));
+      Surface s;
+      float t = 0;
+      if (!tubes.hit({Point3f(x, 0, 0.05f) - d * 5, normalize(d), INFINITY}, s, t)) continue;
+      if (s.uv.x < 0.05f || s.uv.x > 0.95f) continue;
+      const auto slope = [&](const Vector3f& derivative, float step, Point2f& out) {
+        Point2f at[2];
+        for (const int k : {0, 1}) {
+          Surface moved;
+          const Point3f p = s.position + derivative * (k ? step : -step);
+          const Vector3f n(s.ng);
+          if (!tubes.hit({p + n * 0.05f, -n, INFINITY}, moved, t)) return false;
+          if (moved.primitive != s.primitive) return false;
+          at[k] = moved.uv;
+        }
+        out = (at[1] - at[0]) * (0.5f / step);
+        return true;
+      };
+      Point2f u, v;
+      if (!slope(s.dp_du, 0.01f, u) || !slope(s.dp_dv, 0.003f, v)) continue;
+      INFO(s.uv.x << " " << s.uv.y);
+      CHECK(std::abs(u.x - 1) < 0.02f);
+      CHECK(std::abs(u.y) < 0.02f);
+      CHECK(std::abs(v.x) < 0.02f);
+      CHECK(std::abs(v.y - 1) < 0.02f);
+      ++found;
+    }
+    CHECK(found > 50);
+  }
+
   TEST_CASE("segments join smoothly") {
     const CurveSet c = two_curves(CurveKind::bspline);
     const CurveCenter a = curve_center(c, 0, 1), b = curve_center(c, 1, 0);

@@ -104,6 +104,36 @@ TEST_CASE("homogeneous media of 0.x: pairs of coefficients, materials, three-val
   fails("<spectrum name='sigmaA' value='-1'/>", "negative component");
 }
 
+TEST_CASE("a monochromatic medium of 0.x has one channel's coefficients in all") {
+  const std::string coefficients =
+                        "<rgb name='sigmaS' value='1 2 3'/><rgb name='sigmaA' value='5 1 2'/>",
+                    single = "<string name='strategy' value='single'/>",
+                    grey = "<boolean name='monochromatic' value='true'/>";
+  const auto read_as = [&](const std::string& version, const std::string& more) {
+    return homogeneous(version, coefficients + more);
+  };
+  for (const char* version : {"0.6.0", "3.0.0"}) {
+    // The channel of the least extinction, or the one named.
+    const MediumDescription least = read_as(version, single + grey);
+    check_color(least.sigma_t, 3, 3, 3);
+    check_color(least.albedo, 2 / 3.0, 2 / 3.0, 2 / 3.0);
+    check_color(read_as(version, single + grey + "<integer name='channel' value='2'/>").sigma_t, 5,
+                5, 5);
+  }
+  // As in Mitsuba, other strategies know nothing of it.
+  for (const std::string& other : {grey, grey + "<string name='strategy' value='maximum'/>", single,
+                                   single + "<boolean name='monochromatic' value='false'/>"})
+    check_color(read_as("0.6.0", other).sigma_t, 6, 3, 5);
+  const MediumDescription preset = homogeneous("0.6.0", single + grey);
+  check_color(preset.sigma_t, 77.2, 77.2, 77.2);
+  const auto fails = [](const std::string& content, const std::string& message) {
+    const ReadResult r = read("0.6.0", "<medium type='homogeneous'>" + content + "</medium>");
+    CHECK_MESSAGE(r.has(message), r.messages());
+  };
+  fails("<integer name='channel' value='3'/>", "a colour channel is 0, 1 or 2, not 3");
+  fails("<string name='strategy' value='singel'/>", "did you mean \"single\"");
+}
+
 TEST_CASE("grids: where they lie and what they are called in both Mitsubas") {
   const SceneDescription old = scene_of(
       "0.6.0", "heterogeneous",

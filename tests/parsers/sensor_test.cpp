@@ -255,8 +255,8 @@ TEST_CASE("integrators") {
             "(did you mean \"depth\"?)"));
   CHECK(bad("<integrator type='aov'><string name='aovs' value='depth'/></integrator>",
             "form name:kind"));
-  CHECK(bad("<integrator type='aov'><string name='aovs' value='d:duv_dx'/></integrator>",
-            "planned and not there yet"));
+  CHECK(bad("<integrator type='aov'><string name='aovs' value='d:duv_dz'/></integrator>",
+            "(did you mean \"duv_dx\"?)"));
   CHECK(bad("<integrator type='aov'><string name='aovs' value='d:depth, d:uv'/></integrator>",
             "two layers are called \"d\""));
   CHECK(bad("<integrator type='aov'><string name='aovs' value=' '/></integrator>",

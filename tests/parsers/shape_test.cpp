@@ -2,6 +2,7 @@
 // of 3.9.1.
 #include <doctest/doctest.h>
 
+#include "mitsuba/writer.h"
 #include "parsers/plugin_checks.h"
 
 using namespace duet;
@@ -65,6 +66,57 @@ TEST_CASE("texture: checkerboard, mesh attributes, scale") {
   CHECK(scaled.scale == Spectrum(0.5f, 1, 2));
   CHECK(fails("0.6.0", "<texture type='scale'><float name='scale' value='2'/></texture>",
               "needs a texture"));
+}
+
+TEST_CASE("texture: wireframe and curvature of 0.6") {
+  WireframeTexture wireframe;
+  CHECK(texture<WireframeTexture>("0.6.0", "wireframe") == wireframe);
+  CHECK(texture<WireframeTexture>("0.6.0", "wireframe", "<float name='lineWidth' value='0'/>") ==
+        wireframe);
+  wireframe = {Spectrum(1, 0, 0), Spectrum(0, 0, 1), 0.25, 1};
+  const std::string colours =
+      "<rgb name='interiorColor' value='1 0 0'/><rgb name='edgeColor' value='0 0 1'/><float "
+      "name='lineWidth' value='0.25'/>";
+  const auto lines = texture<WireframeTexture>("0.6.0", "wireframe",
+                                               colours + "<float name='stepWidth' value='7'/>");
+  CHECK(lines == wireframe);
+  CHECK(fails("0.6.0", "<texture type='wireframe'>\n<float name='lineWidth' value='-1'/></texture>",
+              "scene.xml:3:25: error: the parameter \"lineWidth\" of <texture type=\"wireframe\"> "
+              "must be at least 0"));
+  CHECK(fails("0.6.0",
+              "<texture type='wireframe'><texture name='edgeColor' type='wireframe'/></texture>",
+              "cannot be a texture"));
+
+  const std::string scale = "<float name='scale' value='2'/>";
+  CHECK(texture<CurvatureTexture>("0.6.0", "curvature", scale) ==
+        CurvatureTexture{CurvatureKind::gaussian, 2});
+  CHECK(texture<CurvatureTexture>("0.6.0", "curvature",
+                                  scale + "<string name='curvature' value='mean'/>") ==
+        CurvatureTexture{CurvatureKind::mean, 2});
+  CHECK(fails("0.6.0", "<texture type='curvature'/>", "needs the parameter \"scale\""));
+  CHECK(fails(
+      "0.6.0",
+      "<texture type='curvature'>" + scale + "<string name='curvature' value='men'/></texture>",
+      "(did you mean \"mean\"?); it is one of gaussian, mean"));
+}
+
+TEST_CASE("texture: wireframe and curvature are written, with the remark that Mitsuba 3 has none") {
+  for (const char* content : {"wireframe'><float name='lineWidth' value='0.5'/><rgb "
+                              "name='edgeColor' value='0.5 0.25 1'/>",
+                              "wireframe'>",
+                              "curvature'><float name='scale' value='2'/><string name='curvature' "
+                              "value='mean'/>"}) {
+    const SceneDescription d =
+        good("0.6.0", std::string("<shape type='sphere'><bsdf type='diffuse'><texture "
+                                  "name='reflectance' type='") +
+                          content + "</texture></bsdf></shape>");
+    const MitsubaXml xml = write_mitsuba_xml(d);
+    REQUIRE(xml.losses.size() == 1);
+    CHECK(xml.losses[0].find("does not exist in Mitsuba 3") != std::string::npos);
+    const ReadResult again = read_text(xml.text);
+    REQUIRE_MESSAGE(again.scene, again.messages());
+    CHECK(again.description().textures == d.textures);
+  }
 }
 
 TEST_CASE("shape: places and orientation") {

@@ -25,10 +25,10 @@ TEST_CASE("every plugin that is supported has a reader, and only those") {
       CAPTURE(p.name);
       if (PluginKind(k) == PluginKind::scene) continue;
       const bool has_reader = !std::holds_alternative<std::monostate>(p.reader);
-      const bool supported = p.support != Support::planned && p.support != Support::refused;
+      const bool supported = p.support != Support::refused;
       CHECK(has_reader == supported);
       CHECK((supported || p.parameters.empty()));
-      CHECK((!supported || p.planned_parameters.empty()));
+      CHECK((!supported || p.refused_parameters.empty()));
       // Who is refused wants to know why.
       CHECK((p.support != Support::refused || !p.note.empty()));
     }

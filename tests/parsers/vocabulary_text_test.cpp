@@ -43,7 +43,7 @@ TEST_CASE("every plugin and every parameter is listed with its status") {
                                           support_name(p.support))));
       for (const Parameter& q : p.parameters)
         CHECK(contains(section, fmt::format("| `{}` | {} |", q.name, type_name(q.type))));
-      for (const std::string_view q : split_list(p.planned_parameters))
+      for (const std::string_view q : split_list(p.refused_parameters))
         CHECK(contains(section, fmt::format("`{}`", q)));
     }
     for (const Parameter& q : common_parameters(PluginKind(k)))
@@ -51,11 +51,11 @@ TEST_CASE("every plugin and every parameter is listed with its status") {
   }
 }
 
-TEST_CASE("names of planned parameters are snake_case and unique") {
+TEST_CASE("names of refused parameters are snake_case and unique") {
   for (int k = 0; k < kPluginKinds; ++k)
     for (const Plugin& p : plugins(PluginKind(k))) {
       std::set<std::string_view> seen;
-      for (const std::string_view name : split_list(p.planned_parameters)) {
+      for (const std::string_view name : split_list(p.refused_parameters)) {
         CAPTURE(name);
         CHECK(seen.insert(name).second);
         CHECK((name.size() == 1 || snake_case(name) == name));

@@ -48,6 +48,7 @@ struct TransportScene {
     integrator = d.integrator;
     BuildOptions build;
     build.threads = 2;
+    build.layer_needs = integrator_needs(d.integrator);
     Diagnostics diagnostics;
     scene = build_scene(std::move(d), build, diagnostics);
     REQUIRE(scene);

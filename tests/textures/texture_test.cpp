@@ -104,7 +104,7 @@ TEST_CASE("mesh attributes are interpolated as Mitsuba does") {
   shape.mesh = std::make_shared<TriangleMesh>(mesh);
   for (const test::Json& a : table["attributes"]) {
     MeshAttributeMap texture(a["name"], a["scale"]);
-    REQUIRE(texture.add_mesh(*shape.mesh));
+    REQUIRE(texture.add_shape(shape, true).empty());
     for (const test::Json& row : a["lookups"]) {
       INFO(a["name"].dump() << " " << row.dump());
       // The topmost triangle under the point.
@@ -145,7 +145,7 @@ TEST_CASE("mesh attributes are interpolated as Mitsuba does") {
     }
   }
   MeshAttributeMap other("vertex_nothing", 1);
-  CHECK_FALSE(other.add_mesh(*shape.mesh));
+  CHECK(other.add_shape(shape, true) == "attribute \"vertex_nothing\"");
 }
 
 TEST_CASE("the channels of a file become a texture's") {

@@ -1,0 +1,13 @@
+// Which curvature a texture shows.
+#pragma once
+
+#include <cstdint>
+
+namespace duet {
+
+enum class CurvatureKind : uint8_t {
+  mean,
+  gaussian,
+};
+
+}  // namespace duet
