@@ -63,6 +63,7 @@ void read_sdfgrid(SceneReader&, Properties&, ShapeDescription&);
 void read_cylinder(SceneReader&, Properties&, ShapeDescription&);
 void read_curves(SceneReader&, Properties&, ShapeDescription&);
 void read_hair_shape(SceneReader&, Properties&, ShapeDescription&);
+void read_heightfield(SceneReader&, Properties&, ShapeDescription&);
 void read_instance(SceneReader&, Properties&, ShapeDescription&);
 void read_merge(SceneReader&, Properties&, ShapeList&);
 void read_ellipsoids(SceneReader&, Properties&, ShapeList&);

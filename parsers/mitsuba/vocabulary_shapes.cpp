@@ -111,6 +111,14 @@ constexpr Parameter kEllipsoidsMesh[] = {kEllipsoidFile,
                                          kCenters,
                                          kScales,
                                          kQuaternions};
+constexpr Parameter kHeightField[] = {
+    {.name = "filename", .type = file, .note = "an image: its luminance is the height"},
+    {"scale", number, "1", "multiplies the heights"},
+    {"width", integer, "32", "columns of a texture that is no image, with height", size},
+    {"height", integer, "32", "rows of a texture that is no image, with width", size},
+    {"shading_normals", boolean, "true", "smooth, not those of each bilinear patch"},
+    kFlipNormals,
+};
 constexpr Parameter kHair[] = {
     {.name = "filename", .type = file, .note = "text or binary", .required = true},
     {"radius", number, "0.025", "in world space", positive},
@@ -160,11 +168,9 @@ constexpr Plugin kShapes[] = {
      "from files, without attributes and texture coordinates; cannot emit light"},
     {"ellipsoidsmesh", v3, kEllipsoidsMesh, &read_ellipsoids, "as ellipsoids", approximated},
     {"hair", v0, kHair, &read_hair_shape, "segments meet in spheres; cannot emit light"},
-    {.name = "heightfield",
-     .versions = v0,
-     .note = "height images are not made surfaces: use a mesh",
-     .support = refused,
-     .planned_parameters = "to_world filename scale width height flip_normals"},
+    {"heightfield", v0, kHeightField, &read_heightfield,
+     "a triangle mesh; may hold a texture (bitmap, checkerboard, gridtexture or scale of one) "
+     "instead of naming an image, and a reconstruction filter"},
     {"linearcurve", v3, kCurves, &read_curves, "cannot emit light"},
     {"merge", v3, {}, &read_merge, "holds shapes, which stay as they are"},
 };
