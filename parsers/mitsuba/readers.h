@@ -55,6 +55,7 @@ void read_blackbody(SceneReader&, Properties&, MeantColor&);
 
 // read_shapes.cpp
 void read_mesh(SceneReader&, Properties&, ShapeDescription&);
+void read_obj(SceneReader&, Properties&, ShapeList&);
 void read_rectangle(SceneReader&, Properties&, ShapeDescription&);
 void read_cube(SceneReader&, Properties&, ShapeDescription&);
 void read_sphere(SceneReader&, Properties&, ShapeDescription&);

@@ -26,10 +26,13 @@ constexpr Parameter kObj[] = {
     {.name = "load_materials",
      .type = boolean,
      .preset = "true",
-     .note = "the file's own materials are not used",
-     .versions = v0,
-     .support = approximated},
-    {.name = "collapse", .type = boolean, .versions = v0, .support = inert},
+     .note = "from the file's material library, unless the scene gives BSDFs",
+     .versions = v0},
+    {.name = "collapse",
+     .type = boolean,
+     .preset = "false",
+     .note = "the last material that the file uses is that of all its parts",
+     .versions = v0},
     {.name = "shape_index",
      .type = integer,
      .note = "only this part of the file",
@@ -136,7 +139,7 @@ constexpr Parameter kHair[] = {
 };
 
 constexpr Plugin kShapes[] = {
-    {"obj", both, kObj, &read_mesh},
+    {"obj", both, kObj, &read_obj},
     {"ply", both, kPly, &read_mesh},
     {"serialized", both, kSerialized, &read_mesh},
     {"rectangle", both, kFlat, &read_rectangle},

@@ -389,6 +389,8 @@ struct MeshSource {
   bool face_normals = false;
   bool flip_tex_coords = true;
   std::optional<double> max_smooth_angle;
+  /// Not the whole OBJ file: one of its parts, or those of one material.
+  bool is_part = false;
 };
 
 /// The mesh in its own space. Shapes may share one.
