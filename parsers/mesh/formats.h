@@ -6,7 +6,10 @@
 
 namespace duet {
 
-std::vector<ObjPart> parse_obj(ByteReader& in, const MeshOptions& options, bool divide);
+/// One part unless it is to be divided.
+ObjFile parse_obj(ByteReader& in, const MeshOptions& options, bool divide);
+/// The parts that the options ask for.
+ObjFile parse_obj_parts(ByteReader& in, const MeshOptions& options);
 TriangleMesh parse_ply(ByteReader& in, const MeshOptions& options);
 TriangleMesh parse_serialized(ByteReader& in, const MeshOptions& options);
 

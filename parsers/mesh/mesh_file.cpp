@@ -1,6 +1,7 @@
 #include "mesh/mesh_file.h"
 
 #include <algorithm>
+#include <map>
 #include <stdexcept>
 
 #include "mesh/formats.h"
@@ -8,20 +9,62 @@
 namespace duet {
 
 TriangleMesh read_obj(const std::string& file, const MeshOptions& options) {
-  if (options.obj_part)
-    return parse_file(file, [&](ByteReader& in) {
-      std::vector<ObjPart> parts = parse_obj(in, options, true);
-      if (size_t(*options.obj_part) >= parts.size())
-        in.fail("has {} part{}: there is none with index {}", parts.size(),
-                parts.size() == 1 ? "" : "s", *options.obj_part);
-      return std::move(parts[size_t(*options.obj_part)].mesh);
-    });
+  if (options.obj_part) return std::move(read_obj_parts(file, options).parts[0].mesh);
   return parse_file(
-      file, [&](ByteReader& in) { return std::move(parse_obj(in, options, false)[0].mesh); });
+      file, [&](ByteReader& in) { return std::move(parse_obj(in, options, false).parts[0].mesh); });
 }
 
-std::vector<ObjPart> read_obj_parts(const std::string& file, const MeshOptions& options) {
-  return parse_file(file, [&](ByteReader& in) { return parse_obj(in, options, true); });
+ObjFile read_obj_parts(const std::string& file, const MeshOptions& options) {
+  return parse_file(file, [&](ByteReader& in) { return parse_obj_parts(in, options); });
+}
+
+ObjFile parse_obj_parts(ByteReader& in, const MeshOptions& options) {
+  ObjFile result = parse_obj(in, options, !options.collapse);
+  if (!options.obj_part) return result;
+  const size_t count = result.parts.size(), index = size_t(*options.obj_part);
+  if (index >= count)
+    in.fail("has {} part{}: there is none with index {}", count, count == 1 ? "" : "s", index);
+  std::swap(result.parts[0], result.parts[index]);
+  result.parts.resize(1);
+  return result;
+}
+
+namespace {
+
+bool can_join(const ObjPart& a, const ObjPart& b) {
+  return a.material == b.material && a.mesh.normals.empty() == b.mesh.normals.empty() &&
+         a.mesh.uvs.empty() == b.mesh.uvs.empty() &&
+         a.mesh.computed_normals == b.mesh.computed_normals;
+}
+
+void append(TriangleMesh& to, const TriangleMesh& from) {
+  const uint32_t first = uint32_t(to.positions.size());
+  const auto add = [](auto& a, const auto& b) { a.insert(a.end(), b.begin(), b.end()); };
+  add(to.positions, from.positions);
+  add(to.normals, from.normals);
+  add(to.uvs, from.uvs);
+  for (const auto& [a, b, c] : from.triangles)
+    to.triangles.push_back({first + a, first + b, first + c});
+}
+
+}  // namespace
+
+std::vector<ObjPart> join_parts(std::vector<ObjPart> parts) {
+  std::vector<ObjPart> result;
+  std::map<std::string, std::vector<size_t>> by_material;  // indices into the result
+  for (ObjPart& part : parts) {
+    std::vector<size_t>& candidates = by_material[part.material];
+    const auto found = std::find_if(candidates.begin(), candidates.end(),
+                                    [&](size_t i) { return can_join(result[i], part); });
+    if (found != candidates.end()) {
+      append(result[*found].mesh, part.mesh);
+      part.mesh = {};
+    } else {
+      candidates.push_back(result.size());
+      result.push_back(std::move(part));
+    }
+  }
+  return result;
 }
 
 TriangleMesh read_ply(const std::string& file, const MeshOptions& options) {

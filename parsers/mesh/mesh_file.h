@@ -34,6 +34,8 @@ struct MeshOptions {
   int shape_index = 0;
   /// Only this part of an OBJ file, as 0.x divides it; see read_obj_parts().
   std::optional<int> obj_part;
+  /// The whole OBJ file is one part, of the last material that it names (0.x's `collapse`).
+  bool collapse = false;
 };
 
 /// Each throws ReadError "file: message", or "file:line: message" for text formats. Meshes returned
@@ -52,8 +54,15 @@ struct ObjPart {
   std::string material;  ///< what the last `usemtl` says, or ""
   TriangleMesh mesh;
 };
-/// Divides an OBJ file as Mitsuba 0.x does unless its `collapse` is set: normals are not smoothed
-/// across parts. Never empty.
-std::vector<ObjPart> read_obj_parts(const std::string& file, const MeshOptions& options);
+struct ObjFile {
+  std::vector<ObjPart> parts;  ///< never empty
+  std::string library;         ///< what the last `mtllib` says, or ""
+};
+/// Divides an OBJ file as Mitsuba 0.x does: normals are not smoothed across parts.
+ObjFile read_obj_parts(const std::string& file, const MeshOptions& options);
+
+/// Puts the parts of one material together, in the order of the materials' first parts. (Parts that
+/// differ in whether they have texture coordinates or normals stay apart.)
+std::vector<ObjPart> join_parts(std::vector<ObjPart> parts);
 
 }  // namespace duet

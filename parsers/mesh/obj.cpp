@@ -74,10 +74,10 @@ class ObjBuilder {
     begin_group();
     const size_t begin = std::min(name.find_first_not_of(" \t"), name.size());
     const size_t end = name.find_last_not_of(" \t") + 1;
-    if (divide_) parts_.back().material = name.substr(begin, std::max(end, begin) - begin);
+    parts_.back().material = name.substr(begin, std::max(end, begin) - begin);
   }
 
-  std::vector<ObjPart> finish(const ByteReader& in, const MeshOptions& options) {
+  ObjFile finish(const ByteReader& in, const MeshOptions& options) {
     const size_t counts[3] = {positions_.size(), uvs_.size(), normals_.size()};
     for (int kind = 0; kind < 3; ++kind)
       if (furthest_[kind].index >= 0 && size_t(furthest_[kind].index) >= counts[kind])
@@ -87,9 +87,10 @@ class ObjBuilder {
     if (parts_.back().triangles.empty())
       throw ReadError(fmt::format("{}: has no faces; is it an OBJ file?", in.name()));
 
-    std::vector<ObjPart> result;
+    ObjFile result;
+    result.library = lines_.library();
     for (RawPart& raw : parts_) {
-      ObjPart& part = result.emplace_back();
+      ObjPart& part = result.parts.emplace_back();
       part.material = std::move(raw.material);
       part.mesh = assemble(raw, options);
       raw = {};
@@ -164,7 +165,7 @@ ObjBuilder& builder(void* user) {
 
 }  // namespace
 
-std::vector<ObjPart> parse_obj(ByteReader& in, const MeshOptions& options, bool divide) {
+ObjFile parse_obj(ByteReader& in, const MeshOptions& options, bool divide) {
   ObjLines lines(in);
   ObjBuilder result(lines, divide);
   tinyobj::callback_t callbacks;

@@ -105,10 +105,19 @@ ObjLines::int_type ObjLines::underflow() {
       if (!append_line()) break;
     }
     check();
+  } else {
+    note_library(text_);
   }
   text_ += '\n';
   setg(text_.data(), text_.data(), text_.data() + text_.size());
   return traits_type::to_int_type(*gptr());
+}
+
+void ObjLines::note_library(std::string_view text) {
+  if (take_word(text) != "mtllib") return;
+  while (!text.empty() && is_space(text.front())) text.remove_prefix(1);
+  while (!text.empty() && is_space(text.back())) text.remove_suffix(1);
+  library_ = text;
 }
 
 bool ObjLines::append_line() {

@@ -20,6 +20,8 @@ class ObjLines : public std::streambuf {
 
   /// The line, from 1, that the characters given last stand in.
   int line() const { return first_line_; }
+  /// What the last `mtllib` of the lines given so far says, or "".
+  const std::string& library() const { return library_; }
   template <class... Args>
   [[noreturn]] void fail(int line, fmt::format_string<Args...> text, Args&&... args) const {
     throw ReadError(
@@ -32,6 +34,7 @@ class ObjLines : public std::streambuf {
  private:
   /// Appends the next line, without its end, to the text.
   bool append_line();
+  void note_library(std::string_view text);
   void check();
   void check_numbers(std::string_view words, int required, int checked) const;
   /// Also takes off slashes that nothing follows. `begin` is where the vertices begin.
@@ -42,6 +45,7 @@ class ObjLines : public std::streambuf {
   std::string_view rest_;  ///< of a line that in_ gave, beyond a carriage return within it
   bool has_rest_ = false;
   int line_ = 0, first_line_ = 0;
+  std::string library_;
 };
 
 }  // namespace duet

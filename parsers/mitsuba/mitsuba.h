@@ -28,6 +28,8 @@ struct FileAccess {
   std::function<TriangleMesh(const std::string& plugin, const std::string& path,
                              const MeshOptions& options)>
       read_mesh;
+  /// Reads an OBJ file as 0.x divides it; throws ReadError.
+  std::function<ObjFile(const std::string& path, const MeshOptions& options)> read_obj_parts;
   /// Reads a volume file; throws ReadError.
   std::function<VolumeFile(const std::string& path)> read_volume;
   /// Reads a file of ellipsoids; throws ReadError.

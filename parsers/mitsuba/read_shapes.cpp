@@ -3,7 +3,7 @@
 #include <cmath>
 #include <limits>
 
-#include "mitsuba/obj_materials.h"
+#include "mitsuba/mesh_options.h"
 #include "mitsuba/property_values.h"
 #include "mitsuba/readers.h"
 #include "mitsuba/scene_reader.h"
@@ -37,67 +37,60 @@ void attach_media(SceneReader& s, Properties& p, ShapeDescription& out) {
 }
 
 void attach(SceneReader& s, Properties& p, ShapeDescription& out) {
-  out.to_world = p.transform("to_world") * out.to_world;
-  if (find_parameter(PluginKind::shape, *p.node().plugin, "flip_normals"))
-    out.flip_normals = p.boolean("flip_normals");
-  const Node* light = p.child(PluginKind::emitter);
   const auto material = attached_material(s, p);
-  if (light) out.emission = s.emission(*light);
-  attach_media(s, p, out);
-  p.children(PluginKind::sensor);  // read when the shape has its place in the scene
-  // Where only media meet, Mitsuba 0.x sees no surface; Mitsuba 3 does.
-  const bool invisible = p.is_0x() && !light && (out.interior || out.exterior);
-  out.material = material    ? *material
-                 : invisible ? s.null_material(p.node().where)
-                             : s.grey_material(light ? 0.0f : 0.5f, p.node().where);
-}
-
-/// Moves the middle of the mesh's box to the origin.
-Matrix4 recentering(const TriangleMesh& mesh) {
-  double lower[3], upper[3];
-  for (int i = 0; i < 3; ++i) lower[i] = HUGE_VAL, upper[i] = -HUGE_VAL;
-  for (const Point3f& p : mesh.positions)
-    for (int i = 0; i < 3; ++i)
-      lower[i] = std::min(lower[i], double(p[i])), upper[i] = std::max(upper[i], double(p[i]));
-  if (mesh.positions.empty()) return {};
-  return Matrix4::translate(-0.5 * (lower[0] + upper[0]), -0.5 * (lower[1] + upper[1]),
-                            -0.5 * (lower[2] + upper[2]));
-}
-
-/// Mitsuba 0.x can give the parts of an OBJ file different materials. That is understood as far as
-/// one material goes.
-void check_obj_materials(SceneReader& s, Properties& p, const std::string& file) {
-  const auto children = p.children(PluginKind::bsdf);
-  bool named = false;
-  for (const Properties::Child& c : children) named |= !c.property->name.empty();
-  if (!children.empty() && !named) return;
-  if (children.empty() && !p.boolean("load_materials")) return;
-  const auto text = s.files().read(file);
-  if (!text) return;
-  const ObjMaterials materials = find_obj_materials(*text);
-  if (named && materials.used.size() > 1)
-    s.report().error(children[0].property->where,
-                     "materials for the {} parts of an OBJ file are not supported yet",
-                     materials.used.size());
-  if (children.empty() && materials.has_library && !materials.used.empty())
-    s.approximate_loudly(p.node().where, "the materials of OBJ files (mtllib) are not read");
+  s.attach_without_material(p, out);
+  out.material = material ? *material : s.default_material(p, out);
 }
 
 }  // namespace
+
+MeshOptions mesh_options(Properties& p, MeshSource& source) {
+  source.plugin = p.node().plugin->name;
+  source.face_normals = p.boolean("face_normals");
+  MeshOptions options;
+  options.face_normals = source.face_normals;
+  options.flip_tex_coords = source.plugin != "serialized" && p.boolean("flip_tex_coords");
+  source.flip_tex_coords = options.flip_tex_coords;
+  options.max_smooth_angle = source.max_smooth_angle = p.optional_number("max_smooth_angle");
+  if (options.face_normals && options.max_smooth_angle)
+    p.error("max_smooth_angle", "both \"face_normals\" and \"max_smooth_angle\" are given");
+  return options;
+}
+
+void SceneReader::attach_without_material(Properties& p, ShapeDescription& out) {
+  out.to_world = p.transform("to_world") * out.to_world;
+  if (find_parameter(PluginKind::shape, *p.node().plugin, "flip_normals"))
+    out.flip_normals = p.boolean("flip_normals");
+  if (const Node* light = p.child(PluginKind::emitter)) out.emission = emission(*light);
+  attach_media(*this, p, out);
+  p.children(PluginKind::sensor);  // read when the shape has its place in the scene
+}
+
+MaterialId SceneReader::default_material(Properties& p, const ShapeDescription& shape) {
+  const bool lit = p.child(PluginKind::emitter) != nullptr;
+  // Where only media meet, Mitsuba 0.x sees no surface; Mitsuba 3 does.
+  const bool invisible = p.is_0x() && !lit && (shape.interior || shape.exterior);
+  return invisible ? null_material(p.node().where)
+                   : grey_material(lit ? 0.0f : 0.5f, p.node().where);
+}
 
 void SceneReader::attach_to_surface(Properties& p, ShapeDescription& shape) {
   attach(*this, p, shape);
 }
 
-void SceneReader::sensor_on_shape(const Node& node, bool misplaced, size_t shape) {
-  SensorDescription sensor;
-  sensor.shape = uint32_t(shape);
-  if (!read_into(node, sensor)) return;
-  if (sensor.kind != SensorKind::irradiancemeter || misplaced)
-    report_.error(node.where, "{} cannot stand in {}", describe(node),
-                  misplaced ? "a shape of this place" : "a shape");
-  else
-    description_.sensors.push_back(std::move(sensor));
+void SceneReader::sensors_on_shape(const Node& node, bool misplaced, size_t shape) {
+  for (const Property& property : node.properties) {
+    const Node* const* child = std::get_if<const Node*>(&property.value);
+    if (!child || (*child)->kind != PluginKind::sensor) continue;
+    SensorDescription sensor;
+    sensor.shape = uint32_t(shape);
+    if (!read_into(**child, sensor)) continue;
+    if (sensor.kind != SensorKind::irradiancemeter || misplaced)
+      report_.error((*child)->where, "{} cannot stand in {}", describe(**child),
+                    misplaced ? "a shape of this place" : "a shape");
+    else
+      description_.sensors.push_back(std::move(sensor));
+  }
 }
 
 void SceneReader::shape(const Node& node, std::vector<ShapeDescription>& shapes, bool in_group) {
@@ -116,41 +109,25 @@ void SceneReader::shape(const Node& node, std::vector<ShapeDescription>& shapes,
         report_.error(s.emission->where, "a shape in a shape group cannot emit light");
       shapes.push_back(std::move(s));
     }
+    sensors_on_shape(node, in_group || &shapes != &description_.shapes || list.shapes.size() != 1,
+                     shapes.size() - 1);
   } else if (ShapeDescription shape;
              shape.where = node.where, shape.label = {node.id}, read_into(node, shape)) {
     if (in_group && shape.emission)
       report_.error(shape.emission->where, "a shape in a shape group cannot emit light");
     shapes.push_back(std::move(shape));
-    for (const Property& property : node.properties)
-      if (const Node* const* child = std::get_if<const Node*>(&property.value);
-          child && (*child)->kind == PluginKind::sensor)
-        sensor_on_shape(**child, in_group || &shapes != &description_.shapes, shapes.size() - 1);
+    sensors_on_shape(node, in_group || &shapes != &description_.shapes, shapes.size() - 1);
   }
 }
 
 void read_mesh(SceneReader& s, Properties& p, ShapeDescription& out) {
   MeshShape shape;
   shape.source.file = s.file(p, "filename");
-  shape.source.plugin = p.node().plugin->name;
-  shape.source.face_normals = p.boolean("face_normals");
-  MeshOptions options;
-  options.face_normals = shape.source.face_normals;
-  const bool serialized = shape.source.plugin == "serialized";
-  options.flip_tex_coords = !serialized && p.boolean("flip_tex_coords");
-  shape.source.flip_tex_coords = options.flip_tex_coords;
-  if (serialized) options.shape_index = shape.source.shape_index = p.integer("shape_index");
-  if (shape.source.plugin == "obj" && p.has("shape_index"))
-    options.obj_part = p.integer("shape_index");
-  options.max_smooth_angle = shape.source.max_smooth_angle = p.optional_number("max_smooth_angle");
-  if (options.face_normals && options.max_smooth_angle)
-    p.error("max_smooth_angle", "both \"face_normals\" and \"max_smooth_angle\" are given");
-  if (!shape.source.file.empty()) {
+  MeshOptions options = mesh_options(p, shape.source);
+  if (shape.source.plugin == "serialized")
+    options.shape_index = shape.source.shape_index = p.integer("shape_index");
+  if (!shape.source.file.empty())
     shape.mesh = s.mesh(shape.source.plugin, shape.source.file, options, p.where("filename"));
-    if (shape.mesh && shape.source.plugin == "obj" && p.boolean("recenter"))
-      out.to_world = recentering(*shape.mesh);
-    if (p.is_0x() && shape.source.plugin == "obj" && !options.obj_part)
-      check_obj_materials(s, p, shape.source.file);
-  }
   out.geometry = std::move(shape);
   attach(s, p, out);
 }

@@ -57,6 +57,7 @@ void read_blackbody(SceneReader&, Properties&, MeantColor&);
 
 // read_shapes.cpp
 void read_mesh(SceneReader&, Properties&, ShapeDescription&);
+void read_obj(SceneReader&, Properties&, ShapeList&);
 void read_rectangle(SceneReader&, Properties&, ShapeDescription&);
 void read_cube(SceneReader&, Properties&, ShapeDescription&);
 void read_sphere(SceneReader&, Properties&, ShapeDescription&);
@@ -65,6 +66,7 @@ void read_sdfgrid(SceneReader&, Properties&, ShapeDescription&);
 void read_cylinder(SceneReader&, Properties&, ShapeDescription&);
 void read_curves(SceneReader&, Properties&, ShapeDescription&);
 void read_hair_shape(SceneReader&, Properties&, ShapeDescription&);
+void read_heightfield(SceneReader&, Properties&, ShapeDescription&);
 void read_instance(SceneReader&, Properties&, ShapeDescription&);
 void read_merge(SceneReader&, Properties&, ShapeList&);
 void read_ellipsoids(SceneReader&, Properties&, ShapeList&);

@@ -44,6 +44,10 @@ FileAccess with_disk(FileAccess access) {
     };
   if (!access.read) access.read = read_text;
   if (!access.read_mesh) access.read_mesh = read_mesh_file;
+  if (!access.read_obj_parts)
+    access.read_obj_parts = [](const std::string& path, const MeshOptions& options) {
+      return read_obj_parts(path, options);
+    };
   if (!access.read_volume) access.read_volume = read_vol;
   if (!access.read_ellipsoids)
     access.read_ellipsoids = [](const std::string& path) { return read_ellipsoids(path); };

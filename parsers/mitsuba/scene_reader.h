@@ -6,6 +6,7 @@
 #include <string>
 #include <unordered_map>
 
+#include "mitsuba/material_library.h"
 #include "mitsuba/mitsuba.h"
 #include "mitsuba/properties.h"
 
@@ -57,10 +58,17 @@ class SceneReader {
   std::optional<uint32_t> shape_group(const Node& node);
   std::shared_ptr<const TriangleMesh> mesh(const std::string& plugin, const std::string& file,
                                            const MeshOptions& options, const SourceLocation& where);
+  /// The library that an OBJ file in `file` names; null, after a warning or an error, if it cannot
+  /// be read. `where` is the file's name in the scene.
+  MaterialLibrary* material_library(const std::string& name, const std::string& file, Properties& p,
+                                    const SourceLocation& where);
   /// Appends the shape; a shape group goes where the groups are.
   void shape(const Node& node, std::vector<ShapeDescription>& shapes, bool in_group);
   /// What all surfaces have: transform, orientation, light, media and material.
   void attach_to_surface(Properties& p, ShapeDescription& shape);
+  /// The same without the material, and the one that holds where the shape is given none.
+  void attach_without_material(Properties& p, ShapeDescription& shape);
+  MaterialId default_material(Properties& p, const ShapeDescription& shape);
   /// What emits on a shape; nothing after an error.
   std::optional<AreaEmission> emission(const Node& node);
   /// Reads `node` with its plugin's function if that makes a T; false after an error.
@@ -74,8 +82,8 @@ class SceneReader {
 
  private:
   void top_level(const Node& scene);
-  /// Reads the irradiance meter on a shape of the scene.
-  void sensor_on_shape(const Node& node, bool misplaced, size_t shape);
+  /// Reads the irradiance meters on a shape of the scene.
+  void sensors_on_shape(const Node& node, bool misplaced, size_t shape);
   void check_scene(const Node& scene, bool have_integrator);
   /// The colour of a property, or the texture it names; nothing after an error.
   std::optional<ColorInput> color_of(Properties& p, std::string_view name, const Property& property,
@@ -100,6 +108,7 @@ class SceneReader {
   std::map<std::pair<const Node*, ColorMeaning>, std::optional<ColorVolume>> volumes_;
   std::map<std::string, std::shared_ptr<const VolumeFile>> volume_files_;
   std::map<std::string, std::shared_ptr<const TriangleMesh>> meshes_;
+  std::map<std::string, std::unique_ptr<MaterialLibrary>> libraries_;
 
   template <class Read>
   std::optional<uint32_t> once(const Node& node, Read read);

@@ -131,88 +131,34 @@ void SceneWriter::film(const FilmDescription& f) {
   out_.string("component_format",
               f.component_format == ComponentFormat::half ? "float16" : "float32");
   if (f.tone_mapping) lose("the tone mapping of \"ldrfilm\" is missing");
+  filter(f.filter);
+  out_.close();
+}
 
+void SceneWriter::filter(const FilterDescription& f) {
   constexpr std::string_view filters[] = {"box",      "tent",       "gaussian",
                                           "mitchell", "catmullrom", "lanczos"};
-  out_.open("rfilter", filters[size_t(f.filter.kind)]);
-  switch (f.filter.kind) {
+  out_.open("rfilter", filters[size_t(f.kind)]);
+  switch (f.kind) {
     case FilterKind::box:
-      if (f.filter.radius != 0.5) lose("the radius of a box filter is missing");
+      if (f.radius != 0.5) lose("the radius of a box filter is missing");
       break;
     case FilterKind::tent:
-      out_.number("radius", f.filter.radius);
+      out_.number("radius", f.radius);
       break;
     case FilterKind::gaussian:
-      out_.number("stddev", f.filter.stddev);
+      out_.number("stddev", f.stddev);
       break;
     case FilterKind::mitchell:
-      out_.number("B", f.filter.b);
-      out_.number("C", f.filter.c);
+      out_.number("B", f.b);
+      out_.number("C", f.c);
       break;
     case FilterKind::catmullrom:
       break;
     case FilterKind::lanczos:
-      out_.integer("lobes", f.filter.lobes);
+      out_.integer("lobes", f.lobes);
       break;
   }
-  out_.close();
-  out_.close();
-}
-
-void SceneWriter::mesh(const MeshShape& m) {
-  out_.string("filename", m.source.file);
-  if (m.source.file.empty()) lose("a mesh that does not come from a file is missing");
-  if (m.source.face_normals) out_.boolean("face_normals", true);
-  if (m.source.plugin != "serialized") out_.boolean("flip_tex_coords", m.source.flip_tex_coords);
-  if (m.source.plugin == "serialized") out_.integer("shape_index", m.source.shape_index);
-  if (m.source.max_smooth_angle)
-    lose("\"max_smooth_angle\" does not exist in Mitsuba 3: normals are those of the file");
-}
-
-void SceneWriter::meters(const ShapeDescription& s) {
-  for (const SensorDescription& meter : d_.sensors)
-    if (meter.kind == SensorKind::irradiancemeter && &d_.shapes[meter.shape] == &s) sensor(meter);
-}
-
-void SceneWriter::shape(const ShapeDescription& s, const std::string& id, std::string_view name) {
-  constexpr std::string_view types[] = {"",         "rectangle", "cube",    "sphere",     "disk",
-                                        "cylinder", "instance",  "sdfgrid", "linearcurve"};
-  static_assert(std::size(types) == std::variant_size_v<decltype(s.geometry)>);
-  const MeshShape* m = std::get_if<MeshShape>(&s.geometry);
-  const CurvesShape* tubes = std::get_if<CurvesShape>(&s.geometry);
-  const bool splines = tubes && tubes->curves->kind == CurveKind::bspline;
-  out_.open("shape",
-            m         ? std::string_view(m->source.plugin)
-            : splines ? "bsplinecurve"
-                      : types[s.geometry.index()],
-            name, id);
-  if (m) mesh(*m);
-  if (tubes) {
-    out_.string("filename", tubes->file);
-    if (!tubes->curves->outside_only)
-      lose("the hair of Mitsuba 0.6 has to be written as a file of curves with their radius");
-  }
-  if (const auto* sdf = std::get_if<SdfGridShape>(&s.geometry)) {
-    out_.string("filename", sdf->file);
-    if (sdf->grid && !sdf->grid->smooth_normals) out_.string("normals", "analytic");
-  }
-  out_.transform("to_world", s.to_world);
-  if (const auto* instance = std::get_if<InstanceShape>(&s.geometry)) {
-    out_.reference({}, group_ids_[instance->group]);
-    out_.close();
-    return;
-  }
-  if (s.flip_normals) out_.boolean("flip_normals", true);
-  out_.reference({}, material_id(s.material));
-  if (s.interior) out_.reference("interior", medium_id(*s.interior));
-  if (s.exterior) out_.reference("exterior", medium_id(*s.exterior));
-  if (s.emission) {
-    out_.open("emitter", s.emission->directional ? "directionalarea" : "area");
-    color("radiance", s.emission->radiance);
-    sampling_weight(s.emission->sampling_weight);
-    out_.close();
-  }
-  meters(s);
   out_.close();
 }
 

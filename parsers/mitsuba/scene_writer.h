@@ -88,13 +88,17 @@ class SceneWriter {
   /// What the sensor is, without its film and sampler.
   void view(const SensorDescription& s);
   void film(const FilmDescription& f);
+  void filter(const FilterDescription& f);
   void fov(double degrees, FovAxis axis);
+  void light(const LightDescription& l);
+  void sampling_weight(double weight);
+
+  // write_shapes.cpp
   void shape(const ShapeDescription& s, const std::string& id, std::string_view name = {});
   /// The irradiance meters on a shape of the scene; none on others.
   void meters(const ShapeDescription& s);
   void mesh(const MeshShape& m);
-  void light(const LightDescription& l);
-  void sampling_weight(double weight);
+  void height_field(const HeightFieldShape& f);
 
   const std::string& texture_id(TextureId id) const { return texture_ids_[size_t(id)]; }
   const std::string& medium_id(MediumId id) const { return medium_ids_[size_t(id)]; }

@@ -108,11 +108,15 @@ std::vector<TextureUse> texture_uses(const SceneDescription& scene) {
   for (const MaterialDescription& m : scene.materials) std::visit(model, m.model);
   for (const LightDescription& l : scene.lights) std::visit(model, l.model);
   const auto shapes = [&](const std::vector<ShapeDescription>& list) {
-    for (const ShapeDescription& s : list)
+    for (const ShapeDescription& s : list) {
       if (s.emission) marker.mark(s.emission->radiance);
+      if (const auto* field = std::get_if<HeightFieldShape>(&s.geometry))
+        marker.mark(ColorInput(field->heights));
+    }
   };
   shapes(scene.shapes);
   for (const ShapeGroupDescription& g : scene.groups) shapes(g.shapes);
+  for (const SensorDescription& s : scene.sensors) shapes(s.target_shape);
   return marker.take();
 }
 

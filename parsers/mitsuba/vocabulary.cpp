@@ -94,7 +94,7 @@ bool may_contain(PluginKind outer, PluginKind inner) {
       return inner == rfilter || inner == PluginKind::texture;
     case shape:
       return inner == shape || inner == bsdf || inner == PluginKind::texture || inner == emitter ||
-             inner == sensor || inner == medium || inner == subsurface;
+             inner == sensor || inner == medium || inner == subsurface || inner == rfilter;
     case bsdf:
       return inner == bsdf || inner == PluginKind::texture || inner == phase;
     case PluginKind::texture:

@@ -26,10 +26,13 @@ constexpr Parameter kObj[] = {
     {.name = "load_materials",
      .type = boolean,
      .preset = "true",
-     .note = "the file's own materials are not used",
-     .versions = v0,
-     .support = approximated},
-    {.name = "collapse", .type = boolean, .versions = v0, .support = inert},
+     .note = "from the file's material library, unless the scene gives BSDFs",
+     .versions = v0},
+    {.name = "collapse",
+     .type = boolean,
+     .preset = "false",
+     .note = "the last material that the file uses is that of all its parts",
+     .versions = v0},
     {.name = "shape_index",
      .type = integer,
      .note = "only this part of the file",
@@ -111,6 +114,14 @@ constexpr Parameter kEllipsoidsMesh[] = {kEllipsoidFile,
                                          kCenters,
                                          kScales,
                                          kQuaternions};
+constexpr Parameter kHeightField[] = {
+    {.name = "filename", .type = file, .note = "an image: its luminance is the height"},
+    {"scale", number, "1", "multiplies the heights"},
+    {"width", integer, "32", "columns of a texture that is no image, with height", size},
+    {"height", integer, "32", "rows of a texture that is no image, with width", size},
+    {"shading_normals", boolean, "true", "smooth, not those of each bilinear patch"},
+    kFlipNormals,
+};
 constexpr Parameter kHair[] = {
     {.name = "filename", .type = file, .note = "text or binary", .required = true},
     {"radius", number, "0.025", "in world space", positive},
@@ -128,7 +139,7 @@ constexpr Parameter kHair[] = {
 };
 
 constexpr Plugin kShapes[] = {
-    {"obj", both, kObj, &read_mesh},
+    {"obj", both, kObj, &read_obj},
     {"ply", both, kPly, &read_mesh},
     {"serialized", both, kSerialized, &read_mesh},
     {"rectangle", both, kFlat, &read_rectangle},
@@ -161,11 +172,9 @@ constexpr Plugin kShapes[] = {
      "from files, without attributes and texture coordinates; cannot emit light"},
     {"ellipsoidsmesh", v3, kEllipsoidsMesh, &read_ellipsoids, "as ellipsoids", approximated},
     {"hair", v0, kHair, &read_hair_shape, "segments meet in spheres; cannot emit light"},
-    {.name = "heightfield",
-     .versions = v0,
-     .note = "height images are not made surfaces: use a mesh",
-     .support = refused,
-     .refused_parameters = "to_world filename scale width height flip_normals"},
+    {"heightfield", v0, kHeightField, &read_heightfield,
+     "a triangle mesh; may hold a texture (bitmap, checkerboard, gridtexture or scale of one) "
+     "instead of naming an image, and a reconstruction filter"},
     {"linearcurve", v3, kCurves, &read_curves, "cannot emit light"},
     {"merge", v3, {}, &read_merge, "holds shapes, which stay as they are"},
 };

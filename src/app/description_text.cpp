@@ -140,25 +140,27 @@ std::string DescriptionText::texture(const TextureDescription& t) const {
 }
 
 std::string DescriptionText::shape_kind(const ShapeDescription& s) const {
-  return std::visit(Overloaded{
-                        [](const MeshShape& m) {
-                          return m.source.plugin.empty() ? std::string("mesh") : m.source.plugin;
-                        },
-                        [](const RectangleShape&) { return std::string("rectangle"); },
-                        [](const CubeShape&) { return std::string("cube"); },
-                        [](const SphereShape&) { return std::string("sphere"); },
-                        [](const DiskShape&) { return std::string("disk"); },
-                        [](const CylinderShape&) { return std::string("cylinder"); },
-                        [](const SdfGridShape& m) { return "sdfgrid " + m.file; },
-                        [](const CurvesShape& m) {
-                          return fmt::format(
-                              "{} ({}, {} segments)",
-                              m.curves->kind == CurveKind::bspline ? "bsplinecurve" : "linearcurve",
-                              file_name(m.file), m.curves->segments.size());
-                        },
-                        [](const InstanceShape&) { return std::string("instance"); },
-                    },
-                    s.geometry);
+  return std::visit(
+      Overloaded{
+          [](const MeshShape& m) {
+            return m.source.plugin.empty() ? std::string("mesh") : m.source.plugin;
+          },
+          [](const RectangleShape&) { return std::string("rectangle"); },
+          [](const CubeShape&) { return std::string("cube"); },
+          [](const SphereShape&) { return std::string("sphere"); },
+          [](const DiskShape&) { return std::string("disk"); },
+          [](const CylinderShape&) { return std::string("cylinder"); },
+          [](const SdfGridShape& m) { return "sdfgrid " + m.file; },
+          [](const CurvesShape& m) {
+            return fmt::format(
+                "{} ({}, {} segments)",
+                m.curves->kind == CurveKind::bspline ? "bsplinecurve" : "linearcurve",
+                file_name(m.file), m.curves->segments.size());
+          },
+          [this](const HeightFieldShape& m) { return "heightfield of " + texture_name(m.heights); },
+          [](const InstanceShape&) { return std::string("instance"); },
+      },
+      s.geometry);
 }
 
 std::string DescriptionText::shape(const ShapeDescription& s) const {

@@ -24,6 +24,7 @@ SceneBuilder::SceneBuilder(SceneDescription description, const BuildOptions& opt
 
 std::unique_ptr<Scene> SceneBuilder::build() {
   const size_t errors = diagnostics_.error_count();
+  height_fields();
   scene_->features = scene_features(description_);
   shapes();
   lights();

@@ -14,6 +14,7 @@
 
 namespace duet {
 
+struct HeightField;
 struct RoughnessOptions;
 
 /// Makes what shapes and lights ask for, each thing once and none that nobody asks for. After an
@@ -102,6 +103,14 @@ class SceneBuilder {
   /// The index of the medium in the scene; kNone for none or after an error.
   uint32_t medium(std::optional<MediumId> id);
   std::unique_ptr<Medium> make(const MediumDescription& m);
+
+  // build_height_fields.cpp
+  void height_fields();
+  /// Makes a mesh of the shape if it is a height field; a rectangle after an error.
+  void height_field(ShapeDescription& d);
+  /// Columns, rows and heights by a texture times `scale`; false after an error.
+  bool read_heights(TextureId id, const HeightFieldShape& shape, const Spectrum& scale,
+                    HeightField& out);
 
   // build_shapes.cpp
   void shapes();

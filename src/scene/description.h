@@ -406,6 +406,8 @@ struct MeshSource {
   bool face_normals = false;
   bool flip_tex_coords = true;
   std::optional<double> max_smooth_angle;
+  /// Not the whole OBJ file: one of its parts, or those of one material.
+  bool is_part = false;
 };
 
 /// The mesh in its own space. Shapes may share one.
@@ -448,6 +450,17 @@ struct CurvesShape {
     return a.curves == b.curves || (a.curves && b.curves && *a.curves == *b.curves);
   }
 };
+/// Bilinear patches over the square from (−1, −1) to (1, 1), facing +z, between heights that are
+/// the luminance of a texture's texels times `scale`; its first row lies along y = −1.
+struct HeightFieldShape {
+  TextureId heights{};
+  double scale = 1;
+  int width = 32, height = 32;  ///< of a texture that is no image
+  bool shading_normals = true;  ///< smooth from patch to patch
+  /// Makes a number of heights that is one more than a power of two along either side.
+  FilterDescription filter{.kind = FilterKind::lanczos, .lobes = 2};
+  bool operator==(const HeightFieldShape&) const = default;
+};
 /// A copy of SceneDescription::groups[group].
 struct InstanceShape {
   uint32_t group = 0;
@@ -468,7 +481,7 @@ struct ShapeDescription {
   SourceLocation where;
   Label label;
   std::variant<MeshShape, RectangleShape, CubeShape, SphereShape, DiskShape, CylinderShape,
-               InstanceShape, SdfGridShape, CurvesShape>
+               InstanceShape, SdfGridShape, CurvesShape, HeightFieldShape>
       geometry;
   Matrix4 to_world;
   bool flip_normals = false;

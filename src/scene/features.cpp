@@ -170,6 +170,8 @@ class Survey {
       add_mesh(make_rectangle(), s.to_world, bounds);
     else if (std::holds_alternative<CubeShape>(s.geometry))
       add_mesh(make_cube(), s.to_world, bounds);
+    else if (std::holds_alternative<HeightFieldShape>(s.geometry))
+      add_height_field(s.to_world, bounds);
     else if (const auto* tubes = std::get_if<CurvesShape>(&s.geometry)) {
       add_curves(*tubes->curves, s.to_world, bounds);
       features_.one_way_surfaces += is_one_way(scene_, s);
@@ -181,6 +183,12 @@ class Survey {
     ++features_.meshes;
     add_triangles(mesh.triangles.size());
     for (const Point3f& p : mesh.positions) bounds.extend(place(to_world, p));
+  }
+
+  /// Its image is not read yet: what is known is where the square lies whose heights it holds.
+  void add_height_field(const Matrix4& to_world, Bounds& bounds) {
+    ++features_.meshes;
+    for (const Point3f& p : make_rectangle().positions) bounds.extend(place(to_world, p));
   }
 
   void add_curves(CurveSet curves, const Matrix4& to_world, Bounds& bounds) {

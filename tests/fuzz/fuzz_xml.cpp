@@ -32,7 +32,9 @@ FileAccess in_memory(std::vector<std::string> texts) {
     for (size_t i = 1; i < all.size(); ++i)
       if (name == std::string(1, char('a' + i - 1)) + ".xml") return all[i];
     if (name.ends_with(".spd")) return "# wavelengths\n400 0.5\n550 1\n700 0.25\n";
-    if (name.ends_with(".obj")) return "usemtl a\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
+    if (name.ends_with(".mtl"))
+      return "newmtl a\nKd 1 0 0\nillum 2\nKs 1 1 1\nNs 9\nd 0.5\nnewmtl b\nbump a.png\n";
+    if (name.ends_with(".obj")) return "x";
     if (name.ends_with(".png") || name.ends_with(".ply") || name.ends_with(".exr") ||
         name.ends_with(".vol"))
       return "";
@@ -44,6 +46,10 @@ FileAccess in_memory(std::vector<std::string> texts) {
   access.read_mesh = [](const std::string&, const std::string& path, const MeshOptions&) {
     if (path.find("broken") != path.npos) throw ReadError("broken");
     return make_rectangle();
+  };
+  access.read_obj_parts = [](const std::string& path, const MeshOptions&) {
+    if (path.find("broken") != path.npos) throw ReadError("broken");
+    return ObjFile{{{"a", make_rectangle()}, {"b", make_rectangle()}}, "a.mtl"};
   };
   access.read_volume = [](const std::string& path) {
     if (path.find("broken") != path.npos) throw ReadError("broken");

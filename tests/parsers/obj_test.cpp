@@ -16,7 +16,7 @@ const std::string kSquare = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\n";
 std::vector<ObjPart> parse(const std::string& text, const MeshOptions& options = {},
                            bool divide = false) {
   ByteReader in("test.obj", bytes_of(text));
-  return parse_obj(in, options, divide);
+  return parse_obj(in, options, divide).parts;
 }
 TriangleMesh obj(const std::string& text, const MeshOptions& options = {}) {
   return parse(text, options)[0].mesh;
@@ -145,7 +145,7 @@ TEST_CASE("OBJ: reading a file gives what reading its text gives") {
   const std::string text = kSquare + "f 1 2 3\nusemtl a\nf 1 3 4\n";
   const std::string path = directory.write("square.obj", text);
   CHECK(read_obj(path, {}) == obj(text));
-  CHECK(read_obj_parts(path, {}).size() == 2);
+  CHECK(read_obj_parts(path, {}).parts.size() == 2);
   // Longer than a block of the reader.
   std::string strip;
   for (int i = 0; i < 40000; ++i) strip += fmt::format("v {} {} 0\n", i, i % 2);

@@ -180,28 +180,6 @@ TEST_CASE("shape: meshes") {
             .has("scene.xml:2:43: error: /scene/a.obj:7: not a face"));
 }
 
-TEST_CASE("shape: materials of OBJ files") {
-  MemoryFiles files;
-  files.texts = {{"/scene/one.obj", "mtllib x.mtl\r\nusemtl Glass\r\nf 1 2 3\n"},
-                 {"/scene/two.obj", "usemtl A\nf 1 2 3\nusemtl B\nf 1 2 3\n"}};
-  const auto read = [&](const std::string& version, const std::string& name,
-                        const std::string& content) {
-    return read_scene(
-        version,
-        "<shape type='obj'><string name='filename' value='" + name + "'/>" + content + "</shape>",
-        files);
-  };
-  const std::string named = "<bsdf name='Glass' type='dielectric'/>";
-  CHECK(read("0.6.0", "one.obj", named).scene);
-  CHECK(read("0.6.0", "two.obj", "<bsdf name='A' type='diffuse'/>")
-            .has("for the 2 parts of an OBJ file"));
-  CHECK(read("0.6.0", "two.obj", "<bsdf type='diffuse'/>").scene);
-  CHECK(read("0.6.0", "one.obj", "")
-            .has("warning: the materials of OBJ files (mtllib) are not read"));
-  CHECK(!read("0.6.0", "one.obj", "<boolean name='loadMaterials' value='false'/>").has("mtllib"));
-  CHECK(!read("3.0.0", "one.obj", "").has("mtllib"));
-}
-
 TEST_CASE("shape: material by default, black under a light") {
   const SceneDescription d =
       good("3.0.0",

@@ -139,7 +139,6 @@ TEST_CASE("bsdf: hk and sssbrdf") {
 
 TEST_CASE("what cannot be is refused with a reason") {
   CHECK(fails("3.0.0", "<bsdf type='measured_polarized'/>", "no polarisation"));
-  CHECK(fails("0.6.0", "<shape type='heightfield'/>", "use a mesh"));
   CHECK(fails("0.6.0", "<shape type='sphere'><subsurface type='dipole'/></shape>", "volpath"));
   CHECK(fails("3.0.0",
               "<bsdf type='twosided'><boolean name='allow_transmission' value='true'/>"

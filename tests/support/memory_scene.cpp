@@ -1,5 +1,7 @@
 #include "support/memory_scene.h"
 
+#include "mesh/formats.h"
+
 namespace duet::test {
 
 FileAccess MemoryFiles::access() const {
@@ -19,6 +21,13 @@ FileAccess MemoryFiles::access() const {
     TriangleMesh mesh = make_rectangle();
     if (options.face_normals) mesh.normals.clear();
     return mesh;
+  };
+  access.read_obj_parts = [texts_copy, read_mesh = access.read_mesh](const std::string& path,
+                                                                     const MeshOptions& options) {
+    const std::string& text = texts_copy.at(path);
+    if (text.find("\nf ") == text.npos) return ObjFile{{{"", read_mesh("obj", path, options)}}, ""};
+    ByteReader in(path, {reinterpret_cast<const uint8_t*>(text.data()), text.size()});
+    return parse_obj_parts(in, options);
   };
   access.read_volume = [texts_copy](const std::string& path) {
     const std::string& bytes = texts_copy.at(path);

@@ -10,8 +10,8 @@
 
 namespace duet::test {
 
-/// Files by their paths. Folders exist if a file lies in them; meshes are rectangles, volumes what
-/// their bytes say.
+/// Files by their paths. Folders exist if a file lies in them; meshes are rectangles, but OBJ files
+/// with faces whose parts are asked for and volumes are what their bytes say.
 struct MemoryFiles {
   std::map<std::string, std::string> texts;
   FileAccess access() const;
