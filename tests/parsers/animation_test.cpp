@@ -90,7 +90,7 @@ TEST_CASE("a scene at a time stands still") {
   CHECK(at.shapes[1] == d.shapes[1]);
   // Features are those at the opening of the shutter.
   d.sensors[0].shutter = {1.5, 2};
-  CHECK(scene_features(d).bounds.upper.x == 4);
+  CHECK(scene_features(d).bounds.upper.x == doctest::Approx(4));
 }
 
 TEST_CASE("an animation that is one place is a transform") {
