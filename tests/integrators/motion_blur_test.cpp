@@ -176,18 +176,22 @@ TEST_CASE("posing a scene is the same as building it anew, whatever moves") {
     }
 }
 
-TEST_CASE("an environment turns") {
+TEST_CASE("an environment turns, and smooth normals go with a mesh that shines") {
   const TemporaryDirectory folder;
   Image sky(8, 4, {"R", "G", "B"});
   for (size_t i = 0; i < sky.data.size(); ++i) sky.data[i] = float(1 + 7 * i % 13);
   write_exr(folder.path("sky.exr"), sky, {});
+  folder.write("bent.obj",
+               "v -1 -1 0\nv 1 -1 0\nv 0 1 0\nvn -1 0 1\nvn 1 0 1\nvn 0 1 1\nf 1//1 2//2 3//3\n");
   const std::string file = folder.write(
-      "scene.xml",
-      "<scene version='0.6.0'>" + kStillCamera +
-          "<shape type='sphere'><point name='center' x='0' y='0' z='1'/></shape><emitter "
-          "type='envmap'><string name='filename' value='sky.exr'/>" +
-          animation("<rotate x='1' angle='90'/>", "<rotate x='1' angle='20'/>") +
-          "</emitter></scene>");
+      "scene.xml", "<scene version='0.6.0'>" + kStillCamera +
+                       "<shape type='obj'><string name='filename' value='bent.obj'/>" +
+                       grey("0.7") + kGlow +
+                       animation("<rotate x='1' angle='90'/><translate y='1' z='1'/>",
+                                 "<rotate x='1' angle='60'/><translate y='1' z='0.5'/>") +
+                       "</shape><emitter type='envmap'><string name='filename' value='sky.exr'/>" +
+                       animation("<rotate x='1' angle='90'/>", "<rotate x='1' angle='20'/>") +
+                       "</emitter></scene>");
   Diagnostics diagnostics;
   const auto read = read_mitsuba(file, {}, diagnostics);
   REQUIRE(read);
@@ -225,9 +229,8 @@ TEST_CASE("meters move, and stand on shapes that do") {
       "<rfilter type='box'/></film>";
   const std::string shutter = "<float name='shutterClose' value='2'/>";
   const std::string light = kLamp + "<integrator type='path'/>";
-  check_same(light + kRoom + "<shape type='rectangle'>" +
-                 animation("<translate z='0.2'/>", "<rotate x='1' angle='70'/><translate z='1'/>") +
-                 "<sensor type='irradiancemeter'>" + shutter + film + "</sensor></shape>",
+  check_same(light + kRoom + "<shape type='cube'>" + kWay + "<sensor type='irradiancemeter'>" +
+                 shutter + film + "</sensor></shape>",
              "path");
   check_same(light + kRoom + "<sensor type='fluencemeter'>" + shutter + film +
                  animation("<translate z='0.2'/>", "<translate z='1' x='0.5'/>") + "</sensor>",
