@@ -147,7 +147,11 @@ Accel::Accel(const std::vector<Shape>& shapes, ShapeRange top,
   RTCDevice device = device_->device;
   device_->scenes.push_back(make_scene(device));
   RTCScene scene = device_->scenes[0];
-  if (use == AccelUse::moving) rtcSetSceneFlags(scene, RTC_SCENE_FLAG_DYNAMIC);
+  if (use == AccelUse::moving) {
+    rtcSetSceneFlags(scene, RTC_SCENE_FLAG_DYNAMIC);
+    // A tree for each shape, still of medium quality, below one of all: the others are built anew.
+    rtcSetSceneBuildQuality(scene, RTC_BUILD_QUALITY_LOW);
+  }
   for (uint32_t i = 0; i < top.count; ++i)
     attach(scene, make_geometry(device, shapes[top.first + i]), i);
   for (const ShapeRange& group : groups) {

