@@ -11,9 +11,6 @@ using enum Support;
 inline constexpr FileVersions v0 = FileVersions::v0, v3 = FileVersions::v3,
                               both = FileVersions::all;
 
-/// The note of a transform that may change with time.
-inline constexpr const char* kMovable = "in 0.x also an `<animation>`";
-
 /// `parameters` are the names of its parameters, separated by spaces.
 constexpr Plugin planned_plugin(std::string_view name, FileVersions versions,
                                 std::string_view parameters = "") {
@@ -40,5 +37,8 @@ std::span<const Plugin> media();
 std::span<const Plugin> phases();
 std::span<const Plugin> volumes();
 std::span<const Plugin> subsurfaces();
+
+/// The note of a transform that may change with time.
+inline constexpr const char* kMovable = "in 0.x also an `<animation>`";
 
 }  // namespace duet::vocabulary
