@@ -168,8 +168,6 @@ class Loader {
       load_path(file, attributes);
     } else if (tag == "scene") {
       report_.error(where, "<scene> can only be the root of a file");
-    } else if (tag == "animation") {
-      report_.error(where, "<animation> is not supported yet");
     } else if (tag == "camera" || tag == "luminaire") {
       report_.error(where, "<{}> is a name of Mitsuba 0.3; it is <{}> now", tag,
                     tag == "camera" ? "sensor" : "emitter");

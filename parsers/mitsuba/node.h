@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "base/diagnostics.h"
-#include "math/transform.h"
+#include "math/motion.h"
 #include "mitsuba/color.h"
 #include "mitsuba/vocabulary.h"
 
@@ -43,9 +43,9 @@ struct Blackbody {
 /// <null/>: nothing, on purpose.
 struct NullReference {};
 
-using PropertyValue =
-    std::variant<Broken, bool, int64_t, double, std::string, Triple, RgbColor, ScalarSpectrum,
-                 std::vector<SpectrumSample>, Blackbody, Matrix4, const Node*, NullReference>;
+using PropertyValue = std::variant<Broken, bool, int64_t, double, std::string, Triple, RgbColor,
+                                   ScalarSpectrum, std::vector<SpectrumSample>, Blackbody, Matrix4,
+                                   Motion, const Node*, NullReference>;
 
 struct Property {
   std::string name;     ///< in snake_case; empty for a nested plugin without a name

@@ -11,9 +11,9 @@ namespace {
 /// `an integer`, `a colour`: what a property is, in words.
 std::string_view kind_of_value(const PropertyValue& value) {
   constexpr std::string_view names[] = {
-      "nothing",           "a boolean", "an integer", "a float",    "a string",
-      "a point or vector", "a colour",  "a spectrum", "a spectrum", "a blackbody",
-      "a transform",       "a plugin",  "null"};
+      "nothing",           "a boolean",    "an integer", "a float",    "a string",
+      "a point or vector", "a colour",     "a spectrum", "a spectrum", "a blackbody",
+      "a transform",       "an animation", "a plugin",   "null"};
   static_assert(std::size(names) == std::variant_size_v<PropertyValue>);
   return names[value.index()];
 }
@@ -195,9 +195,23 @@ Triple Properties::triple(std::string_view name) {
 }
 
 Matrix4 Properties::transform(std::string_view name) {
+  Motion motion;
+  const Matrix4 value = transform(name, motion);
+  if (!motion.empty())
+    error(name,
+          "{} cannot be an animation: what moves are shapes, their instances, sensors, and "
+          "lights other than the sky",
+          expected(parameter(name)));
+  return value;
+}
+
+Matrix4 Properties::transform(std::string_view name, Motion& motion) {
   if (const Property* p = find(name)) {
     if (const Matrix4* value = std::get_if<Matrix4>(&p->value)) return *value;
-    wrong_type(name, *p);
+    if (const Motion* value = std::get_if<Motion>(&p->value))
+      motion = *value;
+    else
+      wrong_type(name, *p);
   }
   return {};
 }

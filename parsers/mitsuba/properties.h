@@ -41,6 +41,8 @@ class Properties {
   std::string string(std::string_view name);
   Triple triple(std::string_view name);
   Matrix4 transform(std::string_view name);
+  /// A transform that may change with time: then the result is the identity and `motion` says more.
+  Matrix4 transform(std::string_view name, Motion& motion);
   /// The number of a parameter that may be missing.
   std::optional<double> optional_number(std::string_view name);
   /// One of several words, in any case and with or without underscores.

@@ -188,9 +188,9 @@ PropertyValue read_simple(const ElementContext& c, const Attributes& a,
 }  // namespace
 
 const std::vector<std::string>& value_elements() {
-  static const std::vector<std::string> tags{"boolean",  "integer",   "float",     "string",
-                                             "point",    "vector",    "rgb",       "srgb",
-                                             "spectrum", "blackbody", "transform", "null"};
+  static const std::vector<std::string> tags{
+      "boolean", "integer",  "float",     "string",    "point",     "vector", "rgb",
+      "srgb",    "spectrum", "blackbody", "transform", "animation", "null"};
   return tags;
 }
 
@@ -201,7 +201,7 @@ bool is_value_element(std::string_view tag) {
 
 PropertyValue read_value(const ElementContext& c, pugi::xml_node element, const Attributes& a) {
   const std::string_view tag = element.name();
-  if (tag != "transform")
+  if (tag != "transform" && tag != "animation")
     for (pugi::xml_node child : element.children())
       if (child.type() == pugi::node_element) {
         c.report.error(c.xml.where(child), "<{}> cannot stand in a <{}>", child.name(), tag);
@@ -218,9 +218,10 @@ PropertyValue read_value(const ElementContext& c, pugi::xml_node element, const 
   if (tag == "rgb" || tag == "srgb") return read_rgb(c, a, tag == "srgb");
   if (tag == "spectrum") return read_spectrum(c, a);
   if (tag == "blackbody") return read_blackbody(c, a);
-  if (tag == "transform") {
+  if (tag == "transform" || tag == "animation") {
     const bool good = a.check({"!name"});
-    PropertyValue value = read_transform(c, element);
+    PropertyValue value =
+        tag == "transform" ? read_transform(c, element) : read_animation(c, element);
     return good ? value : PropertyValue(Broken{});
   }
   return a.check({"name"}) ? PropertyValue(NullReference{}) : PropertyValue(Broken{});

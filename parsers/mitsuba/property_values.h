@@ -30,6 +30,10 @@ PropertyValue read_value(const ElementContext& context, pugi::xml_node element,
 /// The product of the steps in a <transform>; Broken, with errors, if one of them is wrong.
 PropertyValue read_transform(const ElementContext& context, pugi::xml_node element);
 
+/// The transforms in an <animation>, in the order of their times, or the only one that they are;
+/// Broken, with errors, if they make no motion.
+PropertyValue read_animation(const ElementContext& context, pugi::xml_node element);
+
 /// A unit vector orthogonal to the unit vector `d`, as the file's version chooses it.
 Triple orthogonal_vector(const Triple& d, FileVersion version);
 

@@ -33,7 +33,7 @@ void read_point(SceneReader& s, Properties& p, LightDescription& out) {
   check_not_both(p, "position", "to_world");
   Triple position = p.triple("position");
   if (p.has("to_world")) {
-    const Matrix4 m = p.transform("to_world");
+    const Matrix4 m = p.transform("to_world", out.motion);
     position = {m[0][3], m[1][3], m[2][3]};
   }
   out.to_world = Matrix4::translate(position[0], position[1], position[2]);
@@ -50,7 +50,7 @@ void read_spot(SceneReader& s, Properties& p, LightDescription& out) {
             light.cutoff_angle);
   light.texture = s.texture(p, "texture");
   out.model = light;
-  out.to_world = p.transform("to_world");
+  out.to_world = p.transform("to_world", out.motion);
   read_common(s, p, out);
 }
 
@@ -60,14 +60,14 @@ void read_projector(SceneReader& s, Properties& p, LightDescription& out) {
   light.scale = p.number("scale");
   std::tie(light.fov, light.fov_axis) = read_fov(p);
   out.model = light;
-  out.to_world = p.transform("to_world");
+  out.to_world = p.transform("to_world", out.motion);
   read_common(s, p, out);
 }
 
 void read_directional(SceneReader& s, Properties& p, LightDescription& out) {
   out.model = DirectionalLight{s.constant_color(p, "irradiance")};
   check_not_both(p, "direction", "to_world");
-  out.to_world = p.transform("to_world");
+  out.to_world = p.transform("to_world", out.motion);
   if (p.has("direction")) {
     const Triple d = p.triple("direction");
     // Turning the light around its direction changes nothing: any "up" will do.
@@ -93,7 +93,7 @@ void read_envmap(SceneReader& s, Properties& p, LightDescription& out) {
   if (light.gamma && *light.gamma != -1 && !(*light.gamma > 0))
     p.error("gamma", "a gamma is positive, or -1 for sRGB, not {}", *light.gamma);
   out.model = light;
-  out.to_world = p.transform("to_world");
+  out.to_world = p.transform("to_world", out.motion);
   read_common(s, p, out);
 }
 

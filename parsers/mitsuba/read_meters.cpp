@@ -68,7 +68,7 @@ void read_irradiancemeter(SceneReader& s, Properties& p, SensorDescription& out)
 void read_fluencemeter(SceneReader& s, Properties& p, SensorDescription& out) {
   out.kind = SensorKind::fluencemeter;
   read_sensor(s, p, out);
-  check_rigid(p, out.to_world);
+  check_rigid(p, out);
 }
 
 void read_distant(SceneReader& s, Properties& p, SensorDescription& out) {
@@ -83,7 +83,7 @@ void read_distant(SceneReader& s, Properties& p, SensorDescription& out) {
 void read_spherical(SceneReader& s, Properties& p, SensorDescription& out) {
   out.kind = SensorKind::spherical;
   read_sensor(s, p, out);
-  check_rigid(p, out.to_world);
+  check_rigid(p, out);
 }
 
 void read_telecentric(SceneReader& s, Properties& p, SensorDescription& out) {
@@ -96,7 +96,7 @@ void read_telecentric(SceneReader& s, Properties& p, SensorDescription& out) {
 void read_perspective_rdist(SceneReader& s, Properties& p, SensorDescription& out) {
   out.kind = SensorKind::perspective_rdist;
   read_sensor(s, p, out);
-  check_rigid(p, out.to_world);
+  check_rigid(p, out);
   std::tie(out.fov, out.fov_axis) = read_fov(p);
   const std::string text = p.string("kc");
   const auto numbers = parse_numbers(text);

@@ -58,23 +58,31 @@ void read_pixel_format(SceneReader& s, Properties& p, FilmDescription& out) {
   out.pixel_format = p.choice<PixelFormat>("pixel_format", formats);
 }
 
-}  // namespace
-
-void check_rigid(Properties& p, const Matrix4& m) {
+bool is_rigid(const Matrix4& m) {
   for (int i = 0; i < 3; ++i)
     for (int j = i; j < 3; ++j) {
       const double product = m[i][0] * m[j][0] + m[i][1] * m[j][1] + m[i][2] * m[j][2];
-      if (std::abs(product - (i == j ? 1 : 0)) > 1e-3) {
-        p.error("to_world", "the transform of {} must not scale", describe(p.node()));
-        return;
-      }
+      if (std::abs(product - (i == j ? 1 : 0)) > 1e-3) return false;
     }
+  return true;
+}
+
+}  // namespace
+
+void check_rigid(Properties& p, const SensorDescription& sensor) {
+  bool rigid = is_rigid(sensor.to_world);
+  for (const Keyframe& k : sensor.motion.keyframes()) rigid &= is_rigid(k.pose);
+  if (!rigid) p.error("to_world", "the transform of {} must not scale", describe(p.node()));
 }
 
 void read_sensor(SceneReader& s, Properties& p, SensorDescription& out) {
   out.where = p.node().where;
   out.label = {p.node().id};
-  out.to_world = p.transform("to_world");
+  out.to_world = p.transform("to_world", out.motion);
+  out.shutter = {p.number("shutter_open"), p.number("shutter_close")};
+  if (out.shutter[0] > out.shutter[1])
+    p.error(p.has("shutter_close") ? "shutter_close" : "shutter_open",
+            "the shutter closes at {}, before it opens at {}", out.shutter[1], out.shutter[0]);
   out.near_clip = p.number("near_clip");
   out.far_clip = p.number("far_clip");
   if (out.near_clip >= out.far_clip)
@@ -118,7 +126,7 @@ std::pair<double, FovAxis> read_fov(Properties& p) {
 void read_perspective(SceneReader& s, Properties& p, SensorDescription& out) {
   out.kind = SensorKind::perspective;
   read_sensor(s, p, out);
-  check_rigid(p, out.to_world);
+  check_rigid(p, out);
   std::tie(out.fov, out.fov_axis) = read_fov(p);
   out.principal_point_offset_x = p.number("principal_point_offset_x");
   out.principal_point_offset_y = p.number("principal_point_offset_y");
@@ -127,7 +135,7 @@ void read_perspective(SceneReader& s, Properties& p, SensorDescription& out) {
 void read_thinlens(SceneReader& s, Properties& p, SensorDescription& out) {
   out.kind = SensorKind::thinlens;
   read_sensor(s, p, out);
-  check_rigid(p, out.to_world);
+  check_rigid(p, out);
   std::tie(out.fov, out.fov_axis) = read_fov(p);
   out.aperture_radius = p.number("aperture_radius");
   out.focus_distance = p.optional_number("focus_distance").value_or(out.far_clip);

@@ -1,6 +1,7 @@
 // Plugins that stand for many shapes.
 #include <cmath>
 
+#include "math/polar.h"
 #include "mesh/ellipsoids.h"
 #include "mitsuba/readers.h"
 #include "mitsuba/scene_reader.h"
@@ -17,35 +18,6 @@ namespace {
 
 using Rotation = std::array<std::array<double, 3>, 3>;
 
-/// The rotation nearest to a map, and the mean of the stretch that is left: Higham, "Computing the
-/// Polar Decomposition", 1986.
-struct Decomposed {
-  Rotation rotation;
-  double mean_scale;
-};
-
-Decomposed decompose(const Matrix4& m) {
-  Matrix4 q;
-  for (int i = 0; i < 3; ++i)
-    for (size_t j = 0; j < 3; ++j) q[i][j] = m[i][j];
-  for (int step = 0; step < 25; ++step) {
-    const auto inverse = q.inverse();
-    if (!inverse) break;
-    Matrix4 next;
-    for (int i = 0; i < 3; ++i)
-      for (size_t j = 0; j < 3; ++j) next[i][j] = 0.5 * (q[i][j] + (*inverse)[int(j)][size_t(i)]);
-    q = next;
-  }
-  Decomposed d{};
-  const double sign = q.determinant3() < 0 ? -1 : 1;
-  for (size_t i = 0; i < 3; ++i)
-    for (size_t j = 0; j < 3; ++j) d.rotation[i][j] = sign * q[int(i)][j];
-  // The trace of the stretch Qᵀ M.
-  for (int i = 0; i < 3; ++i)
-    for (size_t j = 0; j < 3; ++j) d.mean_scale += sign * q[i][j] * m[i][j] / 3;
-  return d;
-}
-
 Rotation rotation_of(const double (&q)[4]) {
   const auto [x, y, z, w] = std::array<double, 4>{q[0], q[1], q[2], q[3]};
   return {{{1 - 2 * (y * y + z * z), 2 * (x * y - z * w), 2 * (x * z + y * w)},
@@ -54,14 +26,15 @@ Rotation rotation_of(const double (&q)[4]) {
 }
 
 /// Where Mitsuba puts the unit sphere: stretches of `to_world` are evened out.
-Matrix4 placed(const Ellipsoid& e, double scale, const Matrix4& to_world, const Decomposed& d) {
+Matrix4 placed(const Ellipsoid& e, double scale, const Matrix4& to_world, const PolarParts& d) {
+  const double mean_scale = (d.stretch[0][0] + d.stretch[1][1] + d.stretch[2][2]) / 3;
   const Rotation own = rotation_of(e.quaternion);
   Matrix4 m;
   for (size_t i = 0; i < 3; ++i) {
     for (size_t j = 0; j < 3; ++j) {
       double sum = 0;
-      for (size_t k = 0; k < 3; ++k) sum += d.rotation[i][k] * own[k][j];
-      m[int(i)][j] = sum * e.radius[j] * scale * std::abs(d.mean_scale);
+      for (size_t k = 0; k < 3; ++k) sum += d.rotation[int(i)][k] * own[k][j];
+      m[int(i)][j] = sum * e.radius[j] * scale * std::abs(mean_scale);
     }
     const auto& row = to_world[int(i)];
     m[int(i)][3] = row[0] * e.center[0] + row[1] * e.center[1] + row[2] * e.center[2] + row[3];
@@ -83,7 +56,7 @@ void read_ellipsoids(SceneReader& s, Properties& p, ShapeList& out) {
     return s.report().error(prototype.emission->where, "{} cannot emit light", describe(p.node()));
   if (file.empty()) return;
   try {
-    const Decomposed d = decompose(to_world);
+    const PolarParts d = polar_parts(to_world);
     for (const Ellipsoid& e : s.files().read_ellipsoids(file)) {
       ShapeDescription shape = prototype;
       shape.to_world = placed(e, scale, to_world, d);

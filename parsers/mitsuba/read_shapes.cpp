@@ -58,7 +58,7 @@ MeshOptions mesh_options(Properties& p, MeshSource& source) {
 }
 
 void SceneReader::attach_without_material(Properties& p, ShapeDescription& out) {
-  out.to_world = p.transform("to_world") * out.to_world;
+  out.to_world = p.transform("to_world", out.motion) * out.to_world;
   if (find_parameter(PluginKind::shape, *p.node().plugin, "flip_normals"))
     out.flip_normals = p.boolean("flip_normals");
   if (const Node* light = p.child(PluginKind::emitter)) out.emission = emission(*light);
@@ -115,6 +115,8 @@ void SceneReader::shape(const Node& node, std::vector<ShapeDescription>& shapes,
              shape.where = node.where, shape.label = {node.id}, read_into(node, shape)) {
     if (in_group && shape.emission)
       report_.error(shape.emission->where, "a shape in a shape group cannot emit light");
+    if (in_group && !shape.motion.empty())
+      report_.error(node.where, "a shape in a shape group cannot move; its instances can");
     shapes.push_back(std::move(shape));
     sensors_on_shape(node, in_group || &shapes != &description_.shapes, shapes.size() - 1);
   }
@@ -250,7 +252,7 @@ void read_hair_shape(SceneReader& s, Properties& p, ShapeDescription& out) {
 }
 
 void read_instance(SceneReader& s, Properties& p, ShapeDescription& out) {
-  out.to_world = p.transform("to_world");
+  out.to_world = p.transform("to_world", out.motion);
   const Node* node = p.child(PluginKind::shape);
   if (!node) {
     s.report().error(p.node().where, "{} needs a reference to a shape group", describe(p.node()));

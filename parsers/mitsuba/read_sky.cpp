@@ -201,7 +201,7 @@ void read_timed_sunsky(SceneReader& s, Properties& p, LightDescription& out) {
 
 void read_collimated(SceneReader& s, Properties& p, LightDescription& out) {
   out.model = CollimatedLight{s.constant_color(p, "power")};
-  out.to_world = p.transform("to_world");
+  out.to_world = p.transform("to_world", out.motion);
   out.sampling_weight = p.number("sampling_weight");
   if (const Node* medium = p.child(PluginKind::medium)) out.medium = s.medium(*medium);
 }

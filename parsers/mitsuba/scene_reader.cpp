@@ -202,7 +202,7 @@ void SceneReader::top_level(const Node& scene) {
         // One that belongs to a surface may stand here to be referred to.
         if (std::holds_alternative<ReadInto<AreaEmission>>(node.plugin->reader))
           surface_lights_.try_emplace(&node, false);
-        else if (LightDescription light{node.where, {node.id}, PointLight{}, {}, 1, {}};
+        else if (LightDescription light{node.where, {node.id}, PointLight{}, {}, {}, 1, {}};
                  read_into(node, light))
           description_.lights.push_back(std::move(light));
         break;

@@ -70,6 +70,10 @@ void SceneWriter::fov(double degrees, FovAxis axis) {
 }
 
 void SceneWriter::view(const SensorDescription& s) {
+  if (s.shutter != std::array<double, 2>{}) {
+    out_.number("shutter_open", s.shutter[0]);
+    out_.number("shutter_close", s.shutter[1]);
+  }
   if (s.kind == SensorKind::irradiancemeter) return;
   out_.transform("to_world", s.to_world);
   if (has_fov(s.kind) || s.kind == SensorKind::orthographic || s.kind == SensorKind::telecentric) {
@@ -211,17 +215,32 @@ void SceneWriter::light(const LightDescription& l) {
   out_.close();
 }
 
-MitsubaXml write_mitsuba_xml(const SceneDescription& description) {
+namespace {
+
+/// Of a description in which nothing moves.
+MitsubaXml write(const SceneDescription& description, std::vector<std::string> losses) {
   SceneWriter writer(description);
   writer.write();
+  losses.insert(losses.end(), writer.losses().begin(), writer.losses().end());
   std::string comments;
-  for (const std::string& loss : writer.losses())
-    comments += commented("Not in Mitsuba 3: " + loss);
+  for (const std::string& loss : losses) comments += commented("Not in Mitsuba 3: " + loss);
   for (const Diagnostic& a : description.approximations)
     comments += commented("Approximated: " + a.message);
   std::string text = "<scene version=\"3.0.0\">\n";
   if (!comments.empty()) text += "  <!--\n" + comments + "  -->\n";
-  return {text + writer.text() + "</scene>\n", writer.losses()};
+  return {text + writer.text() + "</scene>\n", std::move(losses)};
+}
+
+}  // namespace
+
+MitsubaXml write_mitsuba_xml(const SceneDescription& description) {
+  if (count_moving(description) > 0) {
+    const double time = description.sensors.empty() ? 0 : description.sensors[0].shutter[0];
+    return write(
+        scene_at(description, time),
+        {fmt::format("motion is missing: everything stands as it does at the time {}", time)});
+  }
+  return write(description, {});
 }
 
 }  // namespace duet

@@ -7,7 +7,8 @@ namespace duet {
 
 /// What all sensors have: place, clipping planes, medium, film and sampler.
 void read_sensor(SceneReader& s, Properties& p, SensorDescription& out);
-/// An error if the transform does more than turn, mirror and move: cameras have no size.
-void check_rigid(Properties& p, const Matrix4& m);
+/// An error if the transform, at any time, does more than turn, mirror and move: cameras have no
+/// size.
+void check_rigid(Properties& p, const SensorDescription& sensor);
 
 }  // namespace duet

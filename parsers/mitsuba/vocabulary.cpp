@@ -20,16 +20,16 @@ constexpr Parameter kBsdfCommon[] = {{.name = "ensure_energy_conservation",
                                       .note = "scales reflectances above 1 down",
                                       .versions = v0}};
 constexpr Parameter kShapeCommon[] = {
-    {"to_world", transform},
+    {"to_world", transform, "", kMovable},
     {.name = "silhouette_sampling_weight", .type = number, .versions = v3, .support = inert}};
 constexpr Parameter kEmitterCommon[] = {
     {"sampling_weight", number, "1", "share in the choice of a light", not_negative}};
 constexpr Parameter kSensorCommon[] = {
-    {"to_world", transform},
+    {"to_world", transform, "", kMovable},
     {"near_clip", number, "0.01", "", positive},
     {"far_clip", number, "10000", "", positive},
-    {.name = "shutter_open", .type = number, .note = "nothing moves", .support = inert},
-    {.name = "shutter_close", .type = number, .note = "nothing moves", .support = inert}};
+    {"shutter_open", number, "0", "when light is gathered from what moves"},
+    {"shutter_close", number, "0", "not before the shutter opens"}};
 constexpr Parameter kFilmCommon[] = {
     {"width", integer, "768", "in pixels", size},
     {"height", integer, "576", "in pixels", size},

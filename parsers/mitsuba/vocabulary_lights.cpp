@@ -5,7 +5,7 @@ namespace duet::vocabulary {
 
 namespace {
 
-constexpr Parameter kToWorld{"to_world", transform};
+constexpr Parameter kToWorld{"to_world", transform}, kPlace{"to_world", transform, "", kMovable};
 constexpr Parameter kScale{"scale", number, "1", "multiplies the light", not_negative};
 constexpr Parameter kIntensity{"intensity", emission, "1", "radiant intensity, W/sr"};
 constexpr Parameter kRadiance{
@@ -13,24 +13,24 @@ constexpr Parameter kRadiance{
 
 constexpr Parameter kArea[] = {kRadiance};
 constexpr Parameter kPoint[] = {
-    kIntensity, {"position", point, "0 0 0", "either this or to_world"}, kToWorld};
+    kIntensity, {"position", point, "0 0 0", "either this or to_world"}, kPlace};
 constexpr Parameter kSpot[] = {
     kIntensity,
     {"cutoff_angle", number, "20", "no light beyond this angle from the axis", degrees},
     {"beam_width", number, "(3/4 cutoff_angle)", "full intensity within this angle", not_negative},
     {"texture", texture, "", "multiplies the intensity"},
-    kToWorld};
+    kPlace};
 constexpr Parameter kProjector[] = {
     {"irradiance", emission, "1"},
     kScale,
     {"fov", number, "", "either this or focal_length", degrees},
     {"fov_axis", string, "x", "x, y, diagonal, smaller or larger"},
     {"focal_length", string, "50mm", "of a lens before 36 mm × 24 mm film"},
-    kToWorld};
+    kPlace};
 constexpr Parameter kDirectional[] = {
     {"irradiance", emission, "1"},
     {"direction", point, "", "either this or to_world, whose +z it is"},
-    kToWorld};
+    kPlace};
 constexpr Parameter kConstant[] = {kRadiance,
                                    {.name = "to_world", .type = transform, .support = inert}};
 constexpr Parameter kEnvmap[] = {
@@ -40,7 +40,7 @@ constexpr Parameter kEnvmap[] = {
      .preset = "1",
      .range = not_negative,
      .aliases = "intensity_scale"},
-    kToWorld,
+    kPlace,
     {.name = "gamma",
      .type = number,
      .preset = "(of the file)",
@@ -49,7 +49,7 @@ constexpr Parameter kEnvmap[] = {
     {.name = "cache", .type = boolean, .versions = v0, .support = inert},
     {.name = "mis_compensation", .type = boolean, .versions = v3, .support = inert}};
 
-constexpr Parameter kCollimated[] = {{"power", emission, "1", "in watts"}, kToWorld};
+constexpr Parameter kCollimated[] = {{"power", emission, "1", "in watts"}, kPlace};
 
 constexpr Parameter kTurbidity{"turbidity", number, "3", "of the air, from 1 to 10"};
 constexpr Parameter kAlbedo{.name = "albedo",

@@ -32,4 +32,7 @@ std::span<const Plugin> phases();
 std::span<const Plugin> volumes();
 std::span<const Plugin> subsurfaces();
 
+/// The note of a transform that may change with time.
+inline constexpr const char* kMovable = "in 0.x also an `<animation>`";
+
 }  // namespace duet::vocabulary

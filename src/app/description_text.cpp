@@ -168,7 +168,8 @@ std::string DescriptionText::shape(const ShapeDescription& s) const {
   if (!s.label.text.empty()) t += " " + s.label.text;
   if (const auto* instance = std::get_if<InstanceShape>(&s.geometry)) {
     const std::string& group = scene_.groups[instance->group].label.text;
-    return t + " of " + (group.empty() ? fmt::format("group #{}", instance->group) : group);
+    return t + " of " + (group.empty() ? fmt::format("group #{}", instance->group) : group) +
+           (s.motion.empty() ? "" : ", moves");
   }
   if (const auto* m = std::get_if<MeshShape>(&s.geometry)) {
     if (!m->source.file.empty()) t += fmt::format(" ({})", file_name(m->source.file));
@@ -178,6 +179,7 @@ std::string DescriptionText::shape(const ShapeDescription& s) const {
   if (s.interior) t += ", inside " + name(*s.interior);
   if (s.exterior) t += ", outside " + name(*s.exterior);
   if (s.emission) t += ", emits " + input(s.emission->radiance);
+  if (!s.motion.empty()) t += ", moves";
   return t;
 }
 
@@ -188,8 +190,9 @@ std::string DescriptionText::area_light(const ShapeDescription& s) const {
 }
 
 std::string DescriptionText::light(const LightDescription& l) const {
-  const Matrix4& m = l.to_world;
-  return std::visit(
+  const double time = scene_.sensors.empty() ? 0 : scene_.sensors[0].shutter[0];
+  const Matrix4 m = l.motion.at(time) * l.to_world;
+  const std::string t = std::visit(
       Overloaded{
           [&](const PointLight& p) {
             return fmt::format("point {}: {}", place(m), text(p.intensity));
@@ -219,12 +222,13 @@ std::string DescriptionText::light(const LightDescription& l) const {
           },
       },
       l.model);
+  return t + (l.motion.empty() ? "" : ", moves");
 }
 
 std::string DescriptionText::sensor(const SensorDescription& s) const {
   constexpr const char* axes[] = {"x", "y", "diagonal", "smaller", "larger"};
-  std::string t =
-      fmt::format("{} {} {}", sensor_name(s.kind), place(s.to_world), direction(s.to_world));
+  const Matrix4 m = s.motion.at(s.shutter[0]) * s.to_world;
+  std::string t = fmt::format("{} {} {}", sensor_name(s.kind), place(m), direction(m));
   if (s.kind == SensorKind::batch) t = fmt::format("batch of {} sensors", s.parts.size());
   if (s.kind == SensorKind::irradiancemeter)
     t = "irradiancemeter on " + shape_kind(scene_.shapes[s.shape]);
@@ -238,6 +242,9 @@ std::string DescriptionText::sensor(const SensorDescription& s) const {
                      (*s.target_point)[1], (*s.target_point)[2]);
   for (const ShapeDescription& shape : s.target_shape) t += ", target " + shape_kind(shape);
   if (s.medium) t += ", in " + name(*s.medium);
+  if (!s.motion.empty()) t += ", moves";
+  if (s.shutter != std::array<double, 2>{})
+    t += fmt::format(", shutter from {:g} to {:g}", s.shutter[0], s.shutter[1]);
   return t;
 }
 

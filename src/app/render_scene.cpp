@@ -116,6 +116,9 @@ class SceneRenderer {
     if (const std::string bias = integrator_->bias(); !bias.empty()) warn(bias);
     record_.bias = integrator_->bias();
     view_ = sensor;
+    // One place stands for all that a moving sensor passes.
+    if (!sensor.motion.empty())
+      view_.to_world = sensor.motion.at(sensor.shutter[0]) * sensor.to_world;
     make_request(sensor.sampler);
     planned_spp_ = request_.budget.spp.value_or(sensor.sampler.sample_count);
 

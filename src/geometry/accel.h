@@ -3,6 +3,7 @@
 
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -10,16 +11,23 @@
 
 namespace duet {
 
+/// Whether update() will be called: then only what has moved is sorted anew, and rays are slower.
+enum class AccelUse { still, moving };
+
 /// An acceleration structure over shapes that must outlive it and stay where they are.
 class Accel {
  public:
   /// The shapes in `top` stand in the scene directly; those of `groups` only through instances.
   /// `threads` bounds the threads used to build. Throws std::runtime_error if memory runs out.
   Accel(const std::vector<Shape>& shapes, ShapeRange top, const std::vector<ShapeRange>& groups,
-        const std::vector<Instance>& instances, int threads);
+        const std::vector<Instance>& instances, int threads, AccelUse use = AccelUse::still);
   ~Accel();
   Accel(const Accel&) = delete;
   Accel& operator=(const Accel&) = delete;
+
+  /// Takes note of new places of some of the `top` shapes (as indices of all shapes) and of the
+  /// instances. Meshes keep their arrays.
+  void update(std::span<const uint32_t> shapes, std::span<const uint32_t> instances);
 
   /// The nearest hit with 0 < t < ray.tmax.
   bool closest_hit(const Ray& ray, Hit& hit) const;

@@ -119,6 +119,10 @@ void attach(RTCScene scene, RTCGeometry g, uint32_t id) {
   rtcReleaseGeometry(g);
 }
 
+void place(RTCGeometry g, const Instance& instance) {
+  rtcSetGeometryTransform(g, 0, RTC_FORMAT_FLOAT3X4_ROW_MAJOR, instance.to_world.rows().data());
+}
+
 }  // namespace
 
 struct Accel::Device {
@@ -132,7 +136,7 @@ struct Accel::Device {
 
 Accel::Accel(const std::vector<Shape>& shapes, ShapeRange top,
              const std::vector<ShapeRange>& groups, const std::vector<Instance>& instances,
-             int threads)
+             int threads, AccelUse use)
     : device_(std::make_unique<Device>()),
       top_first_(top.first),
       top_count_(top.count),
@@ -143,6 +147,11 @@ Accel::Accel(const std::vector<Shape>& shapes, ShapeRange top,
   RTCDevice device = device_->device;
   device_->scenes.push_back(make_scene(device));
   RTCScene scene = device_->scenes[0];
+  if (use == AccelUse::moving) {
+    rtcSetSceneFlags(scene, RTC_SCENE_FLAG_DYNAMIC);
+    // A tree for each shape, still of medium quality, below one of all: the others are built anew.
+    rtcSetSceneBuildQuality(scene, RTC_BUILD_QUALITY_LOW);
+  }
   for (uint32_t i = 0; i < top.count; ++i)
     attach(scene, make_geometry(device, shapes[top.first + i]), i);
   for (const ShapeRange& group : groups) {
@@ -156,8 +165,7 @@ Accel::Accel(const std::vector<Shape>& shapes, ShapeRange top,
     RTCGeometry g = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_INSTANCE);
     rtcSetGeometryInstancedScene(g, device_->scenes[1 + instances[i].group]);
     rtcSetGeometryTimeStepCount(g, 1);
-    rtcSetGeometryTransform(g, 0, RTC_FORMAT_FLOAT3X4_ROW_MAJOR,
-                            instances[i].to_world.rows().data());
+    place(g, instances[i]);
     attach(scene, g, top.count + i);
   }
   check(device, "to take over the geometry");
@@ -167,6 +175,23 @@ Accel::Accel(const std::vector<Shape>& shapes, ShapeRange top,
 }
 
 Accel::~Accel() = default;
+
+void Accel::update(std::span<const uint32_t> shapes, std::span<const uint32_t> instances) {
+  RTCScene scene = device_->scenes[0];
+  for (const uint32_t shape : shapes) {
+    RTCGeometry g = rtcGetGeometry(scene, shape - top_first_);
+    // Analytic shapes have no buffer, but are user data; a commit asks for their bounds.
+    if (!rtcGetGeometryUserData(g)) rtcUpdateGeometryBuffer(g, RTC_BUFFER_TYPE_VERTEX, 0);
+    rtcCommitGeometry(g);
+  }
+  for (const uint32_t i : instances) {
+    RTCGeometry g = rtcGetGeometry(scene, top_count_ + i);
+    place(g, (*instances_)[i]);
+    rtcCommitGeometry(g);
+  }
+  rtcCommitScene(scene);
+  check(device_->device, "to follow what moves");
+}
 
 namespace {
 

@@ -15,7 +15,7 @@ AutoIntegrator::AutoIntegrator(const AutoIntegratorDescription& options,
   chosen_ = make_integrator(description_);
 }
 
-void AutoIntegrator::begin(const Scene& scene, const RenderOutlook& outlook) {
+void AutoIntegrator::choose(const Scene& scene, const RenderOutlook& outlook) {
   if (decided_) return;
   decided_ = true;
   const MethodChoice choice = choose_method(scene, options_, outlook);
@@ -30,8 +30,8 @@ void AutoIntegrator::prepare(Film& film) const {
   chosen_->prepare(film);
 }
 
-void AutoIntegrator::render_pass(const Scene& scene, Film& film, const SampleRange& samples,
-                                 const PassControl& control, RenderCounters& counters) {
+void AutoIntegrator::render_samples(const Scene& scene, Film& film, const SampleRange& samples,
+                                    const PassControl& control, RenderCounters& counters) {
   chosen_->render_pass(scene, film, samples, control, counters);
 }
 

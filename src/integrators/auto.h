@@ -17,18 +17,18 @@ class AutoIntegrator final : public Integrator {
   AutoIntegrator(const AutoIntegratorDescription& options, const IntegratorDescription& output);
 
   std::vector<std::string> channels() const override { return chosen_->channels(); }
-  void begin(const Scene& scene, const RenderOutlook& outlook) override;
   const MethodDecision* decision() const override { return decided_ ? &decision_ : nullptr; }
   std::string bias() const override { return bias_; }
   bool blurs() const override { return chosen_->blurs(); }
   bool tiles_may_differ() const override { return chosen_->tiles_may_differ(); }
   double memory_bytes(const FilmLayout& film) const override { return chosen_->memory_bytes(film); }
   void prepare(Film& film) const override;
-  void render_pass(const Scene& scene, Film& film, const SampleRange& samples,
-                   const PassControl& control, RenderCounters& counters) override;
   void finish(Image& image, int spp) const override { chosen_->finish(image, spp); }
 
  private:
+  void choose(const Scene& scene, const RenderOutlook& outlook) override;
+  void render_samples(const Scene& scene, Film& film, const SampleRange& samples,
+                      const PassControl& control, RenderCounters& counters) override;
   AutoIntegratorDescription options_;
   IntegratorDescription description_;   ///< with the method chosen
   std::unique_ptr<Integrator> chosen_;  ///< of the same channels before the decision

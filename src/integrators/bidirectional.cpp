@@ -5,6 +5,8 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "integrators/motion_blur.h"
+
 namespace duet {
 
 namespace {
@@ -136,25 +138,15 @@ TechniqueSet BidirectionalIntegrator::techniques(const Film& film, uint32_t iter
   return set;
 }
 
-void BidirectionalIntegrator::render_pass(const Scene& scene, Film& film,
-                                          const SampleRange& samples, const PassControl& control,
-                                          RenderCounters& counters) {
-  std::vector<TileSamples> tiles(samples.tiles.size());
-  for (uint32_t i = 0; i < samples.count && !control.cancelled(); ++i) {
-    SampleRange one = samples;
-    one.first = samples.first + i;
-    one.count = 1;
-    for (size_t k = 0; k < tiles.size(); ++k)
-      tiles[k] = {samples.tiles[k].first + i, i < samples.tiles[k].count ? 1u : 0u};
-    one.tiles = tiles;
-    PassControl whole = control;
+void BidirectionalIntegrator::render_samples(const Scene& scene, Film& film,
+                                             const SampleRange& samples, const PassControl& control,
+                                             RenderCounters& counters) {
+  for_each_sample(samples, control, [&](const SampleRange& one, const PassControl& part) {
+    PassControl whole = part;
     // Eye and light walks belong together: an iteration that has begun is finished.
     whole.cancelled = [] { return false; };
-    whole.report = [&](double fraction) {
-      control.report((double(i) + fraction) / double(samples.count));
-    };
     iteration(scene, film, one, whole, counters);
-  }
+  });
 }
 
 void BidirectionalIntegrator::iteration(const Scene& scene, Film& film, const SampleRange& samples,
@@ -203,7 +195,7 @@ void BidirectionalIntegrator::iteration(const Scene& scene, Film& film, const Sa
         uint32_t(v.size()), [&](uint32_t i) { return v[i].position; }, float(radius(samples.first)),
         control.threads);
   }
-  CameraIntegrator::render_pass(scene, film, samples, control, counters);
+  CameraIntegrator::render_samples(scene, film, samples, control, counters);
   film.end_pass();
 }
 

@@ -25,10 +25,10 @@ class BidirectionalIntegrator final : public CameraIntegrator {
   bool blurs() const override;
   double memory_bytes(const FilmLayout& film) const override;
   void prepare(Film& film) const override;
-  void render_pass(const Scene& scene, Film& film, const SampleRange& samples,
-                   const PassControl& control, RenderCounters& counters) override;
 
  protected:
+  void render_samples(const Scene& scene, Film& film, const SampleRange& samples,
+                      const PassControl& control, RenderCounters& counters) override;
   Spectrum radiance(const Scene& scene, const CameraPath& path, Sampler& sampler,
                     RenderCounters& counters, std::span<float> values) const override;
 

@@ -72,8 +72,8 @@ void CameraIntegrator::sample(const Scene& scene, const CameraPath& path, Sample
   }
 }
 
-void CameraIntegrator::render_pass(const Scene& scene, Film& film, const SampleRange& samples,
-                                   const PassControl& control, RenderCounters& counters) {
+void CameraIntegrator::render_samples(const Scene& scene, Film& film, const SampleRange& samples,
+                                      const PassControl& control, RenderCounters& counters) {
   for_each_tile(film, control, counters, [&](FilmTile& tile, RenderCounters& c) {
     SampleRange own = samples;
     if (!samples.tiles.empty()) {

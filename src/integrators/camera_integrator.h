@@ -44,13 +44,13 @@ class CameraIntegrator : public Integrator {
   explicit CameraIntegrator(const CameraOutput& output);
 
   std::vector<std::string> channels() const final { return channels_; }
-  void render_pass(const Scene& scene, Film& film, const SampleRange& samples,
-                   const PassControl& control, RenderCounters& counters) override;
   void finish(Image& image, int spp) const final;
   /// Not if a layer tells how many samples there are, or needs to know.
   bool tiles_may_differ() const final;
 
  protected:
+  void render_samples(const Scene& scene, Film& film, const SampleRange& samples,
+                      const PassControl& control, RenderCounters& counters) override;
   /// An estimate of the radiance that arrives along the path's ray. `values` are the channels of
   /// the sample, all zero; the fourth, alpha, becomes 1 if something is seen. The first three are
   /// set by the caller.

@@ -3,6 +3,8 @@
 #include <atomic>
 
 #include "base/parallel.h"
+#include "integrators/motion_blur.h"
+#include "scene/scene_motion.h"
 
 namespace duet {
 
@@ -17,6 +19,20 @@ void for_each_tile(Film& film, const PassControl& control, RenderCounters& count
     control.report(double(++done) / double(tiles.size()));
   });
   for (const RenderCounters& c : of_tile) counters.add(c);
+}
+
+void Integrator::begin(const Scene& scene, const RenderOutlook& outlook) {
+  if (scene.motion) scene.motion->pose(0.5);
+  choose(scene, outlook);
+}
+
+void Integrator::render_pass(const Scene& scene, Film& film, const SampleRange& samples,
+                             const PassControl& control, RenderCounters& counters) {
+  if (!scene.motion) return render_samples(scene, film, samples, control, counters);
+  for_each_sample(samples, control, [&](const SampleRange& one, const PassControl& part) {
+    scene.motion->pose(time_of_sample(samples, one.first));
+    render_samples(scene, film, one, part, counters);
+  });
 }
 
 }  // namespace duet

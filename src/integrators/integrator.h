@@ -63,9 +63,10 @@ class Integrator {
   virtual ~Integrator() = default;
   /// Names of the film channels that render_pass() fills, in order.
   virtual std::vector<std::string> channels() const = 0;
-  /// Called with the scene that is to be rendered, before prepare(); for a second time it does
-  /// nothing. What happens here is not part of the image.
-  virtual void begin(const Scene&, const RenderOutlook&) {}
+  /// To be called with the scene that is to be rendered, before prepare(); for a second time it
+  /// does nothing. What happens here is not part of the image. What moves in the scene is where it
+  /// is when half the time that the shutter is open is over.
+  void begin(const Scene& scene, const RenderOutlook& outlook);
   /// After begin(): what was chosen, or null if there is no choice.
   virtual const MethodDecision* decision() const { return nullptr; }
   /// For people: why even the mean of many images is wrong, if it is.
@@ -81,12 +82,19 @@ class Integrator {
   /// Called once for each film, before its first pass.
   virtual void prepare(Film&) const {}
   /// Adds samples to every pixel of the film. A pass that is cancelled leaves a film whose mean is
-  /// still right.
-  virtual void render_pass(const Scene& scene, Film& film, const SampleRange& samples,
-                           const PassControl& control, RenderCounters& counters) = 0;
+  /// still right. If the scene moves, it is posed for each sample (motion_blur.h), so passes over
+  /// it come one after another.
+  void render_pass(const Scene& scene, Film& film, const SampleRange& samples,
+                   const PassControl& control, RenderCounters& counters);
   /// Turns what the film has summed up into what its channels are called, once `spp` samples per
   /// pixel are there.
   virtual void finish(Image& image, int spp) const = 0;
+
+ protected:
+  /// What begin() and render_pass() do with a scene that stands still, for as long as they last.
+  virtual void choose(const Scene&, const RenderOutlook&) {}
+  virtual void render_samples(const Scene& scene, Film& film, const SampleRange& samples,
+                              const PassControl& control, RenderCounters& counters) = 0;
 };
 
 }  // namespace duet

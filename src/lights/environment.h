@@ -40,6 +40,8 @@ class EnvironmentMap final : public EnvironmentLight {
   Spectrum emitted(const Vector3f& wi) const override;
   PdfW pdf_direct(const Vector3f& wi) const override;
   double power(double scene_radius) const override;
+  /// Turns the image as the transform of the constructor does.
+  void turn(const Matrix4& to_world) { axes_ = rotation(to_world); }
 
  private:
   /// A place between four texels: column x (and the next, around the back), row y and the one

@@ -2,20 +2,32 @@
 
 #include "scene/builder.h"
 #include "scene/light_media.h"
+#include "scene/scene_motion.h"
 
 namespace duet {
 
 std::unique_ptr<Scene> build_scene(SceneDescription description, const BuildOptions& options,
                                    Diagnostics& diagnostics) {
-  return SceneBuilder(std::move(description), options, diagnostics).build();
+  const auto [open, close] = description.sensors.at(options.sensor).shutter;
+  const size_t moving = count_moving(description);
+  std::vector<Mover> movers;
+  if (moving > 0) movers = take_movers(description, options.sensor);
+  const auto builder = std::make_shared<SceneBuilder>(
+      std::move(description), options, movers.empty() ? AccelUse::still : AccelUse::moving);
+  std::unique_ptr<Scene> scene = builder->build();
+  for (const Diagnostic& d : builder->diagnostics().all()) diagnostics.add(d);
+  if (scene) scene->features.moving = moving;
+  if (scene && !movers.empty())
+    scene->motion = std::make_shared<SceneMotion>(builder, std::move(movers), open, close);
+  return scene;
 }
 
-SceneBuilder::SceneBuilder(SceneDescription description, const BuildOptions& options,
-                           Diagnostics& diagnostics)
+SceneBuilder::SceneBuilder(SceneDescription description, const BuildOptions& options, AccelUse use)
     : description_(std::move(description)),
       options_(options),
-      diagnostics_(diagnostics),
-      scene_(std::make_unique<Scene>()),
+      use_(use),
+      made_(std::make_unique<Scene>()),
+      scene_(made_.get()),
       textures_(description_.textures.size()),
       materials_(description_.materials.size()),
       volumes_(description_.volumes.size()),
@@ -23,7 +35,6 @@ SceneBuilder::SceneBuilder(SceneDescription description, const BuildOptions& opt
       media_(description_.media.size()) {}
 
 std::unique_ptr<Scene> SceneBuilder::build() {
-  const size_t errors = diagnostics_.error_count();
   height_fields();
   scene_->features = scene_features(description_);
   shapes();
@@ -32,11 +43,17 @@ std::unique_ptr<Scene> SceneBuilder::build() {
   scene_->camera = camera(sensor, {sensor.film.width, sensor.film.height});
   if (const uint32_t m = medium(sensor.medium); m != kNone)
     scene_->camera_medium = scene_->media[m].get();
-  if (diagnostics_.error_count() > errors) return nullptr;
+  if (diagnostics_.has_errors()) return nullptr;
   Scene& scene = *scene_;
   for (const auto& m : scene.materials) scene.has_passable_surfaces |= m->passes_straight();
   scene.accel = std::make_unique<Accel>(scene.shapes, scene.top, scene.groups, scene.instances,
-                                        options_.threads);
+                                        options_.threads, use_);
+  survey();
+  return std::move(made_);
+}
+
+void SceneBuilder::survey() {
+  Scene& scene = *scene_;
   Bounds bounds = scene.accel->bounds();
   const Medium* outermost = scene.media.empty() ? nullptr : outermost_medium(scene);
   // Light may be scattered there, too.
@@ -44,11 +61,11 @@ std::unique_ptr<Scene> SceneBuilder::build() {
     if (const auto box = outermost->bounds()) bounds.extend(*box);
   scene.camera->surround(bounds.center(), bounds.radius());
   for (const auto& light : scene.lights) light->surround(bounds.center(), bounds.radius());
+  scene.light_media.clear();
   if (!scene.media.empty())
     for (const auto& light : scene.lights)
       scene.light_media.push_back(medium_before(scene, *light, outermost));
   scene.picker = LightPicker(selection_weights(scene.lights, sampling_weights_, bounds.radius()));
-  return std::move(scene_);
 }
 
 bool SceneBuilder::check_transform(const Matrix4& m, const SourceLocation& where) {

@@ -19,7 +19,9 @@ struct BuildOptions {
 
 /// Builds what the description says; null, with errors in `diagnostics`, if something in it cannot
 /// be built (a missing image, a transform that cannot be inverted, …). All such errors are reported
-/// together. The description's meshes move into the scene where nothing else holds them.
+/// together. The description's meshes move into the scene where nothing else holds them. What moves
+/// while the shutter of the sensor is open is posed by Scene::motion and begins at half of the
+/// time; if nothing does, the scene is as it is when the shutter opens.
 std::unique_ptr<Scene> build_scene(SceneDescription description, const BuildOptions& options,
                                    Diagnostics& diagnostics);
 

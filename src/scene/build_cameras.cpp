@@ -60,10 +60,7 @@ bool SceneBuilder::check_single_pixel(const SensorDescription& d, const Point2i&
 
 std::unique_ptr<Camera> SceneBuilder::irradiance_meter(const SensorDescription& d,
                                                        const Point2i& film) {
-  // Instances come after all other shapes, which keep their order.
-  size_t index = scene_->top.first;
-  for (uint32_t i = 0; i < d.shape; ++i)
-    index += !std::holds_alternative<InstanceShape>(description_.shapes[i].geometry);
+  const uint32_t index = shape_index(d.shape);
   if (index >= scene_->shapes.size()) return nullptr;  // after an error
   const Shape& shape = scene_->shapes[index];
   if (ShapePoints::is_even(shape) && surface_area(shape) > 0)

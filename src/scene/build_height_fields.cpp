@@ -44,7 +44,7 @@ bool SceneBuilder::read_heights(TextureId id, const HeightFieldShape& shape, con
       return false;
   } else if (std::holds_alternative<CheckerboardTexture>(d.model) ||
              std::holds_alternative<GridLinesTexture>(d.model)) {
-    AttributeSet outer = std::exchange(attributes_, {});
+    ShapeTextureSet outer = std::exchange(shape_textures_, {});
     const std::unique_ptr<Texture> made = std::visit(
         [&](auto pattern) {
           // As an image, Mitsuba 0.6 shows it before it is moved and scaled.
@@ -52,7 +52,7 @@ bool SceneBuilder::read_heights(TextureId id, const HeightFieldShape& shape, con
           return make(pattern, d.where);
         },
         d.model);
-    const bool reads_mesh = !std::exchange(attributes_, std::move(outer)).empty();
+    const bool reads_mesh = !std::exchange(shape_textures_, std::move(outer)).empty();
     if (reads_mesh)
       diagnostics_.error(d.where, "heights cannot be read from the attributes of a mesh");
     if (!made || reads_mesh) return false;

@@ -26,16 +26,13 @@ void SceneBuilder::lights() {
       diagnostics_.error(e.where, "this light's shape has no area");
       continue;
     }
-    if (e.directional) {
-      // No ray finds it: for those that meet the shape it is dark.
-      if (ShapePoints::is_even(shape))
-        add_light(std::make_unique<DirectionalArea>(shape, e.radiance), e.sampling_weight);
-      else
-        diagnostics_.error(e.where, "this light's shape must not be stretched");
+    if (e.directional && !ShapePoints::is_even(shape)) {
+      diagnostics_.error(e.where, "this light's shape must not be stretched");
       continue;
     }
-    shape.light = uint32_t(scene.lights.size());
-    add_light(std::make_unique<AreaLight>(shape, e.radiance), e.sampling_weight);
+    // No ray finds light along the normals only: for those that meet the shape it is dark.
+    if (!e.directional) shape.light = uint32_t(scene.lights.size());
+    add_light(make(e, shape), e.sampling_weight);
   }
   for (const LightDescription& d : description_.lights) {
     if (!check_transform(d.to_world, d.where)) continue;
@@ -50,6 +47,11 @@ void SceneBuilder::lights() {
     }
     add_light(std::move(light), d.sampling_weight);
   }
+}
+
+std::unique_ptr<Light> SceneBuilder::make(const Emission& e, const Shape& shape) {
+  if (e.directional) return std::make_unique<DirectionalArea>(shape, e.radiance);
+  return std::make_unique<AreaLight>(shape, e.radiance);
 }
 
 std::unique_ptr<Light> SceneBuilder::make(const PointLight& l, const LightDescription& d) {

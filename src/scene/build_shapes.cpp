@@ -83,12 +83,24 @@ void SceneBuilder::shapes() {
 }
 
 void SceneBuilder::add_instance(const ShapeDescription& d, uint32_t group) {
-  if (!check_transform(d.to_world, d.where)) return;
+  if (check_transform(d.to_world, d.where))
+    scene_->instances.push_back(make_instance(group, d.to_world));
+}
+
+Instance SceneBuilder::make_instance(uint32_t group, const Matrix4& to_world) {
   // The Frobenius norm bounds the largest stretch.
   double squares = 0;
   for (int i = 0; i < 3; ++i)
-    for (int j = 0; j < 3; ++j) squares += d.to_world[i][size_t(j)] * d.to_world[i][size_t(j)];
-  scene_->instances.push_back({group, Transform(d.to_world), float(std::sqrt(squares))});
+    for (int j = 0; j < 3; ++j) squares += to_world[i][size_t(j)] * to_world[i][size_t(j)];
+  return {group, Transform(to_world), float(std::sqrt(squares))};
+}
+
+uint32_t SceneBuilder::shape_index(uint32_t described) const {
+  // Instances come after all other shapes, which keep their order.
+  uint32_t index = scene_->top.first;
+  for (uint32_t i = 0; i < described; ++i)
+    index += !std::holds_alternative<InstanceShape>(description_.shapes[i].geometry);
+  return index;
 }
 
 Shape SceneBuilder::geometry(ShapeDescription& d, const SurfaceNeeds& needs) {

@@ -21,10 +21,24 @@ struct RoughnessOptions;
 /// error a function returns null or something harmless, so that the remaining errors are found too.
 class SceneBuilder {
  public:
-  SceneBuilder(SceneDescription description, const BuildOptions& options, Diagnostics& diagnostics);
+  /// `use` says whether the place_…() functions will be called. Then the caller holds the meshes of
+  /// shapes that move, so that the builder takes copies.
+  SceneBuilder(SceneDescription description, const BuildOptions& options,
+               AccelUse use = AccelUse::still);
 
   /// Null if there were errors.
   std::unique_ptr<Scene> build();
+  const Diagnostics& diagnostics() const { return diagnostics_; }
+
+  // place.cpp: once the scene is built, to move what is in it. Shapes and instances are numbered as
+  // in the scene, lights as in the description; the transforms can be inverted.
+  void place_instance(uint32_t index, const Matrix4& to_world);
+  /// A mesh or analytic shape; `local` is the mesh in its own space.
+  void place_shape(uint32_t index, const Matrix4& to_world, const TriangleMesh* local);
+  void place_light(uint32_t index, const Matrix4& to_world);
+  void place_sensor(const Matrix4& to_world);
+  /// After some of them, once.
+  void settle();
 
  private:
   using ShapeTextureSet = std::set<ShapeTexture*>;
@@ -39,6 +53,14 @@ class SceneBuilder {
   };
   template <class T, class Make>
   const T* once(Made<T>& made, const Make& make);
+  /// A shape that emits, by index in the scene. Its light has the same number as it has itself.
+  struct Emission {
+    size_t shape;
+    ColorSlot radiance;
+    double sampling_weight;
+    bool directional;
+    SourceLocation where;
+  };
 
   // build_textures.cpp
   const Texture* texture(TextureId id);
@@ -118,12 +140,17 @@ class SceneBuilder {
   /// The geometry of a description that has passed check_transform().
   Shape geometry(ShapeDescription& d, const SurfaceNeeds& needs);
   void add_instance(const ShapeDescription& d, uint32_t group);
+  static Instance make_instance(uint32_t group, const Matrix4& to_world);
   std::shared_ptr<TriangleMesh> world_mesh(ShapeDescription& d);
   /// Tells the textures on a shape about it.
   void announce(const Shape& shape, const ShapeDescription& d);
 
+  /// The index in the scene of a shape of the description that is no instance.
+  uint32_t shape_index(uint32_t described) const;
+
   // build_lights.cpp
   void lights();
+  std::unique_ptr<Light> make(const Emission& e, const Shape& shape);
   void add_light(std::unique_ptr<Light> light, double sampling_weight);
   std::unique_ptr<Light> make(const PointLight& l, const LightDescription& d);
   std::unique_ptr<Light> make(const SpotLight& l, const LightDescription& d);
@@ -142,13 +169,18 @@ class SceneBuilder {
   /// Whether a sensor's film has one pixel; an error if not.
   bool check_single_pixel(const SensorDescription& d, const Point2i& film);
 
+  /// What depends on where everything is.
+  void survey();
+
   /// Whether the matrix can be made a Transform; an error if not.
   bool check_transform(const Matrix4& m, const SourceLocation& where);
 
   SceneDescription description_;
   BuildOptions options_;
-  Diagnostics& diagnostics_;
-  std::unique_ptr<Scene> scene_;
+  AccelUse use_;
+  Diagnostics diagnostics_;
+  std::unique_ptr<Scene> made_;  ///< until it is built
+  Scene* scene_;
   std::vector<Made<Texture>> textures_;
   std::vector<Made<Material>> materials_;
   std::vector<Made<GridVolume>> volumes_;
@@ -160,17 +192,11 @@ class SceneBuilder {
   std::map<std::tuple<std::string, bool, double, TextureChannel>,
            std::shared_ptr<const BitmapPixels>>
       pixels_;
-  /// Shapes that emit, by index.
-  struct Emission {
-    size_t shape;
-    ColorSlot radiance;
-    double sampling_weight;
-    bool directional;
-    SourceLocation where;
-  };
   std::vector<Emission> emissions_;
   /// Per light of the scene.
   std::vector<double> sampling_weights_;
+  /// What place_shape() and place_instance() have moved, as Accel::update() needs it.
+  std::vector<uint32_t> moved_shapes_, moved_instances_;
 };
 
 template <class T, class Make>

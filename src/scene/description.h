@@ -21,6 +21,7 @@
 #include "materials/microfacet_kind.h"
 #include "materials/ward_variant.h"
 #include "math/fov.h"
+#include "math/motion.h"
 #include "math/spectrum.h"
 #include "math/transform.h"
 #include "media/volume_grid.h"
@@ -484,6 +485,7 @@ struct ShapeDescription {
                InstanceShape, SdfGridShape, CurvesShape, HeightFieldShape>
       geometry;
   Matrix4 to_world;
+  Motion motion;  ///< of what `to_world` has placed
   bool flip_normals = false;
   MaterialId material{};  ///< not used by instances
   std::optional<AreaEmission> emission;
@@ -564,6 +566,7 @@ struct LightDescription {
                EnvironmentMapLight, SkyLight, CollimatedLight>
       model;
   Matrix4 to_world;
+  Motion motion;  ///< as in ShapeDescription; environments only turn
   /// Multiplies the light's share in the choice of a light (`sampling_weight`).
   double sampling_weight = 1;
   std::optional<MediumId> medium;  ///< that the light stands in
@@ -645,7 +648,10 @@ struct SensorDescription {
   Label label;
   SensorKind kind = SensorKind::perspective;
   Matrix4 to_world;  ///< looks along +z, +x to the left of the image, +y up
-  double fov = 45;   ///< degrees
+  Motion motion;     ///< as in ShapeDescription
+  /// When the shutter opens and closes, not before. Light is gathered evenly in between.
+  std::array<double, 2> shutter{};
+  double fov = 45;  ///< degrees
   FovAxis fov_axis = FovAxis::x;
   double principal_point_offset_x = 0, principal_point_offset_y = 0;  ///< in image sizes
   double near_clip = 1e-2, far_clip = 1e4;
@@ -778,5 +784,10 @@ struct SceneDescription {
            a.integrator == b.integrator;
   }
 };
+
+/// The number of shapes, lights and sensors that move.
+size_t count_moving(const SceneDescription& scene);
+/// The scene as it stands at a time. Nothing in it moves.
+SceneDescription scene_at(SceneDescription scene, double time);
 
 }  // namespace duet

@@ -240,7 +240,12 @@ class List {
 }  // namespace
 
 SceneFeatures scene_features(const SceneDescription& scene) {
-  return Survey(scene).result();
+  const size_t moving = count_moving(scene);
+  if (moving == 0) return Survey(scene).result();
+  const double time = scene.sensors.empty() ? 0 : scene.sensors[0].shutter[0];
+  SceneFeatures features = Survey(scene_at(scene, time)).result();
+  features.moving = moving;
+  return features;
 }
 
 std::string describe(const SceneFeatures& f) {
@@ -281,6 +286,7 @@ std::string describe(const SceneFeatures& f) {
                        .add(f.heterogeneous_media, "of them a grid", "of them grids")
                        .text("");
   if (f.depth_of_field) text += "; depth of field";
+  if (f.moving > 0) text += "; " + List().add(f.moving, "moving thing", "moving things").text("");
   return text;
 }
 

@@ -43,12 +43,14 @@ struct SceneFeatures {
   bool coloured_media = false;     ///< any whose extinction is a colour
 
   bool depth_of_field = false;  ///< of any sensor
+  size_t moving = 0;            ///< shapes, lights and sensors that move
 };
 
 /// Whether the shape counts as SceneFeatures::one_way_surfaces.
 bool is_one_way(const SceneDescription& scene, const ShapeDescription& shape);
 
-/// Looks at everything that shapes of the scene refer to.
+/// Looks at everything that shapes of the scene refer to. What moves is where it is when the
+/// shutter of the first sensor opens.
 SceneFeatures scene_features(const SceneDescription& scene);
 
 /// One line for people: "3 meshes (1,204 triangles), 2 area lights, mirrors, …".

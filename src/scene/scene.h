@@ -16,6 +16,8 @@
 
 namespace duet {
 
+class SceneMotion;
+
 /// Everything that rays can meet. Owns its parts; indices in shapes refer to these arrays.
 struct Scene {
   std::vector<Shape> shapes;
@@ -41,6 +43,8 @@ struct Scene {
   bool has_passable_surfaces = false;
   std::unique_ptr<Accel> accel;
   SceneFeatures features;  ///< of the description that this was built from
+  /// Moves the scene between passes; null if it stands still while the shutter is open.
+  std::shared_ptr<SceneMotion> motion;
 
   Scene() = default;
   Scene(const Scene&) = delete;

@@ -20,8 +20,8 @@ class FakeIntegrator final : public Integrator {
       : milliseconds_(milliseconds), brightness_(brightness) {}
   std::vector<std::string> channels() const override { return {"R", "G", "B"}; }
   void finish(Image&, int) const override {}
-  void render_pass(const Scene&, Film& film, const SampleRange& samples, const PassControl& control,
-                   RenderCounters& counters) override {
+  void render_samples(const Scene&, Film& film, const SampleRange& samples,
+                      const PassControl& control, RenderCounters& counters) override {
     for_each_tile(film, control, counters,
                   [&](FilmTile& tile, RenderCounters& c) { render_tile(film, tile, samples, c); });
   }

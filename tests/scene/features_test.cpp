@@ -105,7 +105,7 @@ TEST_CASE("lights and lenses are counted") {
   lamp.emission->radiance = TextureId{0};
   d.shapes.push_back(lamp);
   const auto add = [&](decltype(LightDescription::model) model) {
-    d.lights.push_back({{}, {}, std::move(model), {}, 1, {}});
+    d.lights.push_back({{}, {}, std::move(model), {}, {}, 1, {}});
   };
   add(PointLight{}), add(PointLight{}), add(SpotLight{}), add(ProjectorLight{});
   add(DirectionalLight{}), add(ConstantLight{}), add(EnvironmentMapLight{});

@@ -16,9 +16,9 @@ struct TransportScene {
   std::unique_ptr<Scene> scene;
   IntegratorDescription integrator;
 
-  /// `content` is what stands within the <scene> of a file of version 3.0.0.
-  explicit TransportScene(const std::string& content) {
-    ReadResult read = read_text("<scene version='3.0.0'>" + content + "</scene>");
+  /// `content` is what stands within the <scene> of a file.
+  explicit TransportScene(const std::string& content, const std::string& version = "3.0.0") {
+    ReadResult read = read_text("<scene version='" + version + "'>" + content + "</scene>");
     REQUIRE_MESSAGE(read.scene, read.messages());
     prepare(read.scene->description);
   }
