@@ -1,0 +1,30 @@
+// What all parts of a scene description are written with.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <variant>
+
+#include "base/diagnostics.h"
+#include "math/spectrum.h"
+
+namespace duet {
+
+/// Indices into the arrays of a SceneDescription.
+enum class TextureId : uint32_t {};
+enum class MaterialId : uint32_t {};
+enum class VolumeId : uint32_t {};
+enum class PhaseId : uint32_t {};
+enum class MediumId : uint32_t {};
+
+/// A parameter that is either a constant or a texture.
+using ColorInput = std::variant<Spectrum, TextureId>;
+using FloatInput = std::variant<double, TextureId>;
+
+/// How a thing is called in the file, for messages; it does not count in comparisons.
+struct Label {
+  std::string text;
+  friend bool operator==(const Label&, const Label&) { return true; }
+};
+
+}  // namespace duet

@@ -1,0 +1,123 @@
+// Shapes as plain data.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "geometry/curves.h"
+#include "geometry/mesh.h"
+#include "geometry/sdf_grid.h"
+#include "image/filter.h"
+#include "math/motion.h"
+#include "math/transform.h"
+#include "scene/description_base.h"
+
+namespace duet {
+
+/// Where a mesh came from, so that a description can be written out again.
+struct MeshSource {
+  std::string file;     ///< resolved path, or "" for a mesh made by the program
+  std::string plugin;   ///< obj, ply, serialized
+  int shape_index = 0;  ///< of a serialized file
+  bool face_normals = false;
+  bool flip_tex_coords = true;
+  std::optional<double> max_smooth_angle;
+  /// Not the whole OBJ file: one of its parts, or those of one material.
+  bool is_part = false;
+};
+
+/// The mesh in its own space. Shapes may share one.
+struct MeshShape {
+  std::shared_ptr<const TriangleMesh> mesh;
+  MeshSource source;
+  friend bool operator==(const MeshShape& a, const MeshShape& b) {
+    return a.mesh == b.mesh || (a.mesh && b.mesh && *a.mesh == *b.mesh);
+  }
+};
+struct RectangleShape {
+  bool operator==(const RectangleShape&) const = default;
+};
+struct CubeShape {
+  bool operator==(const CubeShape&) const = default;
+};
+/// Unit shapes; a centre, radius or end points are part of `to_world`.
+struct SphereShape {
+  bool operator==(const SphereShape&) const = default;
+};
+struct DiskShape {
+  bool operator==(const DiskShape&) const = default;
+};
+struct CylinderShape {
+  bool operator==(const CylinderShape&) const = default;
+};
+/// A surface of zero distance.
+struct SdfGridShape {
+  std::shared_ptr<const SdfGrid> grid;
+  std::string file;
+  friend bool operator==(const SdfGridShape& a, const SdfGridShape& b) {
+    return a.grid == b.grid || (a.grid && b.grid && *a.grid == *b.grid);
+  }
+};
+/// Tubes, in the shape's own space; `to_world` moves their points but leaves the radii.
+struct CurvesShape {
+  std::shared_ptr<const CurveSet> curves;
+  std::string file;
+  friend bool operator==(const CurvesShape& a, const CurvesShape& b) {
+    return a.curves == b.curves || (a.curves && b.curves && *a.curves == *b.curves);
+  }
+};
+/// Bilinear patches over the square from (−1, −1) to (1, 1), facing +z, between heights that are
+/// the luminance of a texture's texels times `scale`; its first row lies along y = −1.
+struct HeightFieldShape {
+  TextureId heights{};
+  double scale = 1;
+  int width = 32, height = 32;  ///< of a texture that is no image
+  bool shading_normals = true;  ///< smooth from patch to patch
+  /// Makes a number of heights that is one more than a power of two along either side.
+  FilterDescription filter{.kind = FilterKind::lanczos, .lobes = 2};
+  bool operator==(const HeightFieldShape&) const = default;
+};
+/// A copy of SceneDescription::groups[group].
+struct InstanceShape {
+  uint32_t group = 0;
+  bool operator==(const InstanceShape&) const = default;
+};
+
+/// Radiance of a surface that emits.
+struct AreaEmission {
+  SourceLocation where;
+  ColorInput radiance = Spectrum(1.0f);
+  double sampling_weight = 1;  ///< as in LightDescription
+  /// Light leaves along the normals only; `radiance` is power per unit area.
+  bool directional = false;
+  bool operator==(const AreaEmission&) const = default;
+};
+
+struct ShapeDescription {
+  SourceLocation where;
+  Label label;
+  std::variant<MeshShape, RectangleShape, CubeShape, SphereShape, DiskShape, CylinderShape,
+               InstanceShape, SdfGridShape, CurvesShape, HeightFieldShape>
+      geometry;
+  Matrix4 to_world;
+  Motion motion;  ///< of what `to_world` has placed
+  bool flip_normals = false;
+  MaterialId material{};  ///< not used by instances
+  std::optional<AreaEmission> emission;
+  /// What fills the space behind and before the surface. A surface with neither of them changes
+  /// nothing; one with either stands between the two, and the one that is absent is empty space.
+  std::optional<MediumId> interior, exterior;
+  bool operator==(const ShapeDescription&) const = default;
+};
+
+struct ShapeGroupDescription {
+  SourceLocation where;
+  Label label;
+  std::vector<ShapeDescription> shapes;
+  bool operator==(const ShapeGroupDescription&) const = default;
+};
+
+}  // namespace duet
