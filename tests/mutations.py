@@ -52,7 +52,7 @@ MUTATIONS = [
     ("splats are not divided by the number of passes", "src/image/film.cpp",
      "sum / (filter * passes_)", "sum / filter", MEAN),
     ("the filter is not cut off at the border for splats", "src/image/film.cpp",
-     "std::max(center - r, 0.0)", "center - r", "splats are as bright*"),
+     "std::max(center - r, double(lower))", "center - r", "splats are as bright*"),
     ("cached connections forget how many there are", "src/integrators/bidirectional_eye.cpp",
      "double(set_.light_paths) * options_.connections", "double(set_.light_paths)", MEAN),
     ("a light sample taken for less likely behind a medium", "src/media/homogeneous.cpp",

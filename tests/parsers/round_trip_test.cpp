@@ -64,6 +64,8 @@ TEST_CASE("every scene of the project is read without a word and survives a roun
   size_t count = 0;
   for (const auto& entry : std::filesystem::recursive_directory_iterator(kScenes)) {
     if (entry.path().extension() != ".xml") continue;
+    // What has no sensor is a part of another file.
+    if (read_file(entry.path().string()).find("<sensor") == std::string::npos) continue;
     CAPTURE(entry.path().string());
     ++count;
     const SceneDescription scene = read_from_disk(entry.path().string()), copy = again(scene);
