@@ -1,7 +1,8 @@
 #!/usr/bin/env python3
 """Duet against Mitsuba 3 on the same scenes, interleaved in one run.
 
-    peers.py [--rounds 5] [--spp 64] [--threads 2] [--references DIR] [--json FILE] [SCENE...]
+    peers.py [--integrator path] [--rounds 5] [--spp 64] [--threads 2] [--references DIR] [--reference-spp 2048]
+             [--json FILE] [SCENE...]
 
 A SCENE is a scene file for both, or DUET_FILE,MITSUBA_FILE where the two need different files, with an
 optional :WIDTHxHEIGHT. The default is the two 512² scenes of the project that have no caustics.
@@ -34,7 +35,7 @@ mi.set_variant('llvm_ad_rgb')
 mi.set_log_level(mi.LogLevel.Error)
 
 ROOT = Path(__file__).resolve().parent.parent
-REFERENCE_PASSES, REFERENCE_SPP = 8, 256
+REFERENCE_PASS_SPP = 256
 
 RENDER_WITH_MITSUBA = '''
 import sys, mitsuba as mi
@@ -55,19 +56,20 @@ def read(path):
     return np.array(bitmap, dtype=np.float64)
 
 
-def reference_image(scene, size, folder):
-    cached = folder / f'{scene.parent.name}-{scene.stem}-{size[0]}x{size[1]}.npy'
+def reference_image(scene, size, args):
+    cached = args.references / f'{scene.parent.name}-{scene.stem}-{size[0]}x{size[1]}-{args.reference_spp}.npy'
     if cached.exists():
         return np.load(cached)
     loaded = mi.load_file(str(scene))
     parameters = mi.traverse(loaded.sensors()[0])
     parameters['film.size'] = mi.ScalarVector2u(*size)
     parameters.update()
-    total = sum(np.array(mi.render(loaded, spp=REFERENCE_SPP, seed=5000 + i))[..., :3].astype(np.float64)
-                for i in range(REFERENCE_PASSES))
-    folder.mkdir(parents=True, exist_ok=True)
-    np.save(cached, total / REFERENCE_PASSES)
-    return total / REFERENCE_PASSES
+    passes = max(1, args.reference_spp // REFERENCE_PASS_SPP)
+    total = sum(np.array(mi.render(loaded, spp=REFERENCE_PASS_SPP, seed=5000 + i))[..., :3].astype(np.float64)
+                for i in range(passes))
+    cached.parent.mkdir(parents=True, exist_ok=True)
+    np.save(cached, total / passes)
+    return total / passes
 
 
 def trimmed_relmse(image, reference):
@@ -82,24 +84,23 @@ def cpu_seconds(command):
     return after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime
 
 
-def commands(duet, scene, mitsuba_scene, size, spp, threads, out, seed):
+def commands(args, scene, mitsuba_scene, size, out, seed):
     width, height = map(str, size)
-    ours = [duet, 'render', str(scene), '-o', out, '--spp', str(spp), '--seed', str(seed), '-q',
-            '--size', f'{width}x{height}', '-t', str(threads), '-i', 'path']
+    ours = [args.duet, 'render', str(scene), '-o', out, '--spp', str(args.spp), '--seed', str(seed), '-q',
+            '--size', f'{width}x{height}', '-t', str(args.threads), '-i', args.integrator]
     theirs = lambda variant: [sys.executable, '-c', RENDER_WITH_MITSUBA, variant, str(mitsuba_scene), out,
-                              str(spp), str(seed), width, height, str(threads)]
+                              str(args.spp), str(seed), width, height, str(args.threads)]
     return {'duet-independent': ours + ['--strict-sampler'], 'duet': ours,
             'llvm_ad_rgb': theirs('llvm_ad_rgb'), 'scalar_rgb': theirs('scalar_rgb')}
 
 
 def bench(name, scene, mitsuba_scene, size, args):
-    reference = reference_image(mitsuba_scene, size, args.references)
+    reference = reference_image(mitsuba_scene, size, args)
     runs = {}
     with tempfile.TemporaryDirectory() as folder:
         out = os.path.join(folder, 'image.exr')
         for seed in range(1, args.rounds + 1):
-            for label, command in commands(args.duet, scene, mitsuba_scene, size, args.spp, args.threads,
-                                           out, seed).items():
+            for label, command in commands(args, scene, mitsuba_scene, size, out, seed).items():
                 seconds = cpu_seconds(command)
                 runs.setdefault(label, []).append((seconds, trimmed_relmse(read(out), reference)))
     median = statistics.median
@@ -133,10 +134,12 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument('scenes', nargs='*', default=[str(ROOT / 'scenes' / s / 'scene.xml')
                                                       for s in ('thesis-empty', 'mesh-lumpy')])
+    parser.add_argument('--integrator', default='path', help='of Duet; Mitsuba uses that of its file')
     parser.add_argument('--rounds', type=int, default=5)
     parser.add_argument('--spp', type=int, default=64)
     parser.add_argument('--threads', type=int, default=2)
     parser.add_argument('--references', type=Path, default=Path(tempfile.gettempdir()) / 'duet-references')
+    parser.add_argument('--reference-spp', type=int, default=2048)
     parser.add_argument('--duet', default=str(ROOT / 'build' / 'duet'))
     parser.add_argument('--json', type=Path)
     args = parser.parse_args()

@@ -24,6 +24,10 @@ constexpr double kNearlyAll = 0.95;
 /// Share of the light above which `ppm`, which merges all of it, may take the place of a method
 /// that merges this much and finds the rest without a blur.
 constexpr double kMuch = 1 / 3.0;
+/// Share of the light that may be merged where scattering is nearly specular: within the radius
+/// light from such a surface is by far not the same everywhere, and the blur makes highlights
+/// brighter than they are.
+constexpr double kMostSharp = 1e-3;
 /// Share of the light that may be missed.
 constexpr double kNegligible = 1e-4;
 /// Between the sphere of all surfaces and that of the visible ones: beyond, walks from lights that
@@ -158,17 +162,23 @@ MethodChoice choose_method(const Scene& scene, const AutoIntegratorDescription& 
   const std::vector<PredictedMethod>& p = prices.predictions;
   double least_missing = 1;
   for (const PredictedMethod& q : p) least_missing = std::min(least_missing, q.missing);
-  const auto covers = [&](size_t i) {
+  const auto finds_all = [&](size_t i) {
     return p[i].missing <= least_missing + kNegligible &&
            !(rules.needs_light_walks && c[i].light_paths == 0);
+  };
+  bool sharp_only = true;
+  for (size_t i = 0; i < c.size(); ++i) sharp_only &= !(finds_all(i) && p[i].sharp <= kMostSharp);
+  const auto covers = [&](size_t i) {
+    return finds_all(i) && (sharp_only || p[i].sharp <= kMostSharp);
   };
   const auto price = [&](size_t i) { return p[i].error * p[i].cost; };
   size_t best = c.size(), photons = c.size();
   for (size_t i = 0; i < c.size(); ++i) {
     log::detail(
-        "auto: {:36} misses {:.2e}, merges {:.3f}, variance {:.3g}, error² {:.3g}, cost {:.3g}, "
-        "price {:.3g}",
-        c[i].name, p[i].missing, p[i].merged, p[i].variance, p[i].error, p[i].cost, price(i));
+        "auto: {:36} misses {:.2e}, merges {:.3f}, sharp {:.2e}, variance {:.3g}, error² {:.3g}, "
+        "cost {:.3g}, price {:.3g}",
+        c[i].name, p[i].missing, p[i].merged, p[i].sharp, p[i].variance, p[i].error, p[i].cost,
+        price(i));
     if (!covers(i)) continue;
     if (c[i].photons_only)
       photons = i;

@@ -130,6 +130,7 @@ class Prediction {
       p.missing += p.parts.back().missing, p.merged += p.parts.back().merged;
       squares += tile.squares, products += tile.products, lost += bias;
     }
+    if (all_ > 0) p.sharp = sharp_ / all_;
     p.variance = std::max(squares + products, kLeastVariance * squares) / walks;
     p.error = p.variance / spp_ + lost;
     p.cost = cost();
@@ -168,7 +169,9 @@ class Prediction {
         }
         if (v.shares.merges > 0) may_merge_ += value;
         const float merges = candidate_.photons_only ? v.shares.first_merge : v.shares.merges;
-        tile.merged += value * candidate_.merges * double(merges) / density;
+        const double merged = value * candidate_.merges * double(merges) / density;
+        tile.merged += merged;
+        if (v.sharp) sharp_ += merged;
         const double square = double(v.square) * norms_[v.cell];
         if (square / (density * density) > limit_)
           tile.trimmed += value * std::sqrt(norms_[v.cell]);
@@ -285,6 +288,7 @@ class Prediction {
   std::vector<double> tile_walks_;
   double limit_ = 0;
   double all_ = 0, may_merge_ = 0;  ///< light, and that of it which could be merged
+  double sharp_ = 0;                ///< light that is merged where scattering is nearly specular
 };
 
 }  // namespace

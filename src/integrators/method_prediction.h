@@ -30,6 +30,7 @@ struct PredictedPart {
 struct PredictedMethod {
   double missing = 0;   ///< share of the light that it cannot find
   double merged = 0;    ///< share of the light with smooth scattering that it finds by merging
+  double sharp = 0;     ///< share of the light that it merges where scattering is nearly specular
   double variance = 0;  ///< of one sample per pixel, relative to the square of the image
   double error = 0;     ///< mean squared relative error of the image
   double cost = 0;      ///< of one sample of one pixel

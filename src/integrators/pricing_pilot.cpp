@@ -89,6 +89,12 @@ class PricingPilot {
     PricingRecord record;
     LightWalks light;
   };
+  /// What contributions of an eye walk under way have in common.
+  struct EyeState {
+    uint16_t cell;
+    bool first = true;   ///< nothing but delta lobes so far
+    bool sharp = false;  ///< as in PricedContribution
+  };
 
   uint16_t cell(const Point2f& film) const {
     const int side = plan_.pixels_per_side;
@@ -99,12 +105,13 @@ class PricingPilot {
   }
 
   static void add(std::vector<PricedContribution>& to, const Spectrum& v,
-                  const FamilyShares& shares, Technique technique, uint16_t cell) {
+                  const FamilyShares& shares, Technique technique, uint16_t cell,
+                  bool sharp = false) {
     if (v.is_black() || !is_finite(v)) return;
     const float value = (v.r + v.g + v.b) * (1 / 3.0f);
     const float square = (v.r * v.r + v.g * v.g + v.b * v.b) * (1 / 3.0f);
     if (!std::isfinite(square) || !std::isfinite(shares.unidirectional + shares.merges)) return;
-    to.push_back({value, square, shares, technique, cell});
+    to.push_back({value, square, shares, technique, sharp, cell});
   }
 
   void trace_light() {
@@ -189,7 +196,7 @@ class PricingPilot {
     const Ray camera_ray = scene_.camera->sample_ray(film, lens);
     RenderCounters& counters = out.eye_counters;
     ++counters.camera_paths;
-    const uint16_t at = uint16_t(index / 2);
+    EyeState at{uint16_t(index / 2)};
     Trail trail{{1, 0, 1, false}};
     Walk walk;
     walk.ray = plan_.hide_emitters ? behind_emitters(scene_, camera_ray, counters) : camera_ray;
@@ -198,20 +205,19 @@ class PricingPilot {
     walk.trail = &trail;
     FamilyWeights weights(set_);
     JoinRoulette roulette(threshold_, hash_combine(kSeed, index));
-    bool first = true;                     // nothing but delta lobes so far
     bool sees_sky = !plan_.hide_emitters;  // not before light has been scattered
     for (int depth = 1; depth <= max_depth_; ++depth) {
       weights.set_eye(trail);
       const auto found = [&](const Join& join) {
         const Spectrum v = join.value * join.weight;
         if (depth > 1)
-          add(out.eye, v, weights.shares(), Technique::unidirectional, at);
+          add(out.eye, v, weights.shares(), Technique::unidirectional, at.cell, at.sharp);
         else if (is_finite(v))
-          record_.seen[at] += double(v.r + v.g + v.b) / 3;  // no other block has the cell
+          record_.seen[at.cell] += double(v.r + v.g + v.b) / 3;  // no other block has the cell
       };
       Hit hit;
       ++counters.closest_rays;
-      out.first_counters.closest_rays += first;
+      out.first_counters.closest_rays += at.first;
       if (!scene_.accel->closest_hit(walk.ray, hit)) {
         if (scene_.environment && sees_sky) found(join_escape(scene_, weights, walk));
         return;
@@ -231,35 +237,40 @@ class PricingPilot {
         JoinRoulette none(0, 0);  // path tracing has none
         const Join direct =
             join_light(scene_, weights, v, plan_.strict_normals, sampler, none, counters);
-        add(out.eye, direct.value * direct.weight, weights.shares(), Technique::unidirectional, at);
+        add(out.eye, direct.value * direct.weight, weights.shares(), Technique::unidirectional,
+            at.cell, at.sharp);
         connect(index, v, weights, roulette, at, out);
-        merge(index, v, weights, first, at, out);
+        merge(index, v, weights, at, out);
       }
       sampler.start_dimension(dimension + kScatteringDimension);
       bool straight = false;
       if (!scatter<Transport::radiance>(v, set_, options_, sampler, walk, &straight)) return;
-      first &= walk.specular;
+      if (at.first && !walk.specular) {
+        at.first = false;
+        at.sharp = walk.forward > PricingRecord::kSharpDensity;
+      }
       sees_sky |= !straight;
     }
   }
 
   void connect(size_t index, const PathVertex& v, FamilyWeights& weights, JoinRoulette& roulette,
-               uint16_t at, PricingRecord& out) const {
+               const EyeState& at, PricingRecord& out) const {
     weights.set_light(light_.trail(index));
     for (const LightVertex& packed : light_.walk(index)) {
       if (int(packed.depth) + v.depth + 1 > max_depth_) break;
       const Join join = join_ends(scene_, weights, packed.unpack(scene_), v, plan_.strict_normals,
                                   roulette, out.connection_counters);
-      add(out.eye, join.value * join.weight, weights.shares(), Technique::connection, at);
+      add(out.eye, join.value * join.weight, weights.shares(), Technique::connection, at.cell,
+          at.sharp);
     }
   }
 
   /// The two walks of a pixel meet different photons, so that they are independent.
-  void merge(size_t index, const PathVertex& v, FamilyWeights& weights, bool first, uint16_t at,
+  void merge(size_t index, const PathVertex& v, FamilyWeights& weights, const EyeState& at,
              PricingRecord& out) const {
     const float kernel = 1 / (set_.merge_area * set_.light_paths);
     ++out.merge_counters.merge_queries;
-    out.first_counters.merge_queries += first;
+    out.first_counters.merge_queries += at.first;
     grid_.query(v.position(), grid_.locate(v.position()), [&](uint32_t i, float) {
       const LightVertex& photon = light_.vertices[i];
       if (int(photon.depth) + v.depth > max_depth_ || (light_.owner[i] ^ index) & 1) return;
@@ -267,9 +278,9 @@ class PricingPilot {
       const Join join = join_merge(weights, photon, v, kernel, plan_.strict_normals);
       if (join.value.is_black()) return;
       ++out.merge_counters.merges;
-      out.first_counters.merges += first;
+      out.first_counters.merges += at.first;
       add(out.eye, join.value * join.weight, weights.shares(),
-          first ? Technique::first_merge : Technique::later_merge, at);
+          at.first ? Technique::first_merge : Technique::later_merge, at.cell, at.sharp);
     });
   }
 

@@ -151,6 +151,25 @@ TEST_CASE("caustics in mirrors are merged") {
   CHECK(!c.bias.empty());
 }
 
+// With merging this image would be a tenth too bright, where the lamp is seen through its bulb.
+TEST_CASE("nothing is merged where light is scattered nearly as by smooth glass") {
+  const auto bulb = [](const std::string& glass) {
+    return TransportScene(kCamera + kWalls +
+                          sphere_xml("0, 0, 1.3", "0.03",
+                                     "<emitter type='area'><rgb name='radiance' value='900'/>"
+                                     "</emitter>") +
+                          sphere_xml("0, 0, 1.3", "0.2", glass));
+  };
+  const Choice rough =
+      choose(bulb("<bsdf type='roughdielectric'><float name='alpha' value='0.005'/></bsdf>"));
+  CAPTURE(rough.reason);
+  CHECK(rough.name == "bdpt");
+  CHECK(rough.bias.empty());
+  const Choice smooth = choose(bulb("<bsdf type='dielectric'/>"));
+  CAPTURE(smooth.reason);
+  CHECK(merges(smooth));
+}
+
 TEST_CASE("photons alone are enough where much light is merged anyway") {
   const Choice lamp = choose(TransportScene("lamp-in-glass", 64));
   CAPTURE(lamp.reason);
