@@ -24,6 +24,8 @@ constexpr double kNearlyAll = 0.95;
 /// Share of the light above which `ppm`, which merges all of it, may take the place of a method
 /// that merges this much and finds the rest without a blur.
 constexpr double kMuch = 1 / 3.0;
+/// In images of fewer pixels the radius, of a pixel or two, is much of what they show.
+constexpr int kFewestPixelsToBlur = 64 * 64;
 /// Share of the light that may be merged where scattering is nearly specular: within the radius
 /// light from such a surface is by far not the same everywhere, and the blur makes highlights
 /// brighter than they are.
@@ -55,8 +57,10 @@ BidirectionalIntegratorDescription bidirectional(const PathLimits& o, Bidirectio
   return d;
 }
 
-std::vector<MethodCandidate> candidates(const MethodRules& rules, const PathLimits& o, int spp) {
+std::vector<MethodCandidate> candidates(const MethodRules& rules, const PathLimits& o,
+                                        const RenderOutlook& outlook) {
   using enum BidirectionalMethod;
+  const int spp = outlook.spp;
   std::vector<MethodCandidate> list;
   list.push_back({PathIntegratorDescription{o}, "path"});
   const auto add = [&](BidirectionalMethod method, double light, int connections, double merges) {
@@ -71,6 +75,7 @@ std::vector<MethodCandidate> candidates(const MethodRules& rules, const PathLimi
   for (const double light : {1 / 4.0, 1.0})
     for (const int connections : {-1, 0})
       add(vcm, light, connections, light / mean_shrinkage(0.75, spp));
+  if (outlook.film.x * outlook.film.y < kFewestPixelsToBlur) return list;
   list.push_back({.method = bidirectional(o, ppm, 1, -1),
                   .name = "ppm light_paths=1",
                   .light_paths = 1,
@@ -135,7 +140,7 @@ MethodPrices price_methods(const Scene& scene, const AutoIntegratorDescription& 
   plan.pixels_per_side = std::clamp(int(std::sqrt(pixels)), kFewestPixels, kMostPixels);
   const PricingRecord record = run_pricing_pilot(scene, plan);
   MethodPrices prices;
-  prices.candidates = candidates(method_rules(scene.features), options, outlook.spp);
+  prices.candidates = candidates(method_rules(scene.features), options, outlook);
   prices.walks = record.walks();
   for (const MethodCandidate& c : prices.candidates)
     prices.predictions.push_back(predict(record, c, outlook.spp));
