@@ -17,7 +17,7 @@ namespace {
 /// samples of path tracing.
 constexpr double kPilotShare = 0.04, kPilotWalkCost = 14;
 constexpr int kFewestPixels = 16, kMostPixels = 64;  ///< per side
-/// How much better than path tracing a method has to be.
+/// How much better than path tracing a method has to be, and `ppm` than all others.
 constexpr double kHysteresis = 1.15;
 /// Share of the image above which merging in a part of it is merging in all of it.
 constexpr double kNearlyAll = 0.95;
@@ -190,7 +190,8 @@ MethodChoice choose_method(const Scene& scene, const AutoIntegratorDescription& 
     else if (best == c.size() || price(i) < price(best))
       best = i;
   }
-  if (photons < c.size() && p[best].merged > kMuch && price(photons) < price(best)) best = photons;
+  if (photons < c.size() && p[best].merged > kMuch && kHysteresis * price(photons) < price(best))
+    best = photons;
   if (covers(0) && !(price(0) > kHysteresis * price(best))) best = 0;
   bool covered_unbiased = false;
   for (size_t i = 0; i < c.size(); ++i) covered_unbiased |= covers(i) && c[i].merges == 0;
