@@ -32,8 +32,9 @@ void read_size(SceneReader& s, Properties& p, FilmDescription& out) {
   if (const Node* filter = p.child(PluginKind::rfilter)) s.read_into(*filter, out.filter);
   // Within its own pixel a sample counts for no other.
   if (p.boolean("sample_border") && out.filter.kind != FilterKind::box)
-    s.approximate_loudly(p.where("sample_border"),
-                         "no samples are taken beyond the edges of the image");
+    s.approximate_loudly(
+        p.where("sample_border"),
+        "no samples are taken beyond the edges of the image or of its crop window");
 }
 
 void read_pixel_format(SceneReader& s, Properties& p, FilmDescription& out) {

@@ -42,7 +42,7 @@ constexpr Parameter kFilmCommon[] = {
     {.name = "sample_border",
      .type = boolean,
      .preset = "false",
-     .note = "as if it were false at the edges of the image, and true at those of a crop window",
+     .note = "as if it were false",
      .versions = v3,
      .support = approximated},
     {.name = "attach_log", .type = boolean, .preset = "false", .versions = v0, .support = ignored},
