@@ -3,50 +3,14 @@
 
 #include <doctest/doctest.h>
 
-#include "cameras/orthographic.h"
-#include "cameras/perspective.h"
-#include "math/fov.h"
-#include "support/tables.h"
+#include "support/table_cameras.h"
 
 using namespace duet;
-
-namespace {
-
-FovAxis to_axis(const std::string& name) {
-  return name == "y"          ? FovAxis::y
-         : name == "diagonal" ? FovAxis::diagonal
-         : name == "smaller"  ? FovAxis::smaller
-         : name == "larger"   ? FovAxis::larger
-                              : FovAxis::x;
-}
-
-std::unique_ptr<Camera> to_camera(const test::Json& c) {
-  const test::Json& p = c["parameters"];
-  const Transform to_world(test::to_matrix(c["to_world"]));
-  const Point2i film{c["size"][0], c["size"][1]};
-  if (c["kind"] == "orthographic")
-    return std::make_unique<OrthographicCamera>(
-        OrthographicView{to_world, film, p["near_clip"], p["far_clip"]});
-  PerspectiveView view;
-  view.to_world = to_world;
-  view.film = film;
-  view.horizontal_fov =
-      horizontal_fov(p["fov"], to_axis(p.value("fov_axis", "x")), double(film.x) / double(film.y));
-  view.offset_x = p.value("principal_point_offset_x", 0.0);
-  view.offset_y = p.value("principal_point_offset_y", 0.0);
-  view.near_clip = p["near_clip"];
-  view.far_clip = p["far_clip"];
-  if (c["kind"] == "thinlens")
-    return std::make_unique<ThinLensCamera>(view, p["aperture_radius"], p["focus_distance"]);
-  return std::make_unique<PerspectiveCamera>(view);
-}
-
-}  // namespace
 
 TEST_CASE("cameras send the rays that Mitsuba's send") {
   const test::Json table = test::read_table("cameras");
   for (const test::Json& c : table["cameras"]) {
-    const auto camera = to_camera(c);
+    const auto camera = test::to_camera(c);
     CHECK(camera->has_lens() == (c["kind"] == "thinlens"));
     for (const test::Json& row : c["rays"]) {
       INFO(c["kind"].dump() << c["size"].dump() << c["parameters"].dump() << row.dump());

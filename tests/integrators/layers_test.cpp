@@ -6,27 +6,13 @@
 #include "cameras/batch.h"
 #include "cameras/meters.h"
 #include "cameras/orthographic.h"
-#include "cameras/perspective.h"
 #include "geometry/accel.h"
-#include "support/tables.h"
+#include "support/table_cameras.h"
 #include "support/transport_scene.h"
 
 using namespace duet;
 
 namespace {
-
-std::unique_ptr<Camera> to_camera(const test::Json& c) {
-  const test::Json& p = c["parameters"];
-  const Transform to_world(test::to_matrix(c["to_world"]));
-  const Point2i film{c["size"][0], c["size"][1]};
-  if (c["kind"] == "orthographic")
-    return std::make_unique<OrthographicCamera>(
-        OrthographicView{to_world, film, p["near_clip"], p["far_clip"]});
-  PerspectiveView view{to_world, film, p["fov"], 0, 0, p["near_clip"], p["far_clip"]};
-  if (c["kind"] == "thinlens")
-    return std::make_unique<ThinLensCamera>(view, p["aperture_radius"], p["focus_distance"]);
-  return std::make_unique<PerspectiveCamera>(view);
-}
 
 Shape to_shape(const std::string& name, const Matrix4& place) {
   Shape s;
@@ -55,7 +41,7 @@ Point2f change(LayerKind kind, const Surface& s, const std::optional<NextRays>& 
 TEST_CASE("texture coordinates change from pixel to pixel as Mitsuba says") {
   const test::Json table = test::read_table("uv_partials");
   for (const test::Json& c : table["cases"]) {
-    const auto camera = to_camera(c);
+    const auto camera = test::to_camera(c);
     const std::vector<Shape> shapes{to_shape(c["shape"], test::to_matrix(c["place"]))};
     const std::vector<ShapeRange> groups;
     const std::vector<Instance> instances;

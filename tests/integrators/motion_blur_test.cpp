@@ -90,47 +90,46 @@ struct Described {
   }
 };
 
-Image develop(Film& film, Integrator& integrator, int spp) {
-  Image image = film.develop();
-  integrator.finish(image, spp);
-  return image;
-}
-
-/// The moving scene, as one pass.
-Image moving_image(const Described& d, const std::string& method, SampleRange range) {
-  const auto scene = d.build(d.description);
-  REQUIRE(scene->motion);
+/// The image of a method that begins with `first`; `passes` adds the range's samples to the film.
+template <class Passes>
+Image image_of(const Described& d, const std::string& method, const Scene& first,
+               const SampleRange& range, Passes passes) {
   const auto integrator = d.method(method);
-  integrator->begin(*scene, {d.layout.full, int(range.count), 2});
+  integrator->begin(first, {d.layout.full, int(range.count), 2});
   Film film(d.layout, integrator->channels());
   integrator->prepare(film);
   RenderCounters counters;
   PassControl control;
   control.threads = 2;
-  integrator->render_pass(*scene, film, range, control, counters);
-  return develop(film, *integrator, int(range.count));
+  passes([&](const Scene& scene, const SampleRange& samples) {
+    integrator->render_pass(scene, film, samples, control, counters);
+  });
+  Image image = film.develop();
+  integrator->finish(image, int(range.count));
+  return image;
+}
+
+/// The moving scene, as one pass.
+Image moving_image(const Described& d, const std::string& method, const SampleRange& range) {
+  const auto scene = d.build(d.description);
+  REQUIRE(scene->motion);
+  return image_of(d, method, *scene, range, [&](const auto& pass) { pass(*scene, range); });
 }
 
 /// The same samples with a scene built anew for each of them, for the share of the open time that
 /// `share` gives.
 template <class Share>
-Image still_image(const Described& d, const std::string& method, SampleRange range, Share share) {
+Image still_image(const Described& d, const std::string& method, const SampleRange& range,
+                  Share share) {
   const auto first = d.at_share(share(range.first));
-  const auto integrator = d.method(method);
-  integrator->begin(*first, {d.layout.full, int(range.count), 2});
-  Film film(d.layout, integrator->channels());
-  integrator->prepare(film);
-  RenderCounters counters;
-  PassControl control;
-  control.threads = 2;
-  SampleRange one = range;
-  one.count = 1;
-  for (uint32_t i = 0; i < range.count; ++i) {
-    one.first = range.first + i;
-    const auto scene = d.at_share(share(one.first));
-    integrator->render_pass(*scene, film, one, control, counters);
-  }
-  return develop(film, *integrator, int(range.count));
+  return image_of(d, method, *first, range, [&](const auto& pass) {
+    SampleRange one = range;
+    one.count = 1;
+    for (uint32_t i = 0; i < range.count; ++i) {
+      one.first = range.first + i;
+      pass(*d.at_share(share(one.first)), one);
+    }
+  });
 }
 
 /// Sum of all differences, relative to that of all values.
