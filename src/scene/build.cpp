@@ -55,16 +55,16 @@ std::unique_ptr<Scene> SceneBuilder::build() {
 void SceneBuilder::survey() {
   Scene& scene = *scene_;
   Bounds bounds = scene.accel->bounds();
-  const Medium* outermost = scene.media.empty() ? nullptr : outermost_medium(scene);
+  scene.outermost_medium = scene.media.empty() ? nullptr : outermost_medium(scene);
   // Light may be scattered there, too.
-  if (outermost)
-    if (const auto box = outermost->bounds()) bounds.extend(*box);
+  if (scene.outermost_medium)
+    if (const auto box = scene.outermost_medium->bounds()) bounds.extend(*box);
   scene.camera->surround(bounds.center(), bounds.radius());
   for (const auto& light : scene.lights) light->surround(bounds.center(), bounds.radius());
   scene.light_media.clear();
   if (!scene.media.empty())
     for (const auto& light : scene.lights)
-      scene.light_media.push_back(medium_before(scene, *light, outermost));
+      scene.light_media.push_back(medium_before(scene, *light));
   scene.picker = LightPicker(selection_weights(scene.lights, sampling_weights_, bounds.radius()));
 }
 

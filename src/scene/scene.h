@@ -18,6 +18,13 @@ namespace duet {
 
 class SceneMotion;
 
+/// Where the light sub-paths of a light begin.
+struct LightMedium {
+  const Medium* medium = nullptr;  ///< or null for vacuum
+  bool depends_on_point = false;   ///< the light may lie in several media: `medium` is not known
+  Point3f boundary_point{0};       ///< of a surface between them, if so
+};
+
 /// Everything that rays can meet. Owns its parts; indices in shapes refer to these arrays.
 struct Scene {
   std::vector<Shape> shapes;
@@ -37,8 +44,10 @@ struct Scene {
   std::vector<std::unique_ptr<Medium>> media;
   /// The medium that the camera stands in, or null.
   const Medium* camera_medium = nullptr;
-  /// The medium that each light sends its rays into, or null; empty without media.
-  std::vector<const Medium*> light_media;
+  /// The medium that a ray from the camera is in when it has left the scene, or null.
+  const Medium* outermost_medium = nullptr;
+  /// The medium that each light sends its rays into; empty without media.
+  std::vector<LightMedium> light_media;
   /// Whether light may pass straight through any surface.
   bool has_passable_surfaces = false;
   std::unique_ptr<Accel> accel;

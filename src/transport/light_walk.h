@@ -1,6 +1,7 @@
 // Walks that start at a light.
 #pragma once
 
+#include "scene/light_media.h"
 #include "transport/media_vertex.h"
 
 namespace duet {
@@ -77,7 +78,8 @@ inline void record_first_arrival(const LightStart& start, const Point3f& at, flo
 template <class Vertex>
 inline WalkOf<Vertex> leave_light(const Scene& scene, const LightStart& start, uint64_t seed) {
   if constexpr (Vertex::kMedia) {
-    const Medium* medium = scene.light_media[start.index];
+    const Medium* medium =
+        medium_at_emission(scene, scene.light_media[start.index], start.walk.ray.origin);
     MediaWalk walk(scene, start.walk, medium, seed);
     if (medium && is_infinite(start.light->kind())) {
       // The medium goes on behind the start of the ray, up to where the light is.

@@ -217,6 +217,27 @@ std::vector<Case> cases_with_media(const TemporaryDirectory& folder) {
             sphere_xml("-0.3, -0.7, 0.5", "0.2",
                        inside("wax", grey("0.5")) + area + "6, 5, 4'/></emitter>")),
        true, 2, false, true},
+      {"lamps that reach through the boundaries of media",
+       text(fog + wax + room + sphere_xml("0, 0, 0.9", "0.8", inside("fog")) +
+            sphere_xml("0, 0, 0.9", "0.4", inside("wax") + "<ref id='fog' name='exterior'/>") +
+            sphere_xml("0.2, -0.3, 0.9", "0.25", area + "6, 5, 8'/></emitter>") +
+            sphere_xml("-0.75, 0, 0.9", "0.2", area + "8, 6, 5'/></emitter>")),
+       true, 2, true, true},
+      {"a lamp that touches the boundary of a medium in a camera's medium",
+       text(fog + wax + room +
+                sphere_xml("0, 0, 0.7", "0.5", inside("wax") + "<ref id='fog' name='exterior'/>") +
+                sphere_xml("0, -0.701, 0.7", "0.2", area + "4, 5, 6'/></emitter>") + box +
+                inside("fog") + "</shape>",
+            "<ref id='fog'/>"),
+       true, 2, false, true},
+      {"lamps above, in and across a medium that walls close",
+       text(wax + room + lamp + "<shape type='rectangle'><transform name='to_world'>" +
+            "<translate z='0.6'/></transform>" + inside("wax") + "</shape>" +
+            "<shape type='rectangle'><transform name='to_world'><scale y='0.3'/>" +
+            "<rotate x='1' angle='90'/><translate y='-1' z='0.3'/></transform>" + inside("wax") +
+            "</shape>" + sphere_xml("0.3, 0, 0.6", "0.2", area + "4, 5, 6'/></emitter>") +
+            sphere_xml("-0.5, 0.3, 0.25", "0.15", area + "9, 8, 6'/></emitter>")),
+       true, 2, false, true},
       {"wax in glass, rough and smooth",
        text(wax + fog + room + lamp +
             sphere_xml("-0.45, 0, 0.6", "0.4",
@@ -318,7 +339,7 @@ TEST_CASE("unbiased methods have the same mean in media") {
   const TemporaryDirectory folder;
   std::vector<Case> some = cases_with_media(folder);
   std::erase_if(some, [](const Case& c) { return !c.in_short; });
-  CHECK(some.size() == 4);
+  CHECK(some.size() == 5);
   check_agreement(some, {3}, 16, 16);
 }
 
