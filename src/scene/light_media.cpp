@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <map>
+#include <optional>
 
 #include "math/warp.h"
 
@@ -36,6 +37,21 @@ void boundaries(const Scene& scene, Ray ray, Visit visit) {
   }
 }
 
+struct Boundary {
+  Point3f position;
+  const Medium* medium_before;  ///< on the side that a ray comes from, or null
+};
+
+/// The first surface that separates media on the way from `p` along the unit direction `w`.
+std::optional<Boundary> first_boundary(const Scene& scene, const Point3f& p, const Vector3f& w) {
+  std::optional<Boundary> first;
+  boundaries(scene, {p, w, INFINITY}, [&](const Surface& s) {
+    first = {s.position, scene.medium_beyond(s, -w)};
+    return false;
+  });
+  return first;
+}
+
 }  // namespace
 
 const Medium* outermost_medium(const Scene& scene) {
@@ -60,16 +76,12 @@ const Medium* outermost_medium(const Scene& scene) {
 const Medium* medium_at(const Scene& scene, const Point3f& p) {
   const Medium* medium = scene.outermost_medium;
   float nearest = INFINITY;
-  for (int i = 0; i < kDirections; ++i) {
-    const Vector3f w = direction(i);
-    boundaries(scene, {p, w, INFINITY}, [&](const Surface& s) {
-      if (const float d = distance(s.position, p); d < nearest) {
+  for (int i = 0; i < kDirections; ++i)
+    if (const auto boundary = first_boundary(scene, p, direction(i)))
+      if (const float d = distance(boundary->position, p); d < nearest) {
         nearest = d;
-        medium = scene.medium_beyond(s, -w);
+        medium = boundary->medium_before;
       }
-      return false;
-    });
-  }
   return medium;
 }
 
@@ -176,13 +188,8 @@ LightMedium medium_before(const Scene& scene, const Light& light) {
 
 const Medium* medium_at_emission(const Scene& scene, const LightMedium& light, const Point3f& p) {
   if (!light.depends_on_point) return light.medium;
-  const Medium* medium = scene.outermost_medium;
-  const Vector3f w = normalize(light.boundary_point - p);
-  boundaries(scene, {p, w, INFINITY}, [&](const Surface& s) {
-    medium = scene.medium_beyond(s, -w);
-    return false;
-  });
-  return medium;
+  const auto boundary = first_boundary(scene, p, normalize(light.boundary_point - p));
+  return boundary ? boundary->medium_before : scene.outermost_medium;
 }
 
 }  // namespace duet
