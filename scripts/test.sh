@@ -7,4 +7,4 @@ cd "$(dirname "$0")/.."
 duet_install_browser
 scripts/build.sh release
 [ $# -gt 0 ] || set -- -LE slow
-exec ctest --test-dir build --output-on-failure "$@"
+exec ctest --test-dir build --output-on-failure -j "$(nproc)" "$@"
