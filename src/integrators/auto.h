@@ -4,7 +4,7 @@
 #include <memory>
 
 #include "integrators/integrator.h"
-#include "scene/description.h"
+#include "scene/description_integrators.h"
 
 namespace duet {
 

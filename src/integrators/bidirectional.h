@@ -7,7 +7,7 @@
 #include "integrators/camera_integrator.h"
 #include "integrators/pilot.h"
 #include "integrators/technique_layers.h"
-#include "scene/description.h"
+#include "scene/description_integrators.h"
 #include "transport/light_pass.h"
 #include "transport/vertex_grid.h"
 

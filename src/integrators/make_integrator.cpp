@@ -15,6 +15,7 @@
 #include "integrators/parameters.h"
 #include "integrators/path.h"
 #include "integrators/volpath.h"
+#include "scene/description.h"
 
 namespace duet {
 

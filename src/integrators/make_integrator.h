@@ -6,9 +6,12 @@
 #include <vector>
 
 #include "integrators/camera_integrator.h"
-#include "scene/description.h"
+#include "scene/description_integrators.h"
 
 namespace duet {
+
+struct SceneDescription;
+struct SensorDescription;
 
 /// Names for IntegratorOverride::name, with one line each about what the method does.
 struct IntegratorName {

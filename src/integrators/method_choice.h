@@ -7,7 +7,7 @@
 
 #include "integrators/integrator.h"
 #include "integrators/method_prediction.h"
-#include "scene/description.h"
+#include "scene/description_integrators.h"
 
 namespace duet {
 

@@ -6,7 +6,7 @@
 #include <string>
 
 #include "integrators/pricing_pilot.h"
-#include "scene/description.h"
+#include "scene/description_integrators.h"
 
 namespace duet {
 

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "scene/description.h"
+#include "scene/description_integrators.h"
 
 namespace duet {
 

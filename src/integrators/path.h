@@ -2,7 +2,7 @@
 #pragma once
 
 #include "integrators/camera_integrator.h"
-#include "scene/description.h"
+#include "scene/description_integrators.h"
 
 namespace duet {
 

@@ -4,7 +4,7 @@
 
 #include <vector>
 
-#include "scene/description.h"
+#include "scene/description_integrators.h"
 #include "transport/counters.h"
 #include "transport/family_weights.h"
 

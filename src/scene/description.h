@@ -33,12 +33,7 @@ struct SceneDescription {
   std::vector<Diagnostic> approximations;
 
   /// Compares what is described; the order of things counts.
-  friend bool operator==(const SceneDescription& a, const SceneDescription& b) {
-    return a.textures == b.textures && a.materials == b.materials && a.volumes == b.volumes &&
-           a.phases == b.phases && a.media == b.media && a.shapes == b.shapes &&
-           a.groups == b.groups && a.lights == b.lights && a.sensors == b.sensors &&
-           a.integrator == b.integrator;
-  }
+  bool operator==(const SceneDescription& other) const;
 };
 
 /// The number of shapes, lights and sensors that move.

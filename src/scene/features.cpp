@@ -4,6 +4,8 @@
 
 #include <set>
 
+#include "scene/description.h"
+
 namespace duet {
 
 namespace {

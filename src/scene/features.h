@@ -5,9 +5,11 @@
 #include <string>
 
 #include "geometry/shape.h"
-#include "scene/description.h"
 
 namespace duet {
+
+struct SceneDescription;
+struct ShapeDescription;
 
 /// Roughness α below which reflections are so sharp that what lies behind them is hard to find.
 inline constexpr double kNearlySpecular = 0.05;

@@ -1,5 +1,7 @@
 #include <algorithm>
 
+#include "scene/description.h"
+
 #include "scene/features.h"
 
 namespace duet {

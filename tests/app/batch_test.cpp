@@ -1,7 +1,7 @@
 // Exit codes and what goes on when something goes wrong.
 #include <doctest/doctest.h>
 
-#include <thread>
+#include <csignal>
 
 #include "app/workplace.h"
 
@@ -98,13 +98,14 @@ TEST_SUITE("program") {
     const Workplace place, refuge;
     place.scene();
     std::filesystem::create_directory(place.path("out"));
-    Process duet({"tiny.xml", "-o", "out/image.png", "--time", "1.5", "--progress", "none"},
+    Process duet({"tiny.xml", "-o", "out/image.png", "--time", "1h", "--progress", "bar"},
                  {.directory = place.path(""), .environment = {{"TMPDIR", refuge.path("")}}});
-    std::this_thread::sleep_for(std::chrono::milliseconds(700));
+    REQUIRE(duet.wait_for_message("error", 120));  // some passes are done
     std::filesystem::remove_all(place.path("out"));
+    duet.send(SIGINT);
     const Outcome o = duet.wait(120);
     CAPTURE(o.err);
-    CHECK(o.code == 1);
+    CHECK(o.code == 130);
     CHECK(contains(o.err, "the image is saved as " + refuge.path("duet-image")));
     REQUIRE(refuge.count() == 1);
   }

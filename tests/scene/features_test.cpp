@@ -2,6 +2,8 @@
 
 #include <doctest/doctest.h>
 
+#include "scene/description.h"
+
 using namespace duet;
 
 namespace {
