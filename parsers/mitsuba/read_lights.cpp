@@ -64,15 +64,18 @@ void read_projector(SceneReader& s, Properties& p, LightDescription& out) {
   read_common(s, p, out);
 }
 
+std::optional<Matrix4> along(const Triple& direction) {
+  // Turning the light around its direction changes nothing: any "up" will do.
+  const bool mostly_x = std::abs(direction[0]) > std::abs(direction[1]);
+  return Matrix4::look_at({0, 0, 0}, direction, mostly_x ? Triple{0, 1, 0} : Triple{1, 0, 0});
+}
+
 void read_directional(SceneReader& s, Properties& p, LightDescription& out) {
   out.model = DirectionalLight{s.constant_color(p, "irradiance")};
   check_not_both(p, "direction", "to_world");
   out.to_world = p.transform("to_world", out.motion);
   if (p.has("direction")) {
-    const Triple d = p.triple("direction");
-    // Turning the light around its direction changes nothing: any "up" will do.
-    const Triple up = std::abs(d[0]) > std::abs(d[1]) ? Triple{0, 1, 0} : Triple{1, 0, 0};
-    if (const auto m = Matrix4::look_at({0, 0, 0}, d, up))
+    if (const auto m = along(p.triple("direction")))
       out.to_world = *m;
     else
       p.error("direction", "the direction of a light cannot be zero");

@@ -1,9 +1,11 @@
 // Sun and sky of both Mitsubas.
 #include <cmath>
+#include <span>
 
 #include "mitsuba/readers.h"
 #include "mitsuba/scene_reader.h"
 #include "mitsuba/sun_position.h"
+#include "mitsuba/sun_radiance.h"
 
 namespace duet {
 
@@ -11,6 +13,8 @@ namespace {
 
 constexpr const char* kTimeAndPlace[] = {"year",   "month",    "day",       "hour",    "minute",
                                          "second", "latitude", "longitude", "timezone"};
+/// Those that 0.x refuses beside a direction; the others have no effect there.
+constexpr const char* kDayAndPlace[] = {"day", "latitude", "longitude", "timezone"};
 
 SunPlace read_place(Properties& p) {
   return {p.number("latitude"), p.number("longitude"), p.number("timezone")};
@@ -37,7 +41,6 @@ double limited(Properties& p, std::string_view name, double least, double most) 
 /// Turbidity and the ground.
 void read_air(SceneReader& s, Properties& p, SkyLight& sky) {
   sky.turbidity = limited(p, "turbidity", 1, 10);
-  if (!find_parameter(PluginKind::emitter, *p.node().plugin, "albedo")) return;
   sky.albedo = s.constant_color(p, "albedo");
   if (sky.albedo.max() > 1) p.error("albedo", "the albedo of the ground is at most 1");
 }
@@ -45,7 +48,9 @@ void read_air(SceneReader& s, Properties& p, SkyLight& sky) {
 /// The direction to the sun that a file gives, or nothing.
 std::optional<Triple> given_direction(Properties& p) {
   if (!p.has("sun_direction")) return std::nullopt;
-  for (const char* name : kTimeAndPlace)
+  const std::span<const char* const> forbidden =
+      p.is_0x() ? std::span<const char* const>(kDayAndPlace) : kTimeAndPlace;
+  for (const char* name : forbidden)
     if (p.has(name)) {
       p.error(name, "either \"sun_direction\" or time and place can be given");
       break;
@@ -98,7 +103,6 @@ Matrix4 y_up() {
 /// What "sky", "sun" and "sunsky" of 0.6 have in common.
 void read_0x(SceneReader& s, Properties& p, SkyLight& sky, LightDescription& out) {
   out.to_world = p.transform("to_world");
-  read_air(s, p, sky);
   // With y up: x to the east and −z to the north.
   Triple y_up_sun;
   if (const auto given = given_direction(p)) {
@@ -120,24 +124,55 @@ void read_0x(SceneReader& s, Properties& p, SkyLight& sky, LightDescription& out
   read_common(p, out);
 }
 
-void read_sun_size(SceneReader& s, Properties& p, SkyLight& sky) {
-  const double scale = p.number("sun_radius_scale");
-  // Light from one direction only, which the sky is no place for, is as good as this.
-  constexpr double smallest = 0.02;
-  sky.sun_aperture *= std::max(scale, smallest);
-  s.approximate_loudly(p.node().where,
-                       "the sun of Mitsuba 0.6 has the brightness of Hosek and Wilkie's model");
-}
-
 void read_stretch(Properties& p, SkyLight& sky) {
   sky.stretch = limited(p, "stretch", 1, 2);
   sky.extend = p.boolean("extend");
+}
+
+/// The disk of 0.x, which is stretched away from the zenith like the sky; its brightness is that of
+/// the true place.
+SunDisk sun_disk(const SkyLight& sky, double stretch) {
+  const auto& [x, y, z] = sky.sun;
+  const double across = std::hypot(x, y), zenith = std::atan2(across, z);
+  SunDisk disk;
+  disk.irradiance = sun_irradiance_0x(sky.turbidity, zenith);
+  if (across > 0) {
+    const double r = std::sin(zenith * stretch) / across;
+    disk.direction = {x * r, y * r, std::cos(zenith * stretch)};
+  }
+  return disk;
+}
+
+/// A sun without a size, seen from the world; `to_world` is the sky's.
+LightDescription directional_sun(const SunDisk& disk, double scale, const LightDescription& sky) {
+  Triple d{};
+  for (int i = 0; i < 3; ++i)
+    for (int j = 0; j < 3; ++j)
+      d[size_t(i)] -= sky.to_world[i][size_t(j)] * disk.direction[size_t(j)];
+  LightDescription out = sky;
+  out.model = DirectionalLight{disk.irradiance * float(scale)};
+  out.to_world = along(d).value_or(Matrix4{});
+  return out;
+}
+
+/// How wide the sun of 0.x is; nothing if it is a directional light.
+std::optional<double> read_sun_aperture(Properties& p) {
+  const double scale = p.number("sun_radius_scale");
+  if (scale == 0) return std::nullopt;
+  // What is smaller throws the same shadows, but single precision cannot tell where it is.
+  constexpr double smallest = 0.02;
+  const double aperture = kSunAperture0x * std::max(scale, smallest);
+  if (!(aperture < 180))
+    p.error("sun_radius_scale", "the sun is {:g} degrees wide, which is not less than 180",
+            aperture);
+  return aperture;
 }
 
 }  // namespace
 
 void read_sky(SceneReader& s, Properties& p, LightDescription& out) {
   SkyLight sky;
+  read_air(s, p, sky);
   read_0x(s, p, sky, out);
   read_stretch(p, sky);
   sky.sky_scale = p.number("scale");
@@ -147,24 +182,45 @@ void read_sky(SceneReader& s, Properties& p, LightDescription& out) {
 
 void read_sun(SceneReader& s, Properties& p, LightDescription& out) {
   SkyLight sky;
+  sky.turbidity = p.number("turbidity");
   read_0x(s, p, sky, out);
-  read_sun_size(s, p, sky);
   sky.sky_scale = 0;
   sky.sun_scale = p.number("scale");
+  sky.disk = sun_disk(sky, limited(p, "stretch", 1, 2));
+  if (const auto aperture = read_sun_aperture(p)) {
+    sky.sun_aperture = *aperture;
+    out.model = sky;
+  } else {
+    out = directional_sun(*sky.disk, sky.sun_scale, out);
+  }
+}
+
+namespace {
+
+void read_sunsky_0x(SceneReader& s, Properties& p, LightDescription& out) {
+  SkyLight sky;
+  read_air(s, p, sky);
+  read_0x(s, p, sky, out);
+  read_stretch(p, sky);
+  const double scale = p.number("scale");
+  sky.sky_scale = p.has("sky_scale") ? p.number("sky_scale") : scale;
+  sky.sun_scale = p.has("sun_scale") ? p.number("sun_scale") : scale;
+  sky.disk = sun_disk(sky, sky.stretch);
+  if (const auto aperture = read_sun_aperture(p)) {
+    sky.sun_aperture = *aperture;
+  } else {
+    s.description().lights.push_back(directional_sun(*sky.disk, sky.sun_scale, out));
+    sky.sun_scale = 0;
+    sky.disk.reset();
+  }
   out.model = sky;
 }
 
+}  // namespace
+
 void read_sunsky(SceneReader& s, Properties& p, LightDescription& out) {
+  if (p.is_0x()) return read_sunsky_0x(s, p, out);
   SkyLight sky;
-  if (p.is_0x()) {
-    read_0x(s, p, sky, out);
-    read_stretch(p, sky);
-    read_sun_size(s, p, sky);
-    sky.sky_scale = p.number("scale") * p.number("sky_scale");
-    sky.sun_scale = p.number("scale") * p.number("sun_scale");
-    out.model = sky;
-    return;
-  }
   read_sky_3x(s, p, sky);
   out.to_world = p.transform("to_world");
   read_common(p, out);

@@ -80,6 +80,8 @@ void read_projector(SceneReader&, Properties&, LightDescription&);
 void read_directional(SceneReader&, Properties&, LightDescription&);
 void read_constant(SceneReader&, Properties&, LightDescription&);
 void read_envmap(SceneReader&, Properties&, LightDescription&);
+/// The transform of a light that shines along +z in this direction; nothing if it is zero.
+std::optional<Matrix4> along(const std::array<double, 3>& direction);
 
 // read_sky.cpp
 void read_sky(SceneReader&, Properties&, LightDescription&);

@@ -205,6 +205,8 @@ void SceneWriter::light(const LightDescription& l) {
       for (int j = 0; j < 3; ++j) sun[size_t(i)] += l.to_world[i][size_t(j)] * sky->sun[size_t(j)];
     out_.point("sun_direction", sun);
     if (sky->stretch != 1 || sky->extend) lose("the sky ends at the horizon");
+    if (sky->disk && sky->sun_scale != 0)
+      lose("the sun has the brightness of Hosek and Wilkie's model, and sets with the horizon");
   } else if (const auto* beam = std::get_if<CollimatedLight>(&l.model)) {
     lose("the light \"collimated\" does not exist in Mitsuba 3");
     color("power", ColorInput(beam->power));

@@ -118,9 +118,7 @@ constexpr Plugin kPhases[] = {
     {"hg", both, kHg, &read_hg},
     {"rayleigh", both, {}, &read_rayleigh},
     {"blendphase", v3, kBlendphase, &read_blendphase, "holds two phase functions"},
-    {"sggx", v3, kSggx, &read_sggx,
-     "darker in Mitsuba 3.9.1, which samples flakes that are no balls otherwise than it evaluates "
-     "them"},
+    {"sggx", v3, kSggx, &read_sggx, "see `sggx-flakes` below"},
     {"tabphase", v3, kTabphase, &read_tabphase},
     {"kkay", v0, kKkay, &read_fibre_phase, "by isotropic", approximated},
     {"microflake", v0, kMicroflake, &read_fibre_phase, "by isotropic", approximated},

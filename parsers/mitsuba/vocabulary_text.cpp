@@ -12,7 +12,8 @@ constexpr std::string_view kIntroduction = R"(# Compatibility with Mitsuba
 
 Every plugin and parameter of Mitsuba 0.6 and 3, and what Duet does with it; Duet's own are among
 them. This file is printed by `duet plugins --markdown` from the tables that the reader itself uses;
-a test compares the two.
+a test compares the two. The last section, "Where Mitsuba is off", lists what is rendered otherwise
+because Mitsuba is believed to be wrong.
 
 | Status | Meaning |
 |---|---|

@@ -214,8 +214,9 @@ std::string DescriptionText::light(const LightDescription& l) const {
             return fmt::format("envmap: {}, scale {:g}", p.file, p.scale);
           },
           [&](const SkyLight& p) {
-            return fmt::format("sky of turbidity {:g}, scale {:g}, sun {:g}", p.turbidity,
-                               p.sky_scale, p.sun_scale);
+            return fmt::format("sky of turbidity {:g}, scale {:g}, sun {:g}{}", p.turbidity,
+                               p.sky_scale, p.sun_scale,
+                               p.disk ? ", whose irradiance is " + text(p.disk->irradiance) : "");
           },
           [&](const CollimatedLight& p) {
             return fmt::format("collimated {} {}: {}", place(m), direction(m), text(p.power));

@@ -49,7 +49,9 @@ void add_info_command(CLI::App& app, int& exit_code) {
   c->footer(
       "Nothing is rendered; images are not read. What a scene asks for and Duet renders in "
       "another\n"
-      "way is listed under \"approximated\".\n"
+      "way is listed under \"approximated\"; what Mitsuba is known to render wrongly, under "
+      "\"differs\n"
+      "from Mitsuba\".\n"
       "Examples:\n"
       "  duet info cornell.xml\n"
       "  duet info scenes/*/scene.xml\n"

@@ -7,6 +7,7 @@
 #include "base/diagnostics.h"
 #include "mitsuba/vocabulary.h"
 #include "mitsuba/vocabulary_text.h"
+#include "scene/mitsuba_differences.h"
 
 namespace duet {
 
@@ -44,7 +45,7 @@ void print_kind(PluginKind kind) {
 int list_plugins(const std::string& kind_name, bool markdown) {
   if (markdown) {
     if (!kind_name.empty()) throw UsageError("--markdown prints all kinds; name none");
-    fmt::print("{}", compatibility_markdown());
+    fmt::print("{}\n{}", compatibility_markdown(), mitsuba_differences_markdown());
     return kSuccess;
   }
   std::vector<std::string> tags;

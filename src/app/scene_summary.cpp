@@ -8,6 +8,7 @@
 #include "integrators/make_integrator.h"
 #include "integrators/method_rules.h"
 #include "scene/features.h"
+#include "scene/mitsuba_differences.h"
 
 namespace duet {
 
@@ -40,6 +41,10 @@ class Summary {
     if (scene_.approximations.empty()) line("approximated", "nothing");
     list("approximated", scene_.approximations,
          [](const Diagnostic& a) { return fmt::format("{}: {}", a.where.to_string(), a.message); });
+    list(
+        "differs from Mitsuba", mitsuba_differences(scene_, features_),
+        [](const MitsubaDifference* d) { return fmt::format("{}: {}", d->id, d->mitsuba); },
+        "by how much is in docs/compatibility.md");
     return std::move(out_);
   }
 

@@ -67,10 +67,12 @@ Spectrum exp(const Spectrum& s) {
 Sky::Sky(const SkyOptions& o, const Matrix4& to_world)
     : axes_(rotation(to_world)),
       sun_(normalize(o.sun)),
-      sun_frame_(Normal3f(sun_)),
+      disk_(o.disk ? normalize(o.disk->direction) : sun_),
+      disk_frame_(Normal3f(disk_)),
       stretch_(float(o.stretch)),
       extend_(o.extend),
-      shines_(sun_.z >= 0) {
+      shines_(sun_.z >= 0),
+      horizon_cuts_sun_(!o.disk) {
   const float elevation = std::asin(std::clamp(sun_.z, 0.0f, 1.0f));
   const Between turbidity(o.turbidity - 1, kSkyTurbidities);
   for (int c = 0; c < 3; ++c) {
@@ -88,8 +90,9 @@ Sky::Sky(const SkyOptions& o, const Matrix4& to_world)
   one_minus_cos_sun_ = float(span);
   sun_chord2_ = float(2 * span);
   sun_density_ = float(1 / (2 * kPiD * span));
-  sun_radiance_ =
-      sun_irradiance(o.turbidity, double(elevation)) * (sun_density_ * float(o.sun_scale));
+  const Spectrum irradiance =
+      o.disk ? o.disk->irradiance : sun_irradiance(o.turbidity, double(elevation));
+  sun_radiance_ = irradiance * (sun_density_ * float(o.sun_scale));
   if (extend_)
     lowest_ = -1;
   else
@@ -124,13 +127,15 @@ Spectrum Sky::sky(const Vector3f& w) const {
   const Spectrum chi(glow(base.r), glow(base.g), glow(base.b));
   const Spectrum around = p[2] + p[3] * exp(p[4] * gamma) + p[5] * cos2_gamma + p[6] * chi +
                           p[7] * safe_sqrt(cos_theta);
-  return horizon * around * zenith_ * fade;
+  const Spectrum fitted = horizon * around * zenith_ * fade;
+  // With the sun at the horizon of very clear air the fit falls below zero.
+  return {std::max(fitted.r, 0.0f), std::max(fitted.g, 0.0f), std::max(fitted.b, 0.0f)};
 }
 
 Spectrum Sky::radiance(const Vector3f& w, bool in_sun) const {
-  if (!shines_ || !(w.z >= lowest_)) return Spectrum(0.0f);
-  const Spectrum s = sky(w);
-  return in_sun && w.z >= 0 ? s + sun_radiance_ : s;
+  if (!shines_) return Spectrum(0.0f);
+  const Spectrum s = w.z >= lowest_ ? sky(w) : Spectrum(0.0f);
+  return in_sun && (w.z >= 0 || !horizon_cuts_sun_) ? s + sun_radiance_ : s;
 }
 
 void Sky::tabulate() {
@@ -188,7 +193,7 @@ std::optional<LightSample> Sky::sample_direct(const Point3f&, const Point2f& u) 
   Vector3f w;
   bool hits_sun = u.x < sun_share_;
   if (hits_sun) {
-    w = sun_frame_.to_world(
+    w = disk_frame_.to_world(
         square_to_cone({std::min(u.x / sun_share_, 0x1.fffffep-1f), u.y}, one_minus_cos_sun_));
   } else {
     const float v = std::min((u.x - sun_share_) / (1 - sun_share_), 0x1.fffffep-1f);

@@ -7,20 +7,27 @@
 
 namespace duet {
 
+/// A sun of given brightness, in the sky's own space; the horizon does not cut it.
+struct SkyDisk {
+  Vector3f direction{0, 0, 1};  ///< unit, to its middle
+  Spectrum irradiance{1.0f};    ///< on a plane across that direction
+};
+
 struct SkyOptions {
   double turbidity = 3;   ///< of the air, from 1 to 10
   Spectrum albedo{0.3f};  ///< of the ground, from 0 to 1
   Vector3f sun{0, 0, 1};  ///< unit direction to the sun, in the sky's own space, whose +z is up
   double sky_scale = 1, sun_scale = 1;
   double sun_aperture = 0.5358;  ///< degrees, across; the sun's irradiance does not depend on it
+  std::optional<SkyDisk> disk;   ///< instead of Hosek and Wilkie's sun, which stands at `sun`
   double stretch = 1;            ///< from 1 to 2: draws the sky below the horizon
   bool extend = false;           ///< the horizon's colour goes on below, fading
 };
 
 /// Radiance of the sky over the upper half of all directions; nothing if the sun is below the
 /// horizon. Source: Hosek & Wilkie, "An Analytic Model for Full Spectral Sky-Dome Radiance", 2012,
-/// and "Adding a Solar-Radiance Function to the Hosek-Wilkie Skylight Model", 2013; the sun's disk
-/// has the same radiance everywhere. Units are those of Mitsuba's RGB variants.
+/// and "Adding a Solar-Radiance Function to the Hosek-Wilkie Skylight Model", 2013; any disk of the
+/// sun has the same radiance everywhere. Units are those of Mitsuba's RGB variants.
 class Sky final : public EnvironmentLight {
  public:
   /// Only the rotation (and mirroring) of the transform counts.
@@ -35,7 +42,7 @@ class Sky final : public EnvironmentLight {
   /// Of the unit direction w in the sky's space.
   Spectrum sky(const Vector3f& w) const;
   Spectrum radiance(const Vector3f& w, bool in_sun) const;
-  bool in_sun(const Vector3f& w) const { return length_squared(w - sun_) <= sun_chord2_; }
+  bool in_sun(const Vector3f& w) const { return length_squared(w - disk_) <= sun_chord2_; }
   float density(const Vector3f& w, bool in_sun) const;
   void tabulate();
 
@@ -45,12 +52,14 @@ class Sky final : public EnvironmentLight {
   Frame axes_;
   std::array<Spectrum, 9> shape_;  ///< the parameters A to I of the model
   Spectrum zenith_;                ///< what the model's shape is multiplied by
-  Vector3f sun_;
-  Frame sun_frame_;
+  Vector3f sun_;                   ///< what the sky's glow is around
+  Vector3f disk_;                  ///< the middle of the sun's disk
+  Frame disk_frame_;
   Spectrum sun_radiance_;
   float one_minus_cos_sun_, sun_chord2_, sun_density_;
   float stretch_;
   bool extend_, shines_;
+  bool horizon_cuts_sun_;
   float lowest_ = 0;  ///< cosine from the zenith where the sky ends
   DiscreteDistribution cells_;
   float cell_density_;  ///< of a field that has all the probability

@@ -88,6 +88,10 @@ std::unique_ptr<Light> SceneBuilder::make(const SkyLight& l, const LightDescript
   o.sky_scale = l.sky_scale;
   o.sun_scale = l.sun_scale;
   o.sun_aperture = l.sun_aperture;
+  if (l.disk) {
+    const auto& to = l.disk->direction;
+    o.disk = {{float(to[0]), float(to[1]), float(to[2])}, l.disk->irradiance};
+  }
   o.stretch = l.stretch;
   o.extend = l.extend;
   return std::make_unique<Sky>(o, d.to_world);

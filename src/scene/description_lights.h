@@ -51,6 +51,13 @@ struct EnvironmentMapLight {
   bool operator==(const EnvironmentMapLight&) const = default;
 };
 
+/// A sun whose brightness the file's version decides; the horizon does not cut it.
+struct SunDisk {
+  std::array<double, 3> direction{0, 0, 1};  ///< to its middle, not zero
+  Spectrum irradiance{1.0f};                 ///< on a plane across that direction
+  bool operator==(const SunDisk&) const = default;
+};
+
 /// Hosek and Wilkie's sky with the sun in it; +z is up.
 struct SkyLight {
   double turbidity = 3;
@@ -58,6 +65,7 @@ struct SkyLight {
   std::array<double, 3> sun{0, 0, 1};  ///< direction to the sun, not zero
   double sky_scale = 1, sun_scale = 1;
   double sun_aperture = 0.5358;  ///< degrees
+  std::optional<SunDisk> disk;   ///< 0.x: instead of Hosek and Wilkie's sun
   double stretch = 1;            ///< 0.x: how far the sky is drawn beyond the horizon
   bool extend = false;           ///< 0.x: the horizon goes on below
   bool operator==(const SkyLight&) const = default;

@@ -4,6 +4,7 @@
 #include "app/workplace.h"
 #include "mitsuba/vocabulary.h"
 #include "mitsuba/vocabulary_text.h"
+#include "scene/mitsuba_differences.h"
 
 using namespace duet;
 using namespace duet::test;
@@ -84,6 +85,21 @@ TEST_SUITE("program") {
     CHECK(all.out.size() > o.out.size());
   }
 
+  TEST_CASE("info names what Mitsuba renders wrongly, if a scene has it") {
+    const Workplace place;
+    TinyScene s;
+    s.integrator = R"(<integrator type="direct"><integer name="emitter_samples" value="3"/>
+      </integrator>)";
+    place.scene("three.xml", s);
+    place.scene();
+    const Outcome three = place.run({"info", "three.xml"});
+    CAPTURE(three.out);
+    CHECK(contains(three.out,
+                   "differs from Mitsuba 1: by how much is in docs/compatibility.md\n"
+                   "    direct-delta-lights: Mitsuba 3.9.1 adds"));
+    CHECK(!contains(place.run({"info", "tiny.xml"}).out, "differs"));
+  }
+
   TEST_CASE("info goes on after a bad scene") {
     const Workplace place;
     place.scene();
@@ -127,6 +143,6 @@ TEST_SUITE("program") {
     CHECK(contains(bsdf.out, "bsdf roughconductor"));
     CHECK(!contains(bsdf.out, "emitter"));
     const Outcome markdown = place.run({"plugins", "--markdown"});
-    CHECK(markdown.out == compatibility_markdown());
+    CHECK(markdown.out == compatibility_markdown() + "\n" + mitsuba_differences_markdown());
   }
 }

@@ -77,6 +77,14 @@ TEST_CASE("the sky has the colours of Mitsuba's") {
   SkyOptions low;
   low.sun = {1, 0, 0.02f};
   check_radiance(Sky(low, Matrix4{}), {1, 0, 0.2f}, {0.12361535f, 0.06982320f, 0.02685385f});
+  low.turbidity = 1, low.albedo = Spectrum(0.0f), low.sun = {1, 0, 0}, low.sun_scale = 0;
+  const Sky clear(low, Matrix4{});
+  for (int i = 0; i < 100; ++i) {
+    const float angle = 3.14159265f * float(i) / 100;
+    CHECK(clear.emitted({std::cos(angle), std::sin(angle), 1e-3f}).b >= 0);
+  }
+  low = {};
+  low.sun = {1, 0, 0.02f};
   low.turbidity = 9.5;
   check_radiance(Sky(low, Matrix4{}), {0, 1, 0.2f}, {0.01208934f, 0.01093312f, 0.00879221f});
 }
@@ -89,6 +97,25 @@ TEST_CASE("the sun has the brightness of Mitsuba's, whatever its size") {
   o.sun_scale = 2;
   o.sky_scale = 0.5;
   check_radiance(Sky(o, Matrix4{}), o.sun, {1356.5980f, 1122.1447f, 843.32917f}, 5e-4);
+}
+
+TEST_CASE("a disk of given irradiance shines where it is, below the horizon as well") {
+  SkyOptions o = evening();
+  o.sky_scale = 0;
+  o.sun_aperture = 10;
+  o.sun_scale = 2;
+  o.disk = {normalize(Vector3f(1, 0, 0.02f)), {1, 2, 3}};
+  Sky sky(o, Matrix4{});
+  const double solid_angle = 4 * 3.14159265 * std::pow(std::sin(2.5 * 3.14159265 / 180), 2);
+  for (const float z : {-0.06f, 0.02f, 0.1f})
+    check_radiance(sky, {1, 0, z}, Spectrum(1, 2, 3) * float(2 / solid_angle));
+  CHECK(sky.emitted(normalize(Vector3f(1, 0, -0.08f))).is_black());
+  CHECK(sky.emitted(normalize(Vector3f(0.3f, 0.4f, 0.6f))).is_black());
+  // A small disk's edge is too sharp for the fields of the test.
+  o.sky_scale = 1;
+  o.sun_aperture = 40;
+  Sky both(o, Matrix4{});
+  check_sampling(both, "sky and a sun that the horizon would cut");
 }
 
 TEST_CASE("the sky turns with its transform, and a sun below the horizon leaves it dark") {

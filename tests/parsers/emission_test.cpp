@@ -1,6 +1,8 @@
 // Sensors, lights, textures, films and integrators that are rarely met, as both Mitsubas mean them.
 #include "mitsuba/sun_position.h"
+#include "mitsuba/sun_radiance.h"
 #include "parsers/plugin_checks.h"
+#include "support/tables.h"
 
 using namespace duet;
 using namespace duet::test;
@@ -86,6 +88,89 @@ TEST_CASE("sensors that make no sense are errors") {
       "must not scale");
 }
 
+TEST_CASE("the sun of 0.x is as bright as the paper's model says") {
+  const Json table = read_table("sun_0x");
+  double most_watts = 0;
+  for (const Json& row : table["sun"]) {
+    INFO(row.dump());
+    const double elevation = row[1];
+    const Spectrum found = sun_irradiance_0x(row[0], (90 - elevation) * 3.14159265358979 / 180);
+    const Spectrum expected = triple<Spectrum>(row, 2);
+    for (int k = 0; k < 3; ++k) CHECK(std::abs(found[k] - expected[k]) <= 2e-4f * expected.max());
+    most_watts = std::max(most_watts, row[5].get<double>());
+  }
+  // What reaches the ground between 350 and 800 nm is less than half of the solar constant.
+  CHECK(most_watts > 400);
+  CHECK(most_watts < 1361.0 / 2);
+  // 683 lm/W and the integral of the luminous efficiency, 106.86 nm, make a luminance of one
+  // 72,980 lx; a high sun in clear air yields about 100,000.
+  CHECK(std::abs(double(sun_irradiance_0x(2, 0.4).luminance()) * 72980 - 100000) < 5000);
+}
+
+TEST_CASE("suns of 0.x have their size, scale and place") {
+  const std::string low = "<vector name='sunDirection' x='0' y='0.5' z='-0.8660254'/>";
+  const auto sun = [](const std::string& type, const std::string& content) {
+    return light<SkyLight>("0.6.0", type, content).first;
+  };
+  SkyLight sky = sun("sun", "<float name='sunRadiusScale' value='3'/>");
+  CHECK(sky.sky_scale == 0);
+  CHECK(sky.sun_aperture == doctest::Approx(3 * 0.5358));
+  sky = sun("sunsky", low + "<float name='turbidity' value='4.5'/>");
+  REQUIRE(sky.disk);
+  CHECK(sky.disk->irradiance.g == doctest::Approx(0.653931).epsilon(1e-3));
+  check_direction(sky.disk->direction, sky.sun, 1e-6);
+  // Stretching moves the disk, not what its brightness and the sky depend on.
+  for (const char* type : {"sun", "sunsky"}) {
+    const SkyLight stretched = sun(type, low +
+                                             "<float name='turbidity' value='4.5'/>"
+                                             "<float name='stretch' value='2'/>");
+    REQUIRE(stretched.disk);
+    CHECK(stretched.disk->irradiance == sky.disk->irradiance);
+    check_direction(stretched.sun, sky.sun, 1e-9);
+    check_direction(stretched.disk->direction, {0, 0.8660254, -0.5}, 1e-6);
+  }
+  // The two scales stand in the place of the common one.
+  sky = sun("sunsky", "<float name='scale' value='2'/>");
+  CHECK(sky.sun_scale == 2);
+  CHECK(sky.sky_scale == 2);
+  sky = sun("sunsky", "<float name='scale' value='2'/><float name='sunScale' value='3'/>");
+  CHECK(sky.sun_scale == 3);
+  CHECK(sky.sky_scale == 2);
+  // The sun alone takes any turbidity, and none is as wide as the sky.
+  CHECK(sun("sun", "<float name='turbidity' value='20'/>").disk);
+  CHECK(fails("0.6.0", "<emitter type='sun'><float name='sunRadiusScale' value='700'/></emitter>",
+              "not less than 180"));
+  // Beside a direction, times are unused and places an error.
+  sky = sun("sun", low + "<float name='hour' value='9'/>");
+  check_direction(sky.sun, {0, 0.8660254, 0.5}, 1e-6);
+  CHECK(fails("0.6.0", "<emitter type='sun'>" + low + "<integer name='day' value='9'/></emitter>",
+              "either \"sun_direction\""));
+}
+
+TEST_CASE("a sun of 0.x without a size is a directional light") {
+  const std::string content =
+      "<vector name='sunDirection' x='1' y='2' z='3'/><float name='sunRadiusScale' value='0'/>"
+      "<float name='scale' value='2'/><float name='samplingWeight' value='4'/>"
+      "<transform name='toWorld'><rotate y='1' angle='40'/></transform>";
+  const double length = std::sqrt(14.0);
+  for (const std::string type : {"sun", "sunsky"}) {
+    const SceneDescription d =
+        good("0.6.0", "<emitter type='" + type + "'>" + content + "</emitter>");
+    REQUIRE(d.lights.size() == (type == "sun" ? 1 : 2));
+    const LightDescription& l = d.lights[0];
+    REQUIRE(std::holds_alternative<DirectionalLight>(l.model));
+    check_direction({l.to_world[0][2], l.to_world[1][2], l.to_world[2][2]},
+                    {-1 / length, -2 / length, -3 / length}, 1e-6);
+    CHECK(std::get<DirectionalLight>(l.model).irradiance.r ==
+          doctest::Approx(2 * sun_irradiance_0x(3, std::acos(2 / length)).r));
+    CHECK(l.sampling_weight == 4);
+    if (type == "sun") continue;
+    const SkyLight& sky = std::get<SkyLight>(d.lights[1].model);
+    CHECK(sky.sun_scale == 0);
+    CHECK(sky.sky_scale == 2);
+  }
+}
+
 TEST_CASE("the sun stands where Mitsuba's stands") {
   const auto sun = [](const std::string& content) {
     return light<SkyLight>("3.0.0", "sunsky", content).first.sun;
@@ -133,9 +218,6 @@ TEST_CASE("skies are read as each Mitsuba means them") {
   }
   check_direction(world, {1, 2, 3}, 1e-9);
   check_direction(up, {0, 1, 0}, 1e-9);
-  sky = light<SkyLight>("0.6.0", "sun", "<float name='sunRadiusScale' value='3'/>").first;
-  CHECK(sky.sky_scale == 0);
-  CHECK(sky.sun_aperture == doctest::Approx(3 * 0.5358));
   sky = light<SkyLight>("3.0.0", "timed_sunsky").first;
   check_direction(sky.sun,
                   light<SkyLight>("3.0.0", "sunsky",

@@ -1,0 +1,19 @@
+// How bright the sun of Mitsuba 0.x is.
+#pragma once
+
+#include "math/spectrum.h"
+
+namespace duet {
+
+/// Across, in degrees: the disk whose radiance the model gives.
+inline constexpr double kSunAperture0x = 0.5358;
+
+/// Irradiance of the sun on a plane across its direction, below the atmosphere: the radiance of its
+/// disk times the disk's solid angle, in W/(m²·nm) as linear sRGB, where a flat spectrum of one has
+/// luminance one. Any turbidity; `zenith` is the angle of the sun from the zenith in radians, from
+/// 0 to π/2.
+/// Source: Preetham, Shirley & Smits, "A Practical Analytic Model for Daylight", SIGGRAPH 1999,
+/// appendix 1, with water vapour of 2 cm and 0.35 cm of ozone.
+Spectrum sun_irradiance_0x(double turbidity, double zenith);
+
+}  // namespace duet

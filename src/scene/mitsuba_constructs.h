@@ -1,0 +1,24 @@
+// The constructs of which Mitsuba is known to be off (mitsuba_differences.h).
+//
+// Each function says whether a scene has one; `features` are those of the scene.
+#pragma once
+
+#include "scene/description.h"
+#include "scene/features.h"
+
+namespace duet {
+
+/// A blend of a side that reflects by a delta lobe and one that reflects otherwise.
+bool blends_delta(const SceneDescription& scene, const SceneFeatures& features);
+/// Direct light with several samples of lights that no ray can hit.
+bool repeats_delta_lights(const SceneDescription& scene, const SceneFeatures& features);
+/// A medium whose mean free path is below 50 of Mitsuba 3's ray offsets.
+bool has_short_free_path(const SceneDescription& scene, const SceneFeatures& features);
+/// Surfaces in a sphere whose radius is below 100 ray offsets.
+bool is_small(const SceneDescription& scene, const SceneFeatures& features);
+/// Microflakes that are no balls.
+bool has_uneven_flakes(const SceneDescription& scene, const SceneFeatures& features);
+/// Poses that stretch along other axes than those of the thing that moves.
+bool moves_sheared(const SceneDescription& scene, const SceneFeatures& features);
+
+}  // namespace duet

@@ -1,0 +1,145 @@
+// Which scenes meet what Mitsuba is known to render wrongly.
+#include "scene/mitsuba_differences.h"
+
+#include <doctest/doctest.h>
+
+#include <set>
+
+#include "support/memory_scene.h"
+
+using namespace duet;
+using namespace duet::test;
+
+namespace {
+
+SceneDescription read(const std::string& content, const std::string& version = "3.0.0") {
+  const ReadResult r = read_text("<scene version='" + version + "'><sensor type='perspective'/>" +
+                                 content + "</scene>");
+  INFO(r.messages());
+  REQUIRE(r.scene);
+  return r.description();
+}
+
+/// The names of what a scene meets, each followed by a space.
+std::string names(const SceneDescription& scene) {
+  std::string out;
+  for (const MitsubaDifference* d : mitsuba_differences(scene, scene_features(scene)))
+    out += std::string(d->id) + " ";
+  return out;
+}
+
+std::string met(const std::string& content, const std::string& version = "3.0.0") {
+  return names(read(content, version));
+}
+
+const std::string kPath = "<integrator type='path'/>";
+
+std::string ball(const std::string& inside, double radius = 1, double x = 0) {
+  return kPath + fmt::format(
+                     "<shape type='sphere'><float name='radius' value='{}'/><point "
+                     "name='center' x='{}' y='0' z='0'/>{}</shape>",
+                     radius, x, inside);
+}
+
+std::string blend(const std::string& a, const std::string& b, double weight = 0.5) {
+  return fmt::format(
+      "<bsdf type='blendbsdf'><float name='weight' value='{}'/><bsdf type='{}'/><bsdf "
+      "type='{}'/></bsdf>",
+      weight, a, b);
+}
+
+std::string medium(double extinction, const std::string& phase = "") {
+  return fmt::format(
+      "<medium name='interior' type='homogeneous'><float name='sigma_t' value='{}'/>{}</medium>",
+      extinction, phase);
+}
+
+}  // namespace
+
+TEST_CASE("differences from Mitsuba have names and texts of their own") {
+  std::set<std::string_view> ids;
+  for (const MitsubaDifference& d : mitsuba_differences()) {
+    CAPTURE(d.id);
+    CHECK(ids.insert(d.id).second);
+    for (const std::string_view text : {d.construct, d.mitsuba, d.measured, d.reason}) {
+      CHECK(!text.empty());
+      CHECK(mitsuba_differences_markdown().find(text) != std::string::npos);
+    }
+  }
+  CHECK(ids.size() >= 6);
+}
+
+TEST_CASE("blends are met if one side has a delta lobe and the other does not") {
+  CHECK(met(ball(blend("diffuse", "conductor"))) == "blend-delta ");
+  CHECK(met(ball(blend("plastic", "roughconductor"))) == "blend-delta ");
+  CHECK(met(ball("<bsdf type='twosided'>" + blend("conductor", "diffuse") + "</bsdf>")) ==
+        "blend-delta ");
+  CHECK(met(ball(blend("diffuse", "roughplastic"))).empty());
+  CHECK(met(ball(blend("conductor", "dielectric"))).empty());
+  CHECK(met(ball(blend("diffuse", "null"))).empty());
+  CHECK(met(ball(blend("diffuse", "conductor", 1))).empty());
+  // What no shape has is not rendered.
+  CHECK(met(blend("diffuse", "conductor") + ball("")).empty());
+}
+
+TEST_CASE("direct light is met with several samples of lights that no ray hits") {
+  const auto direct = [](int samples, const std::string& light) {
+    return met(
+        fmt::format("<integrator type='direct'><integer name='emitter_samples' "
+                    "value='{}'/></integrator><emitter type='{}'/>",
+                    samples, light));
+  };
+  for (const char* light : {"point", "spot", "directional"})
+    CHECK(direct(2, light) == "direct-delta-lights ");
+  CHECK(direct(1, "point").empty());
+  CHECK(direct(2, "constant").empty());
+}
+
+TEST_CASE("ray offsets are met in dense media and in small scenes") {
+  // The offset is 0.00009 · (1 + 1) here.
+  CHECK(met(ball(medium(100))).empty());
+  CHECK(met(ball(medium(120))) == "ray-offset-media ");
+  CHECK(met(ball("", 0.01)).empty());
+  CHECK(met(ball("", 0.004)) == "ray-offset-surfaces ");
+  CHECK(met(ball("", 1, 100)).empty());
+  CHECK(met(ball("", 1, 250)) == "ray-offset-surfaces ");
+}
+
+TEST_CASE("flakes are met unless they are balls") {
+  SceneDescription scene = read(ball(medium(1,
+                                            "<phase type='blendphase'><float name='weight' "
+                                            "value='0.5'/><phase type='hg'/><phase "
+                                            "type='rayleigh'/></phase>")));
+  const auto flakes = [&](const SggxPhase& phase) {
+    for (PhaseDescription& p : scene.phases)
+      if (std::holds_alternative<RayleighPhase>(p.model) ||
+          std::holds_alternative<SggxPhase>(p.model))
+        p.model = phase;
+    return names(scene);
+  };
+  using Matrix = std::array<double, 6>;
+  CHECK(flakes({Matrix{2, 2, 2, 0, 0, 0}}).empty());
+  CHECK(flakes({Matrix{2, 2, 1, 0, 0, 0}}) == "sggx-flakes ");
+  CHECK(flakes({Matrix{2, 2, 2, 0, 0.5, 0}}) == "sggx-flakes ");
+  auto grid = std::make_shared<VolumeGrid>();
+  grid->size = {2, 1, 1};
+  grid->channels = 6;
+  grid->values = {1, 1, 1, 0, 0, 0, 3, 3, 3, 0, 0, 0};
+  scene.volumes.emplace_back().grid = grid;
+  const SggxPhase varying{VolumeId(scene.volumes.size() - 1)};
+  CHECK(flakes(varying).empty());
+  grid->values[6] = 2;
+  CHECK(flakes(varying) == "sggx-flakes ");
+}
+
+TEST_CASE("motion is met if it stretches across the axes") {
+  const auto moving = [](const std::string& transform) {
+    return met(kPath +
+                   "<shape type='sphere'><animation name='toWorld'><transform time='0'/>"
+                   "<transform time='1'>" +
+                   transform + "</transform></animation></shape>",
+               "0.6.0");
+  };
+  CHECK(moving("<scale x='2'/><rotate z='1' angle='30'/>").empty());
+  CHECK(moving("<rotate z='1' angle='30'/><scale x='2'/>") == "animation-shear ");
+}
