@@ -42,4 +42,20 @@ duet_install() {
     "${missing[@]}" >/dev/null
 }
 
+# The pages of reports are tested in a browser. Where apt has none, which is so on Ubuntu, the tests are told to do
+# without; elsewhere they say what they miss.
+duet_install_browser() {
+  local program
+  [ -z "${DUET_BROWSER:-}" ] || return 0
+  for program in chromium chromium-browser google-chrome; do
+    ! command -v "$program" >/dev/null || return 0
+  done
+  if ! command -v apt-cache >/dev/null || apt-cache policy chromium | grep -q 'Candidate: [0-9]'; then
+    duet_install chromium
+  else
+    echo "There is no package chromium: the tests of pages are left out, unless DUET_BROWSER names a browser." >&2
+    export DUET_BROWSER=none
+  fi
+}
+
 duet_install "${duet_packages[@]}"

@@ -4,6 +4,7 @@
 set -euo pipefail
 cd "$(dirname "$0")/.."
 . scripts/deps.sh
+duet_install_browser
 scripts/build.sh release
 [ $# -gt 0 ] || set -- -LE slow
 exec ctest --test-dir build --output-on-failure "$@"

@@ -7,6 +7,7 @@
 
 #include "app/workplace.h"
 #include "image/image_io.h"
+#include "support/browser.h"
 
 using namespace duet;
 using namespace duet::test;
@@ -332,6 +333,73 @@ TEST_SUITE("program") {
     CHECK(contains(nothing.err, "no image of the same name"));
     CHECK(g.compare({"empty", "b", "--require-complete"}).code == 3);
     CHECK(g.compare({"good.exr", "reference.exr", "--require-complete"}).code == 2);
+  }
+
+  TEST_CASE("the report is sorted and filtered in a browser") {
+    const std::string program = browser();
+    if (program.empty()) {
+      MESSAGE("skipped: DUET_BROWSER is none");
+      return;
+    }
+    const Gallery g;
+    for (const char* d : {"a", "b"}) std::filesystem::create_directory(g.path(d));
+    for (const auto& [from, name] : {std::pair("good.exr", "2.exr"),
+                                     {"shifted.exr", "10.exr"},
+                                     {"reference.exr", "1.exr"},
+                                     {"nan.exr", "3.exr"}}) {
+      std::filesystem::copy(g.path(from), g.path(std::string("a/") + name));
+      std::filesystem::copy(g.path("reference.exr"), g.path(std::string("b/") + name));
+    }
+    std::filesystem::copy(g.path("good.exr"), g.path("b/lost.exr"));
+    REQUIRE(g.compare({"a", "b", "--html", "r.html", "--require", "rmse<0.2065"}).code == 3);
+    const DrivenPage page = drive_page(program, read_file(g.path("r.html")), R"(
+      const errors = [];
+      addEventListener("error", (e) => errors.push(e.message));
+      const table = document.getElementById("outcomes"), heads = [...table.tHead.rows[0].cells];
+      const names = () => [...table.tBodies[0].rows].filter((r) => r.offsetHeight > 0)
+        .map((r) => r.cells[0].textContent);
+      const column = (name) => heads.find((h) => h.textContent === name);
+      const sort = (name) => { column(name).querySelector("button").click(); return names(); };
+      // What can be reached with the keyboard is a button.
+      const reachable = heads.every((h) => h.querySelector("button").tabIndex === 0);
+      const by_error = sort("relrmse"), order = column("relrmse").getAttribute("aria-sort");
+      const from_largest = sort("relrmse"), other_order = column("relrmse").getAttribute("aria-sort");
+      const by_name = sort("image"), only_one = document.querySelectorAll("[aria-sort]").length;
+      const bar = document.querySelector(".filter");
+      const toggle = (verdict) => [...bar.querySelectorAll("button")]
+        .find((b) => b.textContent.startsWith(verdict + " ")).click();
+      toggle("MISSING");
+      const without_missing = names(), status = bar.querySelector("[role=status]").textContent;
+      toggle("PASS"); toggle("FAIL");
+      const rest = names();
+      const sections = [...document.querySelectorAll("section")].filter((e) => e.offsetHeight > 0)
+        .map((e) => e.dataset.verdict);
+      toggle("PASS");
+      finish({reachable, by_error, order, from_largest, other_order, by_name, only_one,
+              without_missing, status, rest, sections, again: names().length, errors});
+    )",
+                                       g.path(""));
+    CAPTURE(page.console);
+    const auto r = nlohmann::json::parse(page.result);
+    using List = nlohmann::json;
+    CHECK(r["reachable"] == true);
+    // The image with holes has the error of the rest of its pixels; what was not compared is last.
+    CHECK(r["by_error"][0] == "1.exr");
+    CHECK(r["by_error"][3] == "10.exr");
+    CHECK(r["by_error"][4] == "lost.exr");
+    CHECK(r["order"] == "ascending");
+    CHECK(r["from_largest"][0] == "10.exr");
+    CHECK(r["from_largest"][4] == "lost.exr");
+    CHECK(r["other_order"] == "descending");
+    CHECK(r["by_name"] == List{"1.exr", "2.exr", "3.exr", "10.exr", "lost.exr"});
+    CHECK(r["only_one"] == 1);
+    CHECK(r["without_missing"] == List{"1.exr", "2.exr", "3.exr", "10.exr"});
+    CHECK(r["status"] == "4 of 5 shown");
+    CHECK(r["rest"] == List{"10.exr"});
+    CHECK(r["sections"] == List{"NOISY"});
+    CHECK(r["again"] == 3);
+    CHECK(r["errors"].empty());
+    CHECK(page.console.empty());
   }
 
   TEST_CASE("directories, with reports") {
