@@ -36,7 +36,7 @@ std::string slope_cell(const ChartLine& line) {
   if (!line.by_time.slope) return "<td class=\"none\">–</td>";
   const SlopeFit& s = *line.by_time.slope;
   return fmt::format(
-      "<td data-value=\"{0:.9g}\">{0:.3f} <span class=\"interval\">[{1:.3f}, {2:.3f}]</span></td>",
+      "<td data-value=\"{0:.9g}\">{0:.3f}<br><span class=\"interval\">[{1:.3f}, {2:.3f}]</span></td>",
       s.slope, s.slope_95.low, s.slope_95.high);
 }
 
@@ -55,7 +55,7 @@ std::string efficiency_cells(const ChartLine& line, double best, const std::stri
   const auto e = efficiency(line);
   if (!e) return fmt::format("<td class=\"none\">–</td><td class=\"none\">–</td>");
   return fmt::format(
-      "<td{0} data-value=\"{1:.9g}\">{2} <span class=\"interval\">[{3}, {4}]</span></td>"
+      "<td{0} data-value=\"{1:.9g}\">{2}<br><span class=\"interval\">[{3}, {4}]</span></td>"
       "<td{0} data-value=\"{5:.9g}\">{5:.2f}</td>",
       mark, e->value, significant(e->value), significant(e->interval_95.low),
       significant(e->interval_95.high), e->value / best);

@@ -106,7 +106,7 @@ struct Efficiency {
 /// The cells of a page's column of efficiencies.
 std::vector<Efficiency> efficiencies(const std::string& page) {
   static const std::regex cell(
-      "<td( class=\"(best|tied)\")? data-value=\"([^\"]+)\">[^<]* <span class=\"interval\">"
+      "<td( class=\"(best|tied)\")? data-value=\"([^\"]+)\">[^<]*<br><span class=\"interval\">"
       "\\[([0-9.e+]+), ([0-9.e+]+|∞)\\]</span></td>");
   std::vector<Efficiency> list;
   for (std::sregex_iterator i(page.begin(), page.end(), cell), end; i != end; ++i)

@@ -351,7 +351,7 @@ TEST_SUITE("program") {
       std::filesystem::copy(g.path("reference.exr"), g.path(std::string("b/") + name));
     }
     std::filesystem::copy(g.path("good.exr"), g.path("b/lost.exr"));
-    REQUIRE(g.compare({"a", "b", "--html", "r.html", "--require", "rmse<0.2065"}).code == 3);
+    REQUIRE(g.compare({"a", "b", "--html", "r.html", "--require", "rmse<0.2035"}).code == 3);
     const DrivenPage page = drive_page(program, read_file(g.path("r.html")), R"(
       const errors = [];
       addEventListener("error", (e) => errors.push(e.message));
