@@ -28,8 +28,12 @@ std::string error_text(const ChartPoint& p) {
 }
 
 std::string swatch(size_t index, const std::string& name) {
-  return fmt::format("<span class=\"swatch {}\"></span>{}", series_class(index),
-                     escape_markup(name));
+  std::string text;
+  for (const char c : name) {  // parameters may stand on lines of their own
+    text += escape_markup(std::string(1, c));
+    if (c == ',' || c == ':') text += "<wbr>";
+  }
+  return fmt::format("<span class=\"swatch {}\"></span>{}", series_class(index), text);
 }
 
 std::string slope_cell(const ChartLine& line) {

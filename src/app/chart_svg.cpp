@@ -225,7 +225,7 @@ class Drawing {
       add("<g class=\"entry\"><g class=\"{}\"><line x1=\"{}\" x2=\"{}\" y1=\"{}\" y2=\"{}\" "
           "stroke=\"currentColor\" stroke-width=\"2\"/>{}</g>",
           series_class(i), x - 6, x + 12, y, y, marker(i, x + 3, y));
-      constexpr size_t longest = 26;
+      constexpr size_t longest = 22;
       const std::string name =
           l.name.size() > longest ? l.name.substr(0, longest - 1) + "…" : l.name;
       add("<text x=\"{}\" y=\"{}\" font-weight=\"600\">{}</text>", x + 20, y + 4.5,
