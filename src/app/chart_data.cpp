@@ -109,7 +109,12 @@ std::vector<size_t> fastest(const ChartScene& scene, double root_trimmed) {
   std::vector<std::optional<Estimate>> estimates;
   for (const ChartLine& line : scene.lines) {
     const auto t = time_to_error(line, root_trimmed);
-    estimates.push_back(t ? std::optional(Estimate{t->cpu_seconds, t->interval_95}) : std::nullopt);
+    if (t)
+      estimates.push_back(Estimate{t->cpu_seconds, t->interval_95});
+    else if (!line.points.empty())  // some time after its last point
+      estimates.push_back(Estimate{INFINITY, {line.points.back().cpu_seconds, INFINITY}});
+    else
+      estimates.push_back(std::nullopt);
   }
   return contenders(estimates, false);
 }

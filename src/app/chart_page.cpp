@@ -40,7 +40,8 @@ std::string slope_cell(const ChartLine& line) {
   if (!line.by_time.slope) return "<td class=\"none\">–</td>";
   const SlopeFit& s = *line.by_time.slope;
   return fmt::format(
-      "<td data-value=\"{0:.9g}\">{0:.3f}<br><span class=\"interval\">[{1:.3f}, {2:.3f}]</span></td>",
+      "<td data-value=\"{0:.9g}\">{0:.3f}<br><span class=\"interval\">[{1:.3f}, "
+      "{2:.3f}]</span></td>",
       s.slope, s.slope_95.low, s.slope_95.high);
 }
 
@@ -57,7 +58,7 @@ std::string time_cell(const ChartLine& line, double error, const std::string& ma
 
 std::string efficiency_cells(const ChartLine& line, double best, const std::string& mark) {
   const auto e = efficiency(line);
-  if (!e) return fmt::format("<td class=\"none\">–</td><td class=\"none\">–</td>");
+  if (!e) return "<td class=\"none\">–</td><td class=\"none\">–</td>";
   return fmt::format(
       "<td{0} data-value=\"{1:.9g}\">{2}<br><span class=\"interval\">[{3}, {4}]</span></td>"
       "<td{0} data-value=\"{5:.9g}\">{5:.2f}</td>",

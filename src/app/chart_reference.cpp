@@ -36,7 +36,7 @@ Image colour_image(int width, int height) {
 }
 
 /// How an image was made, as far as its header says: by which program, and with how many samples
-/// per pixel. `spp` is used if the header has none.
+/// per pixel. `spp` is what the command line says of these, or 0.
 std::string how_made(const LinearImage& image, double spp) {
   const auto field = [&](const char* name) {
     for (const auto& [key, value] : image.header)

@@ -36,8 +36,8 @@ std::string cell(const std::optional<double>& value, int digits) {
 
 /// The figures of the table: what most people look at, if it is there, and what is required.
 std::vector<std::string> columns(const CompareOptions& o, const std::vector<Comparison>& all) {
-  static constexpr const char* usual[] = {"relrmse", "trimmed", "worst", "flip", "hdrflip",
-                                          "psnr",    "ssim",    "ratio", "p",    "bias", "z"};
+  static constexpr const char* usual[] = {"relrmse", "trimmed", "worst", "flip", "hdrflip", "psnr",
+                                          "ssim",    "ratio",   "p",     "bias", "z"};
   std::vector<std::string> names;
   const std::vector<Figure> known = figures({});
   for (size_t i = 0; i < known.size(); ++i) {
