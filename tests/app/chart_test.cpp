@@ -457,7 +457,12 @@ TEST_SUITE("program") {
       const canvas = root.viewer.canvas;
       const fitted = () => canvas.width !== 300 &&
         canvas.width === Math.round(canvas.clientWidth * devicePixelRatio);
-      when(fitted, () => finish({seen, darker, restored, black, coloured, flip, flip_of_reference,
+      const root_style = document.documentElement.style;
+      root_style.width = "1100px";
+      const fits = [...document.querySelectorAll(".scroll")]
+        .every((e) => e.scrollWidth <= e.clientWidth);
+      root_style.width = "";
+      when(fitted, () => finish({fits, seen, darker, restored, black, coloured, flip, flip_of_reference,
                                  toggle, errors, zoom: root.viewer.zoom, width: canvas.width}));
     )";
     const DrivenPage page = drive_page(program, s.file("out/index.html"), actions, s.path("out"));
@@ -468,6 +473,7 @@ TEST_SUITE("program") {
     CHECK(result["restored"] == true);
     CHECK(result["black"] == true);  // the reference does not differ from itself
     CHECK(result["coloured"] == true);
+    CHECK(result["fits"] == true);
     CHECK(result["flip"] == true);
     CHECK(result["flip_of_reference"] == true);
     CHECK(result["toggle"] == nlohmann::json{"toggle to path"});

@@ -147,7 +147,10 @@ TEST_SUITE("program") {
       const sections = [...document.querySelectorAll("section")].filter((e) => e.offsetHeight > 0)
         .map((e) => e.dataset.verdict);
       toggle("PASS");
-      finish({reachable, by_error, order, from_largest, other_order, by_name, only_one,
+      document.documentElement.style.width = "1100px";
+      const fits = [...document.querySelectorAll(".scroll")].filter((e) => e.offsetHeight > 0)
+        .every((e) => e.scrollWidth <= e.clientWidth);
+      finish({fits, reachable, by_error, order, from_largest, other_order, by_name, only_one,
               without_missing, status, rest, sections, again: names().length, errors});
     )",
                                        g.path(""));
@@ -155,6 +158,7 @@ TEST_SUITE("program") {
     const auto r = nlohmann::json::parse(page.result);
     using List = nlohmann::json;
     CHECK(r["reachable"] == true);
+    CHECK(r["fits"] == true);
     // The image with holes has the error of the rest of its pixels; what was not compared is last.
     CHECK(r["by_error"][0] == "1.exr");
     CHECK(r["by_error"][3] == "10.exr");
