@@ -80,7 +80,7 @@ def main():
     expected, doubt = mitsubas_mean()
     print(f'{args.size}², {args.iterations} samples, {args.rounds} rounds; mean of the reference '
           f'{truth.mean.mean() / expected - 1:+.2%} from Mitsuba\'s ± {doubt / expected:.2%}\n')
-    print('| | CPU s | relMSE | efficiency / Duet\'s path | / llvm_ad_rgb path | bias |\n|---|---|---|---|---|---|')
+    print('| | CPU s | trimmed | efficiency / Duet\'s path | / llvm_ad_rgb path | bias |\n|---|---|---|---|---|---|')
     for label, values in runs.items():
         gain = [statistics.median(o[0] * o[1] / (v[0] * v[1]) for v, o in zip(values, runs[other]))
                 for other in ('path', MITSUBA)]

@@ -105,7 +105,7 @@ def bench(name, scene, mitsuba_scene, size, args):
                 runs.setdefault(label, []).append((seconds, trimmed_relmse(read(out), reference)))
     median = statistics.median
     print(f'\n{name}, {size[0]}x{size[1]}, {args.spp} spp, {args.threads} threads, {args.rounds} rounds')
-    print(f'{"":18} CPU s   relMSE     efficiency')
+    print(f'{"":18} CPU s   trimmed    efficiency')
     result = {'scene': name, 'cpu': {}, 'relmse': {}, 'efficiency': {}, 'cpu_ratio': {}, 'efficiency_ratio': {}}
     for label, values in runs.items():
         result['cpu'][label] = median(s for s, _ in values)

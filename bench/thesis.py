@@ -150,7 +150,7 @@ def error_table(rounds, reference):
         rows.append([METHODS[method][0], f'{percent(j["bias"], 2, True)} ± {percent(j["error"], 2)}',
                      f'{j["rejected"]} / {j["tiles"]}', span, f'{j["mean_z2"]:.2f}',
                      f'{statistics.mean(relmse[method]):.2g}', f'{efficiency:.2f}'])
-    return table(['', 'mean', 'tiles rejected', 'these differ by', 'mean z²', 'relMSE', 'efficiency'], rows)
+    return table(['', 'mean', 'tiles rejected', 'these differ by', 'mean z²', 'trimmed', 'efficiency'], rows)
 
 
 def write_png(image, path):

@@ -95,10 +95,11 @@ class ChartCommand {
     const auto e = efficiency(line);
     const std::string slope =
         line.by_time.slope ? fmt::format(", slope {:.2f}", line.by_time.slope->slope) : "";
-    log::info("{}: {}: {} spp in {:.3g} CPU s, {}", scene.name, line.name, p.spp, p.cpu_seconds,
-              e ? fmt::format("relative RMSE {:.3g} %, {:.2f} of the best efficiency{}",
-                              100 * std::sqrt(p.trimmed), e->value / best_efficiency(scene), slope)
-                : "error below the reference's noise");
+    log::info(
+        "{}: {}: {} spp in {:.3g} CPU s, {}", scene.name, line.name, p.spp, p.cpu_seconds,
+        e ? fmt::format("root of the trimmed relMSE {:.3g} %, {:.2f} of the best efficiency{}",
+                        100 * std::sqrt(p.trimmed), e->value / best_efficiency(scene), slope)
+          : "error below the reference's noise");
   }
 
   ChartOptions o_;

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "image/image.h"
+#include "math/contenders.h"
 #include "math/slope.h"
 
 namespace duet {
@@ -40,6 +41,7 @@ struct ChartScene {
   int width = 0, height = 0, threads = 1;
   double seconds = 0;            ///< the budget
   std::string reference_source;  ///< where the reference comes from, in words
+  std::string reference_caveat;  ///< what may be wrong with it, or ""
   double reference_noise = 0;    ///< its relMSE, trimmed
   Image reference;
   std::vector<ChartLine> lines;
@@ -51,22 +53,24 @@ void fit(ChartLine& line);
 
 /// 1 / (trimmed relMSE · CPU seconds) at the last point, with its interval; empty if the error is
 /// not above zero.
-struct Efficiency {
-  double value = 0;
-  Interval interval_95;
-};
-std::optional<Efficiency> efficiency(const ChartLine& line);
+std::optional<Estimate> efficiency(const ChartLine& line);
 /// The largest efficiency of the lines, or 0.
 double best_efficiency(const ChartScene& scene);
+/// The numbers of the lines that may be the most efficient ones (see contenders()). One whose error
+/// is not above zero has an interval without an upper end.
+std::vector<size_t> most_efficient(const ChartScene& scene);
 
-/// CPU seconds until the relative RMSE (the root of the trimmed relMSE) is this small: between two
-/// points on a straight line on logarithmic axes, beyond the last one by the fitted slope. The
-/// first point may be better already.
+/// CPU seconds until the root of the trimmed relMSE is this small: between two points on a straight
+/// line on logarithmic axes, beyond the last one by the fitted slope. The first point may be better
+/// already. The interval is where the intervals of the curve, and of its slope, reach that error.
 struct TimeToError {
   double cpu_seconds = 0;
   enum Kind { interpolated, at_most, extrapolated } kind = interpolated;
+  Interval interval_95;
 };
-std::optional<TimeToError> time_to_error(const ChartLine& line, double relative_rmse);
+std::optional<TimeToError> time_to_error(const ChartLine& line, double root_trimmed);
+/// The numbers of the lines that may be the first to have this error.
+std::vector<size_t> fastest(const ChartScene& scene, double root_trimmed);
 /// Three round errors (1, 2 or 5 times a power of ten) that the best line of the scene reaches, the
 /// largest first and the last one just so.
 std::vector<double> round_errors(const ChartScene& scene);

@@ -21,6 +21,9 @@ namespace fs = std::filesystem;
 
 namespace {
 
+/// The field of the header in which a reference that was made says how.
+constexpr const char* kHowMade = "howMade";
+
 std::string path_of(const char* option, const std::vector<std::string>& given, size_t index,
                     const std::string& scene) {
   const OutputNames names = output_names(scene);
@@ -32,6 +35,31 @@ Image colour_image(int width, int height) {
   return Image(width, height, {"R", "G", "B"});
 }
 
+/// How an image was made, as far as its header says: by which program, and with how many samples
+/// per pixel. `spp` is what the command line says of these, or 0.
+std::string how_made(const LinearImage& image, double spp) {
+  const auto field = [&](const char* name) {
+    for (const auto& [key, value] : image.header)
+      if (key == name) return value;
+    return std::string();
+  };
+  if (const std::string note = field(kHowMade); !note.empty()) return note;
+  std::string by;
+  // Those of Duet, of Mitsuba, and what many other programs write.
+  for (const char* name : {"program", "generatedBy", "Software", "software"})
+    if (by.empty()) by = field(name);
+  for (const char* name : {"version", "integrator"})
+    if (const std::string text = field(name); !by.empty() && !text.empty()) by += " " + text;
+  if (spp <= 0) spp = std::atof(image.spp.c_str());
+  std::vector<std::string> parts;
+  if (!by.empty()) parts.push_back("by " + by);
+  if (spp > 0) parts.push_back(fmt::format("{} samples per pixel", spp));
+  if (const double seconds = std::atof(field("renderSeconds").c_str()); seconds > 0)
+    parts.push_back("in " + format_seconds(seconds));
+  if (parts.empty()) return "its header does not say how it was made";
+  return fmt::format("made {}", fmt::join(parts, ", "));
+}
+
 }  // namespace
 
 ChartReference read_reference(const ChartOptions& o, size_t index) {
@@ -39,7 +67,8 @@ ChartReference read_reference(const ChartOptions& o, size_t index) {
   const std::string path = path_of("--reference", o.references, index, scene);
   ChartReference r;
   LinearImage mean = load_linear(path);
-  r.source = path;
+  r.source = fmt::format("{} ({}{}", path, how_made(mean, o.reference_spp),
+                         o.variances.empty() ? ")" : "; its variance subtracted)");
   r.mean = std::move(mean.image);
   if (o.variances.empty()) return r;
   const double spp = o.reference_spp > 0 ? o.reference_spp : std::atof(mean.spp.c_str());
@@ -50,7 +79,6 @@ ChartReference read_reference(const ChartOptions& o, size_t index) {
                     path));
   r.variance = load_linear(path_of("--variance", o.variances, index, scene)).image;
   for (float& v : r.variance->data) v = float(v / spp);
-  r.source += fmt::format(", {} samples per pixel, its variance subtracted", spp);
   return r;
 }
 
@@ -100,8 +128,9 @@ std::optional<ChartReference> make_reference(const ChartRender& render, Integrat
   }
   r.source = fmt::format(
       "made by Duet itself with {} in {}, {} samples per pixel in {} independent parts, whose "
-      "variance is subtracted; what this method cannot see or gets wrong is missing in it",
+      "variance is subtracted",
       name, format_seconds(elapsed()), kParts * spp, kParts);
+  r.caveat = "what this method cannot see or gets wrong is missing in it";
   return r;
 }
 
@@ -109,7 +138,11 @@ void save_reference(const ChartReference& reference, const std::string& director
   // As the variance of one sample of one.
   ExrOptions options;
   options.half = false;
-  options.header = {{"program", "Duet"}, {"spp", 1}, {"commandLine", command_line}};
+  options.header = {{"program", "Duet"},
+                    {"version", DUET_VERSION},
+                    {"spp", 1},
+                    {kHowMade, reference.source},
+                    {"commandLine", command_line}};
   write_exr((fs::path(directory) / "reference.exr").string(), reference.mean, options);
   write_exr((fs::path(directory) / "reference-variance.exr").string(), *reference.variance,
             options);

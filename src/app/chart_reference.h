@@ -12,7 +12,8 @@ namespace duet {
 struct ChartReference {
   Image mean;
   std::optional<Image> variance;  ///< of the mean, per pixel
-  std::string source;             ///< where it comes from, in words
+  std::string source;             ///< where it comes from and how it was made, in words
+  std::string caveat;             ///< what may be wrong with it, or ""
 };
 
 /// Reads the reference of scene number `index`. Throws if a file cannot be used, or UsageError if

@@ -48,6 +48,7 @@ class SceneChart {
     const NoisyReference reference(reference_.mean,
                                    reference_.variance ? &*reference_.variance : nullptr);
     chart_.reference_source = reference_.source;
+    chart_.reference_caveat = reference_.caveat;
     chart_.reference_noise = reference.noise();
     chart_.reference = reference_.mean;
     make_renderers(reference, seconds);

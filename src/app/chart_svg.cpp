@@ -4,9 +4,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <iterator>
 
+#include "app/chart_colours.h"
 #include "app/web_page.h"
+#include "math/log_ticks.h"
 
 namespace duet {
 
@@ -25,6 +26,7 @@ struct LogAxis {
     return from + t * (to - from);
   }
   bool contains(double v) const { return v >= low * 0.9999 && v <= high * 1.0001; }
+  std::vector<Tick> ticks() const { return log_ticks(low, high); }
 };
 
 /// Room on both sides of values that are all above zero.
@@ -40,30 +42,8 @@ LogAxis axis_around(const std::vector<double>& values, double from, double to, d
   return {low / extra, high * extra, from, to};
 }
 
-struct Tick {
-  double value;
-  bool labelled;
-};
-
-/// Powers of ten with 2 and 5 times them; labels for all of them if there is room.
-std::vector<Tick> ticks(const LogAxis& axis) {
-  const double decades = std::log10(axis.high / axis.low);
-  std::vector<Tick> list;
-  for (int p = int(std::floor(std::log10(axis.low))); p <= int(std::ceil(std::log10(axis.high)));
-       ++p)
-    for (const int digit : {1, 2, 5}) {
-      const double v = digit * std::pow(10, p);
-      if (axis.contains(v)) list.push_back({v, digit == 1 || decades < 2.6});
-    }
-  return list;
-}
-
-std::string number(double v) {
-  return v >= 1e5 || v < 1e-3 ? fmt::format("{:.0e}", v) : fmt::format("{:g}", v);
-}
-
 std::string percent(double v) {
-  return number(100 * v) + " %";
+  return tick_text(100 * v) + " %";
 }
 
 double x_of(const ChartPoint& p, ChartAxis axis) {
@@ -74,16 +54,17 @@ const CurveFit& fit_of(const ChartLine& line, ChartAxis axis) {
   return axis == ChartAxis::spp ? line.by_spp : line.by_time;
 }
 
-std::string marker(size_t index, double x, double y, const std::string& colour) {
-  const auto polygon = [&](const std::string& points) {
-    return fmt::format("<polygon class=\"point\" points=\"{}\" fill=\"{}\"/>", points, colour);
+/// One of four shapes, in the colour of the group that it is in.
+std::string marker(size_t index, double x, double y) {
+  const auto polygon = [](const std::string& points) {
+    return fmt::format("<polygon class=\"point\" points=\"{}\" fill=\"currentColor\"/>", points);
   };
   switch (index % 4) {
     case 1:
       return fmt::format(
           "<rect class=\"point\" x=\"{:.1f}\" y=\"{:.1f}\" width=\"6.4\" height=\"6.4\" "
-          "fill=\"{}\"/>",
-          x - 3.2, y - 3.2, colour);
+          "fill=\"currentColor\"/>",
+          x - 3.2, y - 3.2);
     case 2:
       return polygon(fmt::format("{:.1f},{:.1f} {:.1f},{:.1f} {:.1f},{:.1f}", x, y - 4.4, x + 4,
                                  y + 3, x - 4, y + 3));
@@ -92,8 +73,9 @@ std::string marker(size_t index, double x, double y, const std::string& colour) 
                                  y - 4.4, x + 4.4, y, x, y + 4.4, x - 4.4, y));
     default:
       return fmt::format(
-          "<circle class=\"point\" cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"3.6\" fill=\"{}\"/>", x, y,
-          colour);
+          "<circle class=\"point\" cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"3.6\" "
+          "fill=\"currentColor\"/>",
+          x, y);
   }
 }
 
@@ -130,40 +112,43 @@ class Drawing {
     const char* against = axis_ == ChartAxis::spp ? "samples per pixel" : "CPU seconds";
     const std::string title = fmt::format("{}: error against {}", scene_.name, against);
     add("<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {:.0f} {:.0f}\" role=\"img\" "
-        "font-family=\"system-ui, 'Segoe UI', Helvetica, Arial, sans-serif\" font-size=\"13\" "
-        "fill=\"#333a41\">",
-        kWidth, kHeight);
+        "class=\"chart\" font-family=\"system-ui, 'Segoe UI', Helvetica, Arial, sans-serif\" "
+        "font-size=\"13\" fill=\"{}\">",
+        kWidth, kHeight, kInk.light);
+    add("<style>\n{}</style>", chart_style());
     add("<title>{}</title>", escape_markup(title));
-    add("<desc>Relative RMSE without the worst 0.1 % of the pixels, on logarithmic axes</desc>");
+    add("<desc>Root of the relMSE without the worst 0.1 % of the pixels, on logarithmic "
+        "axes</desc>");
     add("<clipPath id=\"{}\"><rect x=\"{}\" y=\"{}\" width=\"{}\" height=\"{}\"/></clipPath>",
         clip_, kLeft, kTop, kPlotWidth, kPlotHeight);
-    add("<rect width=\"100%\" height=\"100%\" rx=\"8\" fill=\"#ffffff\"/>");
-    add("<text x=\"{}\" y=\"26\" font-size=\"17\" font-weight=\"600\" fill=\"#1d2126\">{}</text>",
-        kLeft, escape_markup(scene_.name));
-    add("<text x=\"{}\" y=\"45\" fill=\"#667078\">relative RMSE (trimmed) against {}, {}×{}, {} "
-        "thread{}</text>",
-        kLeft, against, scene_.width, scene_.height, scene_.threads,
+    add("<rect class=\"paper\" width=\"100%\" height=\"100%\" rx=\"8\" fill=\"{}\"/>",
+        kPaper.light);
+    add("<text x=\"{}\" y=\"26\" font-size=\"17\" font-weight=\"600\">{}</text>", kLeft,
+        escape_markup(scene_.name));
+    add("<text class=\"soft\" x=\"{}\" y=\"45\" fill=\"{}\">√trimmed (root of the trimmed relMSE) "
+        "against {}, {}×{}, {} thread{}</text>",
+        kLeft, kSoft.light, against, scene_.width, scene_.height, scene_.threads,
         scene_.threads == 1 ? "" : "s");
     add("<text x=\"{}\" y=\"{}\" text-anchor=\"middle\">{}</text>", kLeft + kPlotWidth / 2,
         kBottom + 44, against);
   }
 
   void grid() {
-    add("<g class=\"grid\" stroke=\"#e4e7ea\">");
-    for (const Tick& t : ticks(x_))
+    add("<g class=\"grid\" stroke=\"{}\">", kGrid.light);
+    for (const Tick& t : x_.ticks())
       add("<line x1=\"{0:.1f}\" x2=\"{0:.1f}\" y1=\"{1}\" y2=\"{2}\"/>", x_(t.value), kTop,
           kBottom);
-    for (const Tick& t : ticks(y_))
+    for (const Tick& t : y_.ticks())
       add("<line x1=\"{1}\" x2=\"{2}\" y1=\"{0:.1f}\" y2=\"{0:.1f}\"/>", y_(t.value), kLeft,
           kRight);
-    add("<rect x=\"{}\" y=\"{}\" width=\"{}\" height=\"{}\" fill=\"none\" stroke=\"#b9c0c6\"/>",
-        kLeft, kTop, kPlotWidth, kPlotHeight);
-    add("</g>\n<g class=\"ticks\">");
-    for (const Tick& t : ticks(x_))
+    add("</g>\n<rect class=\"frame\" x=\"{}\" y=\"{}\" width=\"{}\" height=\"{}\" fill=\"none\" "
+        "stroke=\"{}\"/>\n<g class=\"ticks\">",
+        kLeft, kTop, kPlotWidth, kPlotHeight, kFrame.light);
+    for (const Tick& t : x_.ticks())
       if (t.labelled)
         add("<text x=\"{:.1f}\" y=\"{}\" text-anchor=\"middle\">{}</text>", x_(t.value),
-            kBottom + 20, number(t.value));
-    for (const Tick& t : ticks(y_))
+            kBottom + 20, tick_text(t.value));
+    for (const Tick& t : y_.ticks())
       if (t.labelled)
         add("<text x=\"{}\" y=\"{:.1f}\" text-anchor=\"end\">{}</text>", kLeft - 8,
             y_(t.value) + 4.5, percent(t.value));
@@ -174,9 +159,9 @@ class Drawing {
   void guides() {
     const double x0 = x_.low, x1 = x_.high;
     const double y0 = std::pow(y_.high, 0.97) * std::pow(y_.low, 0.03);
-    add("<g class=\"guides\" clip-path=\"url(#{})\" stroke=\"#9aa3ab\" stroke-dasharray=\"5 5\" "
-        "fill=\"#7d868e\" font-size=\"12\">",
-        clip_);
+    add("<g class=\"guides\" clip-path=\"url(#{1})\" stroke=\"{0}\" fill=\"{0}\" "
+        "stroke-dasharray=\"5 5\" font-size=\"12\">",
+        kGuide.light, clip_);
     for (const auto& [name, slope] : {std::pair("−1/2", -0.5), std::pair("−1/3", -1.0 / 3)}) {
       const double y1 = y0 * std::pow(x1 / x0, slope);
       add("<line class=\"guide\" data-slope=\"{:.4f}\" x1=\"{:.1f}\" y1=\"{:.1f}\" x2=\"{:.1f}\" "
@@ -196,17 +181,16 @@ class Drawing {
   void noise() {
     const double level = std::sqrt(scene_.reference_noise);
     if (!(level > 0) || !y_.contains(level)) return;
-    add("<g class=\"noise\"><line x1=\"{}\" x2=\"{}\" y1=\"{:.1f}\" y2=\"{:.1f}\" "
-        "stroke=\"#c3a46b\" "
-        "stroke-dasharray=\"2 4\"/><text x=\"{}\" y=\"{:.1f}\" font-size=\"11\" "
-        "fill=\"#8a6d33\">noise of the reference, subtracted</text></g>",
-        kLeft, kRight, y_(level), y_(level), kLeft + 6, y_(level) - 5);
+    add("<g class=\"noise\" stroke=\"{0}\" fill=\"{0}\"><line x1=\"{1}\" x2=\"{2}\" y1=\"{3:.1f}\" "
+        "y2=\"{3:.1f}\" stroke-dasharray=\"2 4\"/><text x=\"{4}\" y=\"{5:.1f}\" font-size=\"11\" "
+        "stroke=\"none\">noise of the reference, subtracted</text></g>",
+        kNoise.light, kLeft, kRight, y_(level), kLeft + 6, y_(level) - 5);
   }
 
   void line(size_t index) {
     const ChartLine& l = scene_.lines[index];
-    const std::string colour = chart_colour(index);
-    add("<g class=\"line\" data-name=\"{}\" clip-path=\"url(#{})\">", escape_markup(l.name), clip_);
+    add("<g class=\"line {}\" data-name=\"{}\" clip-path=\"url(#{})\">", series_class(index),
+        escape_markup(l.name), clip_);
     std::string upper, lower, path;
     const CurveFit& fit = fit_of(l, axis_);
     for (size_t i = 0; i < l.points.size(); ++i) {
@@ -219,13 +203,15 @@ class Drawing {
       lower = fmt::format("{:.1f},{:.1f} ", x, y_(low)) + lower;
     }
     if (!path.empty()) {
-      add("<polygon class=\"band\" points=\"{}{}\" fill=\"{}\" fill-opacity=\"0.13\"/>", upper,
-          lower, colour);
-      add("<polyline points=\"{}\" fill=\"none\" stroke=\"{}\" stroke-width=\"2\"/>", path, colour);
+      add("<polygon class=\"band\" points=\"{}{}\" fill=\"currentColor\" "
+          "fill-opacity=\"0.13\"/>",
+          upper, lower);
+      add("<polyline points=\"{}\" fill=\"none\" stroke=\"currentColor\" stroke-width=\"2\"/>",
+          path);
     }
     for (const ChartPoint& p : l.points) {
       if (!(p.trimmed > 0)) continue;
-      svg_ += marker(index, x_(x_of(p, axis_)), y_(std::sqrt(p.trimmed)), colour);
+      svg_ += marker(index, x_(x_of(p, axis_)), y_(std::sqrt(p.trimmed)));
     }
     add("\n</g>");
   }
@@ -236,16 +222,16 @@ class Drawing {
     const double x = kRight + 20;
     for (size_t i = 0; i < scene_.lines.size(); ++i) {
       const ChartLine& l = scene_.lines[i];
-      add("<g class=\"entry\"><line x1=\"{}\" x2=\"{}\" y1=\"{}\" y2=\"{}\" stroke=\"{}\" "
-          "stroke-width=\"2\"/>{}",
-          x - 6, x + 12, y, y, chart_colour(i), marker(i, x + 3, y, chart_colour(i)));
-      constexpr size_t longest = 26;
+      add("<g class=\"entry\"><g class=\"{}\"><line x1=\"{}\" x2=\"{}\" y1=\"{}\" y2=\"{}\" "
+          "stroke=\"currentColor\" stroke-width=\"2\"/>{}</g>",
+          series_class(i), x - 6, x + 12, y, y, marker(i, x + 3, y));
+      constexpr size_t longest = 22;
       const std::string name =
           l.name.size() > longest ? l.name.substr(0, longest - 1) + "…" : l.name;
       add("<text x=\"{}\" y=\"{}\" font-weight=\"600\">{}</text>", x + 20, y + 4.5,
           escape_markup(name));
-      add("<text x=\"{}\" y=\"{}\" font-size=\"12\" fill=\"#667078\">{}</text></g>", x + 20, y + 21,
-          slope_text(fit_of(l, axis_)));
+      add("<text class=\"soft\" x=\"{}\" y=\"{}\" font-size=\"12\" fill=\"{}\">{}</text></g>",
+          x + 20, y + 21, kSoft.light, slope_text(fit_of(l, axis_)));
       y += 46;
     }
     add("</g>");
@@ -269,12 +255,6 @@ class Drawing {
 };
 
 }  // namespace
-
-std::string chart_colour(size_t index) {
-  static constexpr const char* colours[] = {"#0b6fb8", "#d9541a", "#12906a", "#a64ca6",
-                                            "#c99700", "#4aa8dd", "#6a51a3", "#7a5230"};
-  return colours[index % std::size(colours)];
-}
 
 std::string chart_svg(const ChartScene& scene, ChartAxis axis) {
   return Drawing(scene, axis).run();

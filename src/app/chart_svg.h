@@ -11,10 +11,7 @@ namespace duet {
 enum class ChartAxis { cpu_seconds, spp };
 
 /// A complete SVG document. Every line is a <g class="line"> with a band (its 95 % interval), a
-/// polyline and a marker for each point; its colour is that of chart_colour().
+/// polyline and a marker for each point, in the colours of app/chart_colours.h.
 std::string chart_svg(const ChartScene& scene, ChartAxis axis);
-
-/// The colour of line number `index`, as "#rrggbb".
-std::string chart_colour(size_t index);
 
 }  // namespace duet

@@ -31,11 +31,13 @@ double samples_of(const std::string& path, const LinearImage& image, const std::
                   option, path));
 }
 
-void add_images(const Image& image, const Image& reference, int longest, Comparison& c) {
+void add_images(const Image& image, const Image& reference, const FlipResult& flip, int longest,
+                Comparison& c) {
   WebImage a = web_image(image, longest), b = web_image(reference, longest);
   const std::string note =
       a.reduced_by > 1 ? fmt::format("reduced to 1/{} for this page", a.reduced_by) : "";
-  c.images = {{"image", note, std::move(a)}, {"reference", note, std::move(b)}};
+  const WebFlip map = web_flip(flip, image.width, longest);
+  c.images = {{"image", note, std::move(a), map}, {"reference", note, std::move(b), {}}};
 }
 
 }  // namespace
@@ -47,6 +49,7 @@ LinearImage load_linear(const std::string& path) {
   linear.display_encoded = file.display_encoded;
   for (const auto& [name, value] : file.header)
     if (name == "spp") linear.spp = value;
+  linear.header = std::move(file.header);
   if (!file.display_encoded) return linear;
   std::vector<float>& data = linear.image.data;
   if (!file.bytes.empty()) {
@@ -70,14 +73,19 @@ void measure(const LinearImage& image, const LinearImage& reference,
              Comparison& c) {
   Measurements& m = c.measurements;
   m.metrics = compare_images(image.image, reference.image, noise);
-  m.flip = ldr_flip(image.image, reference.image).mean;
+  m.display = display_metrics(image.image, reference.image);
+  m.percentage = percentage_errors(image.image, reference.image);
+  FlipResult flip = ldr_flip(image.image, reference.image);
+  m.flip = flip.mean;
   if (!(image.display_encoded && reference.display_encoded))
-    if (const auto flip = hdr_flip(image.image, reference.image, options.threads))
-      m.hdr_flip = flip->mean;
+    if (auto hdr = hdr_flip(image.image, reference.image, options.threads)) {
+      m.hdr_flip = hdr->mean;
+      flip = std::move(*hdr);
+    }
   c.missed = missed_of(options.requirements, m);
   c.verdict = judge(m, c.missed);
   c.tells_noise = noise.has_value() || m.tiles.has_value();
-  if (longest > 0) add_images(image.image, reference.image, longest, c);
+  if (longest > 0) add_images(image.image, reference.image, flip, longest, c);
 }
 
 void write_differences(const CompareOptions& o, const Image& image, const Image& reference,

@@ -58,10 +58,12 @@ std::vector<std::string> texts(const std::vector<Requirement>& requirements) {
   return list;
 }
 
-nlohmann::ordered_json to_json(const Comparison& c) {
+nlohmann::ordered_json to_json(const CompareOptions& o, const Comparison& c) {
   nlohmann::ordered_json j;
-  if (!c.failure.empty()) {
-    j["error"] = c.failure;
+  if (!c.compared()) {
+    if (!c.only_in.empty()) j["only_in"] = c.only_in;
+    j["error"] = absence(o, c);
+    j["verdict"] = outcome_name(c);
     return j;
   }
   const ImageMetrics& m = c.measurements.metrics;
@@ -86,7 +88,7 @@ nlohmann::ordered_json to_json(const Comparison& c) {
 
 void print_one(const CompareOptions& o, const Comparison& c) {
   if (o.json) {
-    fmt::print("{}\n", to_json(c).dump(2));
+    fmt::print("{}\n", to_json(o, c).dump(2));
     return;
   }
   print_figures(c);
@@ -102,27 +104,33 @@ void print_all(const CompareOptions& o, const std::vector<Comparison>& all) {
     nlohmann::ordered_json list = nlohmann::ordered_json::array();
     for (const Comparison& c : all) {
       nlohmann::ordered_json j{{"name", c.name}};
-      j.update(to_json(c));
+      j.update(to_json(o, c));
       list.push_back(j);
     }
     fmt::print("{}\n", list.dump(2));
     return;
   }
-  size_t width = 5;
-  for (const Comparison& c : all) width = std::max(width, c.name.size());
-  fmt::print("{:{}}  verdict  relrmse   trimmed   flip      hdrflip\n", "image", width);
+  size_t width = 5, verdict_width = 7;
+  for (const Comparison& c : all) {
+    width = std::max(width, c.name.size());
+    verdict_width = std::max(verdict_width, outcome_name(c).size());
+  }
+  fmt::print("{:{}}  {:{}}  relrmse   trimmed   flip      hdrflip\n", "image", width, "verdict",
+             verdict_width);
   for (const Comparison& c : all) {
     const Measurements& m = c.measurements;
-    if (!c.failure.empty()) {
-      fmt::print("{:{}}  ERROR    {}\n", c.name, width, c.failure);
+    fmt::print("{:{}}  {:{}}  ", c.name, width, outcome_name(c), verdict_width);
+    if (!c.compared()) {
+      fmt::print("{}\n", absence(o, c));
       continue;
     }
-    fmt::print("{:{}}  {:7}  {:<8.4g}  {:<8.4g}  {:<8.4g}  {:8}", c.name, width, name_of(c.verdict),
-               m.metrics.relative_rmse, m.metrics.relmse_trimmed, m.flip.value_or(NAN),
+    fmt::print("{:<8.4g}  {:<8.4g}  {:<8.4g}  {:8}", m.metrics.relative_rmse,
+               m.metrics.relmse_trimmed, m.flip.value_or(NAN),
                m.hdr_flip ? fmt::format("{:.4g}", *m.hdr_flip) : "-");
     if (!c.missed.empty()) fmt::print("  missed: {}", fmt::join(texts(c.missed), " "));
     fmt::print("\n");
   }
+  fmt::print("{}\n", summary_of(o, all));
 }
 
 void check_writable(const char* option, const std::string& path) {
@@ -154,6 +162,8 @@ void check_options(CompareOptions& o, bool directories) {
   }
   if (o.batches && !o.variance.empty())
     throw UsageError("--batches tells noise from bias by itself: --variance has no use with it");
+  if (o.require_complete && !directories)
+    throw UsageError("--require-complete is for two directories");
   if (directories && (!o.diff.empty() || !o.false_colour.empty() || !o.flip_map.empty()))
     throw UsageError("--diff, --false-colour and --flip-map are for one image; --html shows all");
   if (directories && !o.variance.empty() && !is_directory(o.variance))
@@ -180,6 +190,9 @@ int compare(CompareOptions o) {
     if (!c.failure.empty()) return kSceneFailed;
   for (const Comparison& c : all)
     if (!c.met(o)) return kThresholdMissed;
+  if (std::none_of(all.begin(), all.end(), [](const Comparison& c) { return c.compared(); }))
+    throw std::runtime_error(
+        fmt::format("{} and {} have no image of the same name", o.image, o.reference));
   return kSuccess;
 }
 
@@ -207,17 +220,25 @@ void add_compare_command(CLI::App& app, int& exit_code) {
                 "yellow 1");
   c->add_option("--flip-map", o->flip_map,
                 "Write a .png or .jpg: FLIP, of the exposures if there is more than black");
-  c->add_option("--html", o->html, "Write a report that opens in a browser, with a viewer to flip");
+  c->add_option(
+      "--html", o->html,
+      "Write a report that opens in a browser, with a viewer to toggle between the images");
   c->add_option("--junit", o->junit, "Write the outcome as JUnit XML");
   c->add_option("--require", o->require,
                 "FIGURE<LIMIT or FIGURE>LIMIT; a miss exits with 3; repeatable")
       ->allow_extra_args(false);
+  c->add_flag("--require-complete", o->require_complete,
+              "Of two directories: a file that only one of them has exits with 3, too");
   c->add_flag("--json", o->json, "Print the figures as JSON");
   c->footer(
       figures_help() +
-      "Exit codes: 0, also without --require whatever the verdict; 1 an image cannot be read or is "
-      "missing,\n"
-      "or the sizes differ; 2 wrong usage; 3 a --require is missed.\n"
+      "Of two directories, a file that only one of them has is a row with the verdict MISSING. "
+      "One\n"
+      "without an image misses every --require; one without a reference is only counted. With\n"
+      "--require-complete both are failures.\n"
+      "Exit codes: 0, also without --require whatever the verdict; 1 an image cannot be read, the\n"
+      "sizes differ, or two directories have no name in common; 2 wrong usage; 3 a --require or\n"
+      "--require-complete is missed.\n"
       "Examples:\n"
       "  duet compare a.exr mean.exr --variance variance.exr --require 'relrmse<0.05' --require "
       "'bias<4'\n"

@@ -5,8 +5,10 @@
 #include <string>
 #include <vector>
 
+#include "image/display_metrics.h"
 #include "image/flip.h"
 #include "image/metrics.h"
+#include "image/percentage_errors.h"
 #include "image/tile_test.h"
 
 namespace duet {
@@ -14,6 +16,8 @@ namespace duet {
 /// All that is measured of one image, or of a set of them.
 struct Measurements {
   ImageMetrics metrics;
+  DisplayMetrics display;
+  PercentageErrors percentage;
   std::optional<double> flip, hdr_flip;
   std::optional<TileComparison> tiles;
 };

@@ -1,8 +1,9 @@
-// The outcomes of comparisons as a page and as JUnit's XML.
+// The outcomes of comparisons as a page.
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cctype>
+#include <cmath>
 
 #include "app/commands.h"
 #include "app/compare.h"
@@ -11,54 +12,94 @@ namespace duet {
 
 namespace {
 
-std::string lower(std::string text) {
-  std::transform(text.begin(), text.end(), text.begin(),
-                 [](unsigned char c) { return char(std::tolower(c)); });
+/// The class of a verdict's badge.
+std::string badge_class(const std::string& verdict) {
+  std::string text;
+  for (const char c : verdict)
+    text += std::isalnum(uint8_t(c)) ? char(std::tolower(uint8_t(c))) : '-';
   return text;
 }
 
 std::string badge(const Comparison& c) {
-  const std::string text = c.failure.empty() ? name_of(c.verdict) : "ERROR";
-  return fmt::format("<span class=\"badge {}\">{}</span>", lower(text), text);
+  const std::string text = outcome_name(c);
+  return fmt::format("<span class=\"badge {}\">{}</span>", badge_class(text), escape_markup(text));
 }
 
-std::string missed_text(const Comparison& c) {
-  std::string text;
-  const std::vector<Figure> all = figures(c.measurements);
-  for (const Requirement& r : c.missed)
-    for (const Figure& f : all)
-      if (f.name == r.figure)
-        text += fmt::format("{}{} is not met: {}", text.empty() ? "" : "; ", r.text,
-                            f.value ? fmt::format("{:.6g}", *f.value) : "not available");
-  return text;
+/// A cell that is sorted by all of its digits and shows some of them.
+std::string cell(const std::optional<double>& value, int digits) {
+  if (!value || std::isnan(*value)) return "<td class=\"none\">–</td>";
+  if (std::isinf(*value))
+    return fmt::format("<td data-value=\"{}Infinity\">{}∞</td>", *value < 0 ? "-" : "",
+                       *value < 0 ? "−" : "");
+  return fmt::format("<td data-value=\"{:.9g}\">{:.{}g}</td>", *value, *value, digits);
 }
 
-std::string cell(const std::optional<double>& value) {
-  return value ? fmt::format("<td>{:.4g}</td>", *value) : "<td>–</td>";
-}
-
-/// The columns of the table: what most people look at.
-constexpr const char* kColumns[] = {"relrmse", "trimmed", "worst", "flip",
-                                    "hdrflip", "ratio",   "bias",  "z"};
-
-std::string table(const std::vector<Comparison>& all) {
-  std::string html = "<div class=\"card scroll\"><table>\n<tr><th>image</th><th>verdict</th>";
-  for (const char* column : kColumns) html += fmt::format("<th>{}</th>", column);
-  html += "<th class=\"text\"></th></tr>\n";
-  for (size_t i = 0; i < all.size(); ++i) {
-    const Comparison& c = all[i];
-    html += fmt::format("<tr><td><a href=\"#i{}\">{}</a></td><td>{}</td>", i, escape_markup(c.name),
-                        badge(c));
-    const std::vector<Figure> values = figures(c.measurements);
-    for (const char* column : kColumns) {
-      const auto f = std::find_if(values.begin(), values.end(),
-                                  [&](const Figure& x) { return x.name == column; });
-      html += cell(c.failure.empty() ? f->value : std::nullopt);
-    }
-    html += fmt::format("<td class=\"text\">{}</td></tr>\n",
-                        escape_markup(c.failure.empty() ? missed_text(c) : c.failure));
+/// The figures of the table: what most people look at, if it is there, and what is required.
+std::vector<std::string> columns(const CompareOptions& o, const std::vector<Comparison>& all) {
+  static constexpr const char* usual[] = {"relrmse", "trimmed", "worst", "flip", "hdrflip", "psnr",
+                                          "ssim",    "ratio",   "p",     "bias", "z"};
+  std::vector<std::string> names;
+  const std::vector<Figure> known = figures({});
+  for (size_t i = 0; i < known.size(); ++i) {
+    const auto has = [&](const Comparison& c) {
+      return c.compared() && figures(c.measurements)[i].value.has_value();
+    };
+    const auto required = [&](const Requirement& r) { return r.figure == known[i].name; };
+    const bool is_usual =
+        std::find(std::begin(usual), std::end(usual), known[i].name) != std::end(usual);
+    if ((is_usual && std::any_of(all.begin(), all.end(), has)) ||
+        std::any_of(o.requirements.begin(), o.requirements.end(), required))
+      names.push_back(known[i].name);
   }
-  return html + "</table></div>\n";
+  return names;
+}
+
+/// Calls `use(figure)` for each of these figures.
+template <class Use>
+void for_each_figure(const Measurements& m, const std::vector<std::string>& names, Use use) {
+  for (const Figure& f : figures(m))
+    if (std::find(names.begin(), names.end(), f.name) != names.end()) use(f);
+}
+
+std::string row(const CompareOptions& o, const Comparison& c, size_t number,
+                const std::vector<std::string>& columns) {
+  std::string html = fmt::format("<tr data-verdict=\"{}\">", escape_markup(outcome_name(c)));
+  const std::string name = escape_markup(c.name);
+  if (!c.compared())
+    return html + fmt::format(
+                      "<td class=\"name\">{}</td><td class=\"text\">{}</td>"
+                      "<td class=\"text\" colspan=\"{}\">{}</td></tr>\n",
+                      name, badge(c), columns.size() + 1, escape_markup(absence(o, c)));
+  html += fmt::format("<td class=\"name\"><a href=\"#i{}\">{}</a></td><td class=\"text\">{}</td>",
+                      number, name, badge(c));
+  for_each_figure(c.measurements, columns, [&](const Figure& f) { html += cell(f.value, 3); });
+  std::string missed;
+  for (const Requirement& r : c.missed) missed += (missed.empty() ? "" : " ") + r.text;
+  return html + fmt::format("<td class=\"text\">{}</td></tr>\n", escape_markup(missed));
+}
+
+std::string table(const CompareOptions& o, const std::vector<Comparison>& all) {
+  const std::vector<std::string> names = columns(o, all);
+  std::string html =
+      "<div class=\"bar filter\" data-table=\"outcomes\"></div>\n<div class=\"card scroll\">"
+      "<table class=\"sortable\" id=\"outcomes\">\n<thead><tr><th>image</th>"
+      "<th class=\"text\">verdict</th>";
+  for_each_figure({}, names, [&](const Figure& f) {
+    html += fmt::format("<th title=\"{}\">{}</th>", escape_markup(f.formula), f.name);
+  });
+  html += "<th class=\"text\">missed</th></tr></thead>\n<tbody>\n";
+  for (size_t i = 0; i < all.size(); ++i) html += row(o, all[i], i, names);
+  return html + "</tbody></table></div>\n";
+}
+
+std::string all_figures(const Comparison& c) {
+  std::string html =
+      "<details><summary>All figures</summary>\n<div class=\"scroll\"><table>\n"
+      "<tr><th>figure</th><th>value</th><th class=\"text\">formula</th></tr>\n";
+  for (const Figure& f : figures(c.measurements))
+    html += fmt::format("<tr><td>{}</td>{}<td class=\"text\">{}</td></tr>\n", f.name,
+                        cell(f.value, 6), escape_markup(f.formula));
+  return html + "</table></div></details>\n";
 }
 
 std::string tile_text(const TileComparison& t) {
@@ -71,70 +112,44 @@ std::string tile_text(const TileComparison& t) {
       100 * t.visible_bias_worst);
 }
 
+/// What there is to see of one comparison.
 std::string details(const Comparison& c, size_t number) {
   std::string html =
-      fmt::format("<h2 id=\"i{}\">{} {}</h2>\n", number, escape_markup(c.name), badge(c));
-  if (!c.failure.empty()) return html + fmt::format("<p>{}</p>\n", escape_markup(c.failure));
+      fmt::format("<section data-verdict=\"{}\">\n<h2 id=\"i{}\">{} {}</h2>\n",
+                  escape_markup(outcome_name(c)), number, escape_markup(c.name), badge(c));
   if (!c.missed.empty()) html += fmt::format("<p>{}</p>\n", escape_markup(missed_text(c)));
   if (c.measurements.tiles) html += tile_text(*c.measurements.tiles);
-  return html + "<div class=\"card\">" + viewer_html(c.images, 1) + "</div>\n";
-}
-
-size_t count_failures(const CompareOptions& o, const std::vector<Comparison>& all) {
-  return size_t(std::count_if(all.begin(), all.end(),
-                              [&](const Comparison& c) { return c.failure.empty() && !c.met(o); }));
-}
-
-size_t count_errors(const std::vector<Comparison>& all) {
-  return size_t(std::count_if(all.begin(), all.end(),
-                              [](const Comparison& c) { return !c.failure.empty(); }));
+  return html + "<div class=\"card\">" + viewer_html(c.images, 1) + "</div>\n" + all_figures(c) +
+         "</section>\n";
 }
 
 }  // namespace
 
-std::string compare_page(const CompareOptions& o, const std::vector<Comparison>& all) {
-  const size_t errors = count_errors(all), failures = count_failures(o, all);
-  std::string body = fmt::format(
-      "<h1>{} against {}</h1>\n<p class=\"soft\">{} compared, {} missed a threshold, {} could not "
-      "be "
-      "compared.</p>\n",
-      escape_markup(o.image), escape_markup(o.reference), all.size() - errors, failures, errors);
-  if (!o.require.empty())
-    body += fmt::format("<p>Required: <code>{}</code></p>\n",
-                        escape_markup(fmt::format("{}", fmt::join(o.require, "  "))));
-  body += table(all);
-  for (size_t i = 0; i < all.size(); ++i) body += details(all[i], i);
-  body += fmt::format(
-      "<h2>How this was made</h2>\n<pre>{}</pre>\n<p class=\"soft\">Keys: <kbd>1</kbd> "
-      "<kbd>2</kbd> choose "
-      "an image, <kbd>space</kbd> flips, <kbd>e</kbd> shows the error, <kbd>r</kbd> resets; the "
-      "wheel "
-      "zooms once the viewer was clicked.</p>\n<pre>{}</pre>\n",
-      escape_markup(command_line), escape_markup(figures_help()));
-  return web_page(fmt::format("{} against {}", o.image, o.reference), body);
+std::string missed_text(const Comparison& c) {
+  std::string text;
+  const std::vector<Figure> all = figures(c.measurements);
+  for (const Requirement& r : c.missed)
+    for (const Figure& f : all)
+      if (f.name == r.figure)
+        text += fmt::format("{}{} is not met: {}", text.empty() ? "" : "; ", r.text,
+                            f.value ? fmt::format("{:.6g}", *f.value) : "not available");
+  return text;
 }
 
-std::string junit_report(const CompareOptions& o, const std::vector<Comparison>& all) {
-  std::string xml = fmt::format(
-      "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n"
-      "<testsuite name=\"duet compare {}\" tests=\"{}\" failures=\"{}\" errors=\"{}\">\n",
-      escape_markup(o.reference), all.size(), count_failures(o, all), count_errors(all));
-  for (const Comparison& c : all) {
-    xml += fmt::format("  <testcase classname=\"{}\" name=\"{}\">\n", escape_markup(o.image),
-                       escape_markup(c.name));
-    if (!c.failure.empty()) {
-      xml += fmt::format("    <error message=\"{}\"/>\n", escape_markup(c.failure));
-    } else if (!c.met(o)) {
-      const std::string why = c.missed.empty() ? "values that are not finite" : missed_text(c);
-      xml += fmt::format("    <failure type=\"{}\" message=\"{}\"/>\n", name_of(c.verdict),
-                         escape_markup(why));
-    }
-    xml += "    <system-out>";
-    for (const Figure& f : figures(c.measurements))
-      if (f.value && c.failure.empty()) xml += fmt::format("{} {:.6g}\n", f.name, *f.value);
-    xml += "</system-out>\n  </testcase>\n";
-  }
-  return xml + "</testsuite>\n";
+std::string compare_page(const CompareOptions& o, const std::vector<Comparison>& all) {
+  std::string body =
+      fmt::format("<h1>{} against {}</h1>\n<p class=\"soft\">{}.</p>\n", escape_markup(o.image),
+                  escape_markup(o.reference), escape_markup(summary_of(o, all)));
+  if (!o.require.empty() || o.require_complete)
+    body += fmt::format("<p>Required: <code>{}{}</code></p>\n",
+                        escape_markup(fmt::format("{}", fmt::join(o.require, "  "))),
+                        o.require_complete ? "  --require-complete" : "");
+  body += table(o, all);
+  for (size_t i = 0; i < all.size(); ++i)
+    if (all[i].compared()) body += details(all[i], i);
+  body += fmt::format("<h2>How this was made</h2>\n<pre>{}</pre>\n{}<pre>{}</pre>\n",
+                      escape_markup(command_line), viewer_keys(), escape_markup(figures_help()));
+  return web_page(fmt::format("{} against {}", o.image, o.reference), body);
 }
 
 }  // namespace duet

@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <iterator>
+#include <map>
 
 #include "app/commands.h"
 #include "app/compare.h"
@@ -89,6 +91,23 @@ Side load_side(const std::string& operand, const char* what) {
   return side;
 }
 
+/// The images of one name in two directories.
+Comparison compare_named(const CompareOptions& o, const std::string& name) {
+  CompareOptions pair = o;
+  pair.image = (fs::path(o.image) / name).string();
+  pair.reference = (fs::path(o.reference) / name).string();
+  if (!o.variance.empty()) pair.variance = (fs::path(o.variance) / name).string();
+  try {
+    return compare_pair(pair, o.html.empty() ? 0 : kLongestOfMany);
+  } catch (const UsageError&) {
+    throw;
+  } catch (const std::exception& e) {
+    Comparison c;
+    c.failure = e.what();
+    return c;
+  }
+}
+
 }  // namespace
 
 Comparison compare_batches(const CompareOptions& o) {
@@ -107,28 +126,59 @@ Comparison compare_batches(const CompareOptions& o) {
 }
 
 std::vector<Comparison> compare_directories(const CompareOptions& o) {
-  const std::vector<std::string> names = images_in(o.reference);
-  if (names.empty()) throw std::runtime_error(fmt::format("{} has no images", o.reference));
+  const std::vector<std::string> images = images_in(o.image), references = images_in(o.reference);
+  if (references.empty()) throw std::runtime_error(fmt::format("{} has no images", o.reference));
+  std::vector<std::string> names;
+  std::set_union(images.begin(), images.end(), references.begin(), references.end(),
+                 std::back_inserter(names));
   std::vector<Comparison> all;
   for (const std::string& name : names) {
-    CompareOptions pair = o;
-    pair.image = (fs::path(o.image) / name).string();
-    pair.reference = (fs::path(o.reference) / name).string();
-    if (!o.variance.empty()) pair.variance = (fs::path(o.variance) / name).string();
-    try {
-      all.push_back(compare_pair(pair, o.html.empty() ? 0 : kLongestOfMany));
-    } catch (const UsageError&) {
-      throw;
-    } catch (const std::exception& e) {
+    const bool rendered = std::binary_search(images.begin(), images.end(), name);
+    if (rendered && std::binary_search(references.begin(), references.end(), name)) {
+      all.push_back(compare_named(o, name));
+    } else {
       all.emplace_back();
-      all.back().failure = e.what();
+      all.back().only_in = rendered ? "image" : "reference";
+      log::warning("{}: {}", name, absence(o, all.back()));
     }
     all.back().name = name;
   }
-  for (const std::string& name : images_in(o.image))
-    if (!std::binary_search(names.begin(), names.end(), name))
-      log::warning("{} has no reference in {}", name, o.reference);
   return all;
+}
+
+std::string outcome_name(const Comparison& c) {
+  if (!c.only_in.empty()) return "MISSING";
+  return c.failure.empty() ? name_of(c.verdict) : "ERROR";
+}
+
+std::string absence(const CompareOptions& o, const Comparison& c) {
+  if (c.only_in == "image") return fmt::format("no reference in {}", o.reference);
+  if (c.only_in == "reference") return fmt::format("no image in {}", o.image);
+  return c.failure;
+}
+
+std::string summary_of(const CompareOptions& o, const std::vector<Comparison>& all) {
+  const auto count = [&](auto has) { return std::count_if(all.begin(), all.end(), has); };
+  std::map<std::string, int> verdicts;
+  for (const Comparison& c : all)
+    if (c.compared()) ++verdicts[outcome_name(c)];
+  std::string text =
+      fmt::format("{} compared", count([](const Comparison& c) { return c.compared(); }));
+  const char* separator = ": ";
+  for (const auto& [name, number] : verdicts) {
+    text += fmt::format("{}{} {}", separator, number, name);
+    separator = ", ";
+  }
+  const auto add = [&](std::ptrdiff_t number, const std::string& what) {
+    if (number > 0) text += fmt::format("; {} {}", number, what);
+  };
+  add(count([&](const Comparison& c) { return c.compared() && !c.met(o); }), "missed a threshold");
+  add(count([](const Comparison& c) { return !c.failure.empty(); }), "could not be compared");
+  add(count([](const Comparison& c) { return c.only_in == "image"; }),
+      fmt::format("MISSING in {}", o.reference));
+  add(count([](const Comparison& c) { return c.only_in == "reference"; }),
+      fmt::format("MISSING in {}", o.image));
+  return text;
 }
 
 }  // namespace duet

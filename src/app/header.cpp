@@ -73,7 +73,8 @@ std::vector<std::pair<std::string, HeaderValue>> image_header(const RenderRecord
   }
   if (!record.bias.empty()) fields.emplace_back("bias", record.bias);
   if (result.relative_rmse) {
-    fields.emplace_back("relativeRmseEstimate", float(*result.relative_rmse));
+    fields.emplace_back("relativeStandardError", float(*result.relative_rmse));
+    fields.emplace_back("relativeRmseEstimate", float(*result.relative_rmse));  // its older name
     fields.emplace_back("relativeRmseIsUpperBound", int(result.rmse_is_upper_bound));
     fields.emplace_back("relativeRmseIsNoiseOnly", int(record.noise_only));
   }

@@ -46,10 +46,10 @@ RenderOptionParser::RenderOptionParser(CLI::App& c) {
       ->allow_extra_args(false);
   c.add_option("--spp", spp_, "Stop at this many samples per pixel (default: the scene's)");
   c.add_option("--time", time_, "Stop after this long: 90s, 10m, 2h");
-  c.add_option(
-      "--target-error", target_,
-      "Stop when the estimated relative RMSE falls below this: 0.01 or 1%; noisy parts of the "
-      "image get more samples");
+  c.add_option("--target-error", target_,
+               "Stop when the relative standard error of the image falls below this: 0.01 or 1%; "
+               "noisy parts "
+               "get more samples");
   c.add_option("--size", size_, "Image size WxH instead of the scene's, without its crop window");
   c.add_option("--crop", crop_, "Render only the window x,y,w,h, in pixels");
   c.add_option("-s,--sensor", sensor_, "Which of the scene's sensors, counting from 0");

@@ -238,7 +238,7 @@ class SceneRenderer {
         fmt::format("{}: {}{} spp in {}", file_, r.interrupted ? "interrupted, " : "", r.spp,
                     format_seconds(r.seconds));
     if (r.relative_rmse)
-      text += fmt::format(", estimated relative error {}{:.2g} %{}",
+      text += fmt::format(", relative standard error {}{:.2g} %{}",
                           r.rmse_is_upper_bound ? "below " : "", 100 * *r.relative_rmse,
                           record_.noise_only ? " (noise only)" : "");
     for (const std::string& p : paths(r.spp)) text += " -> " + p;

@@ -52,8 +52,10 @@ void StatisticsFile::add(const RenderRecord& record, const RenderResult& result,
   j["eye_subpaths_at_limit"] = c.eye_subpaths_at_limit;
   j["reused_subpaths"] = c.reused_subpaths;
   j["nonfinite_samples"] = c.nonfinite_samples;
-  j["error"]["relative_rmse_estimate"] =
+  const nlohmann::ordered_json error =
       result.relative_rmse ? nlohmann::ordered_json(*result.relative_rmse) : nullptr;
+  j["error"]["relative_standard_error"] = error;
+  j["error"]["relative_rmse_estimate"] = error;  // its older name
   j["error"]["is_upper_bound"] = result.rmse_is_upper_bound;
   j["error"]["noise_only"] = record.noise_only;
   j["emitters"] = counts.emitters;

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <regex>
 #include <sstream>
 
 #include "app/workplace.h"
@@ -74,6 +75,61 @@ std::vector<std::pair<double, double>> polyline(const std::string& svg, const st
   return points;
 }
 
+/// How many labels of ticks have this attribute.
+size_t labels(const std::string& svg, const std::string& attribute) {
+  const size_t from = svg.find("<g class=\"ticks\">");
+  return count(svg.substr(from, svg.find("</g>", from) - from), attribute);
+}
+
+/// No colour of a chart is fixed where a dark page needs another one.
+void check_dark_mode(const std::string& text) {
+  const size_t from = text.find("<svg"), style = text.find("<style>", from);
+  const size_t end = text.find("</svg>", from);
+  REQUIRE(style < end);
+  const size_t dark = text.find("@media (prefers-color-scheme: dark)", style);
+  REQUIRE(dark < end);
+  for (const char* part : {"svg.chart", ".paper", ".soft", ".grid", ".frame", ".guides", ".noise",
+                           ".series-0", ".series-7"})
+    CHECK(text.find(part, dark) < text.find("</style>", dark));
+  // Lines, bands and markers take the colour of their group.
+  const size_t line = text.find("<g class=\"line series-", from);
+  const std::string group = text.substr(line, text.find("</g>", line) - line);
+  CHECK(count(group, "=\"#") == 0);
+  CHECK(count(group, "currentColor") >= 4);
+}
+
+struct Efficiency {
+  double value, low, high;
+  std::string mark;
+};
+
+/// The cells of a page's column of efficiencies.
+std::vector<Efficiency> efficiencies(const std::string& page) {
+  static const std::regex cell(
+      "<td( class=\"(best|tied)\")? data-value=\"([^\"]+)\">[^<]*<br><span class=\"interval\">"
+      "\\[([0-9.e+]+), ([0-9.e+]+|∞)\\]</span></td>");
+  std::vector<Efficiency> list;
+  for (std::sregex_iterator i(page.begin(), page.end(), cell), end; i != end; ++i)
+    list.push_back({std::stod((*i)[3]), std::stod((*i)[4]),
+                    (*i)[5] == "∞" ? INFINITY : std::stod((*i)[5]), (*i)[2]});
+  return list;
+}
+
+/// "best" only where the interval overlaps none of the others.
+void check_marks(const std::string& page) {
+  const std::vector<Efficiency> all = efficiencies(page);
+  REQUIRE(all.size() == 2);
+  const Efficiency& best = all[0].value > all[1].value ? all[0] : all[1];
+  const Efficiency& other = all[0].value > all[1].value ? all[1] : all[0];
+  // The page shows three digits of them.
+  if (std::abs(other.high / best.low - 1) < 0.01) return;
+  const bool apart = other.high < best.low;
+  CAPTURE(best.low);
+  CAPTURE(other.high);
+  CHECK(best.mark == (apart ? "best" : "tied"));
+  CHECK(other.mark == (apart ? "" : "tied"));
+}
+
 }  // namespace
 
 TEST_SUITE("program") {
@@ -107,7 +163,7 @@ TEST_SUITE("program") {
       CAPTURE(name);
       const std::string svg = s.file(name);
       CHECK(svg.starts_with("<svg xmlns="));
-      CHECK(count(svg, "<g class=\"line\"") == 2);
+      CHECK(count(svg, "<g class=\"line series-") == 2);
       CHECK(count(svg, "<polyline") == 2);
       CHECK(count(svg, "class=\"band\"") == 2);
       CHECK(count(svg, "class=\"guide\"") == 2);
@@ -118,6 +174,10 @@ TEST_SUITE("program") {
       CHECK(count(svg, "<g") == count(svg, "</g>"));
       CHECK_FALSE(contains(svg, "nan"));
       CHECK_FALSE(contains(svg, "inf"));
+      CHECK(contains(svg, "√trimmed (root of the trimmed relMSE)"));
+      CHECK(labels(svg, "text-anchor=\"middle\"") >= 3);
+      CHECK(labels(svg, "text-anchor=\"end\"") >= 3);
+      check_dark_mode(svg);
       const auto line = polyline(svg, "path");
       CHECK(line.size() == of_path);
       CHECK(std::is_sorted(line.begin(), line.end()));
@@ -137,15 +197,23 @@ TEST_SUITE("program") {
     CHECK_FALSE(contains(page, "@import"));
     CHECK(count(page, "<svg") == 2);
     CHECK(contains(page, "duet chart tiny.xml -i path,bdpt:rr_depth=9,max_depth=3"));
-    CHECK(contains(page, "class=\"best\""));
+    check_marks(page);
+    check_dark_mode(page);
     const size_t from = page.find("<script type=\"application/json\">") + 32;
     const auto data = nlohmann::json::parse(page.substr(from, page.find("</script>", from) - from));
     CHECK(data["images"].size() == 3);
     CHECK(data["reference"] == 2);
     CHECK(data["images"][1]["name"] == "bdpt:rr_depth=9,max_depth=3");
-    // 16 × 12 pixels of three numbers of two bytes, in base64.
-    for (const auto& i : data["images"])
+    // 16 × 12 pixels of three numbers of two bytes, in base64; and one byte of FLIP.
+    for (const auto& i : data["images"]) {
       CHECK(std::string(i["half"]).size() == 16 * 12 * 6 / 3 * 4);
+      if (i["name"] == "reference") {
+        CHECK_FALSE(i.contains("flip"));
+        continue;
+      }
+      CHECK(std::string(i["flip"]).size() == 16 * 12 / 3 * 4);
+      CHECK(double(i["mean_flip"]) > 0);
+    }
   }
 
   TEST_CASE("the last image of a chart is that of a plain render") {
@@ -176,10 +244,14 @@ TEST_SUITE("program") {
     CHECK(contains(page, "href=\"tiny/index.html\""));
     CHECK(contains(page, "href=\"box/index.html\""));
     CHECK(count(page, "<svg") == 2);
-    CHECK(count(page, "class=\"best\"") == 2);
-    CHECK(contains(s.file("all/box/index.html"), "made by Duet itself with path"));
+    CHECK(count(page, ">made by Duet itself with path in ") == 2);
+    const std::string box = s.file("all/box/index.html");
+    CHECK(contains(box, "made by Duet itself with path"));
+    CHECK(contains(box, "what this method cannot see or gets wrong is missing in it"));
     const Rows rows = csv(s.file("all/summary.csv"));
     REQUIRE(rows.size() == 5);
+    CHECK(rows[0].back() == "reference");
+    CHECK(contains(rows[1][9], "made by Duet itself with path"));
     CHECK(rows[1][0] == "tiny");
     CHECK(rows[4][0] == "box");
     CHECK(rows[4][1] == "vcm");
@@ -193,6 +265,33 @@ TEST_SUITE("program") {
                    "all/tiny/reference.exr", "--variance", "all/tiny/reference-variance.exr"})
               .code == 0);
     CHECK(contains(s.file("again/index.html"), "its variance subtracted"));
+    CHECK(contains(s.file("again/index.html"),
+                   "all/tiny/reference.exr (made by Duet itself with path in "));
+  }
+
+  TEST_CASE("the summary says how each reference was made") {
+    const Studio s;
+    const Image image = read_image(s.path("reference.exr")).image;
+    const auto write = [&](const char* name,
+                           std::vector<std::pair<std::string, HeaderValue>> header) {
+      ExrOptions options;
+      options.header = std::move(header);
+      write_exr(s.path(name), image, options);
+    };
+    write("tiny-b.exr", {{"generatedBy", std::string("Mitsuba version 3.5")}, {"spp", 77}});
+    write("tiny-c.exr", {});
+    std::filesystem::copy(s.path("reference.exr"), s.path("tiny-a.exr"));
+    for (const char* name : {"a.xml", "b.xml", "c.xml"}) s.write(name, lamp_scene().text());
+    REQUIRE(s.chart({"a.xml", "b.xml", "c.xml", "-i", "path", "--time", "0.1", "-o", "all",
+                     "--reference", "tiny-{scene}.exr"})
+                .code == 0);
+    const std::string page = s.file("all/index.html");
+    CHECK(contains(page,
+                   "tiny-a.exr (made by Duet " DUET_VERSION " path, 512 samples per pixel, in "));
+    CHECK(contains(page, "tiny-b.exr (made by Mitsuba version 3.5, 77 samples per pixel)"));
+    CHECK(contains(page, "tiny-c.exr (its header does not say how it was made)"));
+    // One method alone is the best of none.
+    CHECK(count(page, "<td class=\"best\"") == 0);
   }
 
   TEST_CASE("the size is that of the reference") {
@@ -346,13 +445,25 @@ TEST_SUITE("program") {
       key("1");
       root.viewer.set_exposure(6);
       const coloured = !black_image();
+      key("f");
+      const flip = !black_image() && root.querySelector(".scale").textContent.startsWith("FLIP");
+      key("3");
+      const flip_of_reference = black_image();
+      key("f");
+      const toggle = [...root.querySelectorAll("button")].map((b) => b.textContent)
+        .filter((t) => t.startsWith("toggle"));
       root.viewer.scale(4);
       // A canvas is 300 pixels wide before the viewer makes it as wide as its place in the layout.
       const canvas = root.viewer.canvas;
       const fitted = () => canvas.width !== 300 &&
         canvas.width === Math.round(canvas.clientWidth * devicePixelRatio);
-      when(fitted, () => finish({seen, darker, restored, black, coloured, errors,
-                                 zoom: root.viewer.zoom, width: canvas.width}));
+      const root_style = document.documentElement.style;
+      root_style.width = "1100px";
+      const fits = [...document.querySelectorAll(".scroll")]
+        .every((e) => e.scrollWidth <= e.clientWidth);
+      root_style.width = "";
+      when(fitted, () => finish({fits, seen, darker, restored, black, coloured, flip, flip_of_reference,
+                                 toggle, errors, zoom: root.viewer.zoom, width: canvas.width}));
     )";
     const DrivenPage page = drive_page(program, s.file("out/index.html"), actions, s.path("out"));
     CAPTURE(page.console);
@@ -362,6 +473,10 @@ TEST_SUITE("program") {
     CHECK(result["restored"] == true);
     CHECK(result["black"] == true);  // the reference does not differ from itself
     CHECK(result["coloured"] == true);
+    CHECK(result["fits"] == true);
+    CHECK(result["flip"] == true);
+    CHECK(result["flip_of_reference"] == true);
+    CHECK(result["toggle"] == nlohmann::json{"toggle to path"});
     CHECK(result["zoom"] == 4);
     CHECK(int(result["width"]) > 100);
     CHECK(result["errors"].empty());

@@ -43,7 +43,8 @@ TEST_SUITE("program") {
     CHECK(h["seed"] == "9");
     CHECK(std::stod(h["threads"]) == 1);
     CHECK(std::stod(h["renderSeconds"]) > 0);
-    CHECK(std::stod(h["relativeRmseEstimate"]) > 0);
+    CHECK(std::stod(h["relativeStandardError"]) > 0);
+    CHECK(h["relativeRmseEstimate"] == h["relativeStandardError"]);
     place.write("a scene.xml", TinyScene().text() + "<!-- another -->");
     CHECK(place.run({"a scene.xml", "-o", "b.exr", "--strict-sampler"}).code == 0);
     auto other = header_of(read_image(place.path("b.exr")));

@@ -168,7 +168,8 @@ TEST_SUITE("program") {
     CHECK(j["triangles"] == 2);
     CHECK(j["instances"] == 0);
     CHECK(j["nonfinite_samples"] == 0);
-    CHECK(j["error"]["relative_rmse_estimate"] > 0);
+    CHECK(j["error"]["relative_standard_error"] > 0);
+    CHECK(j["error"]["relative_rmse_estimate"] == j["error"]["relative_standard_error"]);
     CHECK(place.run({"tiny.xml", "other.xml", "--stats", "s.json"}).code == 0);
     const auto both = nlohmann::json::parse(read_file(place.path("s.json")));
     REQUIRE(both.is_array());

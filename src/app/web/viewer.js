@@ -1,8 +1,9 @@
 "use strict";
-// A viewer of high dynamic range images that are to be compared: flip, zoom, exposure, error.
+// A viewer of high dynamic range images that are to be compared: toggle, zoom, exposure, error, FLIP.
 // Each <div class="viewer"> holds a <script type="application/json"> with
-//   {width, height, reference, images: [{name, note, half}]},
-// where half is base64 of three little-endian binary16 numbers per pixel, rows from the top.
+//   {width, height, reference, images: [{name, note, half, flip, mean_flip}]},
+// where half is base64 of three little-endian binary16 numbers per pixel, rows from the top, and
+// flip, if it is there, base64 of one byte per pixel: FLIP against the reference from 0 to 255.
 (() => {
   const stops = [[0, 0, 0], [40, 16, 84], [100, 26, 128], [160, 44, 116], [212, 68, 84],
                  [242, 110, 60], [252, 164, 64], [252, 214, 118], [255, 250, 210]];
@@ -22,12 +23,21 @@
     return values;
   };
 
+  const bytes = (base64) => Uint8Array.from(atob(base64), (c) => c.charCodeAt(0));
+
   const to_srgb = (v) => {
     if (!(v > 0)) return 0;
     if (v >= 1) return 255;
     return 255 * (v <= 0.0031308 ? 12.92 * v : 1.055 * v ** (1 / 2.4) - 0.055);
   };
   const luminance = (p, i) => 0.212671 * p[i] + 0.71516 * p[i + 1] + 0.072169 * p[i + 2];
+
+  /// Fills a pixel with the false colour of t, from 0 to 1; green if it is no number.
+  const false_colour = (d, o, t) => {
+    if (Number.isNaN(t)) { d[o + 1] = 255; return; }
+    const s = Math.min(1, t) * (stops.length - 1), k = Math.min(stops.length - 2, Math.floor(s));
+    for (let c = 0; c < 3; ++c) d[o + c] = stops[k][c] + (s - k) * (stops[k + 1][c] - stops[k][c]);
+  };
 
   const element = (name, properties, ...children) => {
     const e = Object.assign(document.createElement(name), properties);
@@ -40,7 +50,8 @@
       this.root = root;
       const data = JSON.parse(root.querySelector("script").textContent);
       Object.assign(this, {width: data.width, height: data.height, reference: data.reference});
-      this.images = data.images.map((i) => ({...i, pixels: decode(i.half)}));
+      this.images = data.images.map((i) =>
+        ({...i, pixels: decode(i.half), flip: i.flip ? bytes(i.flip) : null}));
       const ref = this.images[this.reference].pixels;
       let sum = 0, count = 0;
       for (let i = 0; i < ref.length; i += 3) {
@@ -51,7 +62,7 @@
       this.shown = this.reference === 0 && this.images.length > 1 ? 1 : 0;
       this.before = this.reference;
       this.exposure = 0;
-      this.error = false;
+      this.map = "";  // or "error" or "flip": what is shown in false colours
       this.zoom = 1;
       this.centre = [this.width / 2, this.height / 2];
       this.source = element("canvas", {width: this.width, height: this.height});
@@ -69,11 +80,17 @@
         return b;
       });
       bar.append(element("span", {className: "gap"}));
-      this.flip_button = element("button", {type: "button", textContent: "flip", title: "space"});
-      this.flip_button.addEventListener("click", () => this.show(this.before));
-      this.error_button = element("button", {type: "button", textContent: "error", title: "key e"});
-      this.error_button.addEventListener("click", () => this.set_error(!this.error));
-      bar.append(this.flip_button, this.error_button);
+      this.toggle_button = element("button", {type: "button", textContent: "toggle", title: "space"});
+      this.toggle_button.addEventListener("click", () => this.show(this.before));
+      bar.append(this.toggle_button);
+      this.map_buttons = {};
+      for (const [kind, name] of [["error", "error"], ["flip", "FLIP"]]) {
+        if (kind === "flip" && !this.has_flip()) continue;
+        const b = element("button", {type: "button", textContent: name, title: `key ${kind[0]}`});
+        b.addEventListener("click", () => this.toggle_map(kind));
+        this.map_buttons[kind] = b;
+        bar.append(b);
+      }
 
       const controls = element("div", {className: "bar"});
       this.slider = element("input", {type: "range", min: -8, max: 8, step: 0.25, value: 0});
@@ -104,7 +121,8 @@
         if (e.ctrlKey || e.metaKey || e.altKey) return;
         const n = Number(e.key) - 1;
         if (e.key === " ") { if (e.target.tagName === "BUTTON") return; this.show(this.before); }
-        else if (e.key === "e") this.set_error(!this.error);
+        else if (e.key === "e") this.toggle_map("error");
+        else if (e.key === "f" && this.has_flip()) this.toggle_map("flip");
         else if (e.key === "r") this.reset();
         else if (n >= 0 && n < this.images.length) this.show(n);
         else return;
@@ -145,7 +163,8 @@
       this.render();
     }
     set_exposure(v) { this.exposure = v; this.slider.value = v; this.render(); }
-    set_error(on) { this.error = on; this.render(); }
+    toggle_map(kind) { this.map = this.map === kind ? "" : kind; this.render(); }
+    has_flip() { return this.images.some((i) => i.flip); }
     reset() {
       this.zoom = 1;
       this.centre = [this.width / 2, this.height / 2];
@@ -165,18 +184,17 @@
     /// Fills the canvas that has the image's own pixels.
     render() {
       const p = this.images[this.shown].pixels, r = this.images[this.reference].pixels;
+      const flip = this.images[this.shown].flip;
       const context = this.source.getContext("2d");
       const out = context.createImageData(this.width, this.height), d = out.data;
       const scale = 2 ** this.exposure;
       for (let i = 0, o = 0; i < p.length; i += 3, o += 4) {
         d[o + 3] = 255;
-        if (this.error) {
+        if (this.map === "error") {
           const a = luminance(p, i), b = luminance(r, i);
-          const e = a === b ? 0 : scale * Math.abs(a - b) / (Math.abs(b) + this.floor);
-          if (Number.isNaN(e)) { d[o + 1] = 255; continue; }
-          const t = Math.min(1, e) * (stops.length - 1), k = Math.min(stops.length - 2, Math.floor(t));
-          for (let c = 0; c < 3; ++c)
-            d[o + c] = stops[k][c] + (t - k) * (stops[k + 1][c] - stops[k][c]);
+          false_colour(d, o, a === b ? 0 : scale * Math.abs(a - b) / (Math.abs(b) + this.floor));
+        } else if (this.map === "flip") {  // the reference does not differ from itself
+          false_colour(d, o, flip ? scale * flip[i / 3] / 255 : 0);
         } else {
           for (let c = 0; c < 3; ++c) d[o + c] = to_srgb(scale * p[i + c]);
         }
@@ -191,15 +209,18 @@
       const image = this.images[this.shown];
       this.root.dataset.shown = image.name;
       this.buttons.forEach((b, i) => b.setAttribute("aria-pressed", String(i === this.shown)));
-      this.error_button.setAttribute("aria-pressed", String(this.error));
-      this.flip_button.textContent = `flip to ${this.images[this.before].name}`;
+      for (const [kind, b] of Object.entries(this.map_buttons))
+        b.setAttribute("aria-pressed", String(this.map === kind));
+      this.toggle_button.textContent = `toggle to ${this.images[this.before].name}`;
       this.stops.textContent = (this.exposure > 0 ? "+" : "") + this.exposure.toFixed(2);
-      this.note.textContent = image.note;
+      const flip = image.flip ? `mean FLIP ${image.mean_flip.toPrecision(3)}` : "";
+      this.note.textContent = [image.note, flip].filter((t) => t).join("; ");
       this.legend.replaceChildren();
-      if (!this.error) return;
-      const most = 100 * 2 ** -this.exposure;
-      this.legend.append("difference 0", element("i", {}),
-                         `${most >= 10 ? most.toFixed(0) : most.toPrecision(2)} %`);
+      if (!this.map) return;
+      const most = 2 ** -this.exposure;
+      const text = (v) => v >= 10 ? v.toFixed(0) : String(Number(v.toPrecision(2)));
+      this.legend.append(this.map === "flip" ? "FLIP 0" : "difference 0", element("i", {}),
+                         this.map === "flip" ? text(most) : `${text(100 * most)} %`);
     }
 
     resize() {
@@ -246,6 +267,8 @@
       const text = (p) => [p[i], p[i + 1], p[i + 2]].map((v) => v.toPrecision(3)).join(" ");
       let line = `${x}, ${y}: ${text(this.images[this.shown].pixels)}`;
       if (this.shown !== this.reference) line += ` (reference ${text(this.images[this.reference].pixels)})`;
+      const flip = this.images[this.shown].flip;
+      if (flip) line += `, FLIP ${(flip[i / 3] / 255).toFixed(3)}`;
       this.readout.textContent = line;
     }
   }
