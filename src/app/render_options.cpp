@@ -36,9 +36,11 @@ std::string layer_help() {
 RenderOptionParser::RenderOptionParser(CLI::App& c) {
   RenderOptions& o = options_;
   add_read_options(c, o.read);
-  c.add_option("-o,--output", o.outputs,
-               "File, directory or template with {scene} {folder} {integrator} {spp} {seed}; .exr "
-               "is linear, .png and .jpg are for display; repeatable (default: SCENE.exr here)")
+  c.add_option(
+       "-o,--output", o.outputs,
+       "File, directory or template with {scene} {folder} {integrator} {spp} {seed}; .exr "
+       "is linear and holds all layers, .png and .jpg are for display; repeatable (default: "
+       "SCENE.exr here)")
       ->allow_extra_args(false);
   c.add_option("-i,--integrator", o.integrator.name, integrator_help());
   c.add_option("-I,--parameter", integrator_parameters_,

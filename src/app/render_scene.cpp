@@ -2,6 +2,7 @@
 
 #include <unistd.h>
 
+#include <algorithm>
 #include <chrono>
 #include <filesystem>
 
@@ -178,12 +179,19 @@ class SceneRenderer {
 
   /// Finds out before rendering what would be a pity to find out afterwards.
   void check_outputs(const std::vector<std::string>& planned) const {
+    const bool keeps_layers = !std::all_of(planned.begin(), planned.end(), is_display_format);
+    const std::vector<std::string> channels = integrator_->channels();
     for (const std::string& path : planned) {
       if (const std::string why = unwritable_reason(path); !why.empty())
         throw SceneFailure(fmt::format("cannot write {}: {}", path, why));
       if (is_display_format(path) && !has_colours())
         throw UsageError(
             fmt::format("-o {}: the image has layers only, which .exr files can hold", path));
+      // Colours and alpha come first.
+      if (!keeps_layers && channels.size() > 4)
+        throw UsageError(
+            fmt::format("-o {}: only .exr files can hold the other layers ({}{}); write one, too",
+                        path, channels[4], channels.size() > 5 ? ", …" : ""));
     }
   }
 

@@ -76,6 +76,7 @@ bool BidirectionalIntegrator::has_technique(int s, int t) const {
   if (options_.method == Method::ptracer) return t == 1;
   if (t == 1 && !options_.light_image) return false;
   if (options_.method == Method::reuse) return windows_.share(s, t) > 0;
+  if (s >= 2 && t >= 2 && options_.connections == 0) return false;
   return connects(options_.method);
 }
 
@@ -125,15 +126,20 @@ double BidirectionalIntegrator::radius(uint32_t iteration) const {
 
 TechniqueSet BidirectionalIntegrator::techniques(const Film& film, uint32_t iteration) const {
   TechniqueSet set;
-  set.connections = connects(options_.method);
+  set.hits = set.light_samples = connects(options_.method);
+  set.connections = set.light_samples && options_.connections != 0;
   set.camera_joins =
-      options_.light_image && (set.connections || options_.method == Method::ptracer);
+      options_.light_image && (set.light_samples || options_.method == Method::ptracer);
   set.merges = merges(options_.method);
   set.light_paths = float(light_walks(film.full_size()));
-  set.partly_merged = set.merges && set.connections && !options_.merge_parts.empty();
+  set.partly_merged = set.merges && set.light_samples && !options_.merge_parts.empty();
   if (!pilot_) return set;
-  if (set.connections && options_.connections >= 0 && pilot_->vertices_per_walk > 0)
-    set.connection_share = float(std::max(1e-6, options_.connections / pilot_->vertices_per_walk));
+  if (set.connections && options_.connections > 0) {
+    // Of none there is no share, and so no connection.
+    set.connections = pilot_->vertices_per_walk > 0;
+    if (set.connections)
+      set.connection_share = float(options_.connections / pilot_->vertices_per_walk);
+  }
   if (set.merges) set.merge_area = kPi * sqr(float(radius(iteration)));
   return set;
 }
@@ -165,7 +171,6 @@ void BidirectionalIntegrator::iteration(const Scene& scene, Film& film, const Sa
   plan.walks = light_walks(film.full_size());
   plan.unit_weights = options_.method == Method::ptracer;
   plan.hide_emitters = options_.hide_emitters;
-  plan.keep_vertices = plan.set.merges || (plan.set.connections && options_.connections != 0);
   if (options_.method == Method::reuse && !is_thesis_) plan.windows = &windows_;
   plan.sequence = samples.sequence;
   plan.seed = samples.seed;
@@ -176,10 +181,13 @@ void BidirectionalIntegrator::iteration(const Scene& scene, Film& film, const Sa
     pilot_ = run_pilot(scene, film.full_size(), plan);
     plan.set = techniques(film, samples.first);
   }
+  plan.keep_vertices = plan.set.merges || plan.set.connections;
   // A walk counts 1 / N_L.
   plan.roulette_threshold = pilot_->roulette_threshold() * plan.set.light_paths;
   set_ = plan.set;
-  key_ = hash_combine(hash_combine(samples.seed, samples.scramble), samples.first);
+  const uint64_t sequence_key = hash_combine(samples.seed, samples.scramble);
+  sharing_.start(film.full_size(), sequence_key);
+  key_ = hash_combine(sequence_key, samples.first);
   if (scene.lights.empty()) plan.walks = 0;
   if (plan.keep_vertices)
     lights_.reserve(size_t(1.05 * pilot_->vertices_per_walk * double(plan.walks)) + 1024,

@@ -10,6 +10,7 @@
 #include "scene/description_integrators.h"
 #include "transport/light_pass.h"
 #include "transport/vertex_grid.h"
+#include "transport/walk_sharing.h"
 
 namespace duet {
 
@@ -85,6 +86,7 @@ class BidirectionalIntegrator final : public CameraIntegrator {
   // Of the iteration under way.
   TechniqueSet set_;
   uint64_t key_ = 0;
+  WalkSharing sharing_;
   LightPass lights_;
   VertexGrid grid_;
   std::vector<Splat> splat_buffer_;

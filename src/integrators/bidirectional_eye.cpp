@@ -95,7 +95,7 @@ void BidirectionalIntegrator::walk(const Weights& weights, Trail* trail, Eye<Ver
   const auto arrive_at = [&](const Point3f& p, float d2, float cosine, float transmittance) {
     const Partials partials =
         depth == 1 ? first_eye_partials(scene, camera_ray, p, d2, cosine, set_, walk, transmittance)
-                   : arrive(walk.partials, d2 / transmittance, cosine);
+                   : arrive(walk.partials, d2 / transmittance, cosine, set_.walk_connections());
     record_arrival(walk, d2 / transmittance, cosine);
     return partials;
   };
@@ -130,7 +130,7 @@ void BidirectionalIntegrator::walk(const Weights& weights, Trail* trail, Eye<Ver
         !enter_tail(walk, eye))
       return;
     // Where merging or light tracing does the rest, only what is seen directly is left to be hit.
-    const bool hits = set_.connections || (set_.merges ? walk.specular : depth == 1);
+    const bool hits = set_.light_samples || (set_.merges ? walk.specular : depth == 1);
     Hit hit;
     ++eye.counters.closest_rays;
     const bool found = scene.accel->closest_hit(walk.ray, hit);
@@ -192,7 +192,7 @@ void BidirectionalIntegrator::walk(const Weights& weights, Trail* trail, Eye<Ver
 template <class Vertex, class Weights>
 void BidirectionalIntegrator::join(const Weights& weights, const Vertex& v,
                                    Eye<Vertex>& eye) const {
-  if (set_.connections && eye.scene.picker.size() > 0)
+  if (set_.light_samples && eye.scene.picker.size() > 0)
     add(eye, 1, v.depth + 1,
         join_light(eye.scene, weights, v, options_.strict_normals, eye.sampler, eye.roulette,
                    eye.counters, &eye.shadows));
@@ -200,7 +200,7 @@ void BidirectionalIntegrator::join(const Weights& weights, const Vertex& v,
   if (set_.connections) {
     if (options_.connections < 0)
       connect(weights, v, eye);
-    else if (options_.connections > 0)
+    else
       connect_to_cache(weights, v, eye);
   }
   if constexpr (!std::is_same_v<Weights, WindowWeights>)
@@ -357,7 +357,7 @@ Spectrum BidirectionalIntegrator::trace(const Scene& scene, const CameraPath& pa
                   key,     RandomStream(key + kShadowStream),
                   photons, merges_in(path.pixel)};
   const size_t walks = lights_.vertices().ends.size();
-  if (walks > 0) eye.light_walk = size_t(double(path.pixel) * options_.light_paths) % walks;
+  if (walks > 0) eye.light_walk = sharing_.walk(path.pixel, walks);
   if (options_.method == Method::reuse && options_.weights == ReuseWeights::exact) {
     thread_local Trail trail;
     trail.assign(1, TrailVertex{1, 0, 1, false});

@@ -11,6 +11,7 @@
 #include "integrators/bidirectional.h"
 #include "integrators/depth.h"
 #include "integrators/direct.h"
+#include "integrators/method_rules.h"
 #include "integrators/occlusion.h"
 #include "integrators/parameters.h"
 #include "integrators/path.h"
@@ -107,6 +108,28 @@ CameraOutput camera_output(const IntegratorDescription& integrator) {
   return output;
 }
 
+/// Where a scene first has what not every method can render, or null.
+struct LimitLocations {
+  const SourceLocation* medium = nullptr;
+  const SourceLocation* one_way_surface = nullptr;
+};
+
+LimitLocations find_limits(const SceneDescription& scene) {
+  LimitLocations found;
+  const auto look_at = [&](const std::vector<ShapeDescription>& shapes) {
+    for (const ShapeDescription& s : shapes) {
+      const auto medium = s.interior ? s.interior : s.exterior;
+      if (medium && !found.medium) found.medium = &scene.media[size_t(*medium)].where;
+      if (!found.one_way_surface && is_one_way(scene, s)) found.one_way_surface = &s.where;
+    }
+  };
+  for (const SensorDescription& s : scene.sensors)
+    if (s.medium && !found.medium) found.medium = &scene.media[size_t(*s.medium)].where;
+  for (const ShapeGroupDescription& g : scene.groups) look_at(g.shapes);
+  look_at(scene.shapes);
+  return found;
+}
+
 }  // namespace
 
 const std::vector<IntegratorName>& integrator_names() {
@@ -177,50 +200,35 @@ SurfaceNeeds integrator_needs(const IntegratorDescription& integrator) {
 
 void check_support(const SceneDescription& scene, const IntegratorDescription& integrator,
                    Diagnostics& diagnostics) {
-  if (!integrator.image ||
-      !std::holds_alternative<BidirectionalIntegratorDescription>(integrator.method))
-    return;
-  const auto& d = std::get<BidirectionalIntegratorDescription>(integrator.method);
-  std::string why;
-  if (d.method == BidirectionalMethod::ppm || d.method == BidirectionalMethod::bpm)
-    why = "it has no photons in participating media, only on surfaces";
-  else if (d.method == BidirectionalMethod::reuse && d.weights != ReuseWeights::exact)
-    why = "the weights of the thesis know no participating media";
-  else
-    return;
-  const auto refuse = [&](const SourceLocation& where) {
-    diagnostics.error(where,
-                      "integrator \"{}\" cannot render this scene: {}; \"volpath\", \"bdpt\" and "
-                      "\"vcm\" can",
-                      integrator_name(integrator), why);
-  };
-  const auto check = [&](const std::vector<ShapeDescription>& shapes) {
-    for (const ShapeDescription& s : shapes)
-      if (const auto medium = s.interior ? s.interior : s.exterior)
-        return refuse(scene.media[size_t(*medium)].where);
-  };
-  for (const SensorDescription& s : scene.sensors)
-    if (s.medium) return refuse(scene.media[size_t(*s.medium)].where);
-  for (const ShapeGroupDescription& g : scene.groups) check(g.shapes);
-  check(scene.shapes);
-  const auto check_one_way = [&](const std::vector<ShapeDescription>& shapes) {
-    for (const ShapeDescription& s : shapes)
-      if (is_one_way(scene, s))
-        return diagnostics.error(s.where,
-                                 "integrator \"{}\" cannot follow light through curves of this "
-                                 "material from its source, because rays see them from outside "
-                                 "only; \"path\" can",
-                                 integrator_name(integrator));
-  };
-  for (const ShapeGroupDescription& g : scene.groups) check_one_way(g.shapes);
-  check_one_way(scene.shapes);
+  if (!integrator.image) return;
+  const LimitLocations found = find_limits(scene);
+  const SceneLimits limits{found.medium != nullptr, found.one_way_surface != nullptr};
+  switch (find_obstacle(limits, integrator.method)) {
+    case Obstacle::media:
+      return diagnostics.error(
+          *found.medium,
+          "integrator \"{}\" cannot render this scene: {}; \"volpath\", \"bdpt\" and \"vcm\" can",
+          integrator_name(integrator),
+          std::get<BidirectionalIntegratorDescription>(integrator.method).method ==
+                  BidirectionalMethod::reuse
+              ? "the weights of the thesis know no participating media"
+              : "it has no photons in participating media, only on surfaces");
+    case Obstacle::one_way_surfaces:
+      return diagnostics.error(*found.one_way_surface,
+                               "integrator \"{}\" cannot follow light through curves of this "
+                               "material from its source, because rays see them from outside "
+                               "only; \"{}\" can",
+                               integrator_name(integrator), limits.media ? "volpath" : "path");
+    case Obstacle::none:
+    case Obstacle::sensor:
+      return;
+  }
 }
 
 void check_support(const SensorDescription& sensor, const IntegratorDescription& integrator,
                    Diagnostics& diagnostics) {
-  const auto* d = std::get_if<BidirectionalIntegratorDescription>(&integrator.method);
-  if (!integrator.image || !d || is_connectible(sensor.kind)) return;
-  if (d->method == BidirectionalMethod::ptracer || d->method == BidirectionalMethod::reuse)
+  const SceneLimits limits{.connectible = is_connectible(sensor.kind)};
+  if (integrator.image && find_obstacle(limits, integrator.method) == Obstacle::sensor)
     diagnostics.error(sensor.where,
                       "integrator \"{}\" needs a sensor with which walks from lights can be "
                       "joined: this one only sends rays, as \"path\" and \"bdpt\" need it",

@@ -50,6 +50,7 @@ PartlyMerged merge_where_it_pays(const PredictedMethod& without, const Predicted
         mixed.merged += p.merged;
         mixed.variance += p.variance;
         mixed.error += p.error;
+        mixed.parts.push_back(p);
       }
     result.share = double(std::count(parts.begin(), parts.end(), 1)) / kParts;
     result.parts = std::move(parts);

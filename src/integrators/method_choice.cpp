@@ -7,6 +7,7 @@
 
 #include "base/log.h"
 #include "integrators/merge_parts.h"
+#include "integrators/method_risk.h"
 #include "integrators/method_rules.h"
 
 namespace duet {
@@ -19,6 +20,8 @@ constexpr double kPilotShare = 0.04, kPilotWalkCost = 14;
 constexpr int kFewestPixels = 16, kMostPixels = 64;  ///< per side
 /// How much better than path tracing a method has to be, and `ppm` than all others.
 constexpr double kHysteresis = 1.15;
+/// Probability that another method is so much better above which the choice is not sure.
+constexpr double kDoubt = 0.1;
 /// Share of the image above which merging in a part of it is merging in all of it.
 constexpr double kNearlyAll = 0.95;
 /// Share of the light above which `ppm`, which merges all of it, may take the place of a method
@@ -35,6 +38,9 @@ constexpr double kNegligible = 1e-4;
 /// Between the sphere of all surfaces and that of the visible ones: beyond, walks from lights that
 /// are far away miss what the image shows.
 constexpr double kFarRatio = 30;
+
+/// Why walks from lights do not come into question.
+constexpr const char* kOneWay = "light cannot be followed through tubes from its source";
 
 /// Mean over the iterations of the first merging area over theirs: the radius shrinks.
 double mean_shrinkage(double alpha, int iterations) {
@@ -123,46 +129,23 @@ MethodChoice without_pilot(const PathLimits& o, const std::string& why) {
   return {PathIntegratorDescription{o}, "path: " + why, ""};
 }
 
-MethodChoice through_media(const MethodRules& rules, const PathLimits& o) {
+MethodChoice through_media(const MethodRules& rules, const PathLimits& o,
+                           const SceneLimits& limits) {
   if (rules.wants_volpath())
     return {VolumePathIntegratorDescription{o}, "volpath: " + describe(rules), ""};
-  return {bidirectional(o, BidirectionalMethod::bdpt, 0.25, -1), "bdpt: " + describe(rules), ""};
+  const auto bdpt = bidirectional(o, BidirectionalMethod::bdpt, 0.25, -1);
+  if (find_obstacle(limits, bdpt) == Obstacle::one_way_surfaces)
+    return {VolumePathIntegratorDescription{o}, std::string("volpath: ") + kOneWay, ""};
+  return {bdpt, "bdpt: " + describe(rules), ""};
 }
 
-}  // namespace
+/// Which of the candidates may be taken.
+struct Eligible {
+  std::vector<uint8_t> candidates;
+  bool unbiased = false;  ///< there is one among them that does not merge
+};
 
-MethodPrices price_methods(const Scene& scene, const AutoIntegratorDescription& options,
-                           const RenderOutlook& outlook) {
-  PricingPlan plan{options, outlook.film};
-  plan.threads = outlook.threads;
-  const double samples = double(outlook.film.x) * outlook.film.y * outlook.spp;
-  const double pixels = kPilotShare * samples / (2 * kPilotWalkCost);
-  plan.pixels_per_side = std::clamp(int(std::sqrt(pixels)), kFewestPixels, kMostPixels);
-  const PricingRecord record = run_pricing_pilot(scene, plan);
-  MethodPrices prices;
-  prices.candidates = candidates(method_rules(scene.features), options, outlook);
-  prices.walks = record.walks();
-  for (const MethodCandidate& c : prices.candidates)
-    prices.predictions.push_back(predict(record, c, outlook.spp));
-  add_partly_merged(prices);
-  return prices;
-}
-
-MethodChoice choose_method(const Scene& scene, const AutoIntegratorDescription& options,
-                           const RenderOutlook& outlook) {
-  const MethodRules rules = method_rules(scene.features);
-  if (rules.has_media) return through_media(rules, options);
-  if (!rules.has_lights) return without_pilot(options, "the scene has no lights");
-  if (scene.features.one_way_surfaces > 0)
-    return without_pilot(options, "light cannot be followed through tubes from its source");
-  if (options.max_depth >= 0 && options.max_depth < 2)
-    return without_pilot(options, "paths of one segment are seen directly");
-  if (!scene.camera->connectible())
-    return without_pilot(options, "the sensor cannot be joined with walks from lights");
-  if (rules.far_lights_only && !rules.needs_light_walks && shows_little(scene, outlook.film))
-    return without_pilot(options, "walks from lights so far away would miss what the image shows");
-
-  const MethodPrices prices = price_methods(scene, options, outlook);
+Eligible eligible(const MethodPrices& prices, const MethodRules& rules) {
   const std::vector<MethodCandidate>& c = prices.candidates;
   const std::vector<PredictedMethod>& p = prices.predictions;
   double least_missing = 1;
@@ -173,47 +156,113 @@ MethodChoice choose_method(const Scene& scene, const AutoIntegratorDescription& 
   };
   bool sharp_only = true;
   for (size_t i = 0; i < c.size(); ++i) sharp_only &= !(finds_all(i) && p[i].sharp <= kMostSharp);
-  const auto covers = [&](size_t i) {
-    return finds_all(i) && (sharp_only || p[i].sharp <= kMostSharp);
-  };
-  const auto price = [&](size_t i) { return p[i].error * p[i].cost; };
+  Eligible result;
+  for (size_t i = 0; i < c.size(); ++i) {
+    const bool may = finds_all(i) && (sharp_only || p[i].sharp <= kMostSharp);
+    result.candidates.push_back(may);
+    result.unbiased |= may && c[i].merges == 0;
+  }
+  return result;
+}
+
+/// The candidate with which least is to be lost, and path tracing unless it loses more.
+size_t least_loss(const MethodPrices& prices, const std::vector<uint8_t>& may,
+                  const MethodRisk& risk) {
+  const std::vector<MethodCandidate>& c = prices.candidates;
   size_t best = c.size(), photons = c.size();
   for (size_t i = 0; i < c.size(); ++i) {
+    const PredictedMethod& p = prices.predictions[i];
     log::detail(
         "auto: {:36} misses {:.2e}, merges {:.3f}, sharp {:.2e}, variance {:.3g}, error² {:.3g}, "
-        "cost {:.3g}, price {:.3g}",
-        c[i].name, p[i].missing, p[i].merged, p[i].sharp, p[i].variance, p[i].error, p[i].cost,
-        price(i));
-    if (!covers(i)) continue;
+        "cost {:.3g}, price {:.3g}, loss {:.3g}",
+        c[i].name, p.missing, p.merged, p.sharp, p.variance, p.error, p.cost, p.error * p.cost,
+        risk.loss(i));
+    if (!may[i]) continue;
     if (c[i].photons_only)
       photons = i;
-    else if (best == c.size() || price(i) < price(best))
+    else if (best == c.size() || risk.loss(i) < risk.loss(best))
       best = i;
   }
-  if (photons < c.size() && p[best].merged > kMuch && kHysteresis * price(photons) < price(best))
+  if (photons < c.size() && prices.predictions[best].merged > kMuch &&
+      kHysteresis * risk.loss(photons) < risk.loss(best))
     best = photons;
-  if (covers(0) && !(price(0) > kHysteresis * price(best))) best = 0;
-  bool covered_unbiased = false;
-  for (size_t i = 0; i < c.size(); ++i) covered_unbiased |= covers(i) && c[i].merges == 0;
+  return may[0] && !(risk.loss(0) > kHysteresis * risk.loss(best)) ? 0 : best;
+}
 
+}  // namespace
+
+MethodPrices price_methods(const Scene& scene, const AutoIntegratorDescription& options,
+                           const RenderOutlook& outlook, const PilotChoice& pilot) {
+  PricingPlan plan{options, outlook.film};
+  plan.threads = outlook.threads;
+  plan.seed = pilot.seed;
+  plan.pixels_per_side = pilot.pixels_per_side;
+  if (plan.pixels_per_side == 0) {
+    const double samples = double(outlook.film.x) * outlook.film.y * outlook.spp;
+    const double pixels = kPilotShare * samples / (2 * kPilotWalkCost);
+    plan.pixels_per_side = std::clamp(int(std::sqrt(pixels)), kFewestPixels, kMostPixels);
+  }
+  const PricingRecord record = run_pricing_pilot(scene, plan);
+  MethodPrices prices;
+  prices.candidates = candidates(method_rules(scene.features), options, outlook);
+  prices.walks = record.walks();
+  for (const MethodCandidate& c : prices.candidates)
+    prices.predictions.push_back(predict(record, c, outlook.spp));
+  add_partly_merged(prices);
+  return prices;
+}
+
+MethodChoice take(const MethodPrices& prices, const MethodRules& rules) {
+  const Eligible may = eligible(prices, rules);
+  const MethodRisk risk(prices.predictions, may.candidates);
+  const size_t best = least_loss(prices, may.candidates, risk);
+  const MethodCandidate& c = prices.candidates[best];
+  const PredictedMethod &p = prices.predictions[best], &path = prices.predictions[0];
   MethodChoice choice;
-  choice.method = c[best].method;
-  choice.reason = c[best].name + ": ";
-  if (!covers(0))
-    choice.reason += p[0].missing > kNegligible
-                         ? fmt::format("path would miss {:.2g} % of the light", 100 * p[0].missing)
+  choice.method = c.method;
+  choice.reason = c.name + ": ";
+  if (!may.candidates[0])
+    choice.reason += path.missing > kNegligible
+                         ? fmt::format("path would miss {:.2g} % of the light", 100 * path.missing)
                          : "path cannot find all light";
   else if (best == 0)
     choice.reason += "no other method promises more than 1.15 times its efficiency";
   else
-    choice.reason += fmt::format("{:.2g} times the efficiency of path", price(0) / price(best));
-  choice.reason += fmt::format(", by a pilot of {} eye walks; {}", prices.walks, describe(rules));
-  if (c[best].merges > 0) {
-    choice.bias = covered_unbiased ? "merging is consistent, but biased"
-                                   : "some light is found by merging only: consistent, but biased";
+    choice.reason += fmt::format("{:.2g} times the efficiency of path",
+                                 path.error * path.cost / p.error / p.cost);
+  choice.reason += fmt::format(", by a pilot of {} eye walks", prices.walks);
+  if (risk.doubt(best, kHysteresis) > kDoubt)
+    choice.reason += fmt::format(
+        ", too short to be sure: the choice is what loses least if it is wrong, {:.2g} times the "
+        "work of the best in one of five cases",
+        risk.loss(best));
+  choice.reason += "; " + describe(rules);
+  if (c.merges > 0) {
+    choice.bias = may.unbiased ? "merging is consistent, but biased"
+                               : "some light is found by merging only: consistent, but biased";
     choice.reason += "; consistent, biased";
   }
   return choice;
+}
+
+MethodChoice choose_method(const Scene& scene, const AutoIntegratorDescription& options,
+                           const RenderOutlook& outlook) {
+  const MethodRules rules = method_rules(scene.features);
+  const SceneLimits limits{rules.has_media, scene.features.one_way_surfaces > 0,
+                           scene.camera->connectible()};
+  if (rules.has_media) return through_media(rules, options, limits);
+  if (!rules.has_lights) return without_pilot(options, "the scene has no lights");
+  if (find_obstacle(limits, bidirectional(options, BidirectionalMethod::bdpt, 1, -1)) ==
+      Obstacle::one_way_surfaces)
+    return without_pilot(options, kOneWay);
+  if (options.max_depth >= 0 && options.max_depth < 2)
+    return without_pilot(options, "paths of one segment are seen directly");
+  if (!scene.camera->connectible())
+    return without_pilot(options, "the sensor cannot be joined with walks from lights");
+  if (rules.far_lights_only && !rules.needs_light_walks && shows_little(scene, outlook.film))
+    return without_pilot(options, "walks from lights so far away would miss what the image shows");
+
+  return take(price_methods(scene, options, outlook), rules);
 }
 
 }  // namespace duet

@@ -7,6 +7,7 @@
 
 #include "integrators/integrator.h"
 #include "integrators/method_prediction.h"
+#include "integrators/method_rules.h"
 #include "scene/description_integrators.h"
 
 namespace duet {
@@ -20,13 +21,23 @@ struct MethodChoice {
 MethodChoice choose_method(const Scene& scene, const AutoIntegratorDescription& options,
                            const RenderOutlook& outlook);
 
-/// The prediction for every candidate that the scene leaves, for benchmarks and tests.
+// In two steps, for benchmarks and tests:
+
+/// The prediction for every candidate that the scene leaves.
 struct MethodPrices {
-  std::vector<MethodCandidate> candidates;
+  std::vector<MethodCandidate> candidates;  ///< path tracing first
   std::vector<PredictedMethod> predictions;
   size_t walks = 0;  ///< eye walks of the pilot
 };
+/// A pilot other than the usual one.
+struct PilotChoice {
+  int pixels_per_side = 0;  ///< 0 for what the render's samples allow
+  uint64_t seed = 0;        ///< pilots of different seeds are independent
+};
 MethodPrices price_methods(const Scene& scene, const AutoIntegratorDescription& options,
-                           const RenderOutlook& outlook);
+                           const RenderOutlook& outlook, const PilotChoice& pilot = {});
+
+/// The method with which least is to be lost, as far as the prices are known.
+MethodChoice take(const MethodPrices& prices, const MethodRules& rules);
 
 }  // namespace duet

@@ -124,9 +124,9 @@ class Prediction {
       const double bias =
           tile_walks_[t] > 0 ? tile.trimmed * tile.trimmed / tile_walks_[t] / walks : 0.0;
       const double variance = (tile.squares + tile.products) / walks;
-      p.parts.push_back({all_ > 0 ? tile.missing / all_ : 0,
-                         may_merge_ > 0 ? tile.merged / may_merge_ : 0, variance,
-                         variance / spp_ + bias});
+      p.parts.push_back(
+          {all_ > 0 ? tile.missing / all_ : 0, may_merge_ > 0 ? tile.merged / may_merge_ : 0,
+           variance, variance / spp_ + bias, kLeastVariance * tile.squares / walks / spp_ + bias});
       p.missing += p.parts.back().missing, p.merged += p.parts.back().merged;
       squares += tile.squares, products += tile.products, lost += bias;
     }

@@ -24,6 +24,7 @@ struct MethodCandidate {
 /// What one part of the image adds to the figures of PredictedMethod, as far as they are sums.
 struct PredictedPart {
   double missing = 0, merged = 0, variance = 0, error = 0;
+  double least_error = 0;  ///< what the error of the whole is bounded by from below
 };
 
 /// What a candidate would do with the render's samples.

@@ -22,6 +22,18 @@ MethodRules method_rules(const SceneFeatures& f) {
   return rules;
 }
 
+Obstacle find_obstacle(const SceneLimits& scene,
+                       const decltype(IntegratorDescription::method)& method) {
+  const auto* d = std::get_if<BidirectionalIntegratorDescription>(&method);
+  if (!d) return Obstacle::none;
+  using enum BidirectionalMethod;
+  const bool is_thesis = d->method == reuse && d->weights != ReuseWeights::exact;
+  if (scene.media && (d->method == ppm || d->method == bpm || is_thesis)) return Obstacle::media;
+  if (scene.one_way_surfaces) return Obstacle::one_way_surfaces;
+  if (!scene.connectible && (d->method == ptracer || d->method == reuse)) return Obstacle::sensor;
+  return Obstacle::none;
+}
+
 std::string describe(const MethodRules& rules) {
   if (!rules.has_lights) return "no lights";
   if (rules.has_media)

@@ -32,6 +32,20 @@ struct MethodRules {
 
 MethodRules method_rules(const SceneFeatures& features);
 
+/// What in a scene, or of its sensor, not every method can render.
+struct SceneLimits {
+  bool media = false;             ///< there are participating media
+  bool one_way_surfaces = false;  ///< SceneFeatures::one_way_surfaces
+  bool connectible = true;        ///< walks from lights can be joined with the sensor
+};
+
+enum class Obstacle { none, media, one_way_surfaces, sensor };
+
+/// What keeps a method from rendering such a scene: the one answer, for the command line and for
+/// `auto`.
+Obstacle find_obstacle(const SceneLimits& scene,
+                       const decltype(IntegratorDescription::method)& method);
+
 /// For people: "light walks are needed (…); merging is not (…)".
 std::string describe(const MethodRules& rules);
 

@@ -61,7 +61,7 @@ class PricingPilot {
     light.walk = options_;
     light.max_depth = max_depth_ - 1;
     light.hide_emitters = plan.hide_emitters;
-    light.seed = kSeed;
+    light.seed = kSeed ^ plan.seed;
     light.threads = plan.threads;
     const Pilot sizes = run_pilot(scene, plan.film, light);
     const double radius = sizes.first_radius();
@@ -129,9 +129,10 @@ class PricingPilot {
   }
 
   void light_walk(size_t index, Block& block) {
-    Sampler sampler(SampleSequence::independent, kLightSeed, 0, index);
+    Sampler sampler(SampleSequence::independent, kLightSeed ^ plan_.seed, 0, index);
     sampler.start_sample(0);
-    JoinRoulette roulette(threshold_ * set_.light_paths, hash_combine(kLightSeed, index));
+    JoinRoulette roulette(threshold_ * set_.light_paths,
+                          hash_combine(kLightSeed ^ plan_.seed, index));
     RenderCounters& counters = block.record.light_counters;
     Trail trail;
     FamilyWeights weights(set_);
@@ -177,7 +178,7 @@ class PricingPilot {
   /// Where the walk's pixel lies: one in each cell of a grid, the same for two walks in succession.
   Point2f pixel(size_t walk) const {
     const size_t cell = walk / 2, side = size_t(plan_.pixels_per_side);
-    const uint64_t random = mix64(hash_combine(kSeed, cell));
+    const uint64_t random = mix64(hash_combine(kSeed ^ plan_.seed, cell));
     const auto place = [&](size_t at, uint64_t bits, int size) {
       const double x = (double(at) + double(to_unit_float(uint32_t(bits)))) / double(side) * size;
       return std::min(float(std::floor(x)), float(size - 1));
@@ -187,7 +188,7 @@ class PricingPilot {
   }
 
   void eye_walk(size_t index, PricingRecord& out) {
-    Sampler sampler(SampleSequence::independent, kSeed, 0, index);
+    Sampler sampler(SampleSequence::independent, kSeed ^ plan_.seed, 0, index);
     sampler.start_sample(0);
     const Point2f u = sampler.next_2d();
     const Point2f corner = pixel(index), film{corner.x + u.x, corner.y + u.y};
@@ -204,7 +205,7 @@ class PricingPilot {
     walk.throughput = Spectrum(1);
     walk.trail = &trail;
     FamilyWeights weights(set_);
-    JoinRoulette roulette(threshold_, hash_combine(kSeed, index));
+    JoinRoulette roulette(threshold_, hash_combine(kSeed ^ plan_.seed, index));
     bool sees_sky = !plan_.hide_emitters;  // not before light has been scattered
     for (int depth = 1; depth <= max_depth_; ++depth) {
       weights.set_eye(trail);

@@ -34,6 +34,7 @@ struct PricingPlan : PathLimits {
   Point2i film;              ///< size of the whole image
   int pixels_per_side = 32;  ///< the pilot looks at this number squared
   int threads = 1;
+  uint64_t seed = 0;  ///< pilots of different seeds are independent
 };
 
 /// What a pilot has seen. Two eye walks for each of its pixels, and as many light walks.

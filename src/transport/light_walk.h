@@ -118,7 +118,7 @@ int trace_light_walk(const Scene& scene, const TechniqueSet& set, const WalkOpti
       return first_light_partials(*start, p, cosine, set, transmittance);
     }
     record_arrival(walk, d2 / transmittance, cosine);
-    return arrive(walk.partials, d2 / transmittance, cosine);
+    return arrive(walk.partials, d2 / transmittance, cosine, set.walk_connections());
   };
   /// Whether the walk goes on behind the vertex.
   const auto pass = [&](const Vertex& v, const Hit& hit, bool may_be_passed) {

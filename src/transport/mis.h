@@ -20,9 +20,11 @@ struct TechniqueSet {
   bool connections = false;    ///< s, t >= 2
   bool merges = false;         ///< eye and light vertices that are near each other, s, t >= 2
 
-  float light_paths = 1;       ///< N_L: light walks per iteration
-  float connection_share = 1;  ///< n_VC: samples of each connection per eye walk
-  float merge_area = 0;        ///< π r², of the merging disk
+  float light_paths = 1;  ///< N_L: light walks per iteration
+  /// n_VC: samples of each connection per eye walk. Without connections it is no more than the unit
+  /// of the sums.
+  float connection_share = 1;
+  float merge_area = 0;  ///< π r², of the merging disk
   /// Merging, beside connections, is part of the method in some pixels only. Walks carry the sums
   /// of both methods then: without merges Partials::vm is what vc is, and with them it is vc / η,
   /// which need not be kept.
@@ -32,11 +34,13 @@ struct TechniqueSet {
   float eta() const { return light_paths * merge_area / connection_share; }
   /// The merge at a vertex relative to the connections beside it, where both kinds exist.
   float merge_term() const { return merges ? eta() : 0.0f; }
-  /// The reverse: the connection relative to the merge.
-  float connection_term() const { return merges && connections ? 1 / eta() : 0.0f; }
+  /// The reverse: the connection, or the light sample, relative to the merge.
+  float connection_term() const { return merges && light_samples ? 1 / eta() : 0.0f; }
   /// What walks take for it in Partials::vm, and for the merge at a vertex itself.
   float walk_connection_term() const { return partly_merged ? 1.0f : connection_term(); }
   float walk_merges() const { return partly_merged ? 0.0f : 1.0f; }
+  /// What arrive() is told about connections.
+  float walk_connections() const { return connections ? 1.0f : 0.0f; }
 };
 
 /// What a walk knows at a vertex about the techniques that would have made its part of the path
@@ -72,10 +76,11 @@ inline Partials leave_specular(const Partials& at, float cosine_out, float jacob
 
 /// On arrival at the next vertex, at squared distance `d2` (1 from infinitely far away) under the
 /// geometric cosine `cosine`. Through media `d2` is divided by the nominal transmittance, and in a
-/// medium its nominal extinction takes the place of the cosine.
-inline Partials arrive(const Partials& p, float d2, float cosine) {
+/// medium its nominal extinction takes the place of the cosine. `connections` is 0 instead of 1 if
+/// the method does not connect this vertex with the one before: d^VCM stands for that technique.
+inline Partials arrive(const Partials& p, float d2, float cosine, float connections) {
   const float inverse = 1 / cosine;
-  return {p.vcm * d2 * inverse, p.vc * inverse, p.vm * inverse};
+  return {connections * p.vcm * d2 * inverse, p.vc * inverse, p.vm * inverse};
 }
 
 /// One end of a join, described by what the join adds to its walk.

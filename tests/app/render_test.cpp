@@ -229,6 +229,21 @@ TEST_SUITE("program") {
     CHECK(read_image(place.path("uv.exr")).image.find_channel("R") < 0);
   }
 
+  TEST_CASE("layers that no image could hold are refused, not lost") {
+    const Workplace place;
+    place.scene();
+    const Outcome lost = place.run({"tiny.xml", "--aov", "depth,uv", "-o", "a.png"});
+    CHECK(lost.code == 2);
+    CHECK(lost.err.find("-o a.png: only .exr files can hold the other layers (depth.T, …)") !=
+          std::string::npos);
+    CHECK(!place.has("a.png"));
+    CHECK(place.run({"tiny.xml", "-i", "bdpt", "-I", "max_depth=3", "--techniques", "-o", "a.png"})
+              .code == 2);
+    CHECK(place.run({"tiny.xml", "--aov", "depth", "-o", "a.png", "-o", "a.exr"}).code == 0);
+    CHECK(place.has("a.png"));
+    CHECK(place.run({"tiny.xml", "-o", "b.png"}).code == 0);
+  }
+
   TEST_CASE("a sensor is chosen by its number") {
     const Workplace place;
     TinyScene s;

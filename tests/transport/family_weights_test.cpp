@@ -121,7 +121,7 @@ std::vector<Observation> observe(const Scene& scene, const TechniqueSet& set, ui
     if (!(cosine > 0)) break;
     const Partials partials =
         depth == 1 ? first_eye_partials(scene, camera_ray, s.position, d2, cosine, set, walk)
-                   : arrive(walk.partials, d2, cosine);
+                   : arrive(walk.partials, d2, cosine, set.walk_connections());
     record_arrival(walk, d2, cosine);
     const PathVertex v(scene, s, -walk.ray.direction, walk.throughput, partials, depth);
     if (v.bsdf.has_smooth()) {
@@ -150,7 +150,7 @@ TEST_CASE("weights by families of techniques are those of VCM, and so are the sh
   for (const std::string& content : scenes()) {
     const TransportScene s(content);
     TechniqueSet all;
-    all.camera_joins = all.connections = all.merges = true;
+    all.hits = all.light_samples = all.camera_joins = all.connections = all.merges = true;
     all.light_paths = 500;
     all.merge_area = 0.002f;
     TechniqueSet no_merges = all;

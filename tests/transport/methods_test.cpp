@@ -1,4 +1,5 @@
 // What all bidirectional methods promise about their images, whatever is in them.
+#include <algorithm>
 #include <cmath>
 
 #include "support/statistics.h"
@@ -80,6 +81,32 @@ TEST_CASE("layers of techniques add up to the image") {
   }
   CHECK_THROWS_AS(scene.method("path", {}, TechniqueOutput::weighted), std::invalid_argument);
   CHECK_THROWS_AS(scene.method("bdpt", {}, TechniqueOutput::weighted), std::invalid_argument);
+}
+
+// Under this sky hardly any light walk meets the two balls, which are tiny beside the scene.
+TEST_CASE(
+    "without light vertices there are no connections, and without connections no layers of them") {
+  const TransportScene scene(camera_xml("0, -0.2, 0", "0, 0, 0", 16) +
+                             "<emitter type='constant'><rgb name='radiance' value='1'/></emitter>" +
+                             sphere_xml("-0.01, 0, 0", "0.01", grey("0.8")) +
+                             sphere_xml("0.01, 0, 0", "0.01", grey("0.8")) +
+                             sphere_xml("0, 9, 0", "0.001", grey("0.8")));
+  const auto bdpt = [&](const std::string& connections) {
+    return scene.render("bdpt", {{"connections", connections}, {"max_depth", "4"}}, 16, 1).image;
+  };
+  CHECK(bdpt("2").data == bdpt("0").data);
+  CHECK(bdpt("-1").data != bdpt("0").data);
+  const auto layers = [&](const std::string& connections) {
+    const auto integrator = scene.method("bdpt", {{"connections", connections}, {"max_depth", "4"}},
+                                         TechniqueOutput::weighted);
+    return integrator->channels();
+  };
+  const auto has = [&](const std::vector<std::string>& names, const std::string& name) {
+    return std::find(names.begin(), names.end(), name) != names.end();
+  };
+  CHECK(has(layers("2"), "s2t2.R"));
+  CHECK(!has(layers("0"), "s2t2.R"));
+  for (const char* name : {"s0t3.R", "s1t3.R", "s2t1.R"}) CHECK(has(layers("0"), name));
 }
 
 TEST_CASE("where vcm merges it is vcm, and elsewhere bdpt") {

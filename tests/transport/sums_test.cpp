@@ -60,7 +60,8 @@ struct Densities {
 
   Densities(const RandomPath& x, const TechniqueSet& set) {
     for (int s = 0; s <= x.k; ++s) {
-      double d = s == x.k ? double(set.light_paths) : s >= 2 ? double(set.connection_share) : 1.0;
+      const double connection = set.connections ? double(set.connection_share) : 0.0;
+      double d = s == x.k ? double(set.light_paths) : s >= 2 ? connection : 1.0;
       if (s == 0 ? !x.light_can_be_hit : !(x.joinable(s - 1) && x.joinable(s))) d = 0;
       for (int i = 0; i < x.k; ++i)
         if (i < s)
@@ -100,12 +101,12 @@ struct Sums {
     light[1].vc = x.light_can_be_hit ? scale : 0.0f;
     light[1].vm = light[1].vc * set.walk_connection_term();
     for (int i = 1; i + 1 < x.k; ++i)
-      light[size_t(i + 1)] =
-          arrive(next(light[size_t(i)], i, false), x.d2[size_t(i)], x.cos_light[size_t(i + 1)]);
+      light[size_t(i + 1)] = arrive(next(light[size_t(i)], i, false), x.d2[size_t(i)],
+                                    x.cos_light[size_t(i + 1)], set.walk_connections());
     eye[size_t(x.k - 1)].vcm = set.light_paths / (set.connection_share * float(x.q(x.k - 1)));
     for (int i = x.k - 1; i > 1; --i)
-      eye[size_t(i - 1)] =
-          arrive(next(eye[size_t(i)], i, true), x.d2[size_t(i - 1)], x.cos_eye[size_t(i - 1)]);
+      eye[size_t(i - 1)] = arrive(next(eye[size_t(i)], i, true), x.d2[size_t(i - 1)],
+                                  x.cos_eye[size_t(i - 1)], set.walk_connections());
     leaving_for_light = next(eye[1], 1, true);
   }
 };
@@ -184,9 +185,10 @@ TEST_CASE("running sums give the weights of the definition, which sum to one") {
     random.start_sample(i);
     const RandomPath x(random);
     TechniqueSet set;
-    set.connections = set.camera_joins = true;
+    set.hits = set.light_samples = set.camera_joins = true;
+    set.connections = random.next_1d() < 0.7f;
     set.light_paths = std::pow(10.0f, 1 + 5 * random.next_1d());
-    set.connection_share = random.next_1d() < 0.5f ? 1.0f : 0.05f + 3 * random.next_1d();
+    set.connection_share = random.next_1d() < 0.5f ? 1.0f : 0.05f + 30 * sqr(random.next_1d());
     set.merges = random.next_1d() < 0.6f;
     set.merge_area = std::pow(10.0f, -1 - 5 * random.next_1d());
     set.partly_merged = set.merges && random.next_1d() < 0.5f;

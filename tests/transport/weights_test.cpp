@@ -159,7 +159,8 @@ class Checker {
       if (head) return t == 1 ? windows_->light_paths : 1.0;
       return t - 1 > windows_->eye && s < 2 ? windows_->tail : 0.0;
     }
-    return t == 1 ? double(set_.light_paths) : s >= 2 ? double(set_.connection_share) : 1.0;
+    if (t == 1) return double(set_.light_paths);
+    return s < 2 ? 1.0 : set_.connections ? double(set_.connection_share) : 0.0;
   }
   double merge_share(int) const { return set_.merges && merging_ ? double(set_.light_paths) : 0.0; }
 
@@ -269,9 +270,10 @@ void Checker<Vertex>::eye_walk(Weights weights, const Ray& camera_ray, int max_d
   JoinRoulette roulette(0, 0);
   int depth = 1;
   const auto arrive_at = [&](const Point3f& p, float d2, float cosine, float transmittance) {
-    const Partials partials = depth == 1 ? first_eye_partials(scene_, camera_ray, p, d2, cosine,
-                                                              set_, walk, transmittance)
-                                         : arrive(walk.partials, d2 / transmittance, cosine);
+    const Partials partials =
+        depth == 1
+            ? first_eye_partials(scene_, camera_ray, p, d2, cosine, set_, walk, transmittance)
+            : arrive(walk.partials, d2 / transmittance, cosine, set_.walk_connections());
     record_arrival(walk, d2 / transmittance, cosine);
     return partials;
   };
@@ -382,15 +384,14 @@ void Checker<Vertex>::pair(uint32_t index, int max_depth) {
   same.start_dimension(0);
   const auto start = start_light_walk(scene_, same);
   JoinRoulette roulette(0, 0);
-  Trail* trail = windows_ ? &light_trail_ : nullptr;
   const auto visit_with = [&](const auto& weights) {
     return [&](const Vertex& v, const Hit&) {
       // What was passed straight is no vertex.
       if (!light.vertices.empty() && light.vertices.back().depth == v.depth)
         light.vertices.pop_back(), light.specular.pop_back();
       if (!light.vertices.empty()) {
-        // How the one before was left: only a delta lobe leaves nothing to be joined with.
-        light.specular.back() = v.partials.vcm == 0;
+        // How the one before was left.
+        light.specular.back() = light_trail_[size_t(v.depth - 1)].specular;
       }
       light.add(v);
       if (!v.is_smooth()) return;
@@ -408,7 +409,7 @@ void Checker<Vertex>::pair(uint32_t index, int max_depth) {
   };
   const auto trace = [&](const auto& weights) {
     trace_light_walk<Vertex>(scene_, set_, {1000, false}, max_depth - 1, light_sampler, counters_,
-                             trail, visit_with(weights), index + 1);
+                             &light_trail_, visit_with(weights), index + 1);
     // The last surface may have been passed on the way out.
     if (!light.vertices.empty() && !light.vertices.back().is_smooth())
       light.vertices.pop_back(), light.specular.pop_back();
@@ -430,7 +431,7 @@ void Checker<Vertex>::pair(uint32_t index, int max_depth) {
 
 TechniqueSet all_techniques(float light_paths) {
   TechniqueSet set;
-  set.camera_joins = set.connections = true;
+  set.hits = set.light_samples = set.camera_joins = set.connections = true;
   set.light_paths = light_paths;
   return set;
 }
@@ -442,11 +443,12 @@ TEST_CASE("weights of BDPT and VCM are the balance heuristic") {
   for (const std::string& content : scenes()) {
     const TransportScene s(content);
     for (const bool merges : {false, true})
-      for (const float connection_share : {1.0f, 0.4f}) {
+      for (const float connection_share : {0.0f, 1.0f, 0.4f, 6.0f}) {
         TechniqueSet set = all_techniques(500);
+        set.connections = connection_share > 0;
         set.merges = merges;
         set.merge_area = merges ? 0.002f : 0.0f;
-        set.connection_share = connection_share;
+        if (set.connections) set.connection_share = connection_share;
         Checker<PathVertex> checker(*s.scene, set, nullptr);
         checker.run(1500, 7);
         compared += checker.compared(), inexact += checker.inexact();
@@ -460,16 +462,18 @@ TEST_CASE("weights are the balance heuristic in pixels with and without merging"
   int64_t compared = 0, inexact = 0;
   for (const std::string& content : scenes()) {
     const TransportScene s(content);
-    for (const bool merging : {false, true}) {
-      TechniqueSet set = all_techniques(500);
-      set.merges = set.partly_merged = true;
-      set.merge_area = 0.002f;
-      set.connection_share = 0.4f;
-      Checker<PathVertex> checker(*s.scene, set, nullptr);
-      if (!merging) checker.do_not_merge();
-      checker.run(1500, 7);
-      compared += checker.compared(), inexact += checker.inexact();
-    }
+    for (const bool merging : {false, true})
+      for (const bool connections : {false, true}) {
+        TechniqueSet set = all_techniques(500);
+        set.merges = set.partly_merged = true;
+        set.merge_area = 0.002f;
+        set.connections = connections;
+        if (connections) set.connection_share = 0.4f;
+        Checker<PathVertex> checker(*s.scene, set, nullptr);
+        if (!merging) checker.do_not_merge();
+        checker.run(1500, 7);
+        compared += checker.compared(), inexact += checker.inexact();
+      }
   }
   CHECK(compared > 50000);
   CHECK(double(inexact) < 2e-3 * double(compared));
@@ -505,7 +509,8 @@ TEST_CASE("weights in media are the balance heuristic") {
       TechniqueSet set = all_techniques(500);
       set.merges = merges;
       set.merge_area = merges ? 0.002f : 0.0f;
-      set.connection_share = merges ? 0.4f : 1.0f;
+      set.connections = !merges || fog.radius < 1;
+      set.connection_share = merges && set.connections ? 0.4f : 1.0f;
       Checker<MediaVertex> checker(*s.scene, set, nullptr, &fog);
       checker.run(3000, 7);
       take(checker);

@@ -1,0 +1,99 @@
+// That prices which are not sure are known to be so, and that less is lost by that.
+#include "integrators/method_risk.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "integrators/method_choice.h"
+#include "support/transport_scene.h"
+#include "transport/merge_mask.h"
+
+using namespace duet;
+using namespace duet::test;
+
+namespace {
+
+constexpr size_t kParts = size_t(MergeMask::kSide * MergeMask::kSide);
+
+/// A method of cost 1 whose error is that of the parts.
+PredictedMethod method(const std::vector<double>& errors) {
+  PredictedMethod p;
+  p.cost = 1;
+  for (const double e : errors) {
+    p.parts.push_back({.error = e});
+    p.error += e;
+  }
+  return p;
+}
+
+}  // namespace
+
+TEST_CASE("the loss of even prices is their ratio, and that of uneven ones is larger") {
+  std::vector<double> rare(kParts, 0.5);
+  rare[37] += 0.55 * kParts;  // nearly all that makes it dearer has been met in one place
+  const std::vector<PredictedMethod> methods{method(std::vector<double>(kParts, 1)),
+                                             method(std::vector<double>(kParts, 1.3)), method(rare),
+                                             method(std::vector<double>(kParts, 0.1))};
+  const MethodRisk all(methods, {1, 1, 1, 0});
+  const MethodRisk even(methods, {1, 1, 0, 0});
+  CHECK(even.loss(0) == doctest::Approx(1));
+  CHECK(even.loss(1) == doctest::Approx(1.3));
+  CHECK(even.doubt(0, 1.15) == 0);
+  CHECK(even.doubt(1, 1.15) == 1);
+  CHECK(even.loss(3) == doctest::Approx(0.1));  // is not among those that may be taken
+  // Its price is hardly higher, and may be half as high or twice.
+  CHECK(methods[2].error == doctest::Approx(1.05 * kParts));
+  CHECK(all.loss(2) > 1.3);
+  CHECK(all.loss(0) > 1.3);
+  CHECK(all.doubt(0, 1.15) > 0.3);
+  CHECK(all.doubt(2, 1.15) > 0.1);
+  CHECK(all.doubt(2, 1.15) < 0.7);
+}
+
+// Pilots of this length take path tracing too often if they go by their prices alone, because they
+// have met too few of its rare contributions: by those its work is 1.09 times that of the best on
+// average, and up to 1.56 times.
+TEST_CASE("a short pilot takes what loses least, and says that it is short") {
+  const TransportScene s("door-ajar", 64);
+  const MethodRules rules = method_rules(s.scene->features);
+  AutoIntegratorDescription options;
+  options.max_depth = 8;
+  const RenderOutlook outlook{s.layout.full, 8, 2};
+  const auto price = [](const MethodPrices& p, const std::string& name) {
+    double found = 0;
+    for (size_t i = 0; i < p.candidates.size(); ++i)
+      if (p.candidates[i].name == name) found = p.predictions[i].error * p.predictions[i].cost;
+    return found;
+  };
+  const auto says_so = [](const MethodChoice& c) {
+    return c.reason.find("too short to be sure") != std::string::npos;
+  };
+  std::vector<MethodPrices> known;
+  for (uint64_t seed = 1000; seed < 1003; ++seed)
+    known.push_back(price_methods(*s.scene, options, outlook, {64, seed}));
+  const auto true_price = [&](const std::string& name) {
+    double sum = 0;
+    for (const MethodPrices& p : known) sum += price(p, name);
+    return sum;
+  };
+  double least = INFINITY;
+  for (const MethodCandidate& c : known[0].candidates) least = std::min(least, true_price(c.name));
+  constexpr int kPilots = 12;
+  double sum = 0, most = 0;
+  for (uint64_t seed = 0; seed < kPilots; ++seed) {
+    const MethodPrices prices = price_methods(*s.scene, options, outlook, {0, seed});
+    CHECK(prices.walks == 512);
+    const MethodChoice c = take(prices, rules);
+    const double loss = true_price(c.reason.substr(0, c.reason.find(':'))) / least;
+    sum += loss, most = std::max(most, loss);
+  }
+  CHECK(sum / kPilots < 1.03);
+  CHECK(most < 1.2);
+  // With few samples the two are near each other, and a pilot cannot tell them apart.
+  int unsure = 0;
+  for (uint64_t seed = 0; seed < kPilots; ++seed)
+    unsure +=
+        says_so(take(price_methods(*s.scene, options, {s.layout.full, 2, 2}, {0, seed}), rules));
+  CHECK(unsure > 2);
+  for (const MethodPrices& p : known) CHECK(!says_so(take(p, rules)));
+}
