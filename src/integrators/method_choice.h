@@ -8,7 +8,6 @@
 #include "integrators/integrator.h"
 #include "integrators/method_prediction.h"
 #include "integrators/method_rules.h"
-#include "scene/description_integrators.h"
 
 namespace duet {
 

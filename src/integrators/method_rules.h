@@ -3,6 +3,7 @@
 
 #include <string>
 
+#include "scene/description_integrators.h"
 #include "scene/features.h"
 
 namespace duet {
