@@ -260,7 +260,7 @@ TEST_SUITE("program") {
     // Behind the camera, but for the last.
     for (int i = 0; i < 2100; ++i)
       s.extra +=
-          "<shape type=\"sphere\"><point name=\"center\" z=\"9\"/><float name=\"radius\" "
+          "<shape type=\"sphere\"><point name=\"center\" value=\"0,0,9\"/><float name=\"radius\" "
           "value=\"0.01\"/></shape>";
     s.extra += "<shape type=\"sphere\"><float name=\"radius\" value=\"0.5\"/></shape>";
     place.scene("many.xml", s);

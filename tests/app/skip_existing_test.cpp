@@ -122,11 +122,11 @@ TEST_SUITE("program") {
     place.scene("endless.xml", endless_scene());
     const Texts arguments{"endless.xml", "--time", "2s", "--keep-partial-name", "-v"};
     Process duet(arguments, {.directory = place.path("")});
-    REQUIRE(duet.wait_for_message("built in", 60));
+    REQUIRE(duet.wait_for_message("built in", 300));
     duet.send(SIGUSR1);
-    REQUIRE(Process::wait_until([&] { return place.has("endless.exr"); }, 60));
+    REQUIRE(Process::wait_until([&] { return place.has("endless.exr"); }, 300));
     duet.send(SIGKILL);
-    duet.wait(60);
+    duet.wait(300);
     const Outcome o = place.run(arguments + Texts{"-x"});
     CAPTURE(o.err);
     CHECK(contains(o.err, "endless.exr is rendered again: its render was interrupted"));
