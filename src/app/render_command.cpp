@@ -2,7 +2,6 @@
 #include <CLI/CLI.hpp>
 
 #include "app/commands.h"
-#include "app/provenance.h"
 #include "app/render_options.h"
 #include "app/render_scene.h"
 #include "app/signals.h"
@@ -81,7 +80,7 @@ class RenderCommand {
       log::error("{}: {}", file, e.what());
     }
     ++failed_;
-    statistics_.add_failure(host_free(file), messages.lines(), false);
+    statistics_.add_failure(file, messages.lines(), false);
   }
 
   RenderOptions options_;

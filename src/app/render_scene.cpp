@@ -6,7 +6,6 @@
 
 #include "app/commands.h"
 #include "app/film_layout.h"
-#include "app/provenance.h"
 #include "app/scene_images.h"
 #include "app/signals.h"
 #include "base/log.h"
@@ -243,8 +242,7 @@ class SceneRenderer {
   /// After an interrupt that came before every pixel had a sample: no file is replaced.
   RenderOutcome give_up() {
     log::warning("{}: interrupted before every pixel had a sample; no image is written", file_);
-    statistics_.add_failure(host_free(file_), {"interrupted before every pixel had a sample"},
-                            true);
+    statistics_.add_failure(file_, {"interrupted before every pixel had a sample"}, true);
     return RenderOutcome::done;
   }
 
