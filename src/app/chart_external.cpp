@@ -39,7 +39,7 @@ Run run(const std::string& command, double limit, const std::atomic<bool>& cance
   if (child == 0) {
     setpgid(0, 0);
     dup2(STDERR_FILENO, STDOUT_FILENO);
-    for (const int s : {SIGINT, SIGTERM, SIGXFSZ}) signal(s, SIG_DFL);
+    for (const int s : {SIGINT, SIGTERM, SIGXFSZ, SIGPIPE}) signal(s, SIG_DFL);
     execl("/bin/sh", "sh", "-c", command.c_str(), static_cast<char*>(nullptr));
     _exit(127);
   }

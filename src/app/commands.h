@@ -18,8 +18,7 @@ enum ExitCode : int {
   kSceneFailed = 1,
   kWrongUsage = 2,
   kThresholdMissed = 3,
-  kInterrupted = 130,
-  kTerminated = 143,
+  kTargetMissed = 4,
 };
 
 /// The command line asks for something that does not exist: exit code 2.

@@ -1,10 +1,9 @@
 #include "app/header.h"
 
 #include <cmath>
-#include <fstream>
 
 #include "app/commands.h"
-#include "math/hash.h"
+#include "app/provenance.h"
 
 namespace duet {
 
@@ -40,23 +39,15 @@ Matrix4 camera_to_ndc(const SensorDescription& view, Point2i size) {
 
 }  // namespace
 
-uint64_t hash_file(const std::string& path) {
-  std::ifstream in(path, std::ios::binary);
-  uint64_t hash = 0;
-  for (char c; in.get(c);) hash = hash_combine(hash, uint8_t(c));
-  return hash;
-}
-
-std::vector<std::pair<std::string, HeaderValue>> image_header(const RenderRecord& record,
-                                                              const RenderResult& result,
-                                                              const SensorDescription& view,
-                                                              Point2i full_size) {
-  std::vector<std::pair<std::string, HeaderValue>> fields{
+HeaderFields image_header(const RenderRecord& record, const RenderResult& result,
+                          const SensorDescription& view, Point2i full_size) {
+  HeaderFields fields{
       {"program", "Duet"},
       {"version", DUET_VERSION},
       {"commandLine", command_line},
-      {"scene", record.scene_file},
-      {"sceneHash", fmt::format("{:016x}", record.scene_hash)},
+      {"date", image_date()},
+      {"scene", host_free(record.scene_file)},
+      {"sceneHash", record.scene_hash},
       {"integrator", record.integrator},
       {"integratorParameters", record.integrator_parameters},
       {"sampler", record.sampler},
@@ -64,8 +55,13 @@ std::vector<std::pair<std::string, HeaderValue>> image_header(const RenderRecord
       {"lightSubpaths", fmt::to_string(result.counters.light_paths)},
       {"seed", fmt::to_string(record.seed)},
       {"threads", record.threads},
-      {"renderSeconds", float(result.seconds)},
   };
+  if (!is_reproducible()) fields.emplace_back("renderSeconds", float(result.seconds));
+  if (result.interrupted) fields.emplace_back("interrupted", 1);
+  const RenderBudget& requested = record.requested;
+  if (requested.spp) fields.emplace_back("requestedSpp", *requested.spp);
+  if (requested.seconds) fields.emplace_back("requestedSeconds", float(*requested.seconds));
+  if (requested.target_error) fields.emplace_back("requestedError", float(*requested.target_error));
   if (record.decision) {
     fields.emplace_back("chosenIntegrator", record.decision->method);
     fields.emplace_back("chosenParameters", record.decision->parameters);
@@ -86,6 +82,20 @@ std::vector<std::pair<std::string, HeaderValue>> image_header(const RenderRecord
       fields.emplace_back("worldToNDC", exr_matrix(camera_to_ndc(view, full_size) * camera));
   }
   return fields;
+}
+
+TextFields header_texts(const HeaderFields& fields) {
+  struct Text {
+    std::string operator()(const std::string& v) const { return v; }
+    std::string operator()(float v) const { return fmt::to_string(v); }
+    std::string operator()(int v) const { return fmt::to_string(v); }
+    std::string operator()(const std::array<float, 16>&) const { return ""; }
+  };
+  TextFields texts;
+  for (const auto& [name, value] : fields)
+    if (std::string text = std::visit(Text{}, value); !text.empty())
+      texts.emplace_back(name, std::move(text));
+  return texts;
 }
 
 }  // namespace duet

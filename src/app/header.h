@@ -15,7 +15,7 @@ namespace duet {
 /// All facts about one finished render.
 struct RenderRecord {
   std::string scene_file;
-  uint64_t scene_hash = 0;
+  std::string scene_hash;
   std::string bias;  ///< what is known to be wrong with the method, or ""
   std::string integrator, integrator_parameters;
   std::optional<MethodDecision> decision;  ///< if the method has chosen another
@@ -23,17 +23,19 @@ struct RenderRecord {
   std::string sampler;
   uint64_t seed = 0;
   int threads = 1;
+  RenderBudget requested;
 };
 
-/// Fields of the EXR header. `view` gives the matrices from the world to the camera and to the
-/// image, in OpenEXR's convention: row vectors; the camera has x to the right, y up and z into the
-/// scene, the image is the unit square with y downwards.
-std::vector<std::pair<std::string, HeaderValue>> image_header(const RenderRecord& record,
-                                                              const RenderResult& result,
-                                                              const SensorDescription& view,
-                                                              Point2i full_size);
+using HeaderFields = std::vector<std::pair<std::string, HeaderValue>>;
 
-/// A 64-bit fingerprint of a file's bytes; 0 if it cannot be read.
-uint64_t hash_file(const std::string& path);
+/// What an image says about itself: nothing of the machine or the user (provenance.h), and with
+/// SOURCE_DATE_EPOCH nothing that differs from run to run. `view` gives the matrices from the world
+/// to the camera and to the image, in OpenEXR's convention: row vectors; the camera has x to the
+/// right, y up and z into the scene, the image is the unit square with y downwards.
+HeaderFields image_header(const RenderRecord& record, const RenderResult& result,
+                          const SensorDescription& view, Point2i full_size);
+
+/// The same for files that hold texts only: numbers as texts, no matrices.
+TextFields header_texts(const HeaderFields& fields);
 
 }  // namespace duet

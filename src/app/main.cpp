@@ -12,6 +12,8 @@
 
 #include "app/arguments.h"
 #include "app/commands.h"
+#include "app/provenance.h"
+#include "app/standard_streams.h"
 #include "base/diagnostics.h"
 #include "base/log.h"
 
@@ -52,7 +54,7 @@ int after_output(int exit_code) {
 }
 
 int run(std::vector<std::string> arguments) {
-  command_line = "duet " + shell_quoted(arguments);
+  command_line = "duet " + shell_quoted(host_free(arguments));
   CLI::App app{
       "Duet renders the Mitsuba scenes you already have and says how accurate the images are.",
       "duet"};
@@ -95,5 +97,12 @@ int run(std::vector<std::string> arguments) {
 }  // namespace duet
 
 int main(int argc, char** argv) {
-  return duet::run({argv + 1, argv + argc});
+  duet::open_standard_streams();
+  try {
+    return duet::run({argv + 1, argv + argc});
+  } catch (...) {
+    // What went wrong where even a message fails.
+    std::fputs("duet: error: out of memory\n", stderr);
+    return duet::kSceneFailed;
+  }
 }

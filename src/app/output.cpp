@@ -4,6 +4,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <filesystem>
 #include <stdexcept>
@@ -170,14 +171,19 @@ void write_image(const std::string& path, const Image& image, PixelFormat format
     if (!is_display_format(to)) return write_exr(to, in_pixel_format(image, format), exr);
     const bool with_alpha = has_alpha(format) && extension_of(to) == ".png";
     const DisplayImage shown = to_display(image, display, is_grey(format), with_alpha);
-    write_display_image(to, image.width, image.height, shown.channels, shown.bytes);
+    write_display_image(to, image.width, image.height, shown.channels, shown.bytes, display.fields);
   };
   try {
     write(path);
   } catch (const std::exception& failure) {
+    std::error_code ignored;
+    fs::path folder = fs::temp_directory_path(ignored);
+    if (folder.empty()) folder = "/tmp";
+    // Scenes of one call may have the same name.
+    static std::atomic<int> counter = 0;
     const std::string rescue =
-        (fs::temp_directory_path() /
-         fmt::format("duet-{}-{}.exr", fs::path(path).stem().string(), getpid()))
+        (folder /
+         fmt::format("duet-{}-{}-{}.exr", fs::path(path).stem().string(), getpid(), counter++))
             .string();
     std::string outcome;
     try {

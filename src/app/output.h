@@ -38,6 +38,7 @@ Image in_pixel_format(const Image& image, PixelFormat format);
 struct DisplayOptions {
   double exposure = 0;  ///< stops, on top of what the scene's film says
   std::optional<ToneMapping> tone_mapping;
+  TextFields fields = {};  ///< what the file says about the image
 };
 
 /// Bytes for a display, channels interleaved.

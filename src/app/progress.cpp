@@ -5,6 +5,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 
 #include "base/log.h"
@@ -28,7 +29,9 @@ int terminal_width() {
 }
 
 std::string describe(const RenderProgress& p) {
-  std::string text = fmt::format("{} spp, {}", p.spp, format_seconds(p.seconds));
+  // What is shown is there: rounded down.
+  const double spp = p.spp < 10 ? std::floor(10 * p.spp) / 10 : std::floor(p.spp);
+  std::string text = fmt::format("{} spp, {}", spp, format_seconds(p.seconds));
   if (p.seconds > 0) text += fmt::format(", {:.2f} Msamples/s", p.samples / p.seconds * 1e-6);
   if (p.relative_rmse) text += fmt::format(", error {:.2g} %", 100 * *p.relative_rmse);
   if (p.fraction > 0.001)

@@ -19,23 +19,24 @@ class RenderCommand {
       : options_(std::move(options)), statistics_(options_.stats_file) {}
 
   int run() {
+    install_signal_handlers();
     set_up_log();
     check_defines(options_.read);
-    install_signal_handlers();
     for (const std::string& file : options_.read.scenes) {
       if (interrupt_exit_code() != 0) break;
       if (failed_ > 0 && !options_.keep_going) break;
       render(file);
       ++tried_;
     }
-    if (!options_.stats_file.empty()) statistics_.write(options_.read.scenes.size() > 1);
     const size_t scenes = options_.read.scenes.size();
+    const bool has_statistics = write_statistics(scenes > 1);
     if (tried_ < scenes) log::warning("{} of {} scenes were not tried", scenes - tried_, scenes);
     if (failed_ > 0 && scenes > 1) log::error("{} of {} scenes failed", failed_, scenes);
     if (const int code = interrupt_exit_code()) return code;
     // What no scene has is asked for by mistake; what some have not is missing there.
     if (failed_ > 0 && misused_ == scenes) return kWrongUsage;
-    return failed_ > 0 ? kSceneFailed : kSuccess;
+    if (failed_ > 0 || !has_statistics) return kSceneFailed;
+    return options_.require_target && missed_ > 0 ? kTargetMissed : kSuccess;
   }
 
  private:
@@ -51,9 +52,23 @@ class RenderCommand {
     }
   }
 
-  void render(const std::string& file) {
+  /// Whether the statistics are where they should be.
+  bool write_statistics(bool several) const {
+    if (options_.stats_file.empty()) return true;
     try {
-      return render_scene(file, options_, statistics_);
+      statistics_.write(several);
+      return true;
+    } catch (const std::exception& e) {
+      log::error("--stats: {}", e.what());
+      return false;
+    }
+  }
+
+  void render(const std::string& file) {
+    const log::Recording messages;
+    try {
+      missed_ += render_scene(file, options_, statistics_) == RenderOutcome::target_missed;
+      return;
     } catch (const UsageError& e) {
       log::error("{}: {}", file, e.what());
       ++misused_;
@@ -65,11 +80,13 @@ class RenderCommand {
       log::error("{}: {}", file, e.what());
     }
     ++failed_;
+    statistics_.add_failure(file, messages.lines(), false);
   }
 
   RenderOptions options_;
   StatisticsFile statistics_;
   size_t tried_ = 0, failed_ = 0;
+  size_t missed_ = 0;   ///< whose error is above --target-error
   size_t misused_ = 0;  ///< of the failed: the command line did not fit the scene
 };
 
@@ -86,7 +103,11 @@ void add_render_command(CLI::App& app, int& exit_code) {
       "  duet room.xml --target-error 1% -v        until the estimated error is below 1 %\n"
       "  duet room.xml -i path -I max_depth=4 --aov albedo,normal --crop 100,100,64,64\n"
       "Exit codes: 0 all rendered; 1 a scene failed, the others were rendered; 2 wrong usage;\n"
-      "130 or 143 interrupted by Ctrl-C or SIGTERM, image written.");
+      "4 --target-error was not met and --require-target was given; 129, 130 or 143 interrupted "
+      "by\n"
+      "SIGHUP, Ctrl-C or SIGTERM: the samples so far are in SCENE.partial.exr, if every pixel has "
+      "one.\n"
+      "SIGUSR1 writes that file and goes on.");
   c->callback([parser, &exit_code] { exit_code = RenderCommand(parser->finish()).run(); });
 }
 

@@ -68,7 +68,12 @@ RenderOptionParser::RenderOptionParser(CLI::App& c) {
   c.add_option("--exposure", exposure_, "Exposure of .png and .jpg, in stops");
   c.add_flag("--strict-sampler", o.strict_sampler,
              "The sampler that the scene names, instead of Duet's Sobol' points");
-  c.add_flag("-x,--skip-existing", o.skip_existing, "Leave out scenes whose images exist");
+  c.add_flag("-x,--skip-existing", o.skip_existing,
+             "Leave out scenes whose images exist, complete and made with the same settings");
+  c.add_flag("--keep-partial-name", o.keep_partial_name,
+             "After an interrupt write NAME.exr, not NAME.partial.exr");
+  c.add_flag("--require-target", o.require_target,
+             "Exit with 4 if --target-error is not met when time or samples are used up");
   c.add_flag("--keep-going,!--no-keep-going", o.keep_going,
              "After a scene that fails, render the others (default)");
   CLI::Option* quiet = c.add_flag("-q,--quiet", o.quiet, "Errors and warnings only");
@@ -149,6 +154,8 @@ RenderOptions RenderOptionParser::finish() {
                : progress_ == "plain" ? ProgressStyle::plain
                : progress_ == "none"  ? ProgressStyle::none
                                       : ProgressStyle::automatic;
+  if (o.require_target && !o.budget.target_error)
+    throw UsageError("--require-target: there is no --target-error");
   check_outputs();
   if (!o.stats_file.empty())
     if (const std::string why = unwritable_reason(o.stats_file); !why.empty())

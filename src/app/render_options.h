@@ -20,6 +20,7 @@ struct RenderOptions {
   std::vector<std::string> outputs;
   double exposure = 0;
   bool skip_existing = false, keep_going = true;
+  bool keep_partial_name = false, require_target = false;
 
   IntegratorOverride integrator;
   RenderBudget budget;

@@ -4,11 +4,10 @@
 
 #include <algorithm>
 #include <chrono>
-#include <filesystem>
 
 #include "app/commands.h"
 #include "app/film_layout.h"
-#include "app/output.h"
+#include "app/scene_images.h"
 #include "app/signals.h"
 #include "base/log.h"
 #include "scene/build.h"
@@ -37,7 +36,8 @@ void check_memory(const FilmLayout& layout, const Integrator& integrator,
                   const RenderBudget& budget) {
   const size_t channels = integrator.channels().size();
   const double pixels = double(layout.crop.width()) * layout.crop.height();
-  const double films = budget.target_error ? kErrorBatches : 1;
+  // Their mean is one more.
+  const double films = budget.target_error ? kErrorBatches + 1 : 1;
   const double bytes = pixels * films * double((channels + 1) * sizeof(double)) +
                        pixels * (films + 1) * double(channels * sizeof(float)) +
                        integrator.memory_bytes(layout);
@@ -61,29 +61,27 @@ class SceneRenderer {
   SceneRenderer(const std::string& file, const RenderOptions& options, StatisticsFile& statistics)
       : file_(file), options_(options), statistics_(statistics) {}
 
-  void run() {
+  RenderOutcome run() {
     read();
     prepare();
-    const std::vector<std::string> planned = paths(planned_spp_);
-    if (options_.skip_existing && all_exist(planned)) {
-      log::info("{}: skipped, {} exists", file_, planned[0]);
-      return;
+    if (options_.skip_existing && images_->are_finished()) {
+      log::info("{}: skipped, {} exists", file_, images_->planned()[0]);
+      return RenderOutcome::done;
     }
-    check_outputs(planned);
+    check_outputs(images_->planned());
     build();
-    if (interrupt_exit_code() != 0) {
-      log::warning("{}: interrupted before the first sample; there is no image", file_);
-      return;
-    }
+    if (interrupt_exit_code() != 0) return give_up();
     decide();
     record_.noise_only = integrator_->blurs() || !record_.bias.empty();
     check_memory(layout_, *integrator_, request_.budget);
     const RenderResult result = render_with_progress();
+    if (result.spp == 0) return give_up();
     seconds_.render = watch_.lap();
-    write(result);
+    const std::vector<std::string> written = write(result);
     seconds_.write = watch_.lap();
+    summarize(result, written);
     statistics_.add(record_, result, seconds_, count(*scene_));
-    summarize(result);
+    return target_outcome(result);
   }
 
  private:
@@ -91,6 +89,8 @@ class SceneRenderer {
     auto loaded = load_scene(file_, options_.read);
     if (!loaded) throw SceneFailure("");
     description_ = std::move(loaded->description);
+    settings_ = loaded->files.fingerprint();
+    for (const auto& [name, value] : loaded->parameters) settings_.add(name), settings_.add(value);
     seconds_.parse = watch_.lap();
     if (log::level() == log::Level::verbose)
       log::detail("{}: {}", file_, describe(scene_features(description_)));
@@ -124,12 +124,35 @@ class SceneRenderer {
     planned_spp_ = request_.budget.spp.value_or(sensor.sampler.sample_count);
 
     record_.scene_file = file_;
-    record_.scene_hash = hash_file(file_);
+    Fingerprint scene;
+    scene.add_file(file_);
+    record_.scene_hash = scene.text();
     record_.integrator = integrator_name(description_.integrator);
     record_.integrator_parameters = integrator_parameters(description_.integrator);
     record_.sampler = request_.sequence == SampleSequence::sobol ? "sobol" : "independent";
     record_.seed = request_.seed;
     record_.threads = request_.threads;
+    record_.requested = request_.budget;
+    add_settings();
+    OutputNames names = output_names(file_);
+    names.integrator = record_.integrator;
+    names.seed = fmt::to_string(record_.seed);
+    images_.emplace(options_, file_, names, settings_, planned_spp_);
+  }
+
+  /// All that decides the image besides the files and the parameters of the scene.
+  void add_settings() {
+    const RenderBudget& budget = request_.budget;
+    const PixelBounds& crop = layout_.crop;
+    settings_.add(fmt::format("{} {}, sensor {}, techniques {}", record_.integrator,
+                              record_.integrator_parameters, options_.sensor,
+                              int(options_.techniques)));
+    for (const std::string& channel : integrator_->channels()) settings_.add(channel);
+    settings_.add(fmt::format("{} spp, {} s, error {}", budget.spp.value_or(0),
+                              budget.seconds.value_or(0), budget.target_error.value_or(0)));
+    settings_.add(fmt::format("{} seed {}", record_.sampler, record_.seed));
+    settings_.add(fmt::format("{} {} {} {} {} {} {}", layout_.full.x, layout_.full.y, crop.x0,
+                              crop.y0, crop.x1, crop.y1, layout_.ends_at_crop));
   }
 
   void make_request(const SamplerDescription& sampler) {
@@ -155,26 +178,6 @@ class SceneRenderer {
   void warn(const std::string& text) const {
     if (options_.read.strict) throw SceneFailure(text + " (an error because of --strict)");
     log::warning("{}: {}", file_, text);
-  }
-
-  /// The images' names if they have this many samples.
-  std::vector<std::string> paths(int spp) const {
-    OutputNames names = output_names(file_);
-    names.integrator = record_.integrator;
-    names.spp = fmt::to_string(spp);
-    names.seed = fmt::to_string(record_.seed);
-    std::vector<std::string> result;
-    for (const std::string& pattern : options_.outputs)
-      result.push_back(output_path(pattern, names));
-    if (result.empty()) result.push_back(output_path("", names));
-    return result;
-  }
-
-  static bool all_exist(const std::vector<std::string>& paths) {
-    std::error_code ignored;
-    for (const std::string& p : paths)
-      if (!std::filesystem::exists(p, ignored)) return false;
-    return true;
   }
 
   /// Finds out before rendering what would be a pity to find out afterwards.
@@ -220,28 +223,38 @@ class SceneRenderer {
   RenderResult render_with_progress() {
     ProgressDisplay display(options_.progress, file_);
     request_.progress = [&](const RenderProgress& p) { display.show(p); };
+    request_.wants_snapshot = take_snapshot_request;
+    request_.snapshot = [&](const RenderResult& so_far) { write_snapshot(so_far); };
     return render(*scene_, *integrator_, layout_, request_);
   }
 
-  void write(const RenderResult& result) const {
-    ExrOptions exr;
-    exr.half = view_.film.component_format == ComponentFormat::half;
-    exr.origin = {layout_.crop.x0, layout_.crop.y0};
-    exr.full_size = layout_.full;
-    exr.header = image_header(record_, result, view_, layout_.full);
-    const DisplayOptions display{options_.exposure, view_.film.tone_mapping};
-    std::string failures;
-    for (const std::string& path : paths(result.spp)) {
-      try {
-        write_image(path, result.image, view_.film.pixel_format, exr, display);
-      } catch (const std::exception& e) {
-        failures += (failures.empty() ? "" : "; ") + std::string(e.what());
-      }
+  /// The image so far, for someone who is waiting: it is not finished, and if it cannot be written
+  /// the render goes on nevertheless.
+  void write_snapshot(RenderResult so_far) {
+    so_far.interrupted = true;
+    try {
+      for (const std::string& path : write(so_far))
+        log::info("{}: {} spp so far -> {}", file_, so_far.spp, path);
+    } catch (const std::exception& e) {
+      log::warning("{}: {}", file_, e.what());
     }
-    if (!failures.empty()) throw SceneFailure(failures);
   }
 
-  void summarize(const RenderResult& r) const {
+  std::vector<std::string> write(const RenderResult& result) {
+    const ImageForm form{layout_, view_.film.pixel_format,
+                         view_.film.component_format == ComponentFormat::half,
+                         integrator_->data_channels(), view_.film.tone_mapping};
+    return images_->write(result, form, image_header(record_, result, view_, layout_.full));
+  }
+
+  /// After an interrupt that came before every pixel had a sample: no file is replaced.
+  RenderOutcome give_up() {
+    log::warning("{}: interrupted before every pixel had a sample; no image is written", file_);
+    statistics_.add_failure(file_, {"interrupted before every pixel had a sample"}, true);
+    return RenderOutcome::done;
+  }
+
+  void summarize(const RenderResult& r, const std::vector<std::string>& written) const {
     std::string text =
         fmt::format("{}: {}{} spp in {}", file_, r.interrupted ? "interrupted, " : "", r.spp,
                     format_seconds(r.seconds));
@@ -249,13 +262,28 @@ class SceneRenderer {
       text += fmt::format(", relative standard error {}{:.2g} %{}",
                           r.rmse_is_upper_bound ? "below " : "", 100 * *r.relative_rmse,
                           record_.noise_only ? " (noise only)" : "");
-    for (const std::string& p : paths(r.spp)) text += " -> " + p;
+    for (const std::string& p : written) text += " -> " + p;
     log::info("{}", text);
-    if (request_.budget.target_error && !r.relative_rmse && !r.interrupted)
-      warn("the image is black: there is no relative error for --target-error");
     if (r.counters.nonfinite_samples > 0)
       warn(fmt::format("{} of {} samples were not finite and count as black",
                        r.counters.nonfinite_samples, r.counters.camera_paths));
+  }
+
+  /// Says so if the error that was asked for has not been reached.
+  RenderOutcome target_outcome(const RenderResult& r) const {
+    if (!request_.budget.target_error || target_met(record_, r)) return RenderOutcome::done;
+    if (!r.relative_rmse)
+      log::warning("{}: --target-error {:.3g} %: {}", file_, 100 * *request_.budget.target_error,
+                   r.interrupted ? "interrupted before the error was known"
+                                 : "the error is not known, or the image is black");
+    else
+      log::warning("{}: --target-error {:.3g} % is not met: the estimate is {:.3g} %, and {}",
+                   file_, 100 * *request_.budget.target_error, 100 * *r.relative_rmse,
+                   r.interrupted ? "the render was interrupted"
+                   : request_.budget.spp && r.spp >= *request_.budget.spp
+                       ? "the samples of --spp are used up"
+                       : "the time is used up");
+    return RenderOutcome::target_missed;
   }
 
   const std::string& file_;
@@ -269,15 +297,17 @@ class SceneRenderer {
   RenderRequest request_;
   RenderRecord record_;
   int planned_spp_ = 0;
+  Fingerprint settings_;
+  std::optional<SceneImages> images_;
   std::unique_ptr<Integrator> integrator_;
   std::unique_ptr<Scene> scene_;
 };
 
 }  // namespace
 
-void render_scene(const std::string& file, const RenderOptions& options,
-                  StatisticsFile& statistics) {
-  SceneRenderer(file, options, statistics).run();
+RenderOutcome render_scene(const std::string& file, const RenderOptions& options,
+                           StatisticsFile& statistics) {
+  return SceneRenderer(file, options, statistics).run();
 }
 
 }  // namespace duet

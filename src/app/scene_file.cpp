@@ -73,13 +73,16 @@ bool report(const Diagnostics& diagnostics, bool strict) {
 
 std::optional<LoadedScene> load_scene(const std::string& file, const ReadOptions& options) {
   Diagnostics diagnostics;
-  auto scene = read_mitsuba(file, mitsuba_options(options), diagnostics);
+  InputFiles files;
+  MitsubaOptions mitsuba = mitsuba_options(options);
+  mitsuba.files = files.watch(std::move(mitsuba.files));
+  auto scene = read_mitsuba(file, mitsuba, diagnostics);
   if (report(diagnostics, options.strict) || !scene) {
     if (options.strict && !diagnostics.has_errors())
       log::error("{}: warnings are errors because of --strict", file);
     return std::nullopt;
   }
-  return LoadedScene{std::move(scene->description), std::move(scene->parameters)};
+  return LoadedScene{std::move(scene->description), std::move(scene->parameters), std::move(files)};
 }
 
 }  // namespace duet

@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "app/input_files.h"
 #include "scene/description.h"
 
 namespace CLI {
@@ -33,6 +34,7 @@ struct LoadedScene {
   SceneDescription description;
   /// The scene's `$name` parameters and the values they got.
   std::vector<std::pair<std::string, std::string>> parameters;
+  InputFiles files;
 };
 
 /// Prints the messages; returns whether there is an error among them (or, if strict, a warning).

@@ -3,35 +3,58 @@
 #include <unistd.h>
 
 #include <csignal>
+#include <string_view>
 
 namespace duet {
 
 namespace {
 
-std::atomic<bool> interrupted{false};
-volatile std::sig_atomic_t received = 0;
+// Handlers may use nothing but atomics without locks and async-signal-safe functions.
+static_assert(std::atomic<bool>::is_always_lock_free && std::atomic<int>::is_always_lock_free);
+std::atomic<bool> interrupted{false}, snapshot_wanted{false};
+std::atomic<int> received{0};
 
-extern "C" void on_signal(int signal) {
-  if (received != 0) _exit(128 + signal);
-  received = signal;
+extern "C" void on_stop(int signal) {
+  if (received.exchange(signal) != 0) _exit(128 + signal);
   interrupted.store(true);
+  constexpr std::string_view text = "duet: stopping; a second signal ends the program at once\n";
+  // Where nobody reads there is nothing to do about it.
+  [[maybe_unused]] const ssize_t written = ::write(STDERR_FILENO, text.data(), text.size());
+}
+
+extern "C" void on_snapshot(int) {
+  snapshot_wanted.store(true);
+}
+
+void handle(int signal, void (*handler)(int)) {
+  struct sigaction action {};
+  action.sa_handler = handler;
+  action.sa_flags = SA_RESTART;
+  sigemptyset(&action.sa_mask);
+  sigaction(signal, &action, nullptr);
 }
 
 }  // namespace
 
 void install_signal_handlers() {
-  // Who started the program in the background may have chosen to ignore Ctrl-C.
-  for (const int signal : {SIGINT, SIGTERM})
-    if (std::signal(signal, SIG_IGN) != SIG_IGN) std::signal(signal, on_signal);
-  // A file that gets larger than the shell's limit is a failed write, not the end of the program.
-  std::signal(SIGXFSZ, SIG_IGN);
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
+    // Who started the program may have chosen to ignore it: a shell in the background, nohup.
+    struct sigaction now {};
+    if (sigaction(signal, nullptr, &now) == 0 && now.sa_handler != SIG_IGN) handle(signal, on_stop);
+  }
+  handle(SIGUSR1, on_snapshot);
+  for (const int signal : {SIGXFSZ, SIGPIPE}) handle(signal, SIG_IGN);
 }
 
 const std::atomic<bool>& interrupt_flag() {
   return interrupted;
 }
 int interrupt_exit_code() {
-  return received == 0 ? 0 : 128 + received;
+  const int signal = received.load();
+  return signal == 0 ? 0 : 128 + signal;
+}
+bool take_snapshot_request() {
+  return snapshot_wanted.exchange(false);
 }
 
 }  // namespace duet

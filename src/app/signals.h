@@ -1,15 +1,19 @@
-// Ctrl-C and SIGTERM: the first asks for the image as it is, the second ends the program.
+// Signals: the first that asks to stop gets the image as it is, the second ends the program at
+// once; SIGUSR1 gets the image as it is and goes on.
 #pragma once
 
 #include <atomic>
 
 namespace duet {
 
-/// Takes over SIGINT and SIGTERM, and makes writes beyond a size limit fail rather than kill.
+/// Takes over SIGINT, SIGTERM and SIGHUP unless they are ignored (as nohup does it), and SIGUSR1.
+/// Writes beyond a size limit, or to a terminal or pipe that has gone, fail rather than kill.
 void install_signal_handlers();
-/// Becomes true at the first signal.
+/// Becomes true at the first signal to stop.
 const std::atomic<bool>& interrupt_flag();
-/// 0, or the exit code for the signal that arrived (130 or 143).
+/// 0, or the exit code for the signal that arrived (129, 130 or 143).
 int interrupt_exit_code();
+/// Whether SIGUSR1 has arrived since the last call.
+bool take_snapshot_request();
 
 }  // namespace duet

@@ -16,7 +16,17 @@ uint64_t memory_peak_bytes() {
   return uint64_t(usage.ru_maxrss) * 1024;
 }
 
+/// Names of files need not be UTF-8, which JSON is.
+std::string text(const nlohmann::ordered_json& j) {
+  return j.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
+}
+
 }  // namespace
+
+bool target_met(const RenderRecord& record, const RenderResult& result) {
+  const std::optional<double>& target = record.requested.target_error;
+  return target && result.relative_rmse && *result.relative_rmse <= *target;
+}
 
 void StatisticsFile::add(const RenderRecord& record, const RenderResult& result,
                          const PhaseSeconds& seconds, const SceneCounts& counts) {
@@ -58,11 +68,25 @@ void StatisticsFile::add(const RenderRecord& record, const RenderResult& result,
   j["error"]["relative_rmse_estimate"] = error;  // its older name
   j["error"]["is_upper_bound"] = result.rmse_is_upper_bound;
   j["error"]["noise_only"] = record.noise_only;
+  if (record.requested.target_error) {
+    j["error"]["target"] = *record.requested.target_error;
+    j["error"]["target_met"] = target_met(record, result);
+  }
   j["emitters"] = counts.emitters;
   j["triangles"] = counts.triangles;
   j["instances"] = counts.instances;
   j["interrupted"] = result.interrupted;
-  entries_.push_back(j.dump(2));
+  entries_.push_back(text(j));
+}
+
+void StatisticsFile::add_failure(const std::string& scene, const std::vector<std::string>& messages,
+                                 bool interrupted) {
+  nlohmann::ordered_json j;
+  j["scene"] = scene;
+  j["failed"] = true;
+  j["messages"] = messages;
+  j["interrupted"] = interrupted;
+  entries_.push_back(text(j));
 }
 
 void StatisticsFile::write(bool several) const {

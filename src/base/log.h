@@ -5,6 +5,7 @@
 
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace duet::log {
 
@@ -12,11 +13,14 @@ enum class Level { quiet, normal, verbose };
 
 void set_level(Level level);
 Level level();
-/// Messages of every level also go to this file. Throws std::runtime_error if it cannot be written.
+/// Messages of every level also go to this file. Throws std::runtime_error if it cannot be opened.
+/// If it cannot be written later on (the disk is full), a warning says so once and the program goes
+/// on without it.
 void open_file(const std::string& path);
 
-/// Writes a line as it is. Errors and warnings are shown at every level.
-void write(Level needed, std::string_view line);
+/// Writes a line as it is. Errors and warnings are shown at every level. Never throws: a message
+/// that cannot be written is no reason to stop.
+void write(Level needed, std::string_view line) noexcept;
 
 template <class... Args>
 void error(fmt::format_string<Args...> text, Args&&... args) {
@@ -34,6 +38,16 @@ template <class... Args>
 void detail(fmt::format_string<Args...> text, Args&&... args) {
   write(Level::verbose, fmt::format(text, std::forward<Args>(args)...));
 }
+
+/// Keeps the errors and warnings that are written while it exists. One at a time.
+class Recording {
+ public:
+  Recording();
+  ~Recording();
+  Recording(const Recording&) = delete;
+  Recording& operator=(const Recording&) = delete;
+  std::vector<std::string> lines() const;
+};
 
 /// Something is about to be written; whoever draws a progress bar removes it first.
 void set_before_write(void (*hook)());

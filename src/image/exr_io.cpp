@@ -8,6 +8,7 @@
 #include <OpenEXR/ImfFrameBuffer.h>
 #include <OpenEXR/ImfHeader.h>
 #include <OpenEXR/ImfIO.h>
+#include <OpenEXR/ImfInputFile.h>
 #include <OpenEXR/ImfInputPart.h>
 #include <OpenEXR/ImfIntAttribute.h>
 #include <OpenEXR/ImfMatrixAttribute.h>
@@ -86,7 +87,8 @@ std::vector<std::string> ordered_channels(const Imf::Header& header) {
   return names;
 }
 
-void read_attributes(const Imf::Header& header, ImageFile& file) {
+std::vector<std::pair<std::string, std::string>> read_attributes(const Imf::Header& header) {
+  std::vector<std::pair<std::string, std::string>> fields;
   for (auto a = header.begin(); a != header.end(); ++a) {
     const Imf::Attribute& value = a.attribute();
     std::string text;
@@ -104,8 +106,9 @@ void read_attributes(const Imf::Header& header, ImageFile& file) {
     } else {
       continue;
     }
-    file.header.emplace_back(a.name(), text);
+    fields.emplace_back(a.name(), text);
   }
+  return fields;
 }
 
 /// Checks what is said of a part before memory is made for it; returns the size of its pixels.
@@ -157,7 +160,7 @@ ImageFile decode_exr(const std::string& path, const std::vector<uint8_t>& bytes)
           window.max.x - window.min.x + 1, window.max.y - window.min.y + 1, names.size()));
 
     ImageFile file;
-    read_attributes(first, file);
+    file.header = read_attributes(first);
     const int width = window.max.x - window.min.x + 1, height = window.max.y - window.min.y + 1;
     file.image = Image(width, height, names);
     file.origin = {window.min.x - display.min.x, window.min.y - display.min.y};
@@ -179,6 +182,28 @@ ImageFile decode_exr(const std::string& path, const std::vector<uint8_t>& bytes)
   } catch (const std::exception& e) {
     throw ReadError(fmt::format("{}: {}", path, e.what()));
   }
+}
+
+ImageFacts exr_facts(const std::string& path) {
+  ImageFacts facts;
+  try {
+    Imf::InputFile input(path.c_str(), 0);
+    facts.fields = read_attributes(input.header());
+    facts.is_complete = input.isComplete();
+    if (!facts.is_complete || input.header().hasTileDescription()) return facts;
+    // The table of where lines are comes before them: whether the last ones are there shows when
+    // they are read.
+    try {
+      const char* data = nullptr;
+      int size = 0;
+      input.rawPixelData(input.header().dataWindow().max.y, data, size);
+    } catch (const std::exception&) {
+      facts.is_complete = false;
+    }
+  } catch (const std::exception& e) {
+    throw ReadError(fmt::format("{}: {}", path, e.what()));
+  }
+  return facts;
 }
 
 // ---- Writing ----------------------------------------------------------------------------------
@@ -216,11 +241,13 @@ std::vector<uint8_t> encode_exr(const Image& image, const ExrOptions& options) {
       {options.origin.x + image.width - 1, options.origin.y + image.height - 1});
   Imf::Header header({{0, 0}, {full.x - 1, full.y - 1}}, window, options.pixel_aspect, {0, 0}, 1,
                      Imf::INCREASING_Y, Imf::ZIP_COMPRESSION);
-  const Imf::PixelType type = options.half ? Imf::HALF : Imf::FLOAT;
+  std::vector<bool> is_half;
   for (const std::string& name : image.channels) {
     if (header.channels().findChannel(name))
       throw std::runtime_error(fmt::format("there are two channels \"{}\"", name));
-    header.channels().insert(name, Imf::Channel(type));
+    const auto& exact = options.full_precision;
+    is_half.push_back(options.half && std::find(exact.begin(), exact.end(), name) == exact.end());
+    header.channels().insert(name, Imf::Channel(is_half.back() ? Imf::HALF : Imf::FLOAT));
   }
   for (const auto& [name, value] : options.header) std::visit(InsertAttribute{header, name}, value);
 
@@ -230,20 +257,21 @@ std::vector<uint8_t> encode_exr(const Image& image, const ExrOptions& options) {
     // Converted and written by blocks of lines: no second image.
     constexpr int kLines = 16;
     const size_t row = size_t(image.width) * channels;
-    const size_t sample = options.half ? sizeof(half) : sizeof(float);
     std::vector<half> halves(options.half ? kLines * row : 0);
     for (int y = 0; y < image.height; y += kLines) {
       const int lines = std::min(kLines, image.height - y);
       const float* source = image.pixel(0, y);
       if (options.half)
         std::transform(source, source + size_t(lines) * row, halves.data(), to_half);
-      const void* base = options.half ? static_cast<const void*>(halves.data()) : source;
       Imf::FrameBuffer buffer;
-      for (size_t c = 0; c < channels; ++c)
+      const auto insert = [&](size_t c, Imf::PixelType type, const auto* base) {
+        constexpr size_t sample = sizeof(*base);
         buffer.insert(image.channels[c],
-                      Imf::Slice::Make(type, static_cast<const char*>(base) + c * sample,
-                                       {window.min.x, window.min.y + y}, image.width, lines,
-                                       channels * sample, row * sample));
+                      Imf::Slice::Make(type, base + c, {window.min.x, window.min.y + y},
+                                       image.width, lines, channels * sample, row * sample));
+      };
+      for (size_t c = 0; c < channels; ++c)
+        is_half[c] ? insert(c, Imf::HALF, halves.data()) : insert(c, Imf::FLOAT, source);
       output.setFrameBuffer(buffer);
       output.writePixels(lines);
     }

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "image/image_facts.h"
 #include "image/image_io.h"
 
 namespace duet {
@@ -13,6 +14,8 @@ namespace duet {
 bool is_exr(const std::vector<uint8_t>& bytes);
 /// Throws ReadError; `path` is for its message.
 ImageFile decode_exr(const std::string& path, const std::vector<uint8_t>& bytes);
+/// The attributes of a file's first part, and whether its last pixels are there. Throws ReadError.
+ImageFacts exr_facts(const std::string& path);
 /// Throws an exception derived from std::exception.
 std::vector<uint8_t> encode_exr(const Image& image, const ExrOptions& options);
 

@@ -65,11 +65,11 @@ FilmTile::FilmTile(const PixelBounds& sampled, const PixelBounds& stored, int ch
       channels_(channels),
       data_(size_t(stored.width()) * stored.height() * (channels + 1)) {}
 
-void FilmTile::add_to_pixel(int x, int y, std::span<const float> values, float count) {
+void FilmTile::add_to_pixel(int x, int y, std::span<const float> values) {
   if (!stored_.contains(x, y)) return;
   double* s = sums(x, y);
-  s[0] += count;
-  for (size_t c = 0; c < values.size(); ++c) s[c + 1] += values[c];
+  *s++ += 1;
+  for (const float v : values) *s++ += double(v);
 }
 
 void FilmTile::add_sample(const ReconstructionFilter& filter, const Point2f& p,
@@ -201,32 +201,35 @@ void Film::add_splats(size_t layer, std::span<const Splat> splats, float scale, 
   });
 }
 
-void Film::average(std::span<Film> films) {
-  Film& first = films[0];
-  const double count = double(films.size());
-  // Sums of `part`, with the scale of its film, take the place of those of the first film.
+Film Film::mean(std::span<const Film> films) {
+  Film mean = films[0];
+  // `part` becomes the sum of that of all films, each scaled as if it had the mean number of
+  // samples of those that have any. The sum then stands for the sum of these numbers.
   const auto add_up = [&](const auto& samples, const auto& part) {
-    double mean = 0;
-    for (const Film& f : films) mean += double(samples(f)) / count;
-    const double own = sample_scale(mean, samples(first));
-    std::vector<double>& to = part(first);
-    for (double& v : to) v *= own;
-    for (Film& f : films.subspan(1)) {
-      const double scale = sample_scale(mean, samples(f));
+    double total = 0, filled = 0;
+    for (const Film& f : films) total += double(samples(f)), filled += samples(f) > 0;
+    std::vector<double>& to = part(mean);
+    std::fill(to.begin(), to.end(), 0.0);
+    for (const Film& f : films) {
+      if (samples(f) == 0) continue;
+      const double scale = sample_scale(total / filled, samples(f));
       const std::vector<double>& from = part(f);
       for (size_t i = 0; i < to.size(); ++i) to[i] += scale * from[i];
     }
+    return total;
   };
-  for (size_t k = 0; k < first.tiles_.size(); ++k) {
-    add_up([&](const Film& f) { return f.tiles_[k].samples_; },
-           [&](Film& f) -> std::vector<double>& { return f.tiles_[k].data_; });
-    for (const Film& f : films.subspan(1)) first.tiles_[k].samples_ += f.tiles_[k].samples_;
-  }
+  for (size_t k = 0; k < mean.tiles_.size(); ++k)
+    mean.tiles_[k].samples_ = uint64_t(add_up([&](const Film& f) { return f.tiles_[k].samples_; },
+                                              [&](auto& f) -> auto& { return f.tiles_[k].data_; }));
   const auto passes = [](const Film& f) { return uint64_t(f.passes_); };
-  for (size_t k = 0; k < first.splats_.size(); ++k)
-    add_up(passes, [&](Film& f) -> std::vector<double>& { return f.splats_[k].sums; });
-  add_up(passes, [](Film& f) -> std::vector<double>& { return f.squares_; });
-  for (const Film& f : films.subspan(1)) first.passes_ += f.passes_;
+  for (size_t k = 0; k < mean.splats_.size(); ++k)
+    add_up(
+        passes, [&](auto& f) -> auto& { return f.splats_[k].sums; });
+  add_up(
+      passes, [](auto& f) -> auto& { return f.squares_; });
+  mean.passes_ = 0;
+  for (const Film& f : films) mean.passes_ += f.passes_;
+  return mean;
 }
 
 }  // namespace duet

@@ -28,7 +28,8 @@ struct PixelBounds {
 
 /// The sums of the samples taken in one square of the film. A sample also counts for pixels beyond
 /// the square, as far as the filter reaches; tiles keep those sums apart, so that threads share
-/// nothing and the film adds them in the same order whatever ran when.
+/// nothing and the film adds them in the same order whatever ran when. Sums are of doubles, sample
+/// by sample: a constant stays one however many samples it has.
 class FilmTile {
  public:
   /// `sampled` are the pixels in which samples are taken, `stored` those they may count for.
@@ -37,8 +38,8 @@ class FilmTile {
   const PixelBounds& sampled() const { return sampled_; }
   const PixelBounds& stored() const { return stored_; }
 
-  /// Adds `count` samples with the given sums of channels to a pixel (unit box filter only).
-  void add_to_pixel(int x, int y, std::span<const float> sums, float count);
+  /// Adds a sample to a pixel (unit box filter only).
+  void add_to_pixel(int x, int y, std::span<const float> values);
   /// Adds a sample at a film position to all pixels within the filter's reach.
   void add_sample(const ReconstructionFilter& filter, const Point2f& position,
                   std::span<const float> values);
@@ -114,9 +115,9 @@ class Film {
   /// Where tiles have samples of different numbers, each tile counts for a pixel between them as
   /// much as its share of the filter, however many samples it has.
   Image develop() const;
-  /// Makes the first film the mean of all, which have the same layout. Each counts the same in
-  /// every tile, so that numbers of samples which depend on other films leave the mean unbiased.
-  static void average(std::span<Film> films);
+  /// The mean of films of the same layout. Each that has samples in a tile counts the same there,
+  /// so that numbers of samples which depend on other films leave the mean unbiased.
+  static Film mean(std::span<const Film> films);
 
  private:
   Point2i full_;

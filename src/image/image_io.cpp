@@ -137,7 +137,7 @@ void write_exr(const std::string& path, const Image& image, const ExrOptions& op
 }
 
 void write_display_image(const std::string& path, int width, int height, int channels,
-                         const std::vector<uint8_t>& bytes) {
+                         const std::vector<uint8_t>& bytes, const TextFields& fields) {
   const std::string extension = extension_of(path);
   const bool png = extension == ".png", jpeg = extension == ".jpg" || extension == ".jpeg";
   if (!png && !jpeg)
@@ -148,8 +148,10 @@ void write_display_image(const std::string& path, int width, int height, int cha
     throw std::invalid_argument("write_display_image: size and data do not match");
   if (jpeg && (channels == 2 || channels == 4))
     throw std::runtime_error(fmt::format("{} cannot be written: JPEG has no alpha", path));
-  write_file_atomically(path,
-                        encode_with_module(png ? "png" : "jpeg", width, height, channels, bytes));
+  std::vector<uint8_t> file =
+      encode_with_module(png ? "png" : "jpeg", width, height, channels, bytes);
+  png ? add_png_text(file, fields) : add_jpeg_comment(file, fields);
+  write_file_atomically(path, file);
 }
 
 }  // namespace duet

@@ -10,6 +10,7 @@
 
 #include "base/diagnostics.h"
 #include "image/image.h"
+#include "image/text_fields.h"
 #include "math/vector.h"
 
 namespace duet {
@@ -43,6 +44,8 @@ using HeaderValue = std::variant<std::string, float, int, std::array<float, 16>>
 struct ExrOptions {
   /// 16-bit floats: values beyond ±65504 are stored as that, unless they are infinite.
   bool half = true;
+  /// Channels that are 32-bit floats nevertheless.
+  std::vector<std::string> full_precision;
   /// Where the image lies within the full one; a size of zero means the image is the full one.
   Point2i origin{0, 0};
   Point2i full_size{0, 0};
@@ -56,8 +59,9 @@ struct ExrOptions {
 void write_exr(const std::string& path, const Image& image, const ExrOptions& options);
 /// PNG or JPEG (quality 95, all chroma samples), by the extension, replaced as a whole. `bytes` has
 /// width × height × channels sRGB values; 1 channel is grey, 3 are colours, and PNG takes an alpha
-/// that is not multiplied in as channel 2 or 4. Throws std::runtime_error.
+/// that is not multiplied in as channel 2 or 4. `fields` become text chunks or the comment
+/// (text_fields.h). Throws std::runtime_error.
 void write_display_image(const std::string& path, int width, int height, int channels,
-                         const std::vector<uint8_t>& bytes);
+                         const std::vector<uint8_t>& bytes, const TextFields& fields = {});
 
 }  // namespace duet

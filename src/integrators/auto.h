@@ -17,6 +17,7 @@ class AutoIntegrator final : public Integrator {
   AutoIntegrator(const AutoIntegratorDescription& options, const IntegratorDescription& output);
 
   std::vector<std::string> channels() const override { return chosen_->channels(); }
+  std::vector<std::string> data_channels() const override { return chosen_->data_channels(); }
   const MethodDecision* decision() const override { return decided_ ? &decision_ : nullptr; }
   std::string bias() const override { return bias_; }
   bool blurs() const override { return chosen_->blurs(); }

@@ -19,11 +19,21 @@ bool is_statistic(LayerKind kind) {
 CameraIntegrator::CameraIntegrator(const CameraOutput& output) : image_(output.image) {
   if (image_) channels_ = {"R", "G", "B", "A"};
   for (const Layer& layer : output.layers) {
-    layers_.push_back({layer.kind, channels_.size()});
-    for (std::string& name : layer_channels(layer)) channels_.push_back(std::move(name));
+    const std::vector<std::string> names = layer_channels(layer);
+    layers_.push_back({layer.kind, channels_.size(), names.size()});
+    channels_.insert(channels_.end(), names.begin(), names.end());
     looks_at_first_hit_ |= !is_statistic(layer.kind);
     looks_at_next_rays_ |= layer_needs_next_rays(layer.kind);
   }
+}
+
+std::vector<std::string> CameraIntegrator::data_channels() const {
+  std::vector<std::string> names;
+  for (const PlacedLayer& layer : layers_)
+    if (layer.kind != LayerKind::albedo)
+      names.insert(names.end(), channels_.begin() + ptrdiff_t(layer.first),
+                   channels_.begin() + ptrdiff_t(layer.first + layer.channels));
+  return names;
 }
 
 size_t CameraIntegrator::add_colour_layer(const std::string& name) {
@@ -95,17 +105,17 @@ void CameraIntegrator::render_tile(const Scene& scene, const Film& film, FilmTil
   const bool has_lens = camera.has_lens();
   const float weight = camera.ray_weight();
   const bool unit_box = film.filter().is_unit_box();
-  std::vector<float> values(channels_.size()), sums(channels_.size());
+  std::vector<float> values(channels_.size());
   [[maybe_unused]] std::optional<NextRays> next;
   const PixelBounds& b = tile.sampled();
-  tile.count_samples(range.count);
-  for (int y = b.y0; y < b.y1; ++y)
-    for (int x = b.x0; x < b.x1; ++x) {
-      const uint64_t pixel = uint64_t(y) * uint64_t(film.full_size().x) + uint64_t(x);
-      Sampler sampler(range.sequence, range.seed, range.scramble, pixel);
-      std::fill(sums.begin(), sums.end(), 0.0f);
-      for (uint32_t i = 0; i < range.count; ++i) {
-        sampler.start_sample(range.first + i);
+  // One sample of all pixels before the next: pixels share sums, and these must not depend on how
+  // samples are divided into passes.
+  for (uint32_t i = range.first; i < range.first + range.count; ++i)
+    for (int y = b.y0; y < b.y1; ++y)
+      for (int x = b.x0; x < b.x1; ++x) {
+        const uint64_t pixel = uint64_t(y) * uint64_t(film.full_size().x) + uint64_t(x);
+        Sampler sampler(range.sequence, range.seed, range.scramble, pixel);
+        sampler.start_sample(i);
         const Point2f u = sampler.next_2d();
         const Point2f position{float(x) + u.x, float(y) + u.y};
         Point2f lens{};
@@ -114,7 +124,7 @@ void CameraIntegrator::render_tile(const Scene& scene, const Film& film, FilmTil
           lens = sampler.next_2d();
         }
         std::fill(values.begin(), values.end(), 0.0f);
-        CameraPath path{camera.sample_ray(position, lens), pixel, range.first + i, weight};
+        CameraPath path{camera.sample_ray(position, lens), pixel, i, weight};
         if constexpr (kWithNextRays)
           if ((next = camera.next_rays(position, lens))) path.next = &*next;
         sample(scene, path, sampler, counters, values);
@@ -125,13 +135,12 @@ void CameraIntegrator::render_tile(const Scene& scene, const Film& film, FilmTil
           std::fill(values.begin(), values.end(), 0.0f);
         }
         if (unit_box)
-          for (size_t c = 0; c < values.size(); ++c) sums[c] += values[c];
+          tile.add_to_pixel(x, y, values);
         else
           tile.add_sample(film.filter(), position, values);
       }
-      counters.camera_paths += range.count;
-      if (unit_box) tile.add_to_pixel(x, y, sums, float(range.count));
-    }
+  tile.count_samples(range.count);
+  counters.camera_paths += uint64_t(b.width()) * uint64_t(b.height()) * range.count;
 }
 
 void CameraIntegrator::finish(Image& image, int spp) const {

@@ -44,6 +44,7 @@ class CameraIntegrator : public Integrator {
   explicit CameraIntegrator(const CameraOutput& output);
 
   std::vector<std::string> channels() const final { return channels_; }
+  std::vector<std::string> data_channels() const final;
   void finish(Image& image, int spp) const final;
   /// Not if a layer tells how many samples there are, or needs to know.
   bool tiles_may_differ() const final;
@@ -72,7 +73,8 @@ class CameraIntegrator : public Integrator {
 
   struct PlacedLayer {
     LayerKind kind;
-    size_t first;  ///< index of its first channel
+    size_t first;     ///< index of its first channel
+    size_t channels;  ///< number of them
   };
   bool image_;
   std::vector<PlacedLayer> layers_;

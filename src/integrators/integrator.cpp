@@ -1,5 +1,6 @@
 #include "integrators/integrator.h"
 
+#include <algorithm>
 #include <atomic>
 
 #include "base/parallel.h"
@@ -7,6 +8,21 @@
 #include "scene/scene_motion.h"
 
 namespace duet {
+
+SampleRange part_of(const SampleRange& range, uint32_t done, uint32_t count,
+                    std::vector<TileSamples>& tiles) {
+  SampleRange part = range;
+  part.first = range.first + done;
+  part.count = count;
+  tiles.resize(range.tiles.size());
+  for (size_t k = 0; k < tiles.size(); ++k) {
+    const TileSamples& all = range.tiles[k];
+    const uint32_t skipped = std::min(done, all.count);
+    tiles[k] = {all.first + skipped, std::min(count, all.count - skipped)};
+  }
+  part.tiles = tiles;
+  return part;
+}
 
 void for_each_tile(Film& film, const PassControl& control, RenderCounters& counters,
                    const std::function<void(FilmTile&, RenderCounters&)>& work) {

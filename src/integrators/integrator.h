@@ -30,6 +30,11 @@ struct SampleRange {
   std::span<const TileSamples> tiles = {};
 };
 
+/// The samples `done` … `done` + `count` − 1 of a range. `tiles` holds those of its tiles, if the
+/// range has any.
+SampleRange part_of(const SampleRange& range, uint32_t done, uint32_t count,
+                    std::vector<TileSamples>& tiles);
+
 /// How a pass is to be run.
 struct PassControl {
   int threads = 1;
@@ -81,7 +86,11 @@ class Integrator {
   virtual double memory_bytes(const FilmLayout&) const { return 0; }
   /// Called once for each film, before its first pass.
   virtual void prepare(Film&) const {}
-  /// Adds samples to every pixel of the film. A pass that is cancelled leaves a film whose mean is
+  /// Which of the channels are no colours but numbers that need all digits of 32-bit floats, such
+  /// as positions and indices.
+  virtual std::vector<std::string> data_channels() const { return {}; }
+  /// Adds samples to every pixel of the film. The sums of the film are the same bit for bit however
+  /// its samples are divided into passes. A pass that is cancelled leaves a film whose mean is
   /// still right. If the scene moves, it is posed for each sample (motion_blur.h), so passes over
   /// it come one after another.
   void render_pass(const Scene& scene, Film& film, const SampleRange& samples,

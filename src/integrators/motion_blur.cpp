@@ -20,19 +20,13 @@ double time_of_sample(const SampleRange& range, uint32_t sample) {
 
 void for_each_sample(const SampleRange& samples, const PassControl& control,
                      const std::function<void(const SampleRange&, const PassControl&)>& work) {
-  std::vector<TileSamples> tiles(samples.tiles.size());
+  std::vector<TileSamples> tiles;
   for (uint32_t i = 0; i < samples.count && !control.cancelled(); ++i) {
-    SampleRange one = samples;
-    one.first = samples.first + i;
-    one.count = 1;
-    for (size_t k = 0; k < tiles.size(); ++k)
-      tiles[k] = {samples.tiles[k].first + i, i < samples.tiles[k].count ? 1u : 0u};
-    one.tiles = tiles;
     PassControl part = control;
     part.report = [&](double fraction) {
       control.report((double(i) + fraction) / double(samples.count));
     };
-    work(one, part);
+    work(part_of(samples, i, 1, tiles), part);
   }
 }
 

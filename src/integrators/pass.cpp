@@ -1,19 +1,21 @@
 #include "integrators/pass.h"
 
 #include <algorithm>
+#include <atomic>
 #include <chrono>
 #include <cmath>
 #include <limits>
 #include <mutex>
 
 #include "integrators/error_estimate.h"
+#include "integrators/pass_length.h"
 #include "integrators/sample_allocation.h"
 
 namespace duet {
 
 namespace {
 
-/// Parts into which a known number of samples is divided, for progress and the error bound.
+/// Parts into which a known number of samples is divided for the error bound.
 constexpr int kParts = 8;
 /// Samples of each batch after which an image that is still black is taken to be so: there is no
 /// error relative to nothing.
@@ -28,7 +30,10 @@ class Renderer {
  public:
   Renderer(const Scene& scene, Integrator& integrator, const FilmLayout& layout,
            const RenderRequest& request)
-      : scene_(scene), integrator_(integrator), request_(request) {
+      : scene_(scene),
+        integrator_(integrator),
+        request_(request),
+        pass_length_(request.pass_seconds) {
     RenderOutlook outlook;
     outlook.film = layout.full;
     outlook.spp = request.budget.spp.value_or(outlook.spp);
@@ -45,7 +50,7 @@ class Renderer {
       run_batches();
     else
       run_sequence();
-    return finish();
+    return result();
   }
 
  private:
@@ -58,34 +63,72 @@ class Renderer {
     return spp_ > 0 && request_.budget.seconds && seconds() >= *request_.budget.seconds;
   }
 
-  /// A pass over a film; `count` is the mean number of samples that pixels get.
-  void pass(Film& film, const SampleRange& range, int count) {
+  double seconds_left() const {
+    return request_.budget.seconds ? *request_.budget.seconds - seconds()
+                                   : std::numeric_limits<double>::infinity();
+  }
+
+  /// Adds a range of samples to a film, pass by pass, and counts them: `count` is how many of them
+  /// pixels get on average. Ends early if it is cancelled, and a single film also if time runs out.
+  void add_samples(Film& film, const SampleRange& range, int count) {
+    const int before = spp_;
+    const double per_sample = double(count) / range.count;
+    std::vector<TileSamples> tiles;
+    for (uint32_t done = 0; done < range.count && !cancelled();) {
+      const uint32_t n = uint32_t(pass_length_.next(int(range.count - done), seconds_left()));
+      const double start = seconds();
+      if (!pass(film, part_of(range, done, n, tiles), before + done * per_sample, n * per_sample))
+        return;
+      pass_length_.took(int(n), seconds() - start);
+      done += n;
+      spp_ = before + int(done * per_sample + 1e-6);
+      give_snapshot();
+      if (films_.size() == 1 && out_of_time()) return;
+    }
+  }
+
+  /// A pass over a film: `before` and `count` are mean numbers of samples of a pixel. Returns
+  /// whether nothing of it was left out.
+  bool pass(Film& film, const SampleRange& range, double before, double count) {
+    // What tells how many samples there are needs the same number everywhere.
+    const bool may_stop = integrator_.tiles_may_differ();
+    std::atomic<bool> whole{true};
     PassControl control;
     control.threads = request_.threads;
-    control.cancelled = [&] { return cancelled(); };
-    control.report = [&](double fraction) { report(fraction, count); };
+    control.cancelled = [&] {
+      if (!may_stop || !cancelled()) return false;
+      whole = false;
+      return true;
+    };
+    control.report = [&](double fraction) { report(before + count * fraction); };
     integrator_.render_pass(scene_, film, range, control, counters_);
+    return whole;
+  }
+
+  void give_snapshot() {
+    if (spp_ > 0 && request_.wants_snapshot && request_.wants_snapshot())
+      request_.snapshot(result());
   }
 
   /// All samples of a pixel come from one low-discrepancy sequence.
   void run_sequence() {
     Film& film = films_[0];
     PartialMeans parts(film);
+    is_upper_bound_ = request_.sequence != SampleSequence::independent;
     const bool timed = request_.budget.seconds.has_value();
     const int total = request_.budget.spp.value_or(std::numeric_limits<int>::max());
     int part = std::max(1, total / kParts);
     if (timed) part = 1;
     while (spp_ < total && !cancelled() && !out_of_time()) {
       const double before = seconds();
-      const int count = std::min(part, total - spp_);
-      pass(film, {request_.sequence, request_.seed, 0, uint32_t(spp_), uint32_t(count)}, count);
+      const int first = spp_, count = std::min(part, total - spp_);
+      add_samples(film, {request_.sequence, request_.seed, 0, uint32_t(first), uint32_t(count)},
+                  count);
       if (cancelled()) break;
-      spp_ += count;
       parts.add_part(film);
       if (const auto e = parts.relative_rmse()) relative_rmse_ = e;
-      if (timed) part = next_part(count, seconds() - before, total);
+      if (timed) part = next_part(spp_ - first, seconds() - before, total);
     }
-    is_upper_bound_ = request_.sequence != SampleSequence::independent;
   }
 
   /// Several sequences that know nothing of each other, all of the same length: their spread is the
@@ -106,8 +149,7 @@ class Renderer {
         if (count <= 0) continue;
         SampleRange range{request_.sequence, request_.seed, uint32_t(b)};
         allocation.next(size_t(b), uint32_t(count), range);
-        pass(films_[b], range, count);
-        if (!cancelled()) spp_ += count;
+        add_samples(films_[b], range, count);
       }
       if (cancelled()) break;
       length += part;
@@ -148,7 +190,8 @@ class Renderer {
     return int(std::clamp(wanted, 1.0, double(total)));
   }
 
-  void report(double pass_fraction, int count) {
+  /// `spp`: samples that pixels have on average.
+  void report(double spp) {
     if (!request_.progress) return;
     const std::unique_lock lock(report_mutex_, std::try_to_lock);
     if (!lock) return;
@@ -157,12 +200,11 @@ class Renderer {
     last_report_ = now;
     RenderProgress p;
     p.seconds = now;
-    p.spp = spp_;
-    const double samples = spp_ + count * pass_fraction;
+    p.spp = spp;
     const Point2i size = {films_[0].crop().width(), films_[0].crop().height()};
-    p.samples = samples * size.x * size.y;
+    p.samples = spp * size.x * size.y;
     p.relative_rmse = relative_rmse_;
-    if (request_.budget.spp) p.fraction = samples / *request_.budget.spp;
+    if (request_.budget.spp) p.fraction = spp / *request_.budget.spp;
     if (request_.budget.seconds) p.fraction = std::max(p.fraction, now / *request_.budget.seconds);
     if (request_.budget.target_error && relative_rmse_)
       p.fraction = std::max(
@@ -170,15 +212,16 @@ class Renderer {
     request_.progress(p);
   }
 
-  RenderResult finish() {
-    if (films_.size() > 1) Film::average(films_);
+  RenderResult result() const {
     RenderResult r;
-    r.image = films_[0].develop();
-    integrator_.finish(r.image, spp_);
+    if (spp_ > 0) {
+      r.image = films_.size() > 1 ? Film::mean(films_).develop() : films_[0].develop();
+      integrator_.finish(r.image, spp_);
+    }
     r.counters = counters_;
     r.spp = spp_;
     r.seconds = seconds();
-    r.interrupted = cancelled();
+    r.interrupted = cancelled() && !(request_.budget.spp && spp_ >= *request_.budget.spp);
     r.relative_rmse = relative_rmse_;
     r.rmse_is_upper_bound = is_upper_bound_;
     return r;
@@ -191,7 +234,8 @@ class Renderer {
   RenderCounters counters_;
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
   double prepared_ = 0;  ///< seconds until a method was chosen and ready
-  int spp_ = 0;
+  PassLength pass_length_;
+  int spp_ = 0;  ///< samples of passes that are complete
   std::optional<double> relative_rmse_;
   bool is_upper_bound_ = false;
   std::mutex report_mutex_;

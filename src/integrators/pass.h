@@ -24,28 +24,19 @@ struct RenderBudget {
 struct RenderProgress {
   double fraction = 0;                  ///< of the budget, as far as it is known
   double seconds = 0;                   ///< since the choice of a method began
-  int spp = 0;                          ///< samples that every pixel has
+  double spp = 0;                       ///< samples per pixel, those of tiles under way included
   double samples = 0;                   ///< samples taken in all pixels together
   std::optional<double> relative_rmse;  ///< estimate so far
-};
-
-struct RenderRequest {
-  RenderBudget budget;
-  uint64_t seed = 0;
-  SampleSequence sequence = SampleSequence::sobol;
-  int threads = 1;
-  /// Called a few times per second, from one thread at a time.
-  std::function<void(const RenderProgress&)> progress;
-  /// Set from outside to stop after the tiles that are under way. What they have is kept.
-  const std::atomic<bool>* cancel = nullptr;
 };
 
 struct RenderResult {
   Image image;
   RenderCounters counters;
-  int spp = 0;         ///< samples that every pixel has
-  double seconds = 0;  ///< including the choice of a method
-  bool interrupted = false;
+  /// Samples that every pixel has, or has on average where noisy tiles got more. If it is zero
+  /// there are pixels without any, and the image is empty.
+  int spp = 0;
+  double seconds = 0;        ///< including the choice of a method
+  bool interrupted = false;  ///< cancelled before the samples were used up
   /// Estimate of the root mean square error over all pixels, relative to the mean of the image.
   std::optional<double> relative_rmse;
   /// True if the estimate comes from parts of one low-discrepancy sequence: they are more alike in
@@ -53,8 +44,27 @@ struct RenderResult {
   bool rmse_is_upper_bound = false;
 };
 
-/// Renders until the budget is used up. The image depends on the scene, the integrator, the film,
-/// the seed, the sequence and the number of samples; never on the number of threads.
+struct RenderRequest {
+  RenderBudget budget;
+  uint64_t seed = 0;
+  SampleSequence sequence = SampleSequence::sobol;
+  int threads = 1;
+  /// How long a pass may last, if one sample per pixel does not last longer: after that an
+  /// interrupt or a snapshot is answered, and what is there is a whole number of samples.
+  double pass_seconds = 0.5;
+  /// Called a few times per second, from one thread at a time.
+  std::function<void(const RenderProgress&)> progress;
+  /// Set from outside to stop after the tiles that are under way. What they have is kept.
+  const std::atomic<bool>* cancel = nullptr;
+  /// Asked between passes, once every pixel has a sample: whether `snapshot` is to get the image so
+  /// far. Rendering goes on afterwards.
+  std::function<bool()> wants_snapshot;
+  std::function<void(const RenderResult&)> snapshot;
+};
+
+/// Renders until the budget is used up, pass by pass. The image depends on the
+/// scene, the integrator, the film, the seed, the sequence and the number of samples; never on the
+/// number of threads, nor on how the samples are divided into passes.
 RenderResult render(const Scene& scene, Integrator& integrator, const FilmLayout& layout,
                     const RenderRequest& request);
 

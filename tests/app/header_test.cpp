@@ -4,10 +4,12 @@
 #include <OpenEXR/ImfMatrixAttribute.h>
 #include <doctest/doctest.h>
 
+#include <array>
 #include <cmath>
 #include <map>
 
 #include "app/workplace.h"
+#include "image/image_facts.h"
 #include "image/image_io.h"
 
 using namespace duet;
@@ -50,6 +52,74 @@ TEST_SUITE("program") {
     auto other = header_of(read_image(place.path("b.exr")));
     CHECK(other["sceneHash"] != h["sceneHash"]);
     CHECK(other["sampler"] == "independent");
+  }
+
+  TEST_CASE("the header says nothing of the machine or the user") {
+    const Workplace place, elsewhere;
+    place.scene("tiny.xml");
+    elsewhere.scene("far.xml");
+    const std::string here = place.path("tiny.xml"), there = elsewhere.path("far.xml");
+    for (const std::string& scene : {here, there}) {
+      const Outcome o = place.run({scene, "-o", elsewhere.path("a.exr"), "-o" + place.path("a.png"),
+                                   "--log=" + elsewhere.path("log.txt")});
+      CAPTURE(o.err);
+      REQUIRE(o.code == 0);
+      for (const std::string& image : {elsewhere.path("a.exr"), place.path("a.png")}) {
+        auto facts = read_image_facts(image);
+        const std::string name = scene == here ? "tiny.xml" : "far.xml";
+        CHECK(facts.field("scene") == name);
+        CHECK(facts.field("commandLine") == "duet " + name + " -o a.exr -oa.png --log=log.txt");
+        for (const auto& [field, value] : facts.fields) {
+          CAPTURE(field);
+          CHECK(!contains(value, place.path("")));
+          CHECK(!contains(value, elsewhere.path("")));
+        }
+      }
+    }
+  }
+
+  TEST_CASE("the header has the date, unless files are to be equal") {
+    const Workplace place;
+    place.scene("tiny.xml");
+    CHECK(place.run({"tiny.xml"}).code == 0);
+    const std::string date = read_image_facts(place.path("tiny.exr")).field("date");
+    REQUIRE(date.size() == 20);
+    CHECK(date > "2024-01-01T00:00:00Z");
+    CHECK(date[10] == 'T');
+    CHECK(date[19] == 'Z');
+    const ProcessOptions fixed{.directory = place.path(""),
+                               .environment = {{"SOURCE_DATE_EPOCH", "1000000000"}}};
+    std::string first[3];
+    for (const bool again : {false, true}) {
+      CHECK(run_duet({"tiny.xml", "-o", "a.exr", "-o", "a.png", "-o", "a.jpg"}, fixed).code == 0);
+      for (int i = 0; i < 3; ++i) {
+        const std::string path = place.path(std::array{"a.exr", "a.png", "a.jpg"}[size_t(i)]);
+        CHECK(read_image_facts(path).field("date") == "2001-09-09T01:46:40Z");
+        if (!again) first[i] = read_file(path);
+        CHECK(read_file(path) == first[i]);
+      }
+    }
+  }
+
+  TEST_CASE("PNG and JPEG files say the same as EXR files") {
+    const Workplace place;
+    place.scene("tiny.xml");
+    CHECK(
+        place.run({"tiny.xml", "-o", "a.exr", "-o", "a.png", "-o", "a.jpg", "--seed", "9"}).code ==
+        0);
+    const ImageFacts exr = read_image_facts(place.path("a.exr"));
+    CHECK(exr.field("seed") == "9");
+    for (const char* name : {"a.png", "a.jpg"}) {
+      const ImageFacts shown = read_image_facts(place.path(name));
+      for (const char* field : {"program", "version", "commandLine", "scene", "sceneHash",
+                                "integrator", "integratorParameters", "sampler", "spp", "seed"}) {
+        CAPTURE(field);
+        CHECK(!shown.field(field).empty());
+        CHECK(shown.field(field) == exr.field(field));
+      }
+      // It is still an image.
+      CHECK(read_image(place.path(name)).bytes.size() == 16 * 12 * 3);
+    }
   }
 
   TEST_CASE("the header's matrices say where a point of the world is in the image") {

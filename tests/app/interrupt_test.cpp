@@ -3,7 +3,6 @@
 
 #include <csignal>
 #include <nlohmann/json.hpp>
-#include <thread>
 
 #include "app/workplace.h"
 #include "image/image_io.h"
@@ -22,44 +21,164 @@ std::string field(const ImageFile& file, const std::string& name) {
 }  // namespace
 
 TEST_SUITE("program") {
-  TEST_CASE("Ctrl-C and SIGTERM keep the image") {
+  TEST_CASE("Ctrl-C, SIGTERM and SIGHUP keep the image") {
     const Workplace place;
     place.scene("endless.xml", endless_scene());
     place.scene("next.xml");
-    for (const int signal : {SIGINT, SIGTERM}) {
-      std::filesystem::remove(place.path("endless.exr"));
+    place.write("endless.exr", "good");
+    for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
+      std::filesystem::remove(place.path("endless.partial.exr"));
       Process duet(
           {"endless.xml", "next.xml", "--time", "1h", "--progress", "bar", "--stats", "s.json"},
           {.directory = place.path("")});
-      REQUIRE(duet.wait_for_message("error", 20));  // some passes are done
+      REQUIRE(duet.wait_for_message("error", 300));  // some passes are done
       duet.send(signal);
-      const Outcome o = duet.wait(120);
+      const Outcome o = duet.wait(300);
       CAPTURE(o.err);
       CHECK(o.code == 128 + signal);
       CHECK(contains(o.err, "interrupted"));
       CHECK(contains(o.err, "1 of 2 scenes were not tried"));
       CHECK(!place.has("next.exr"));
-      const ImageFile file = read_image(place.path("endless.exr"));
+      CHECK(read_file(place.path("endless.exr")) == "good");
+      const ImageFile file = read_image(place.path("endless.partial.exr"));
       CHECK(file.image.pixel(32, 32)[0] > 0);
       CHECK(std::stod(field(file, "spp")) >= 1);
+      CHECK(field(file, "interrupted") == "1");
+      CHECK(field(file, "requestedSeconds") == "3600");
       const auto stats = nlohmann::json::parse(read_file(place.path("s.json")));
       CHECK(stats[0]["interrupted"] == true);
-      CHECK(place.count() == 4);
+      CHECK(place.count() == 5);
     }
+  }
+
+  TEST_CASE("passes are short whatever --spp is") {
+    const Workplace place;
+    place.scene("endless.xml", endless_scene());
+    // An eighth of these samples takes hours.
+    Process duet(
+        {"endless.xml", "--spp", "1000000", "--progress", "bar", "--keep-partial-name", "-v"},
+        {.directory = place.path("")});
+    REQUIRE(duet.wait_for_message("built in", 300));
+    duet.send(SIGUSR1);
+    REQUIRE(Process::wait_until([&] { return place.has("endless.exr"); }, 300));
+    duet.send(SIGINT);
+    const Outcome o = duet.wait(300);
+    CAPTURE(o.err);
+    CHECK(o.code == 130);
+    const ImageFile file = read_image(place.path("endless.exr"));
+    CHECK(std::stod(field(file, "spp")) >= 1);
+    CHECK(field(file, "requestedSpp") == "1000000");
+    CHECK(field(file, "interrupted") == "1");
+    CHECK(!place.has("endless.partial.exr"));
+    bool lit = true;
+    for (int y = 0; y < 64; ++y)
+      for (int x = 0; x < 64; ++x) lit &= file.image.pixel(x, y)[0] > 0;
+    CHECK(lit);
+  }
+
+  TEST_CASE("SIGUSR1 writes the image so far and goes on") {
+    const Workplace place;
+    place.scene("endless.xml", endless_scene());
+    for (const bool adaptive : {false, true}) {
+      std::vector<std::string> arguments{"endless.xml", "--time", "1h",    "-o",
+                                         "a.exr",       "-o",     "b.png", "-v"};
+      if (adaptive) arguments.insert(arguments.end(), {"--target-error", "0.001%"});
+      Process duet(arguments, {.directory = place.path("")});
+      REQUIRE(duet.wait_for_message("built in", 300));
+      for (int i = 0; i < 2; ++i) {
+        std::filesystem::remove(place.path("b.partial.png"));
+        duet.send(SIGUSR1);
+        REQUIRE(Process::wait_until([&] { return place.has("b.partial.png"); }, 300));
+      }
+      const ImageFile file = read_image(place.path("a.partial.exr"));
+      CHECK(field(file, "interrupted") == "1");
+      CHECK(file.image.pixel(32, 32)[0] > 0);
+      CHECK(!place.has("a.exr"));
+      duet.send(SIGTERM);
+      const Outcome o = duet.wait(300);
+      CHECK(o.code == 143);
+      CHECK(contains(o.err, "spp so far -> a.partial.exr"));
+    }
+  }
+
+  TEST_CASE("a finished image replaces what there was of it") {
+    const Workplace place;
+    place.scene("endless.xml", endless_scene());
+    Process duet({"endless.xml", "--time", "3s", "-o", "{spp}.exr", "-v"},
+                 {.directory = place.path("")});
+    REQUIRE(duet.wait_for_message("built in", 300));
+    duet.send(SIGUSR1);
+    const Outcome o = duet.wait(300);
+    CAPTURE(o.err);
+    CHECK(o.code == 0);
+    CHECK(contains(o.err, ".partial.exr"));
+    CHECK(place.count() == 2);  // the scene and its image
+    // An older one, too, if it is of the same scene and says that it is partial.
+    Process other({"endless.xml", "--spp", "100000", "-v"}, {.directory = place.path("")});
+    REQUIRE(other.wait_for_message("built in", 300));
+    other.send(SIGUSR1);
+    REQUIRE(Process::wait_until([&] { return place.has("endless.partial.exr"); }, 300));
+    other.send(SIGINT);
+    CHECK(other.wait(300).code == 130);
+    CHECK(place.has("endless.partial.exr"));
+    place.scene("tiny.xml");
+    std::filesystem::copy(place.path("endless.partial.exr"), place.path("tiny.partial.exr"));
+    CHECK(place.run({"endless.xml", "tiny.xml", "--spp", "1"}).code == 0);
+    CHECK(!place.has("endless.partial.exr"));
+    CHECK(place.has("tiny.partial.exr"));
+    place.write("tiny.partial.exr", "mine");
+    CHECK(place.run({"tiny.xml", "--spp", "1"}).code == 0);
+    CHECK(read_file(place.path("tiny.partial.exr")) == "mine");
+  }
+
+  TEST_CASE("an interrupt before every pixel has a sample replaces no image") {
+    const Workplace place;
+    place.scene("endless.xml", endless_scene());
+    for (const char* name : {"image.exr", "image.png", "image.jpg"}) place.write(name, "good");
+    // One sample per pixel takes minutes.
+    Process duet(
+        {"endless.xml", "--spp", "4", "--size", "2000x2000", "-o", "image.exr", "-o", "image.png",
+         "-o", "image.jpg", "--keep-partial-name", "--progress", "bar", "--stats", "s.json"},
+        {.directory = place.path("")});
+    REQUIRE(duet.wait_for_message(" spp", 300));
+    duet.send(SIGTERM);
+    const Outcome o = duet.wait(300);
+    CAPTURE(o.err);
+    CHECK(o.code == 143);
+    CHECK(contains(o.err, "no image is written"));
+    for (const char* name : {"image.exr", "image.png", "image.jpg"})
+      CHECK(read_file(place.path(name)) == "good");
+    const auto stats = nlohmann::json::parse(read_file(place.path("s.json")));
+    CHECK(stats["failed"] == true);
+    CHECK(stats["interrupted"] == true);
+    CHECK(place.count() == 5);
+  }
+
+  TEST_CASE("what is ignored stays ignored") {
+    const Workplace place;
+    place.scene("endless.xml", endless_scene());
+    Process duet({"endless.xml", "--time", "2s", "-v"},
+                 {.directory = place.path(""), .ignored = {SIGHUP, SIGINT}});
+    REQUIRE(duet.wait_for_message("built in", 300));
+    duet.send(SIGHUP);
+    duet.send(SIGINT);
+    CHECK(duet.wait(300).code == 0);
+    CHECK(place.has("endless.exr"));
   }
 
   TEST_CASE("a second Ctrl-C ends the program at once") {
     const Workplace place;
-    // A pass of this many samples takes minutes, and the first signal waits for its tiles.
+    // An iteration of this size takes minutes, and is finished as a whole.
     place.scene("endless.xml", endless_scene());
-    Process duet({"endless.xml", "--spp", "1000000000", "-t", "1"}, {.directory = place.path("")});
-    std::this_thread::sleep_for(std::chrono::milliseconds(500));
+    Process duet({"endless.xml", "-i", "ptracer", "--spp", "4", "--size", "2000x2000", "-v"},
+                 {.directory = place.path("")});
+    REQUIRE(duet.wait_for_message("built in", 300));
     duet.send(SIGINT);
-    std::this_thread::sleep_for(std::chrono::milliseconds(100));
+    REQUIRE(duet.wait_for_message("a second signal", 300));
     duet.send(SIGINT);
-    const Outcome o = duet.wait(30);
+    const Outcome o = duet.wait(300);
     CHECK(o.code == 130);
-    CHECK(!place.has("endless.exr"));
+    CHECK(place.count() == 1);
   }
 
   TEST_CASE("time limits are kept") {
@@ -105,20 +224,48 @@ TEST_SUITE("program") {
     const double error = nlohmann::json::parse(compared.out)["relrmse"];
     CHECK(error > 0.6 * estimate);
     CHECK(error < 1.6 * estimate);
-    // Samples may run out before.
-    const Outcome capped = place.run({"noisy.xml", "--target-error", "0.0001", "--spp", "20"});
-    CHECK(capped.code == 0);
-    CHECK(contains(capped.err, "20 spp"));
+    CHECK(stats["error"]["target"] == 0.02);
+    CHECK(stats["error"]["target_met"] == true);
+    CHECK(place.run({"noisy.xml", "--target-error", "2%", "--require-target"}).code == 0);
+    // Samples may run out before, or time.
+    using Texts = std::vector<std::string>;
+    for (const Texts& limit : {Texts{"--spp", "20"}, Texts{"--time", "0.2"}}) {
+      std::vector<std::string> arguments{"noisy.xml", "--target-error", "0.01%", "--stats",
+                                         "s.json"};
+      arguments.insert(arguments.end(), limit.begin(), limit.end());
+      const Outcome capped = place.run(arguments);
+      CAPTURE(capped.err);
+      CHECK(capped.code == 0);
+      CHECK(contains(capped.err, "--target-error 0.01 % is not met: the estimate is "));
+      CHECK(contains(capped.err, limit[0] == "--spp" ? "the samples of --spp are used up"
+                                                     : "the time is used up"));
+      const auto missed = nlohmann::json::parse(read_file(place.path("s.json")));
+      CHECK(missed["error"]["target_met"] == false);
+      CHECK(missed["error"]["target"] == 0.0001);
+      arguments.push_back("--require-target");
+      CHECK(place.run(arguments).code == 4);
+      CHECK(place.has("noisy.exr"));
+    }
+    CHECK(place.run({"noisy.xml", "--require-target"}).code == 2);
   }
 
   TEST_CASE("progress is shown as asked") {
     const Workplace place;
     place.scene("endless.xml", endless_scene());
-    const Outcome bar = place.run({"endless.xml", "--time", "0.7", "--progress", "bar"});
-    for (const char* part : {"[###", "Msamples/s", "error", "left"}) {
+    Process bar({"endless.xml", "--time", "1h", "--progress", "bar"},
+                {.directory = place.path("")});
+    for (const char* part : {"[", "] ", "Msamples/s", "error", "spp"}) {
       CAPTURE(part);
-      CHECK(contains(bar.err, part));
+      CHECK(bar.wait_for_message(part, 300));
     }
+    bar.send(SIGINT);
+    bar.wait(300);
+    Process left({"endless.xml", "--time", "20", "--progress", "bar"},
+                 {.directory = place.path("")});
+    CHECK(left.wait_for_message("[#", 300));
+    CHECK(left.wait_for_message("left", 300));
+    left.send(SIGINT);
+    left.wait(300);
     const Outcome none = place.run({"endless.xml", "--time", "0.7", "--progress", "none"});
     CHECK(!contains(none.err, "Msamples/s"));
     // Lines come every five seconds.

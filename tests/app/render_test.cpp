@@ -270,18 +270,25 @@ TEST_SUITE("program") {
     CHECK(place.has("direct9.exr"));
   }
 
-  TEST_CASE("what exists is skipped if asked to") {
+  TEST_CASE("indices of shapes are exact in films of half floats") {
     const Workplace place;
-    place.scene("a.xml");
-    place.scene("b.xml");
-    place.write("a.exr", "mine");
-    const Outcome o = place.run({"a.xml", "b.xml", "-x"});
-    CHECK(o.code == 0);
-    CHECK(contains(o.err, "a.xml: skipped"));
-    CHECK(read_file(place.path("a.exr")) == "mine");
-    CHECK(place.has("b.exr"));
-    CHECK(place.run({"a.xml"}).code == 0);
-    CHECK(read_file(place.path("a.exr")) != "mine");
+    TinyScene s;
+    // Behind the camera, but for the last.
+    for (int i = 0; i < 2100; ++i)
+      s.extra +=
+          "<shape type=\"sphere\"><point name=\"center\" value=\"0,0,9\"/><float name=\"radius\" "
+          "value=\"0.01\"/></shape>";
+    s.extra += "<shape type=\"sphere\"><float name=\"radius\" value=\"0.5\"/></shape>";
+    place.scene("many.xml", s);
+    const Outcome o = place.run({"many.xml", "--spp", "1", "--aov", "shape,depth,samples"});
+    CAPTURE(o.err);
+    REQUIRE(o.code == 0);
+    const Image image = read_image(place.path("many.exr")).image;
+    CHECK(image.pixel(8, 6)[image.find_channel("shape.I")] == 2101);
+    const float depth = image.pixel(8, 6)[image.find_channel("depth.T")];
+    REQUIRE(depth > 1);
+    REQUIRE(depth < 2);
+    CHECK(std::floor(depth * 1024) != depth * 1024);  // the steps of half floats there
   }
 
   TEST_CASE("an old film's tone mapping is for display formats") {

@@ -51,6 +51,26 @@ void write_channel(const std::string& path, Imf::Header header, Imf::PixelType t
 
 }  // namespace
 
+TEST_CASE("EXR: indices are exact beside colours in half floats") {
+  TemporaryDirectory directory;
+  const std::string path = directory.path("a.exr");
+  Image image(40, 33, {"R", "G", "B", "A", "shape.I", "depth.T"});
+  for (size_t i = 0; i < image.data.size(); ++i)
+    image.data[i] = float(i % 6 == 4 ? 2049 + 50 * i : 1);
+  image.data[0] = 1 + 0x1p-12f;  // no half float
+  image.data[5] = 100000.125f;
+  ExrOptions options;
+  options.full_precision = {"shape.I", "depth.T", "absent.X"};
+  write_exr(path, image, options);
+  const ImageFile file = read_image(path);
+  REQUIRE(file.image.channels.size() == 6);
+  const int shape = file.image.find_channel("shape.I"), depth = file.image.find_channel("depth.T");
+  for (int y = 0; y < 33; ++y)
+    for (int x = 0; x < 40; ++x) CHECK(file.image.pixel(x, y)[shape] == image.pixel(x, y)[4]);
+  CHECK(file.image.pixel(0, 0)[depth] == 100000.125f);
+  CHECK(file.image.pixel(0, 0)[file.image.find_channel("R")] == 1);
+}
+
 TEST_CASE("EXR: single floats come back as they were, with layers in order") {
   TemporaryDirectory directory;
   const std::string path = directory.path("a.exr");

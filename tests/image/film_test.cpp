@@ -34,7 +34,7 @@ void fill_tile(const Film& film, FilmTile& tile, int spp, const Value& value) {
         const Point2f p{float(x) + u.x, float(y) + u.y};
         const std::array<float, 2> v = value(p);
         if (film.filter().is_unit_box())
-          tile.add_to_pixel(x, y, v, 1);
+          tile.add_to_pixel(x, y, v);
         else
           tile.add_sample(film.filter(), p, v);
       }
@@ -151,8 +151,8 @@ TEST_CASE("pixels are means weighted by the filter at the distance of the sample
       throw std::runtime_error("no tile");
     };
     if (kind == FilterKind::box) {
-      tile_of(p).add_to_pixel(15, 7, a, 1);
-      tile_of(q).add_to_pixel(16, 6, b, 1);
+      tile_of(p).add_to_pixel(15, 7, a);
+      tile_of(q).add_to_pixel(16, 6, b);
     } else {
       tile_of(p).add_sample(film.filter(), p, a);
       tile_of(q).add_sample(film.filter(), q, b);
@@ -186,20 +186,21 @@ TEST_CASE("each film counts the same in a mean, however many samples its tiles h
     const Image before = films[0].develop();
     // The same samples three times: the weight of the film must not show.
     for (int i = 0; i < 3; ++i) fill(films[2], 2, pattern);
-    Film::average(std::span(films).first(2));
-    CHECK(films[0].develop().data == before.data);
-    Film::average(films);
-    const Image mean = films[0].develop();
+    CHECK(Film::mean(std::span(films).first(2)).develop().data == before.data);
+    const Film all = Film::mean(films);
+    const Image mean = all.develop();
     for (size_t i = 0; i < mean.data.size(); ++i)
       CHECK(mean.data[i] == doctest::Approx(before.data[i]).epsilon(1e-6));
-    CHECK(films[0].tiles()[0].samples() == 12);
+    CHECK(all.tiles()[0].samples() == 10);
 
     std::vector<Film> unequal{film(1), film(4)};
     fill(unequal[0], 1, [](const Point2f&) { return std::array<float, 2>{1, 0}; });
     fill(unequal[1], 4, [](const Point2f&) { return std::array<float, 2>{3, 0}; });
     if (kind == FilterKind::box) {
-      Film::average(unequal);
-      CHECK(unequal[0].develop().pixel(5, 5)[0] == doctest::Approx(2));
+      CHECK(Film::mean(unequal).develop().pixel(5, 5)[0] == doctest::Approx(2));
+      // One that has no samples yet is not black.
+      unequal.push_back(film(0));
+      CHECK(Film::mean(unequal).develop().pixel(5, 5)[0] == doctest::Approx(2));
     }
   }
 }
@@ -215,4 +216,19 @@ TEST_CASE("a tile with more samples does not weigh more beside its neighbours") 
   const Image uneven = film.develop();
   for (size_t i = 0; i < even.data.size(); ++i)
     CHECK(uneven.data[i] == doctest::Approx(even.data[i]).epsilon(1e-6));
+}
+
+TEST_CASE("a film without passes does not darken the splats of a mean") {
+  std::vector<Film> films;
+  for (int i = 0; i < 3; ++i) {
+    films.emplace_back(FilmLayout{{16, 16}, {0, 0, 16, 16}, describe(FilterKind::box)},
+                       std::vector<std::string>{"R", "G", "B"});
+    films.back().add_splat_layer(0);
+  }
+  const Splat splat{{3.5f, 4.5f}, Spectrum(2.0f)};
+  for (size_t i = 0; i < 2; ++i) {
+    films[i].add_splats(0, std::span(&splat, 1), 1, 1);
+    films[i].end_pass();
+  }
+  CHECK(Film::mean(films).develop().pixel(3, 4)[0] == 2);
 }

@@ -7,6 +7,7 @@
 #include <thread>
 
 #include "integrators/camera_integrator.h"
+#include "integrators/pass_length.h"
 
 using namespace duet;
 
@@ -20,9 +21,11 @@ class FakeIntegrator final : public Integrator {
       : milliseconds_(milliseconds), brightness_(brightness) {}
   std::vector<std::string> channels() const override { return {"R", "G", "B"}; }
   void finish(Image&, int) const override {}
+  std::vector<uint32_t> passes;  ///< the samples of each
   void render_samples(const Scene&, Film& film, const SampleRange& samples,
                       const PassControl& control, RenderCounters& counters) override {
     pass_start = std::chrono::steady_clock::now();
+    passes.push_back(samples.count);
     for_each_tile(film, control, counters,
                   [&](FilmTile& tile, RenderCounters& c) { render_tile(film, tile, samples, c); });
   }
@@ -34,18 +37,18 @@ class FakeIntegrator final : public Integrator {
                    RenderCounters& counters) const {
     if (milliseconds_ > 0) std::this_thread::sleep_for(std::chrono::milliseconds(milliseconds_));
     const PixelBounds& b = tile.sampled();
-    for (int y = b.y0; y < b.y1; ++y)
-      for (int x = b.x0; x < b.x1; ++x) {
-        Sampler s(range.sequence, range.seed, range.scramble,
-                  uint64_t(y) * uint64_t(film.full_size().x) + uint64_t(x));
-        for (uint32_t i = 0; i < range.count; ++i) {
-          s.start_sample(range.first + i);
+    for (uint32_t i = range.first; i < range.first + range.count; ++i)
+      for (int y = b.y0; y < b.y1; ++y)
+        for (int x = b.x0; x < b.x1; ++x) {
+          Sampler s(range.sequence, range.seed, range.scramble,
+                    uint64_t(y) * uint64_t(film.full_size().x) + uint64_t(x));
+          s.start_sample(i);
           const Point2f u = s.next_2d();
           const float v = 1 + float(x % 3) + 2 * (s.next_1d() - 0.5f);
           const float values[3] = {v * brightness_, v * u.x * brightness_, brightness_};
           tile.add_sample(film.filter(), {float(x) + u.x, float(y) + u.y}, values);
         }
-      }
+    tile.count_samples(range.count);
     counters.camera_paths += uint64_t(b.width()) * b.height() * range.count;
   }
 
@@ -197,4 +200,80 @@ TEST_CASE("cancelling keeps what there is") {
   CHECK(result.interrupted);
   CHECK(reports == 3);
   CHECK(result.image.pixel(0, 0)[2] == 1);
+}
+
+TEST_CASE("how long passes are changes neither the image nor the estimate of its error") {
+  static const Scene no_scene;
+  for (const bool adaptive : {false, true}) {
+    const auto run = [&](double pass_seconds) {
+      FakeIntegrator fake;
+      RenderRequest r = request(200);
+      r.pass_seconds = pass_seconds;
+      if (adaptive) r.budget.target_error = 1e-9;
+      const RenderResult result = render(no_scene, fake, layout(FilterKind::gaussian), r);
+      CHECK(result.spp == 200);
+      return std::pair(result, *std::max_element(fake.passes.begin(), fake.passes.end()));
+    };
+    const auto [shortest, one] = run(0);
+    const auto [longest, many] = run(1e9);
+    CHECK(one == 1);
+    CHECK(many >= 8);
+    CHECK(shortest.image.data == longest.image.data);
+    REQUIRE(shortest.relative_rmse);
+    CHECK(*shortest.relative_rmse == *longest.relative_rmse);
+  }
+}
+
+TEST_CASE("passes grow until they last as long as they may") {
+  PassLength length(0.5);
+  CHECK(length.next(1000, 1e9) == 1);
+  for (int samples = 1; samples <= 16; samples *= 2) {
+    CHECK(length.next(1000, 1e9) == samples);
+    length.took(samples, 0.02 * samples);
+  }
+  CHECK(length.next(1000, 1e9) == 25);
+  CHECK(length.next(7, 1e9) == 7);
+  CHECK(length.next(1000, 0.1) == 5);
+  CHECK(length.next(1000, -1) == 1);
+  length.took(25, 100);
+  CHECK(length.next(1000, 1e9) == 1);
+}
+
+TEST_CASE("without a sample in every pixel there is no image") {
+  for (const bool adaptive : {false, true}) {
+    std::atomic<bool> cancel{true};
+    RenderRequest r = request(1000);
+    if (adaptive) r.budget.target_error = 0.01;
+    r.cancel = &cancel;
+    const RenderResult none = render_fake(FakeIntegrator(), layout(FilterKind::box), r);
+    CHECK(none.interrupted);
+    CHECK(none.spp == 0);
+    CHECK(none.image.data.empty());
+    // Nor if the first pass is cut off in the middle.
+    cancel = false;
+    r.progress = [&](const RenderProgress&) { cancel = true; };
+    const RenderResult some = render_fake(FakeIntegrator(150), layout(FilterKind::box), r);
+    CHECK(some.interrupted);
+    CHECK(some.spp == 0);
+    CHECK(some.image.data.empty());
+  }
+}
+
+TEST_CASE("an image so far is handed out on demand, and changes nothing") {
+  for (const bool adaptive : {false, true}) {
+    RenderRequest r = request(64);
+    if (adaptive) r.budget.target_error = 1e-9;
+    const RenderResult plain = render_fake(FakeIntegrator(), layout(FilterKind::gaussian), r);
+    int asked = 0, given = 0;
+    r.wants_snapshot = [&] { return ++asked == 2; };
+    r.snapshot = [&](const RenderResult& so_far) {
+      ++given;
+      CHECK(so_far.spp >= 1);
+      CHECK(so_far.spp < 64);
+      CHECK(so_far.image.pixel(39, 49)[2] == doctest::Approx(1));
+    };
+    const RenderResult watched = render_fake(FakeIntegrator(), layout(FilterKind::gaussian), r);
+    CHECK(given == 1);
+    CHECK(watched.image.data == plain.image.data);
+  }
 }

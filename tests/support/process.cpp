@@ -48,8 +48,9 @@ Process::Process(const std::vector<std::string>& arguments, const ProcessOptions
     const rlimit limit{o.file_limit, o.file_limit};
     setrlimit(RLIMIT_FSIZE, &limit);
   }
-  std::signal(SIGINT, SIG_DFL);
-  std::signal(SIGTERM, SIG_DFL);
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP, SIGPIPE}) std::signal(signal, SIG_DFL);
+  for (const int signal : o.ignored) std::signal(signal, SIG_IGN);
+  for (const int stream : o.closed) close(stream);
   execv(argv[0], argv.data());
   _exit(127);
 }
@@ -62,10 +63,15 @@ void Process::send(int signal) const {
   kill(id_, signal);
 }
 
-bool Process::wait_for_message(const std::string& text, double seconds) const {
+bool Process::wait_until(const std::function<bool()>& state, double seconds) {
   for (const double end = now() + seconds; now() < end; pause())
-    if (read_file(streams_.path("err")).find(text) != std::string::npos) return true;
+    if (state()) return true;
   return false;
+}
+
+bool Process::wait_for_message(const std::string& text, double seconds) const {
+  return wait_until([&] { return read_file(streams_.path("err")).find(text) != std::string::npos; },
+                    seconds);
 }
 
 Outcome Process::wait(double seconds) {

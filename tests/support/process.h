@@ -3,6 +3,7 @@
 
 #include <sys/types.h>
 
+#include <functional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -25,6 +26,11 @@ struct ProcessOptions {
   size_t file_limit = 0;
   /// Where standard output goes; "" is Outcome::out.
   std::string output = {};
+  /// Standard streams that are closed, by number.
+  std::vector<int> closed = {};
+  /// Signals that are ignored, as nohup does it; SIGINT, SIGTERM and SIGHUP have their effect
+  /// otherwise.
+  std::vector<int> ignored = {};
 };
 
 /// The program `duet` under way.
@@ -36,6 +42,8 @@ class Process {
   Process& operator=(const Process&) = delete;
 
   void send(int signal) const;
+  /// Waits until `state` is true; false after `seconds`.
+  static bool wait_until(const std::function<bool()>& state, double seconds);
   /// Waits until standard error contains a text; false after `seconds`.
   bool wait_for_message(const std::string& text, double seconds) const;
   /// Waits for the end, and after `seconds` makes it.

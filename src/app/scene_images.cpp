@@ -1,0 +1,89 @@
+#include "app/scene_images.h"
+
+#include <algorithm>
+#include <filesystem>
+#include <stdexcept>
+
+#include "app/partial_image.h"
+#include "app/provenance.h"
+#include "base/log.h"
+
+namespace duet {
+
+SceneImages::SceneImages(const RenderOptions& options, const std::string& scene,
+                         const OutputNames& names, const Fingerprint& settings, int planned_spp)
+    : options_(options),
+      scene_(host_free(scene)),
+      names_(names),
+      settings_(settings),
+      planned_spp_(planned_spp) {}
+
+std::vector<std::string> SceneImages::paths(int spp) const {
+  OutputNames names = names_;
+  names.spp = fmt::to_string(spp);
+  std::vector<std::string> result;
+  for (const std::string& pattern : options_.outputs) result.push_back(output_path(pattern, names));
+  if (result.empty()) result.push_back(output_path("", names));
+  return result;
+}
+
+std::vector<std::string> SceneImages::partial_paths(int spp) const {
+  if (options_.keep_partial_name) return paths(spp);
+  // The name of the image that it is a part of.
+  std::vector<std::string> result = paths(options_.budget.spp ? planned_spp_ : spp);
+  for (std::string& path : result) path = partial_path(path);
+  return result;
+}
+
+std::string SceneImages::settings_hash(const std::string& path) const {
+  Fingerprint all = settings_;
+  // What the film says about tones is part of the scene.
+  if (is_display_format(path)) all.add(fmt::format("exposure {}", options_.exposure));
+  return all.text();
+}
+
+bool SceneImages::are_finished() const {
+  bool finished = true;
+  for (const std::string& path : planned()) {
+    std::error_code ignored;
+    if (!std::filesystem::exists(path, ignored)) {
+      finished = false;
+    } else if (const std::string why = unfinished_reason(path, settings_hash(path)); !why.empty()) {
+      log::info("{} is rendered again: {}", path, why);
+      finished = false;
+    }
+  }
+  return finished;
+}
+
+std::vector<std::string> SceneImages::write(const RenderResult& result, const ImageForm& form,
+                                            const HeaderFields& header) {
+  const std::vector<std::string> written =
+      result.interrupted ? partial_paths(result.spp) : paths(result.spp);
+  std::string failures;
+  for (const std::string& path : written) {
+    ExrOptions exr;
+    exr.half = form.half;
+    exr.full_precision = form.full_precision;
+    exr.origin = {form.layout.crop.x0, form.layout.crop.y0};
+    exr.full_size = form.layout.full;
+    exr.header = header;
+    exr.header.emplace_back("settingsHash", settings_hash(path));
+    const DisplayOptions display{options_.exposure, form.tone_mapping, header_texts(exr.header)};
+    try {
+      write_image(path, result.image, form.pixel_format, exr, display);
+      if (!result.interrupted) remove_partial(path, scene_);
+    } catch (const std::exception& e) {
+      failures += (failures.empty() ? "" : "; ") + std::string(e.what());
+    }
+  }
+  if (!failures.empty()) throw std::runtime_error(failures);
+  std::error_code ignored;
+  for (const std::string& path : partial_)
+    if (std::find(written.begin(), written.end(), path) == written.end())
+      std::filesystem::remove(path, ignored);
+  partial_ = result.interrupted ? written : std::vector<std::string>{};
+  return written;
+}
+
+}  // namespace duet

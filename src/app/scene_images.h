@@ -1,0 +1,58 @@
+// The image files of one scene of `duet render`: what they are called, whether they are there
+// already, and how they are written.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "app/fingerprint.h"
+#include "app/header.h"
+#include "app/output.h"
+#include "app/render_options.h"
+
+namespace duet {
+
+/// How images are to be written.
+struct ImageForm {
+  FilmLayout layout;
+  PixelFormat pixel_format = PixelFormat::rgba;
+  bool half = true;
+  std::vector<std::string> full_precision;  ///< channels that half floats cannot hold
+  std::optional<ToneMapping> tone_mapping;
+};
+
+class SceneImages {
+ public:
+  /// `settings` is the fingerprint of everything that decides the colours of the image;
+  /// `planned_spp` are the samples it is to get, as far as that is known.
+  SceneImages(const RenderOptions& options, const std::string& scene, const OutputNames& names,
+              const Fingerprint& settings, int planned_spp);
+
+  /// The files of a finished image with this many samples.
+  std::vector<std::string> paths(int spp) const;
+  std::vector<std::string> planned() const { return paths(planned_spp_); }
+  /// Whether all planned files are finished images of these settings. One line says why one that is
+  /// there is not.
+  bool are_finished() const;
+
+  /// Writes the files of a finished image, or of one that is not (`result.interrupted`) under the
+  /// names for those; returns the names. Partial images that this makes obsolete are removed.
+  /// Throws std::runtime_error once the others have been written.
+  std::vector<std::string> write(const RenderResult& result, const ImageForm& form,
+                                 const HeaderFields& header);
+
+ private:
+  /// The files of an image that is not finished.
+  std::vector<std::string> partial_paths(int spp) const;
+  /// Of what decides the bytes of a file, for display or not.
+  std::string settings_hash(const std::string& path) const;
+
+  const RenderOptions& options_;
+  std::string scene_;  ///< as headers say it
+  OutputNames names_;
+  Fingerprint settings_;
+  int planned_spp_;
+  std::vector<std::string> partial_;  ///< those that this run has written
+};
+
+}  // namespace duet
