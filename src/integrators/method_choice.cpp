@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "base/log.h"
+#include "base/percent.h"
 #include "integrators/merge_parts.h"
 #include "integrators/method_rules.h"
 
@@ -201,7 +202,7 @@ MethodChoice choose_method(const Scene& scene, const AutoIntegratorDescription& 
   choice.reason = c[best].name + ": ";
   if (!covers(0))
     choice.reason += p[0].missing > kNegligible
-                         ? fmt::format("path would miss {:.2g} % of the light", 100 * p[0].missing)
+                         ? fmt::format("path would miss {} of the light", percent(p[0].missing))
                          : "path cannot find all light";
   else if (best == 0)
     choice.reason += "no other method promises more than 1.15 times its efficiency";
