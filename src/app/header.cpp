@@ -4,6 +4,7 @@
 #include <fstream>
 
 #include "app/commands.h"
+#include "app/scene_operand.h"
 #include "math/hash.h"
 
 namespace duet {
@@ -41,8 +42,12 @@ Matrix4 camera_to_ndc(const SensorDescription& view, Point2i size) {
 }  // namespace
 
 uint64_t hash_file(const std::string& path) {
-  std::ifstream in(path, std::ios::binary);
   uint64_t hash = 0;
+  if (path == kStandardInput) {
+    for (const char c : standard_input()) hash = hash_combine(hash, uint8_t(c));
+    return hash;
+  }
+  std::ifstream in(path, std::ios::binary);
   for (char c; in.get(c);) hash = hash_combine(hash, uint8_t(c));
   return hash;
 }

@@ -33,7 +33,7 @@ std::vector<std::pair<std::string, HeaderValue>> image_header(const RenderRecord
                                                               const SensorDescription& view,
                                                               Point2i full_size);
 
-/// A 64-bit fingerprint of a file's bytes; 0 if it cannot be read.
+/// A 64-bit fingerprint of the bytes of a file or of kStandardInput; 0 if it cannot be read.
 uint64_t hash_file(const std::string& path);
 
 }  // namespace duet

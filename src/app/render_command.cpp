@@ -4,6 +4,7 @@
 #include "app/commands.h"
 #include "app/render_options.h"
 #include "app/render_scene.h"
+#include "app/scene_operand.h"
 #include "app/signals.h"
 #include "app/statistics.h"
 #include "base/log.h"
@@ -16,26 +17,31 @@ namespace {
 class RenderCommand {
  public:
   explicit RenderCommand(RenderOptions options)
-      : options_(std::move(options)), statistics_(options_.stats_file) {}
+      : options_(std::move(options)),
+        statistics_(options_.stats_file),
+        batch_(options_.read.scenes.size()) {}
 
   int run() {
     set_up_log();
+    read_standard_input(options_.read.scenes);
     check_defines(options_.read);
     install_signal_handlers();
     for (const std::string& file : options_.read.scenes) {
       if (interrupt_exit_code() != 0) break;
-      if (failed_ > 0 && !options_.keep_going) break;
-      render(file);
+      if (!failures_.empty() && !options_.keep_going) break;
+      batch_.begin_scene();
+      const bool rendered = render(file);
+      batch_.end_scene(rendered);
       ++tried_;
     }
-    if (!options_.stats_file.empty()) statistics_.write(options_.read.scenes.size() > 1);
+    if (!options_.stats_file.empty()) statistics_.write(batch_.is_several());
     const size_t scenes = options_.read.scenes.size();
     if (tried_ < scenes) log::warning("{} of {} scenes were not tried", scenes - tried_, scenes);
-    if (failed_ > 0 && scenes > 1) log::error("{} of {} scenes failed", failed_, scenes);
+    if (batch_.is_several()) list_failures();
     if (const int code = interrupt_exit_code()) return code;
     // What no scene has is asked for by mistake; what some have not is missing there.
-    if (failed_ > 0 && misused_ == scenes) return kWrongUsage;
-    return failed_ > 0 ? kSceneFailed : kSuccess;
+    if (!failures_.empty() && misused_ == scenes) return kWrongUsage;
+    return failures_.empty() ? kSuccess : kSceneFailed;
   }
 
  private:
@@ -51,26 +57,41 @@ class RenderCommand {
     }
   }
 
-  void render(const std::string& file) {
+  /// Whether the scene was rendered and nothing failed.
+  bool render(const std::string& file) {
     try {
-      return render_scene(file, options_, statistics_);
+      return render_scene(file, options_, batch_, statistics_);
     } catch (const UsageError& e) {
-      log::error("{}: {}", file, e.what());
       ++misused_;
+      fail(file, e.what());
     } catch (const SceneFailure& e) {
-      if (*e.what() != '\0') log::error("{}: {}", file, e.what());
+      fail(file, e.what(), e.is_printed());
     } catch (const std::bad_alloc&) {
-      log::error("{}: out of memory", file);
+      fail(file, "out of memory");
     } catch (const std::exception& e) {
-      log::error("{}: {}", file, e.what());
+      fail(file, e.what());
     }
-    ++failed_;
+    return false;
+  }
+
+  void fail(const std::string& file, const std::string& reason, bool is_printed = false) {
+    if (!is_printed) log::error("{}: {}", file, reason);
+    // Reasons that are places in the file begin with its name.
+    failures_.push_back(reason.starts_with(file + ":") ? reason : file + ": " + reason);
+  }
+
+  void list_failures() const {
+    if (failures_.empty()) return;
+    log::error("{} of {} scenes failed:", failures_.size(), options_.read.scenes.size());
+    for (const std::string& failure : failures_) log::write(log::Level::quiet, "  " + failure);
   }
 
   RenderOptions options_;
   StatisticsFile statistics_;
-  size_t tried_ = 0, failed_ = 0;
-  size_t misused_ = 0;  ///< of the failed: the command line did not fit the scene
+  Batch batch_;
+  size_t tried_ = 0;
+  std::vector<std::string> failures_;  ///< each a scene and the first reason
+  size_t misused_ = 0;                 ///< of the failed: the command line did not fit the scene
 };
 
 }  // namespace
@@ -79,13 +100,16 @@ void add_render_command(CLI::App& app, int& exit_code) {
   CLI::App* c = app.add_subcommand("render", "Render scenes to images");
   const auto parser = std::make_shared<RenderOptionParser>(*c);
   c->footer(
+      "{scene} is the name of the scene file; that of a scene.xml is the name of its folder.\n"
       "Examples:\n"
       "  duet cornell.xml                          cornell.exr, as the scene says\n"
-      "  duet cornell.xml --spp 256 -o out.png     another number of samples, for display\n"
+      "  duet scenes/kitchen                       kitchen.exr from its scene.xml\n"
+      "  duet cornell.xml --spp 256 -o out.png     more samples, for display\n"
       "  duet *.xml -o 'images/{scene}-{spp}.exr'  a batch\n"
-      "  duet room.xml --target-error 1% -v        until the estimated error is below 1 %\n"
+      "  duet - -o - --format png < a.xml | view   from and to other programs\n"
+      "  duet room.xml --target-error 1% -v        until the error is about 1 %\n"
       "  duet room.xml -i path -I max_depth=4 --aov albedo,normal --crop 100,100,64,64\n"
-      "Exit codes: 0 all rendered; 1 a scene failed, the others were rendered; 2 wrong usage;\n"
+      "Exit codes: 0 all rendered; 1 a scene failed, the others were rendered; 2 wrong usage; "
       "130 or 143 interrupted by Ctrl-C or SIGTERM, image written.");
   c->callback([parser, &exit_code] { exit_code = RenderCommand(parser->finish()).run(); });
 }

@@ -10,6 +10,7 @@
 #include "app/output.h"
 #include "app/signals.h"
 #include "base/log.h"
+#include "base/percent.h"
 #include "scene/build.h"
 #include "scene/features.h"
 
@@ -57,22 +58,23 @@ SceneCounts count(const Scene& scene) {
 
 class SceneRenderer {
  public:
-  SceneRenderer(const std::string& file, const RenderOptions& options, StatisticsFile& statistics)
-      : file_(file), options_(options), statistics_(statistics) {}
+  SceneRenderer(const std::string& file, const RenderOptions& options, const Batch& batch,
+                StatisticsFile& statistics)
+      : file_(file), options_(options), batch_(batch), statistics_(statistics) {}
 
-  void run() {
+  bool run() {
     read();
     prepare();
     const std::vector<std::string> planned = paths(planned_spp_);
     if (options_.skip_existing && all_exist(planned)) {
-      log::info("{}: skipped, {} exists", file_, planned[0]);
-      return;
+      log::info("{}{}: skipped, {} exists", batch_.label(), file_, planned[0]);
+      return false;
     }
     check_outputs(planned);
     build();
     if (interrupt_exit_code() != 0) {
       log::warning("{}: interrupted before the first sample; there is no image", file_);
-      return;
+      return false;
     }
     decide();
     record_.noise_only = integrator_->blurs() || !record_.bias.empty();
@@ -83,13 +85,12 @@ class SceneRenderer {
     seconds_.write = watch_.lap();
     statistics_.add(record_, result, seconds_, count(*scene_));
     summarize(result);
+    return true;
   }
 
  private:
   void read() {
-    auto loaded = load_scene(file_, options_.read);
-    if (!loaded) throw SceneFailure("");
-    description_ = std::move(loaded->description);
+    description_ = load_scene(file_, options_.read).description;
     seconds_.parse = watch_.lap();
     if (log::level() == log::Level::verbose)
       log::detail("{}: {}", file_, describe(scene_features(description_)));
@@ -112,7 +113,7 @@ class SceneRenderer {
     Diagnostics diagnostics;
     check_support(description_, description_.integrator, diagnostics);
     check_support(sensor, description_.integrator, diagnostics);
-    if (report(diagnostics, options_.read.strict)) throw SceneFailure("");
+    report(diagnostics, options_.read.strict);
     if (const std::string bias = integrator_->bias(); !bias.empty()) warn(bias);
     record_.bias = integrator_->bias();
     view_ = sensor;
@@ -164,8 +165,8 @@ class SceneRenderer {
     names.seed = fmt::to_string(record_.seed);
     std::vector<std::string> result;
     for (const std::string& pattern : options_.outputs)
-      result.push_back(output_path(pattern, names));
-    if (result.empty()) result.push_back(output_path("", names));
+      result.push_back(output_path(pattern, names, options_.extension));
+    if (result.empty()) result.push_back(output_path("", names, options_.extension));
     return result;
   }
 
@@ -179,7 +180,7 @@ class SceneRenderer {
   /// Finds out before rendering what would be a pity to find out afterwards.
   void check_outputs(const std::vector<std::string>& planned) const {
     for (const std::string& path : planned) {
-      if (const std::string why = unwritable_reason(path); !why.empty())
+      if (const std::string why = prepare_file(path); !why.empty())
         throw SceneFailure(fmt::format("cannot write {}: {}", path, why));
       if (is_display_format(path) && !has_colours())
         throw UsageError(
@@ -194,7 +195,7 @@ class SceneRenderer {
     build.layer_needs = integrator_needs(description_.integrator);
     Diagnostics diagnostics;
     scene_ = build_scene(std::move(description_), build, diagnostics);
-    if (report(diagnostics, options_.read.strict) || !scene_) throw SceneFailure("");
+    report(diagnostics, options_.read.strict);
     seconds_.build = watch_.lap();
     log::detail("{}: read in {:.2f} s, built in {:.2f} s", file_, seconds_.parse, seconds_.build);
   }
@@ -210,7 +211,8 @@ class SceneRenderer {
   }
 
   RenderResult render_with_progress() {
-    ProgressDisplay display(options_.progress, file_);
+    ProgressDisplay display(options_.progress,
+                            batch_.is_several() ? output_names(file_).scene : file_, batch_);
     request_.progress = [&](const RenderProgress& p) { display.show(p); };
     return render(*scene_, *integrator_, layout_, request_);
   }
@@ -235,12 +237,12 @@ class SceneRenderer {
 
   void summarize(const RenderResult& r) const {
     std::string text =
-        fmt::format("{}: {}{} spp in {}", file_, r.interrupted ? "interrupted, " : "", r.spp,
-                    format_seconds(r.seconds));
+        fmt::format("{}{}: {}{} spp in {}", batch_.label(), file_,
+                    r.interrupted ? "interrupted, " : "", r.spp, format_seconds(r.seconds));
     if (r.relative_rmse)
-      text += fmt::format(", estimated relative error {}{:.2g} %{}",
-                          r.rmse_is_upper_bound ? "below " : "", 100 * *r.relative_rmse,
-                          record_.noise_only ? " (noise only)" : "");
+      text +=
+          fmt::format(", estimated relative error {}{}{}", r.rmse_is_upper_bound ? "below " : "",
+                      percent(*r.relative_rmse), record_.noise_only ? " (noise only)" : "");
     for (const std::string& p : paths(r.spp)) text += " -> " + p;
     log::info("{}", text);
     if (request_.budget.target_error && !r.relative_rmse && !r.interrupted)
@@ -252,6 +254,7 @@ class SceneRenderer {
 
   const std::string& file_;
   const RenderOptions& options_;
+  const Batch& batch_;
   StatisticsFile& statistics_;
   Stopwatch watch_;
   PhaseSeconds seconds_;
@@ -267,9 +270,9 @@ class SceneRenderer {
 
 }  // namespace
 
-void render_scene(const std::string& file, const RenderOptions& options,
+bool render_scene(const std::string& file, const RenderOptions& options, const Batch& batch,
                   StatisticsFile& statistics) {
-  SceneRenderer(file, options, statistics).run();
+  return SceneRenderer(file, options, batch, statistics).run();
 }
 
 }  // namespace duet

@@ -4,6 +4,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "app/scene_json.h"
 #include "base/atomic_file.h"
 
 namespace duet {
@@ -60,7 +61,7 @@ void StatisticsFile::add(const RenderRecord& record, const RenderResult& result,
   j["triangles"] = counts.triangles;
   j["instances"] = counts.instances;
   j["interrupted"] = result.interrupted;
-  entries_.push_back(j.dump(2));
+  entries_.push_back(json_text(j));
 }
 
 void StatisticsFile::write(bool several) const {

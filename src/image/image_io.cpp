@@ -132,12 +132,17 @@ ImageFile read_image(const std::string& path) {
   }
 }
 
-void write_exr(const std::string& path, const Image& image, const ExrOptions& options) {
-  write_file_atomically(path, encoded(path, [&] { return encode_exr(image, options); }));
+std::vector<uint8_t> exr_bytes(const std::string& path, const Image& image,
+                               const ExrOptions& options) {
+  return encoded(path, [&] { return encode_exr(image, options); });
 }
 
-void write_display_image(const std::string& path, int width, int height, int channels,
-                         const std::vector<uint8_t>& bytes) {
+void write_exr(const std::string& path, const Image& image, const ExrOptions& options) {
+  write_file_atomically(path, exr_bytes(path, image, options));
+}
+
+std::vector<uint8_t> display_image_bytes(const std::string& path, int width, int height,
+                                         int channels, const std::vector<uint8_t>& bytes) {
   const std::string extension = extension_of(path);
   const bool png = extension == ".png", jpeg = extension == ".jpg" || extension == ".jpeg";
   if (!png && !jpeg)
@@ -148,8 +153,12 @@ void write_display_image(const std::string& path, int width, int height, int cha
     throw std::invalid_argument("write_display_image: size and data do not match");
   if (jpeg && (channels == 2 || channels == 4))
     throw std::runtime_error(fmt::format("{} cannot be written: JPEG has no alpha", path));
-  write_file_atomically(path,
-                        encode_with_module(png ? "png" : "jpeg", width, height, channels, bytes));
+  return encode_with_module(png ? "png" : "jpeg", width, height, channels, bytes);
+}
+
+void write_display_image(const std::string& path, int width, int height, int channels,
+                         const std::vector<uint8_t>& bytes) {
+  write_file_atomically(path, display_image_bytes(path, width, height, channels, bytes));
 }
 
 }  // namespace duet

@@ -23,8 +23,10 @@ struct ProcessOptions {
   std::vector<std::pair<std::string, std::string>> environment = {};
   /// Bytes that a file may have, as `ulimit -f` sets them; 0 is no limit.
   size_t file_limit = 0;
-  /// Where standard output goes; "" is Outcome::out.
-  std::string output = {};
+  /// Where standard output and standard error go; "" is Outcome::out and Outcome::err.
+  std::string output = {}, errors = {};
+  /// The file that is standard input; "" is that of the tests.
+  std::string input = {};
 };
 
 /// The program `duet` under way.
