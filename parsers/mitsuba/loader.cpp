@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <filesystem>
 
+#include "base/readable.h"
 #include "mitsuba/property_values.h"
 #include "mitsuba/references.h"
 #include "mitsuba/text.h"
@@ -71,7 +72,8 @@ class Loader {
     }
     auto text = access_.read(path);
     if (!text) {
-      report_.error(where, "cannot read the scene file {}", path);
+      const std::string why = unreadable_reason(path);
+      report_.error(where, "cannot read {}{}", path, why.empty() ? "" : ": " + why);
       return;
     }
     File file;

@@ -16,6 +16,8 @@ std::optional<MitsubaScene> read_mitsuba(const std::string& file, const MitsubaO
   // is nothing to look at.
   if (tree.nodes.front().folders) scene.description = SceneReader(access, report).read(tree, file);
   scene.parameters = tree.parameters;
+  const FileVersion& version = tree.nodes.front().version;
+  scene.version = fmt::format("{}.{}.{}", version.major, version.minor, version.patch);
   report.finish({std::make_shared<const std::string>(file), 1, 1});
   if (report.has_errors()) return std::nullopt;
   return scene;

@@ -52,6 +52,7 @@ struct MitsubaOptions {
 
 struct MitsubaScene {
   SceneDescription description;
+  std::string version;  ///< of the format, as the main file gives it: "3.0.0"
   /// The `$name` parameters that the scene has, with the values they got, in order of appearance.
   std::vector<std::pair<std::string, std::string>> parameters;
 };

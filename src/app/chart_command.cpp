@@ -12,9 +12,11 @@
 #include "app/commands.h"
 #include "app/progress.h"
 #include "app/render_scene.h"
+#include "app/scene_operand.h"
 #include "app/signals.h"
 #include "app/web_page.h"
 #include "base/log.h"
+#include "base/percent.h"
 
 namespace duet {
 
@@ -29,6 +31,7 @@ class ChartCommand {
 
   int run() {
     log::set_level(o_.quiet ? log::Level::quiet : log::Level::normal);
+    read_standard_input(o_.read.scenes);
     check_defines(o_.read);
     install_signal_handlers();
     const std::vector<std::string> names = chart_names(o_.read.scenes);
@@ -73,7 +76,7 @@ class ChartCommand {
       log::error("{}: {}", file, e.what());
       ++misused_;
     } catch (const SceneFailure& e) {
-      if (*e.what() != '\0') log::error("{}: {}", file, e.what());
+      if (!e.is_printed()) log::error("{}: {}", file, e.what());
     } catch (const std::exception& e) {
       log::error("{}: {}", file, e.what());
     }
@@ -97,8 +100,8 @@ class ChartCommand {
         line.by_time.slope ? fmt::format(", slope {:.2f}", line.by_time.slope->slope) : "";
     log::info(
         "{}: {}: {} spp in {:.3g} CPU s, {}", scene.name, line.name, p.spp, p.cpu_seconds,
-        e ? fmt::format("root of the trimmed relMSE {:.3g} %, {:.2f} of the best efficiency{}",
-                        100 * std::sqrt(p.trimmed), e->value / best_efficiency(scene), slope)
+        e ? fmt::format("root of the trimmed relMSE {}, {:.2f} of the best efficiency{}",
+                        percent(std::sqrt(p.trimmed)), e->value / best_efficiency(scene), slope)
           : "error below the reference's noise");
   }
 
@@ -114,11 +117,9 @@ void add_chart_command(CLI::App& app, int& exit_code) {
   const auto parser = std::make_shared<ChartOptionParser>(*c);
   c->footer(
       "Methods take turns in short slices until the time is used up. Errors are against the "
-      "reference, "
-      "with\n"
-      "its own variance subtracted if --variance says what it is. Open index.html in a browser; it "
-      "needs no\n"
-      "network. Several scenes get a directory each, and a table of all of them.\n"
+      "reference, with its own variance subtracted if --variance says what it is. Open index.html "
+      "in a browser; it needs no network. Several scenes get a directory each, and a table of all "
+      "of them.\n"
       "Examples:\n"
       "  duet chart room.xml --reference room.exr -o charts\n"
       "  duet chart room.xml -i path,bdpt,vcm:radius=0.01,alpha=0.7 -I max_depth=8 --time 5m\n"
@@ -126,8 +127,7 @@ void add_chart_command(CLI::App& app, int& exit_code) {
       "'reference/{folder}/variance.exr'\n"
       "  duet chart room.xml --external 'mitsuba=mitsuba {scene} -D spp={spp} -o {out}'\n"
       "Exit codes: 0; 1 a scene or an external renderer failed; 2 wrong usage; 130 or 143 "
-      "interrupted,\n"
-      "files written with what there was.");
+      "interrupted, files written with what there was.");
   c->callback([parser, &exit_code] { exit_code = ChartCommand(parser->finish()).run(); });
 }
 

@@ -10,6 +10,7 @@
 #include "app/arguments.h"
 #include "app/commands.h"
 #include "app/output.h"
+#include "app/scene_operand.h"
 #include "base/parallel.h"
 
 namespace duet {
@@ -72,8 +73,7 @@ std::vector<ChartMethod> parse_methods(const std::string& text) {
 std::vector<std::string> chart_names(const std::vector<std::string>& scene_files) {
   std::vector<std::string> names;
   for (const std::string& file : scene_files) {
-    const OutputNames n = output_names(file);
-    names.push_back(n.scene == "scene" && !n.folder.empty() ? n.folder : n.scene);
+    names.push_back(output_names(file).scene);
     if (std::count(names.begin(), names.end(), names.back()) > 1)
       throw UsageError(fmt::format("there are two scenes called \"{}\"", names.back()));
   }
@@ -135,6 +135,8 @@ ChartOptions ChartOptionParser::finish() {
     for (const char* needed : {"{spp}", "{out}"})
       if (o.external.back().second.find(needed) == std::string::npos)
         throw UsageError(fmt::format("--external {}: the command needs {}", text, needed));
+    if (std::count(o.read.scenes.begin(), o.read.scenes.end(), kStandardInput) > 0)
+      throw UsageError(fmt::format("--external {}: a scene from standard input is no file", text));
   }
   check_names(o);
   if (!time_.empty())

@@ -10,6 +10,7 @@
 #include "app/commands.h"
 #include "app/progress.h"
 #include "app/web_page.h"
+#include "base/percent.h"
 
 namespace duet {
 
@@ -23,8 +24,7 @@ std::string significant(double v) {
 }
 
 std::string error_text(const ChartPoint& p) {
-  return p.trimmed > 0 ? fmt::format("{:.3g} %", 100 * std::sqrt(p.trimmed))
-                       : "below the reference's noise";
+  return p.trimmed > 0 ? percent(std::sqrt(p.trimmed)) : "below the reference's noise";
 }
 
 std::string swatch(size_t index, const std::string& name) {

@@ -12,6 +12,7 @@
 #include "app/render_scene.h"
 #include "app/signals.h"
 #include "base/log.h"
+#include "base/percent.h"
 #include "scene/build.h"
 
 namespace duet {
@@ -60,9 +61,7 @@ class SceneChart {
 
  private:
   void read() {
-    auto loaded = load_scene(chart_.file, o_.read);
-    if (!loaded) throw SceneFailure("");
-    description_ = std::move(loaded->description);
+    description_ = load_scene(chart_.file, o_.read).description;
     if (o_.sensor >= description_.sensors.size())
       throw UsageError(fmt::format("-s {}: there {} sensor{}", o_.sensor,
                                    description_.sensors.size() == 1
@@ -116,7 +115,7 @@ class SceneChart {
       Diagnostics diagnostics;
       check_support(description_, d, diagnostics);
       check_support(description_.sensors.at(o_.sensor), d, diagnostics);
-      if (report(diagnostics, o_.read.strict)) throw SceneFailure("");
+      report(diagnostics, o_.read.strict);
       Prepared p{m.name, integrator_parameters(d), make_integrator(d)};
       return p;
     } catch (const std::invalid_argument& e) {
@@ -155,7 +154,7 @@ class SceneChart {
     build.threads = o_.threads;
     Diagnostics diagnostics;
     scene_ = build_scene(std::move(description_), build, diagnostics);
-    if (report(diagnostics, o_.read.strict) || !scene_) throw SceneFailure("");
+    report(diagnostics, o_.read.strict);
     render_.scene = scene_.get();
     render_.seed = o_.seed;
     render_.threads = o_.threads;
@@ -216,11 +215,9 @@ class SceneChart {
     shown_ = used;
     std::string text;
     for (const auto& r : renderers_)
-      if (!r->line.points.empty()) {
-        const ChartPoint& p = r->line.points.back();
-        text +=
-            fmt::format(", {} {:.2g} %", r->line.name, 100 * std::sqrt(std::max(0.0, p.trimmed)));
-      }
+      if (!r->line.points.empty())
+        text += fmt::format(", {} {}", r->line.name,
+                            percent(std::sqrt(std::max(0.0, r->line.points.back().trimmed))));
     log::info("{}: {:.0f} %{}", chart_.name, 100 * used / (share_ * double(renderers_.size())),
               text);
   }

@@ -11,6 +11,7 @@
 #include "app/compare.h"
 #include "app/output.h"
 #include "base/parallel.h"
+#include "base/percent.h"
 
 namespace duet {
 
@@ -46,10 +47,10 @@ void print_figures(const Comparison& c) {
       t.rejected, t.tiles, t.mean_z2, t.least_p, t.worst_ratio);
   fmt::print("mean       {:.6f} +- {:.6f} times the reference's\n", t.ratio, t.ratio_error);
   fmt::print(
-      "power      a bias of {:.2g} % of half the tiles, or {:.2g} % of any, would have been "
+      "power      a bias of {} of half the tiles, or {} of any, would have been "
       "noticed "
       "with a probability of 80 %\n",
-      100 * t.visible_bias, 100 * t.visible_bias_worst);
+      percent(t.visible_bias), percent(t.visible_bias_worst));
 }
 
 std::vector<std::string> texts(const std::vector<Requirement>& requirements) {
@@ -135,7 +136,7 @@ void print_all(const CompareOptions& o, const std::vector<Comparison>& all) {
 
 void check_writable(const char* option, const std::string& path) {
   if (path.empty()) return;
-  if (const std::string why = unwritable_reason(path); !why.empty())
+  if (const std::string why = prepare_file(path); !why.empty())
     throw UsageError(fmt::format("{}: cannot write {}: {}", option, path, why));
 }
 
@@ -232,12 +233,11 @@ void add_compare_command(CLI::App& app, int& exit_code) {
   c->add_flag("--json", o->json, "Print the figures as JSON");
   c->footer(
       figures_help() +
-      "Of two directories, a file that only one of them has is a row with the verdict MISSING. "
-      "One\n"
-      "without an image misses every --require; one without a reference is only counted. With\n"
+      "Of two directories, a file that only one of them has is a row with the verdict MISSING. One "
+      "without an image misses every --require; one without a reference is only counted. With "
       "--require-complete both are failures.\n"
-      "Exit codes: 0, also without --require whatever the verdict; 1 an image cannot be read, the\n"
-      "sizes differ, or two directories have no name in common; 2 wrong usage; 3 a --require or\n"
+      "Exit codes: 0, also without --require whatever the verdict; 1 an image cannot be read, the "
+      "sizes differ, or two directories have no name in common; 2 wrong usage; 3 a --require or "
       "--require-complete is missed.\n"
       "Examples:\n"
       "  duet compare a.exr mean.exr --variance variance.exr --require 'relrmse<0.05' --require "

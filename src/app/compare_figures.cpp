@@ -129,10 +129,9 @@ std::string figures_help() {
   std::string text = "Figures, over the channels R, G, B of all pixels:\n";
   for (const Figure& f : figures({})) text += fmt::format("  {:9} {}\n", f.name, f.formula);
   text +=
-      "Verdicts: PASS; NOISY, a required figure is missed but noise explains all differences;\n"
+      "Verdicts: PASS; NOISY, a required figure is missed but noise explains all differences; "
       "BIASED, noise does not explain them (z below 0.9975, |bias| above 4, or with --batches a "
-      "tile\n"
-      "that differs or a tilez2 of 1.6); FAIL, not finite.\n";
+      "tile that differs or a tilez2 of 1.6); FAIL, not finite.\n";
   return text;
 }
 

@@ -7,6 +7,7 @@
 
 #include "app/commands.h"
 #include "app/compare.h"
+#include "base/percent.h"
 
 namespace duet {
 
@@ -106,10 +107,10 @@ std::string tile_text(const TileComparison& t) {
   return fmt::format(
       "<p>{} of {} tiles differ; mean z² {:.2f} (1 if only noise differs); ratio of the means "
       "{:.5f} ± "
-      "{:.5f}. A bias of {:.2g} % of half the tiles, and of {:.2g} % of any, would have been "
+      "{:.5f}. A bias of {} of half the tiles, and of {} of any, would have been "
       "noticed with a probability of 80 %.</p>\n",
-      t.rejected, t.tiles, t.mean_z2, t.ratio, t.ratio_error, 100 * t.visible_bias,
-      100 * t.visible_bias_worst);
+      t.rejected, t.tiles, t.mean_z2, t.ratio, t.ratio_error, percent(t.visible_bias),
+      percent(t.visible_bias_worst));
 }
 
 /// What there is to see of one comparison.

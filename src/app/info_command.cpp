@@ -1,8 +1,11 @@
 // duet info: what a scene contains.
 #include <CLI/CLI.hpp>
+#include <nlohmann/json.hpp>
 
 #include "app/commands.h"
 #include "app/scene_file.h"
+#include "app/scene_json.h"
+#include "app/scene_operand.h"
 #include "app/scene_summary.h"
 #include "base/log.h"
 #include "mitsuba/writer.h"
@@ -13,27 +16,39 @@ namespace {
 
 struct InfoOptions {
   ReadOptions read;
-  bool xml = false, all = false;
+  bool xml = false, json = false, all = false;
 };
+
+void print_xml(const std::string& file, const LoadedScene& scene, bool strict) {
+  const MitsubaXml xml = write_mitsuba_xml(scene.description);
+  for (const std::string& loss : xml.losses) log::warning("{}: {}", file, loss);
+  fmt::print("{}", xml.text);
+  if (strict && !xml.losses.empty()) throw SceneFailure(xml.losses[0], true);
+}
 
 int info(const InfoOptions& o) {
   if (o.xml && o.read.scenes.size() > 1)
     throw UsageError("--xml writes one scene; several were given");
+  read_standard_input(o.read.scenes);
   check_defines(o.read);
   bool failed = false;
+  nlohmann::ordered_json all = nlohmann::ordered_json::array();
   for (const std::string& file : o.read.scenes) {
-    const auto scene = load_scene(file, o.read);
-    failed |= !scene;
-    if (!scene) continue;
-    if (!o.xml) {
-      fmt::print("{}", scene_summary(*scene, o.all));
-      continue;
+    try {
+      const LoadedScene scene = load_scene(file, o.read);
+      if (o.json)
+        all.push_back(scene_json(file, scene));
+      else if (o.xml)
+        print_xml(file, scene, o.read.strict);
+      else
+        fmt::print("{}", scene_summary(scene, o.all));
+    } catch (const SceneFailure& e) {
+      if (!e.is_printed()) log::error("{}: {}", file, e.what());
+      if (o.json) all.push_back({{"file", file}, {"error", e.what()}});
+      failed = true;
     }
-    const MitsubaXml xml = write_mitsuba_xml(scene->description);
-    for (const std::string& loss : xml.losses) log::warning("{}: {}", file, loss);
-    failed |= o.read.strict && !xml.losses.empty();
-    fmt::print("{}", xml.text);
   }
+  if (o.json) fmt::print("{}\n", json_text(all.size() == 1 ? all[0] : all));
   return failed ? kSceneFailed : kSuccess;
 }
 
@@ -44,17 +59,20 @@ void add_info_command(CLI::App& app, int& exit_code) {
   const auto o = std::make_shared<InfoOptions>();
   add_read_options(*c, o->read);
   c->add_flag("-v,--verbose", o->all, "List everything, however much there is");
-  c->add_flag("--xml", o->xml,
-              "Print the scene as a Mitsuba 3 file, with all parameters replaced, instead");
+  CLI::Option* xml =
+      c->add_flag("--xml", o->xml,
+                  "Print the scene as a Mitsuba 3 file, with all parameters replaced, instead");
+  c->add_flag("--json", o->json,
+              "Print all of it as JSON: an object, or an array of them for several scenes")
+      ->excludes(xml);
   c->footer(
-      "Nothing is rendered; images are not read. What a scene asks for and Duet renders in "
-      "another\n"
+      "Nothing is rendered; images are not read. What a scene asks for and Duet renders in another "
       "way is listed under \"approximated\"; what Mitsuba is known to render wrongly, under "
-      "\"differs\n"
-      "from Mitsuba\".\n"
+      "\"differs from Mitsuba\".\n"
       "Examples:\n"
       "  duet info cornell.xml\n"
       "  duet info scenes/*/scene.xml\n"
+      "  duet info cornell.xml --json | jq .sensors[0].spp\n"
       "  duet info old.xml -D spp=16 --xml > new.xml");
   c->callback([o, &exit_code] { exit_code = info(*o); });
 }

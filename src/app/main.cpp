@@ -12,6 +12,7 @@
 
 #include "app/arguments.h"
 #include "app/commands.h"
+#include "app/help.h"
 #include "app/provenance.h"
 #include "app/standard_streams.h"
 #include "base/diagnostics.h"
@@ -30,19 +31,33 @@ std::vector<std::string> command_names(const CLI::App& app) {
   return names;
 }
 
-/// `duet SCENE …` is short for `duet render SCENE …`. Throws UsageError for what looks like a
-/// misspelt command.
-bool names_no_command(const std::vector<std::string>& arguments, const CLI::App& app) {
-  if (arguments.empty()) return false;
-  const std::string& first = arguments[0];
-  if (first == "-h" || first == "--help" || first == "--version") return false;
+/// `duet help COMMAND` is `duet COMMAND --help`.
+std::vector<std::string> help_arguments(const std::vector<std::string>& arguments,
+                                        const CLI::App& app) {
+  if (arguments.size() == 1) return {"--help"};
   const std::vector<std::string> names = command_names(app);
-  if (std::find(names.begin(), names.end(), first) != names.end()) return false;
+  if (std::find(names.begin(), names.end(), arguments[1]) == names.end())
+    throw UsageError(fmt::format("there is no command \"{}\"{}", arguments[1],
+                                 did_you_mean(arguments[1], names)));
+  return {arguments[1], "--help"};
+}
+
+/// What is short for something is written out: `duet SCENE …` for `duet render SCENE …`. Throws
+/// UsageError for what looks like a misspelt command.
+std::vector<std::string> in_full(std::vector<std::string> arguments, const CLI::App& app) {
+  if (arguments.empty()) return arguments;
+  const std::string& first = arguments[0];
+  if (first == "help") return help_arguments(arguments, app);
+  if (first == "-h" || first == "--help" || first == "--version") return arguments;
+  std::vector<std::string> names = command_names(app);
+  if (std::find(names.begin(), names.end(), first) != names.end()) return arguments;
+  names.emplace_back("help");
   std::error_code ignored;
   const std::string hint = did_you_mean(first, names);
   if (!hint.empty() && !std::filesystem::exists(first, ignored))
     throw UsageError(fmt::format("there is no command and no scene \"{}\"{}", first, hint));
-  return true;
+  arguments.insert(arguments.begin(), "render");
+  return arguments;
 }
 
 /// Results that did not arrive are a failure.
@@ -62,7 +77,8 @@ int run(std::vector<std::string> arguments) {
   app.require_subcommand(1);
   app.footer(
       "duet SCENE... is short for duet render SCENE...\n"
-      "Every command has --help with examples.");
+      "duet help COMMAND, or duet COMMAND --help, has its options and examples.");
+  app.formatter(std::make_shared<HelpFormatter>());
   int exit_code = kSuccess;
   add_render_command(app, exit_code);
   add_info_command(app, exit_code);
@@ -71,7 +87,7 @@ int run(std::vector<std::string> arguments) {
   add_plugins_command(app, exit_code);
   add_stability_command(app, exit_code);
   try {
-    if (names_no_command(arguments, app)) arguments.insert(arguments.begin(), "render");
+    arguments = in_full(std::move(arguments), app);
     const std::string help = arguments.empty() ? "duet --help" : "duet " + arguments[0] + " --help";
     std::reverse(arguments.begin(), arguments.end());  // as CLI11 wants them
     try {

@@ -11,6 +11,9 @@
 
 #include "app/commands.h"
 #include "app/placeholders.h"
+#include "app/scene_operand.h"
+#include "app/standard_output.h"
+#include "base/atomic_file.h"
 
 namespace duet {
 
@@ -28,6 +31,15 @@ std::string extension_of(const std::string& path) {
 bool is_directory(const std::string& path) {
   std::error_code ignored;
   return path.ends_with('/') || fs::is_directory(path, ignored);
+}
+
+/// Whether the directory is there now; the current one has an empty name.
+bool make_directories(const fs::path& directory, std::error_code& error) {
+  if (directory.empty()) return true;
+  // A slash at the end would make it an error that the directory is there.
+  fs::create_directories(directory.has_filename() ? directory : directory.parent_path(), error);
+  std::error_code ignored;
+  return fs::is_directory(directory, ignored);
 }
 
 bool has_alpha(PixelFormat f) {
@@ -68,16 +80,28 @@ class Reinhard {
 
 OutputNames output_names(const std::string& scene_file) {
   std::error_code ignored;
-  const fs::path path = fs::absolute(scene_file, ignored).lexically_normal();
-  return {path.stem().string(), path.parent_path().filename().string(), "", "", ""};
+  const bool is_stdin = scene_file == kStandardInput;
+  fs::path path = fs::absolute(is_stdin ? "stdin.xml" : scene_file, ignored).lexically_normal();
+  if (!path.has_filename()) path = path.parent_path();  // a directory without a scene
+  const std::string folder = path.parent_path().filename().string();
+  const bool says_nothing = path.filename() == "scene.xml" && !folder.empty();
+  return {says_nothing ? folder : path.stem().string(), folder, "", "", ""};
 }
 
 bool is_display_format(const std::string& path) {
-  const std::string e = extension_of(path);
-  return e == ".png" || e == ".jpg" || e == ".jpeg";
+  const std::string format = image_format(path);
+  return format == "png" || format == "jpg";
 }
 
-std::string output_path(const std::string& pattern, const OutputNames& names) {
+std::string image_format(const std::string& path) {
+  const std::string e = extension_of(path);
+  if (e == ".exr" || e == ".png" || e == ".jpg") return e.substr(1);
+  return e == ".jpeg" ? "jpg" : "";
+}
+
+std::string output_path(const std::string& pattern, const OutputNames& names,
+                        const std::string& extension) {
+  if (pattern == "-") return kStandardOutput + extension;
   std::string path = fill_in("-o", pattern,
                              {{"scene", names.scene},
                               {"folder", names.folder},
@@ -85,22 +109,25 @@ std::string output_path(const std::string& pattern, const OutputNames& names) {
                               {"spp", names.spp},
                               {"seed", names.seed}});
   if (path.empty())
-    path = names.scene + ".exr";
+    path = names.scene + extension;
   else if (is_directory(path))
-    path = (fs::path(path) / (names.scene + ".exr")).string();
-  if (extension_of(path) != ".exr" && !is_display_format(path))
-    throw UsageError(fmt::format("-o {}: images are written as .exr, .png or .jpg", path));
+    path = (fs::path(path) / (names.scene + extension)).string();
+  if (image_format(path).empty())
+    throw UsageError(fmt::format(
+        "-o {}: images are written as .exr, .png or .jpg; the name of a new directory ends with /",
+        path));
   return path;
 }
 
-std::string unwritable_reason(const std::string& path) {
-  std::error_code ignored;
-  const fs::file_status status = fs::status(path, ignored);
+std::string prepare_file(const std::string& path) {
+  if (is_standard_output(path)) return standard_output_refusal();
+  std::error_code error;
+  const fs::file_status status = fs::status(path, error);
   if (fs::is_directory(status)) return "it is a directory";
   if (fs::exists(status) && !fs::is_regular_file(status)) return "it is not a regular file";
   const fs::path parent = fs::path(path).has_parent_path() ? fs::path(path).parent_path() : ".";
-  if (!fs::is_directory(parent, ignored))
-    return fmt::format("there is no directory \"{}\"", parent.string());
+  if (!make_directories(parent, error))
+    return fmt::format("the directory \"{}\" cannot be made: {}", parent.string(), error.message());
   if (access(parent.c_str(), W_OK) != 0)
     return fmt::format("the directory \"{}\" is not writable", parent.string());
   return "";
@@ -167,11 +194,20 @@ Image in_pixel_format(const Image& image, PixelFormat format) {
 
 void write_image(const std::string& path, const Image& image, PixelFormat format,
                  const ExrOptions& exr, const DisplayOptions& display) {
-  const auto write = [&](const std::string& to) {
-    if (!is_display_format(to)) return write_exr(to, in_pixel_format(image, format), exr);
+  const auto encode = [&](const std::string& to) {
+    if (!is_display_format(to)) return exr_bytes(to, in_pixel_format(image, format), exr);
     const bool with_alpha = has_alpha(format) && extension_of(to) == ".png";
     const DisplayImage shown = to_display(image, display, is_grey(format), with_alpha);
-    write_display_image(to, image.width, image.height, shown.channels, shown.bytes, display.fields);
+    return display_image_bytes(to, image.width, image.height, shown.channels, shown.bytes,
+                               display.fields);
+  };
+  const auto write = [&](const std::string& to) {
+    const std::vector<uint8_t> bytes = encode(to);
+    if (is_standard_output(to)) return write_standard_output(bytes);
+    // The number of samples may be part of its name, and is known only now.
+    std::error_code ignored;
+    make_directories(fs::path(to).parent_path(), ignored);
+    write_file_atomically(to, bytes);
   };
   try {
     write(path);
@@ -182,8 +218,9 @@ void write_image(const std::string& path, const Image& image, PixelFormat format
     // Scenes of one call may have the same name.
     static std::atomic<int> counter = 0;
     const std::string rescue =
-        (folder /
-         fmt::format("duet-{}-{}-{}.exr", fs::path(path).stem().string(), getpid(), counter++))
+        (folder / fmt::format("duet-{}-{}-{}.exr",
+                              is_standard_output(path) ? "stdout" : fs::path(path).stem().string(),
+                              getpid(), counter++))
             .string();
     std::string outcome;
     try {

@@ -73,7 +73,7 @@ void add_plugins_command(CLI::App& app, int& exit_code) {
   c->add_option("kind", o->kind, "Only these: bsdf, shape, emitter, sensor, ... (default: all)");
   c->add_flag("--markdown", o->markdown, "Print docs/compatibility.md");
   c->footer(
-      "Each line says what becomes of a name: done; approximated; no effect, because it changes\n"
+      "Each line says what becomes of a name: done; approximated; no effect, because it changes "
       "nothing that Duet does; ignored with a warning; refused, which is an error.\n"
       "Examples:\n"
       "  duet plugins bsdf\n"

@@ -1,14 +1,17 @@
 #include "app/progress.h"
 
 #include <fmt/format.h>
-#include <sys/ioctl.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <iterator>
+#include <vector>
 
+#include "app/terminal.h"
 #include "base/log.h"
+#include "base/percent.h"
 
 namespace duet {
 
@@ -23,20 +26,28 @@ void remove_bar() {
   bar_is_drawn = false;
 }
 
-int terminal_width() {
-  winsize size{};
-  return ioctl(STDERR_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 0 ? size.ws_col : 80;
+std::string rate(const RenderProgress& p) {
+  return p.seconds > 0 ? fmt::format("{:.2f} Msamples/s", p.samples / p.seconds * 1e-6) : "";
 }
 
-std::string describe(const RenderProgress& p) {
+std::string samples(const RenderProgress& p) {
   // What is shown is there: rounded down.
-  const double spp = p.spp < 10 ? std::floor(10 * p.spp) / 10 : std::floor(p.spp);
-  std::string text = fmt::format("{} spp, {}", spp, format_seconds(p.seconds));
-  if (p.seconds > 0) text += fmt::format(", {:.2f} Msamples/s", p.samples / p.seconds * 1e-6);
-  if (p.relative_rmse) text += fmt::format(", error {:.2g} %", 100 * *p.relative_rmse);
-  if (p.fraction > 0.001)
-    text += fmt::format(", {} left", format_seconds(p.seconds * (1 / p.fraction - 1)));
+  return fmt::format("{} spp", p.spp < 10 ? std::floor(10 * p.spp) / 10 : std::floor(p.spp));
+}
+
+std::string error(const RenderProgress& p) {
+  return p.relative_rmse ? "error " + percent(*p.relative_rmse) : "";
+}
+
+/// Those that say something, with commas between them.
+std::string listed(const std::vector<std::string>& parts) {
+  std::string text;
+  for (const std::string& part : parts) text += (text.empty() || part.empty() ? "" : ", ") + part;
   return text;
+}
+
+double fraction_of(const RenderProgress& p) {
+  return std::clamp(p.fraction, 0.0, 1.0);
 }
 
 }  // namespace
@@ -48,8 +59,8 @@ std::string format_seconds(double s) {
   return fmt::format("{} h {} min", t / 3600, t % 3600 / 60);
 }
 
-ProgressDisplay::ProgressDisplay(ProgressStyle style, std::string scene)
-    : style_(style), scene_(std::move(scene)) {
+ProgressDisplay::ProgressDisplay(ProgressStyle style, std::string scene, const Batch& batch)
+    : style_(style), scene_(std::move(scene)), batch_(batch) {
   if (style_ == ProgressStyle::automatic)
     style_ = isatty(STDERR_FILENO) ? ProgressStyle::bar : ProgressStyle::plain;
   log::set_before_write(remove_bar);
@@ -59,20 +70,49 @@ ProgressDisplay::~ProgressDisplay() {
   remove_bar();
 }
 
+std::string ProgressDisplay::time_left(const RenderProgress& p) const {
+  if (!(p.fraction > 0.001)) return "";
+  const double left = p.seconds * (1 / fraction_of(p) - 1);
+  std::string text = format_seconds(left) + " left";
+  if (batch_.is_several())
+    text += fmt::format(" (all: {})", format_seconds(batch_.seconds_left(left)));
+  return text;
+}
+
+std::string ProgressDisplay::bar(const RenderProgress& p) const {
+  const size_t width = terminal_width(STDERR_FILENO) - 1;
+  const std::string spp = samples(p), seconds = format_seconds(p.seconds);
+  const std::string left = time_left(p);
+  // What is wanted least goes first where there is no room.
+  const std::string shorter[] = {listed({spp, seconds, rate(p), error(p), left}),
+                                 listed({spp, seconds, error(p), left}),
+                                 listed({spp, error(p), left}), listed({spp, left}), left};
+  constexpr size_t kMostBar = 24, kLeastBar = 8;
+  const std::string title = batch_.is_several() ? batch_.label() + scene_ + " " : "";
+  const auto room = [&](const std::string& text) {
+    const size_t others = columns(title) + columns("[] 100 % ") + columns(text);
+    return width - std::min(width, others);
+  };
+  const std::string& text = *std::find_if(std::begin(shorter), std::end(shorter) - 1,
+                                          [&](const auto& t) { return room(t) >= kLeastBar; });
+  std::string bar;
+  if (room(text) >= kLeastBar) {
+    const size_t length = std::min(room(text), kMostBar);
+    const size_t filled = size_t(fraction_of(p) * double(length));
+    bar = "[" + std::string(filled, '#') + std::string(length - filled, '.') + "] ";
+  }
+  const std::string line = fmt::format("{}{}{:3.0f} % {}", title, bar, 100 * fraction_of(p), text);
+  return columns(line) > width ? line.substr(0, width) : line;
+}
+
 void ProgressDisplay::show(const RenderProgress& p) {
-  const double fraction = std::clamp(p.fraction, 0.0, 1.0);
   if (style_ == ProgressStyle::plain && p.seconds - last_line_ >= kSecondsBetweenLines) {
     last_line_ = p.seconds;
-    log::info("{}: {:.0f} %, {}", scene_, 100 * fraction, describe(p));
+    log::info("{}{}: {:.0f} %, {}", batch_.label(), scene_, 100 * fraction_of(p),
+              listed({samples(p), format_seconds(p.seconds), rate(p), error(p), time_left(p)}));
   }
   if (style_ != ProgressStyle::bar || log::level() == log::Level::quiet) return;
-  constexpr int kBarWidth = 24;
-  const int filled = int(fraction * kBarWidth);
-  std::string line = fmt::format("[{}{}] {:3.0f} % {}", std::string(filled, '#'),
-                                 std::string(kBarWidth - filled, '.'), 100 * fraction, describe(p));
-  const size_t width = size_t(terminal_width());
-  if (line.size() >= width) line.resize(width - 1);
-  std::fprintf(stderr, "\r\x1b[K%s", line.c_str());
+  std::fprintf(stderr, "\r\x1b[K%s", bar(p).c_str());
   std::fflush(stderr);
   bar_is_drawn = true;
 }

@@ -3,6 +3,7 @@
 
 #include <string>
 
+#include "app/batch.h"
 #include "integrators/pass.h"
 
 namespace duet {
@@ -17,7 +18,8 @@ enum class ProgressStyle {
 /// Draws the progress of one render on standard error.
 class ProgressDisplay {
  public:
-  ProgressDisplay(ProgressStyle style, std::string scene);
+  /// `scene` is what the scene is called. The batch must outlive this.
+  ProgressDisplay(ProgressStyle style, std::string scene, const Batch& batch);
   ~ProgressDisplay();
   ProgressDisplay(const ProgressDisplay&) = delete;
   ProgressDisplay& operator=(const ProgressDisplay&) = delete;
@@ -25,8 +27,12 @@ class ProgressDisplay {
   void show(const RenderProgress& progress);
 
  private:
+  std::string time_left(const RenderProgress& progress) const;
+  std::string bar(const RenderProgress& progress) const;
+
   ProgressStyle style_;
   std::string scene_;
+  const Batch& batch_;
   double last_line_ = 0;
 };
 

@@ -4,6 +4,7 @@
 #include "app/commands.h"
 #include "app/render_options.h"
 #include "app/render_scene.h"
+#include "app/scene_operand.h"
 #include "app/signals.h"
 #include "app/statistics.h"
 #include "base/log.h"
@@ -16,26 +17,31 @@ namespace {
 class RenderCommand {
  public:
   explicit RenderCommand(RenderOptions options)
-      : options_(std::move(options)), statistics_(options_.stats_file) {}
+      : options_(std::move(options)),
+        statistics_(options_.stats_file),
+        batch_(options_.read.scenes.size()) {}
 
   int run() {
     install_signal_handlers();
     set_up_log();
+    read_standard_input(options_.read.scenes);
     check_defines(options_.read);
     for (const std::string& file : options_.read.scenes) {
       if (interrupt_exit_code() != 0) break;
-      if (failed_ > 0 && !options_.keep_going) break;
-      render(file);
+      if (!failures_.empty() && !options_.keep_going) break;
+      batch_.begin_scene();
+      const bool rendered = render(file);
+      batch_.end_scene(rendered);
       ++tried_;
     }
     const size_t scenes = options_.read.scenes.size();
-    const bool has_statistics = write_statistics(scenes > 1);
+    const bool has_statistics = write_statistics();
     if (tried_ < scenes) log::warning("{} of {} scenes were not tried", scenes - tried_, scenes);
-    if (failed_ > 0 && scenes > 1) log::error("{} of {} scenes failed", failed_, scenes);
+    if (batch_.is_several()) list_failures();
     if (const int code = interrupt_exit_code()) return code;
     // What no scene has is asked for by mistake; what some have not is missing there.
-    if (failed_ > 0 && misused_ == scenes) return kWrongUsage;
-    if (failed_ > 0 || !has_statistics) return kSceneFailed;
+    if (!failures_.empty() && misused_ == scenes) return kWrongUsage;
+    if (!failures_.empty() || !has_statistics) return kSceneFailed;
     return options_.require_target && missed_ > 0 ? kTargetMissed : kSuccess;
   }
 
@@ -53,10 +59,10 @@ class RenderCommand {
   }
 
   /// Whether the statistics are where they should be.
-  bool write_statistics(bool several) const {
+  bool write_statistics() const {
     if (options_.stats_file.empty()) return true;
     try {
-      statistics_.write(several);
+      statistics_.write(batch_.is_several());
       return true;
     } catch (const std::exception& e) {
       log::error("--stats: {}", e.what());
@@ -64,30 +70,46 @@ class RenderCommand {
     }
   }
 
-  void render(const std::string& file) {
+  /// Whether the scene was rendered and nothing failed.
+  bool render(const std::string& file) {
     const log::Recording messages;
     try {
-      missed_ += render_scene(file, options_, statistics_) == RenderOutcome::target_missed;
-      return;
+      const RenderOutcome outcome = render_scene(file, options_, batch_, statistics_);
+      missed_ += outcome == RenderOutcome::target_missed;
+      return outcome != RenderOutcome::not_rendered;
     } catch (const UsageError& e) {
-      log::error("{}: {}", file, e.what());
       ++misused_;
+      fail(file, e.what());
     } catch (const SceneFailure& e) {
-      if (*e.what() != '\0') log::error("{}: {}", file, e.what());
+      fail(file, e.what(), e.is_printed());
     } catch (const std::bad_alloc&) {
-      log::error("{}: out of memory", file);
+      fail(file, "out of memory");
     } catch (const std::exception& e) {
-      log::error("{}: {}", file, e.what());
+      fail(file, e.what());
     }
-    ++failed_;
     statistics_.add_failure(file, messages.lines(), false);
+    return false;
+  }
+
+  void fail(const std::string& file, const std::string& reason, bool is_printed = false) {
+    if (!is_printed) log::error("{}: {}", file, reason);
+    // Reasons that are places in the file begin with its name.
+    failures_.push_back(reason.starts_with(file + ":") ? reason : file + ": " + reason);
+  }
+
+  void list_failures() const {
+    if (failures_.empty()) return;
+    log::error("{} of {} scenes failed:", failures_.size(), options_.read.scenes.size());
+    for (const std::string& failure : failures_) log::write(log::Level::quiet, "  " + failure);
   }
 
   RenderOptions options_;
   StatisticsFile statistics_;
-  size_t tried_ = 0, failed_ = 0;
-  size_t missed_ = 0;   ///< whose error is above --target-error
-  size_t misused_ = 0;  ///< of the failed: the command line did not fit the scene
+  Batch batch_;
+  size_t tried_ = 0;
+  std::vector<std::string> failures_;  ///< each a scene and the first reason
+  size_t missed_ = 0;                  ///< whose error is above --target-error
+  size_t misused_ = 0;                 ///< of the failed: the command line did not fit the scene
 };
 
 }  // namespace
@@ -96,18 +118,19 @@ void add_render_command(CLI::App& app, int& exit_code) {
   CLI::App* c = app.add_subcommand("render", "Render scenes to images");
   const auto parser = std::make_shared<RenderOptionParser>(*c);
   c->footer(
+      "{scene} is the name of the scene file; that of a scene.xml is the name of its folder.\n"
       "Examples:\n"
       "  duet cornell.xml                          cornell.exr, as the scene says\n"
-      "  duet cornell.xml --spp 256 -o out.png     another number of samples, for display\n"
+      "  duet scenes/kitchen                       kitchen.exr from its scene.xml\n"
+      "  duet cornell.xml --spp 256 -o out.png     more samples, for display\n"
       "  duet *.xml -o 'images/{scene}-{spp}.exr'  a batch\n"
-      "  duet room.xml --target-error 1% -v        until the estimated error is below 1 %\n"
+      "  duet - -o - --format png < a.xml | view   from and to other programs\n"
+      "  duet room.xml --target-error 1% -v        until the error is about 1 %\n"
       "  duet room.xml -i path -I max_depth=4 --aov albedo,normal --crop 100,100,64,64\n"
-      "Exit codes: 0 all rendered; 1 a scene failed, the others were rendered; 2 wrong usage;\n"
-      "4 --target-error was not met and --require-target was given; 129, 130 or 143 interrupted "
-      "by\n"
+      "Exit codes: 0 all rendered; 1 a scene failed, the others were rendered; 2 wrong usage; "
+      "4 --target-error was not met and --require-target was given; 129, 130 or 143 interrupted by "
       "SIGHUP, Ctrl-C or SIGTERM: the samples so far are in SCENE.partial.exr, if every pixel has "
-      "one.\n"
-      "SIGUSR1 writes that file and goes on.");
+      "one. SIGUSR1 writes that file and goes on.");
   c->callback([parser, &exit_code] { exit_code = RenderCommand(parser->finish()).run(); });
 }
 

@@ -1,12 +1,15 @@
 #include "app/render_options.h"
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <limits>
 #include <map>
 
 #include "app/arguments.h"
 #include "app/commands.h"
 #include "app/output.h"
+#include "app/standard_output.h"
+#include "base/log.h"
 #include "base/parallel.h"
 
 namespace duet {
@@ -34,15 +37,15 @@ std::string layer_help() {
 }  // namespace
 
 RenderOptionParser::RenderOptionParser(CLI::App& c) {
-  RenderOptions& o = options_;
-  add_read_options(c, o.read);
-  c.add_option(
-       "-o,--output", o.outputs,
-       "File, directory or template with {scene} {folder} {integrator} {spp} {seed}; .exr "
-       "is linear and holds all layers, .png and .jpg are for display; repeatable (default: "
-       "SCENE.exr here)")
-      ->allow_extra_args(false);
-  c.add_option("-i,--integrator", o.integrator.name, integrator_help());
+  add_read_options(c, options_.read);
+  add_method_options(c);
+  add_image_options(c);
+  add_output_options(c);
+}
+
+void RenderOptionParser::add_method_options(CLI::App& c) {
+  c.option_defaults()->group("Method and when to stop");
+  c.add_option("-i,--integrator", options_.integrator.name, integrator_help());
   c.add_option("-I,--parameter", integrator_parameters_,
                "NAME=VALUE of the method, such as max_depth=8; repeatable")
       ->allow_extra_args(false);
@@ -50,13 +53,29 @@ RenderOptionParser::RenderOptionParser(CLI::App& c) {
   c.add_option("--time", time_, "Stop after this long: 90s, 10m, 2h");
   c.add_option("--target-error", target_,
                "Stop when the relative standard error of the image falls below this: 0.01 or 1%; "
-               "noisy parts "
-               "get more samples");
-  c.add_option("--size", size_, "Image size WxH instead of the scene's, without its crop window");
-  c.add_option("--crop", crop_, "Render only the window x,y,w,h, in pixels");
+               "noisy parts get more samples");
+  c.add_flag("--require-target", options_.require_target,
+             "Exit with 4 if --target-error is not met when time or samples are used up");
+  c.add_option("--seed", seed_, "Seed of the random numbers");
+  c.add_flag("--strict-sampler", options_.strict_sampler,
+             "The sampler that the scene names, instead of Duet's Sobol' points");
+  c.add_option("-t,--threads", threads_, "Number of threads (default: all)");
+}
+
+void RenderOptionParser::add_image_options(CLI::App& c) {
+  c.option_defaults()->group("Image");
   c.add_option("-s,--sensor", sensor_, "Which of the scene's sensors, counting from 0");
   c.add_option("--seed", seed_, "Seed of the random numbers");
+  c.add_flag("--strict-sampler", options_.strict_sampler,
+             "The sampler that the scene names, instead of Duet's Sobol' points");
   c.add_option("-t,--threads", threads_, "Number of threads (default: all)");
+}
+
+void RenderOptionParser::add_image_options(CLI::App& c) {
+  c.option_defaults()->group("Image");
+  c.add_option("-s,--sensor", sensor_, "Which of the scene's sensors, counting from 0");
+  c.add_option("--size", size_, "Image size WxH instead of the scene's, without its crop window");
+  c.add_option("--crop", crop_, "Render only the window x,y,w,h, in pixels");
   c.add_option("--aov", layers_, layer_help())->delimiter(',')->allow_extra_args(false);
   c.add_option("--techniques", techniques_,
                "One layer per technique: its part of the image, or with --techniques=raw without "
@@ -64,18 +83,29 @@ RenderOptionParser::RenderOptionParser(CLI::App& c) {
       ->expected(0, 1)
       ->default_str("weighted")
       ->check(CLI::IsMember({"weighted", "raw"}));
-  c.add_option("--stats", o.stats_file, "Write statistics as JSON to this file");
   c.add_option("--exposure", exposure_, "Exposure of .png and .jpg, in stops");
-  c.add_flag("--strict-sampler", o.strict_sampler,
-             "The sampler that the scene names, instead of Duet's Sobol' points");
+}
+
+void RenderOptionParser::add_output_options(CLI::App& c) {
+  RenderOptions& o = options_;
+  c.option_defaults()->group("Output");
+  c.add_option("-o,--output", o.outputs,
+               "File, directory or template with {scene} {folder} {integrator} {spp} {seed}; - is "
+               "standard output; .exr is linear and holds all layers, .png and .jpg are for "
+               "display; directories are made; repeatable (default: {scene}.exr here)")
+      ->allow_extra_args(false);
+  c.add_option("--format", format_,
+               "exr, png or jpg, where -o does not say it: in a directory, on standard output, by "
+               "default (exr)")
+      ->check(CLI::IsMember({"exr", "png", "jpg"}));
   c.add_flag("-x,--skip-existing", o.skip_existing,
              "Leave out scenes whose images exist, complete and made with the same settings");
   c.add_flag("--keep-partial-name", o.keep_partial_name,
              "After an interrupt write NAME.exr, not NAME.partial.exr");
-  c.add_flag("--require-target", o.require_target,
-             "Exit with 4 if --target-error is not met when time or samples are used up");
   c.add_flag("--keep-going,!--no-keep-going", o.keep_going,
              "After a scene that fails, render the others (default)");
+  c.add_option("--stats", o.stats_file, "Write statistics as JSON to this file");
+  c.option_defaults()->group("Messages");
   CLI::Option* quiet = c.add_flag("-q,--quiet", o.quiet, "Errors and warnings only");
   c.add_flag("-v,--verbose", o.verbose, "More messages")->excludes(quiet);
   c.add_option("--progress", progress_, "auto, bar, plain or none")
@@ -92,8 +122,13 @@ void RenderOptionParser::finish_numbers() {
   if (!target_.empty())
     budget.target_error = parse_amount("--target-error", target_, {{"", 1}, {"%", 0.01}}, 1e-6, 1);
   options_.exposure = parse_amount("--exposure", exposure_, {{"", 1}}, -100, 100);
-  options_.threads = threads_.empty() ? hardware_threads()
-                                      : int(parse_whole("--threads", threads_, 1, kMaxThreads));
+  options_.threads = hardware_threads();
+  if (!threads_.empty()) {
+    const int wanted = int(parse_whole("--threads", threads_, 1, kMaxThreads));
+    options_.threads = startable_threads(wanted);
+    if (options_.threads < wanted)
+      log::warning("only {} of {} threads can be started", options_.threads, wanted);
+  }
   if (!seed_.empty())
     options_.seed = parse_whole("--seed", seed_, 0, std::numeric_limits<uint64_t>::max());
   if (!sensor_.empty())
@@ -117,6 +152,25 @@ void RenderOptionParser::finish_window() {
   }
 }
 
+void RenderOptionParser::finish_format() {
+  if (format_.empty()) return;
+  options_.extension = "." + format_;
+  for (const std::string& pattern : options_.outputs)
+    if (const std::string named = image_format(pattern); !named.empty() && named != format_)
+      throw UsageError(fmt::format("-o {}: --format {} asks for another one", pattern, format_));
+}
+
+void RenderOptionParser::check_standard_output() const {
+  const auto& outputs = options_.outputs;
+  const auto count = std::count(outputs.begin(), outputs.end(), "-");
+  if (count == 0) return;
+  if (count > 1 || options_.read.scenes.size() > 1)
+    throw UsageError("-o -: standard output holds one image");
+  if (options_.skip_existing) throw UsageError("-o -: --skip-existing needs images that can exist");
+  if (const std::string why = standard_output_refusal(); !why.empty())
+    throw UsageError("-o -: " + why);
+}
+
 void RenderOptionParser::check_outputs() const {
   const RenderOptions& o = options_;
   const std::vector<std::string> patterns =
@@ -131,7 +185,7 @@ void RenderOptionParser::check_outputs() const {
       OutputNames names = output_names(scene);
       // Two scenes that differ only in what they say themselves are too much alike.
       names.integrator = names.spp = names.seed = "_";
-      const std::string path = output_path(pattern, names);
+      const std::string path = output_path(pattern, names, o.extension);
       const auto [entry, is_new] = writers.try_emplace(path, scene);
       if (!is_new && o.read.scenes.size() > 1)
         throw UsageError(fmt::format(
@@ -156,9 +210,11 @@ RenderOptions RenderOptionParser::finish() {
                                       : ProgressStyle::automatic;
   if (o.require_target && !o.budget.target_error)
     throw UsageError("--require-target: there is no --target-error");
+  finish_format();
+  check_standard_output();
   check_outputs();
   if (!o.stats_file.empty())
-    if (const std::string why = unwritable_reason(o.stats_file); !why.empty())
+    if (const std::string why = prepare_file(o.stats_file); !why.empty())
       throw UsageError(fmt::format("--stats: cannot write {}: {}", o.stats_file, why));
   return std::move(options_);
 }

@@ -18,6 +18,7 @@ namespace duet {
 struct RenderOptions {
   ReadOptions read;
   std::vector<std::string> outputs;
+  std::string extension = ".exr";  ///< of images whose names have none
   double exposure = 0;
   bool skip_existing = false, keep_going = true;
   bool keep_partial_name = false, require_target = false;
@@ -45,13 +46,18 @@ class RenderOptionParser {
   RenderOptions finish();
 
  private:
+  void add_method_options(CLI::App& command);
+  void add_image_options(CLI::App& command);
+  void add_output_options(CLI::App& command);
   void finish_numbers();
   void finish_window();
+  void finish_format();
+  void check_standard_output() const;
   void check_outputs() const;
 
   RenderOptions options_;
   std::string spp_, time_, target_, size_, crop_, exposure_ = "0", threads_, seed_, sensor_,
-                                                  progress_ = "auto", techniques_;
+                                                  progress_ = "auto", techniques_, format_;
   std::vector<std::string> integrator_parameters_, layers_;
 };
 

@@ -8,8 +8,11 @@
 #include "app/commands.h"
 #include "app/film_layout.h"
 #include "app/scene_images.h"
+#include "app/scene_operand.h"
 #include "app/signals.h"
+#include "app/standard_output.h"
 #include "base/log.h"
+#include "base/percent.h"
 #include "scene/build.h"
 #include "scene/features.h"
 
@@ -58,15 +61,16 @@ SceneCounts count(const Scene& scene) {
 
 class SceneRenderer {
  public:
-  SceneRenderer(const std::string& file, const RenderOptions& options, StatisticsFile& statistics)
-      : file_(file), options_(options), statistics_(statistics) {}
+  SceneRenderer(const std::string& file, const RenderOptions& options, const Batch& batch,
+                StatisticsFile& statistics)
+      : file_(file), options_(options), batch_(batch), statistics_(statistics) {}
 
   RenderOutcome run() {
     read();
     prepare();
     if (options_.skip_existing && images_->are_finished()) {
-      log::info("{}: skipped, {} exists", file_, images_->planned()[0]);
-      return RenderOutcome::done;
+      log::info("{}{}: skipped, {} exists", batch_.label(), file_, images_->planned()[0]);
+      return RenderOutcome::not_rendered;
     }
     check_outputs(images_->planned());
     build();
@@ -86,11 +90,10 @@ class SceneRenderer {
 
  private:
   void read() {
-    auto loaded = load_scene(file_, options_.read);
-    if (!loaded) throw SceneFailure("");
-    description_ = std::move(loaded->description);
-    settings_ = loaded->files.fingerprint();
-    for (const auto& [name, value] : loaded->parameters) settings_.add(name), settings_.add(value);
+    LoadedScene loaded = load_scene(file_, options_.read);
+    description_ = std::move(loaded.description);
+    settings_ = loaded.files.fingerprint();
+    for (const auto& [name, value] : loaded.parameters) settings_.add(name), settings_.add(value);
     seconds_.parse = watch_.lap();
     if (log::level() == log::Level::verbose)
       log::detail("{}: {}", file_, describe(scene_features(description_)));
@@ -113,7 +116,7 @@ class SceneRenderer {
     Diagnostics diagnostics;
     check_support(description_, description_.integrator, diagnostics);
     check_support(sensor, description_.integrator, diagnostics);
-    if (report(diagnostics, options_.read.strict)) throw SceneFailure("");
+    report(diagnostics, options_.read.strict);
     if (const std::string bias = integrator_->bias(); !bias.empty()) warn(bias);
     record_.bias = integrator_->bias();
     view_ = sensor;
@@ -125,7 +128,7 @@ class SceneRenderer {
 
     record_.scene_file = file_;
     Fingerprint scene;
-    scene.add_file(file_);
+    file_ == kStandardInput ? scene.add(standard_input()) : scene.add_file(file_);
     record_.scene_hash = scene.text();
     record_.integrator = integrator_name(description_.integrator);
     record_.integrator_parameters = integrator_parameters(description_.integrator);
@@ -185,7 +188,7 @@ class SceneRenderer {
     const bool keeps_layers = !std::all_of(planned.begin(), planned.end(), is_display_format);
     const std::vector<std::string> channels = integrator_->channels();
     for (const std::string& path : planned) {
-      if (const std::string why = unwritable_reason(path); !why.empty())
+      if (const std::string why = prepare_file(path); !why.empty())
         throw SceneFailure(fmt::format("cannot write {}: {}", path, why));
       if (is_display_format(path) && !has_colours())
         throw UsageError(
@@ -205,7 +208,7 @@ class SceneRenderer {
     build.layer_needs = integrator_needs(description_.integrator);
     Diagnostics diagnostics;
     scene_ = build_scene(std::move(description_), build, diagnostics);
-    if (report(diagnostics, options_.read.strict) || !scene_) throw SceneFailure("");
+    report(diagnostics, options_.read.strict);
     seconds_.build = watch_.lap();
     log::detail("{}: read in {:.2f} s, built in {:.2f} s", file_, seconds_.parse, seconds_.build);
   }
@@ -221,11 +224,18 @@ class SceneRenderer {
   }
 
   RenderResult render_with_progress() {
-    ProgressDisplay display(options_.progress, file_);
+    ProgressDisplay display(options_.progress,
+                            batch_.is_several() ? output_names(file_).scene : file_, batch_);
     request_.progress = [&](const RenderProgress& p) { display.show(p); };
-    request_.wants_snapshot = take_snapshot_request;
+    // Standard output takes one image: the last.
+    if (!has_standard_output()) request_.wants_snapshot = take_snapshot_request;
     request_.snapshot = [&](const RenderResult& so_far) { write_snapshot(so_far); };
     return render(*scene_, *integrator_, layout_, request_);
+  }
+
+  bool has_standard_output() const {
+    const std::vector<std::string> paths = images_->planned();
+    return std::any_of(paths.begin(), paths.end(), is_standard_output);
   }
 
   /// The image so far, for someone who is waiting: it is not finished, and if it cannot be written
@@ -251,17 +261,16 @@ class SceneRenderer {
   RenderOutcome give_up() {
     log::warning("{}: interrupted before every pixel had a sample; no image is written", file_);
     statistics_.add_failure(file_, {"interrupted before every pixel had a sample"}, true);
-    return RenderOutcome::done;
+    return RenderOutcome::not_rendered;
   }
 
   void summarize(const RenderResult& r, const std::vector<std::string>& written) const {
     std::string text =
-        fmt::format("{}: {}{} spp in {}", file_, r.interrupted ? "interrupted, " : "", r.spp,
-                    format_seconds(r.seconds));
+        fmt::format("{}{}: {}{} spp in {}", batch_.label(), file_,
+                    r.interrupted ? "interrupted, " : "", r.spp, format_seconds(r.seconds));
     if (r.relative_rmse)
-      text += fmt::format(", relative standard error {}{:.2g} %{}",
-                          r.rmse_is_upper_bound ? "below " : "", 100 * *r.relative_rmse,
-                          record_.noise_only ? " (noise only)" : "");
+      text += fmt::format(", relative standard error {}{}{}", r.rmse_is_upper_bound ? "below " : "",
+                          percent(*r.relative_rmse), record_.noise_only ? " (noise only)" : "");
     for (const std::string& p : written) text += " -> " + p;
     log::info("{}", text);
     if (r.counters.nonfinite_samples > 0)
@@ -271,14 +280,14 @@ class SceneRenderer {
 
   /// Says so if the error that was asked for has not been reached.
   RenderOutcome target_outcome(const RenderResult& r) const {
-    if (!request_.budget.target_error || target_met(record_, r)) return RenderOutcome::done;
+    if (!request_.budget.target_error || target_met(record_, r)) return RenderOutcome::rendered;
     if (!r.relative_rmse)
-      log::warning("{}: --target-error {:.3g} %: {}", file_, 100 * *request_.budget.target_error,
+      log::warning("{}: --target-error {}: {}", file_, percent(*request_.budget.target_error),
                    r.interrupted ? "interrupted before the error was known"
                                  : "the error is not known, or the image is black");
     else
-      log::warning("{}: --target-error {:.3g} % is not met: the estimate is {:.3g} %, and {}",
-                   file_, 100 * *request_.budget.target_error, 100 * *r.relative_rmse,
+      log::warning("{}: --target-error {} is not met: the estimate is {}, and {}", file_,
+                   percent(*request_.budget.target_error), percent(*r.relative_rmse),
                    r.interrupted ? "the render was interrupted"
                    : request_.budget.spp && r.spp >= *request_.budget.spp
                        ? "the samples of --spp are used up"
@@ -288,6 +297,7 @@ class SceneRenderer {
 
   const std::string& file_;
   const RenderOptions& options_;
+  const Batch& batch_;
   StatisticsFile& statistics_;
   Stopwatch watch_;
   PhaseSeconds seconds_;
@@ -306,8 +316,8 @@ class SceneRenderer {
 }  // namespace
 
 RenderOutcome render_scene(const std::string& file, const RenderOptions& options,
-                           StatisticsFile& statistics) {
-  return SceneRenderer(file, options, statistics).run();
+                           const Batch& batch, StatisticsFile& statistics) {
+  return SceneRenderer(file, options, batch, statistics).run();
 }
 
 }  // namespace duet

@@ -1,22 +1,17 @@
 // One scene of `duet render`, from its file to its images.
 #pragma once
 
-#include <stdexcept>
 #include <string>
 
+#include "app/batch.h"
 #include "app/render_options.h"
 #include "app/statistics.h"
 
 namespace duet {
 
-/// The scene cannot be rendered as asked; an empty message means that all has been printed.
-class SceneFailure : public std::runtime_error {
- public:
-  using std::runtime_error::runtime_error;
-};
-
 enum class RenderOutcome {
-  done,           ///< also if there was nothing to do, or an interrupt
+  rendered,       ///< and the image is written, also after an interrupt
+  not_rendered,   ///< the images exist already, or an interrupt came too early
   target_missed,  ///< the image is written, but its error is above --target-error, or not known
 };
 
@@ -25,6 +20,6 @@ enum class RenderOutcome {
 /// image is written with the samples it has, under the name for partial images, if every pixel has
 /// one.
 RenderOutcome render_scene(const std::string& file, const RenderOptions& options,
-                           StatisticsFile& statistics);
+                           const Batch& batch, StatisticsFile& statistics);
 
 }  // namespace duet

@@ -5,8 +5,9 @@
 
 #include "app/arguments.h"
 #include "app/commands.h"
+#include "app/scene_operand.h"
 #include "base/log.h"
-#include "mitsuba/mitsuba.h"
+#include "mitsuba/scene_files.h"
 
 namespace duet {
 
@@ -17,6 +18,9 @@ MitsubaOptions mitsuba_options(const ReadOptions& options) {
   mitsuba.search_paths = options.search_paths;
   for (const std::string& define : options.defines)
     mitsuba.defines.push_back(parse_assignment("-D", define));
+  mitsuba.files.read = [on_disk = with_disk({}).read](const std::string& path) {
+    return path == kStandardInput ? standard_input() : on_disk(path);
+  };
   return mitsuba;
 }
 
@@ -31,13 +35,19 @@ TriangleMesh some_mesh(const std::string&, const std::string&, const MeshOptions
 }  // namespace
 
 void add_read_options(CLI::App& c, ReadOptions& o) {
-  c.add_option("scene", o.scenes, "Scene files")->required();
+  c.add_option("scene", o.scenes,
+               "Scene files; a folder means the scene.xml or the only .xml file in it, - means "
+               "standard input")
+      ->required()
+      ->transform(scene_file_of);
+  c.option_defaults()->group("Scene");
   c.add_option("-D,--define", o.defines, "NAME=VALUE of a $parameter of the scene; repeatable")
       ->allow_extra_args(false);
   c.add_option("-a,--path", o.search_paths, "Further directory to look for files; repeatable")
       ->allow_extra_args(false)
       ->check(CLI::ExistingDirectory);
   c.add_flag("--strict", o.strict, "Every warning is an error");
+  c.option_defaults()->group("Options");
 }
 
 void check_defines(const ReadOptions& options) {
@@ -66,23 +76,31 @@ void check_defines(const ReadOptions& options) {
   }
 }
 
-bool report(const Diagnostics& diagnostics, bool strict) {
-  for (const Diagnostic& d : diagnostics.all()) log::write(log::Level::quiet, d.to_string());
-  return diagnostics.has_errors() || (strict && !diagnostics.all().empty());
+void report(const Diagnostics& diagnostics, bool strict) {
+  const Diagnostic* first = nullptr;
+  for (const Diagnostic& d : diagnostics.all()) {
+    log::write(log::Level::quiet, d.to_string());
+    const bool counts = d.severity == Severity::error || (strict && !diagnostics.has_errors());
+    if (counts && !first) first = &d;
+  }
+  if (!first) return;
+  if (!diagnostics.has_errors()) log::error("warnings are errors because of --strict");
+  throw SceneFailure(fmt::format("{}: {}", first->where.to_string(), first->message), true);
 }
 
-std::optional<LoadedScene> load_scene(const std::string& file, const ReadOptions& options) {
+LoadedScene load_scene(const std::string& file, const ReadOptions& options) {
+  if (const std::string why = no_scene_reason(file); !why.empty()) {
+    log::error("cannot read {}: {}", file, why);
+    throw SceneFailure(why, true);
+  }
   Diagnostics diagnostics;
   InputFiles files;
   MitsubaOptions mitsuba = mitsuba_options(options);
   mitsuba.files = files.watch(std::move(mitsuba.files));
   auto scene = read_mitsuba(file, mitsuba, diagnostics);
-  if (report(diagnostics, options.strict) || !scene) {
-    if (options.strict && !diagnostics.has_errors())
-      log::error("{}: warnings are errors because of --strict", file);
-    return std::nullopt;
-  }
-  return LoadedScene{std::move(scene->description), std::move(scene->parameters), std::move(files)};
+  report(diagnostics, options.strict);
+  return {std::move(scene.value().description), std::move(scene->version),
+          std::move(scene->parameters), std::move(files), diagnostics.all()};
 }
 
 }  // namespace duet

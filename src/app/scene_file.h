@@ -1,7 +1,7 @@
 // Reads the scenes that are named on the command line.
 #pragma once
 
-#include <optional>
+#include <stdexcept>
 #include <string>
 #include <utility>
 #include <vector>
@@ -17,7 +17,7 @@ namespace duet {
 
 /// What the command line says about reading scenes.
 struct ReadOptions {
-  std::vector<std::string> scenes;
+  std::vector<std::string> scenes;   ///< files, or kStandardInput
   std::vector<std::string> defines;  ///< NAME=VALUE
   std::vector<std::string> search_paths;
   bool strict = false;  ///< warnings are errors
@@ -32,15 +32,29 @@ void check_defines(const ReadOptions& options);
 
 struct LoadedScene {
   SceneDescription description;
+  std::string version;  ///< of the file's format
   /// The scene's `$name` parameters and the values they got.
   std::vector<std::pair<std::string, std::string>> parameters;
   InputFiles files;
+  std::vector<Diagnostic> warnings;
 };
 
-/// Prints the messages; returns whether there is an error among them (or, if strict, a warning).
-bool report(const Diagnostics& diagnostics, bool strict);
+/// The scene cannot be used as asked.
+class SceneFailure : public std::runtime_error {
+ public:
+  explicit SceneFailure(const std::string& reason, bool is_printed = false)
+      : std::runtime_error(reason), is_printed_(is_printed) {}
+  /// Whether the user has been told: what() is then the first of several messages.
+  bool is_printed() const { return is_printed_; }
 
-/// Reads one scene file and prints what is wrong with it. Empty if it cannot be used.
-std::optional<LoadedScene> load_scene(const std::string& file, const ReadOptions& options);
+ private:
+  bool is_printed_;
+};
+
+/// Prints the messages. Throws SceneFailure if there is an error among them or, if strict, any.
+void report(const Diagnostics& diagnostics, bool strict);
+
+/// Reads one scene file and prints what is wrong with it. Throws SceneFailure if it cannot be used.
+LoadedScene load_scene(const std::string& file, const ReadOptions& options);
 
 }  // namespace duet

@@ -6,6 +6,7 @@
 
 #include "app/partial_image.h"
 #include "app/provenance.h"
+#include "app/standard_output.h"
 #include "base/log.h"
 
 namespace duet {
@@ -22,8 +23,9 @@ std::vector<std::string> SceneImages::paths(int spp) const {
   OutputNames names = names_;
   names.spp = fmt::to_string(spp);
   std::vector<std::string> result;
-  for (const std::string& pattern : options_.outputs) result.push_back(output_path(pattern, names));
-  if (result.empty()) result.push_back(output_path("", names));
+  for (const std::string& pattern : options_.outputs)
+    result.push_back(output_path(pattern, names, options_.extension));
+  if (result.empty()) result.push_back(output_path("", names, options_.extension));
   return result;
 }
 
@@ -31,7 +33,8 @@ std::vector<std::string> SceneImages::partial_paths(int spp) const {
   if (options_.keep_partial_name) return paths(spp);
   // The name of the image that it is a part of.
   std::vector<std::string> result = paths(options_.budget.spp ? planned_spp_ : spp);
-  for (std::string& path : result) path = partial_path(path);
+  for (std::string& path : result)
+    if (!is_standard_output(path)) path = partial_path(path);
   return result;
 }
 

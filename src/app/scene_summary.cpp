@@ -1,10 +1,7 @@
 #include "app/scene_summary.h"
 
-#include <filesystem>
-#include <map>
-#include <set>
-
 #include "app/description_text.h"
+#include "app/scene_parts.h"
 #include "integrators/make_integrator.h"
 #include "integrators/method_rules.h"
 #include "scene/features.h"
@@ -23,6 +20,7 @@ class Summary {
         scene_(loaded.description),
         features_(scene_features(loaded.description)),
         text_(loaded.description),
+        parts_(scene_parts(loaded.description)),
         all_(all) {}
 
   std::string write() {
@@ -32,9 +30,9 @@ class Summary {
     integrator();
     for (size_t i = 0; i < scene_.sensors.size(); ++i) sensor(i);
     shapes();
-    materials();
+    named("bsdfs", parts_.bsdfs);
     list("textures", scene_.textures, [&](const auto& t) { return text_.texture(t); });
-    media();
+    named("media", parts_.media);
     lights();
     line("modelled", describe(features_));
     line("methods", describe(method_rules(features_)));
@@ -69,14 +67,6 @@ class Summary {
     }
   }
 
-  /// Also those of the groups.
-  template <class Visit>
-  void for_each_shape(Visit visit) const {
-    for (const ShapeDescription& s : scene_.shapes) visit(s);
-    for (const ShapeGroupDescription& g : scene_.groups)
-      for (const ShapeDescription& s : g.shapes) visit(s);
-  }
-
   void integrator() {
     const IntegratorDescription& i = scene_.integrator;
     const std::string parameters = integrator_parameters(i);
@@ -96,10 +86,8 @@ class Summary {
 
   void shapes() {
     const SceneFeatures& f = features_;
-    std::map<std::string, size_t> kinds;
-    for (const ShapeDescription& s : scene_.shapes) ++kinds[text_.shape_kind(s)];
     std::string summary;
-    for (const auto& [kind, count] : kinds)
+    for (const auto& [kind, count] : parts_.shape_kinds)
       summary += fmt::format("{}{} {}", summary.empty() ? "" : ", ", count, kind);
     summary += fmt::format("; {} triangles", f.triangles);
     if (f.instances > 0) summary += fmt::format(" ({:.0f} in all copies)", f.placed_triangles);
@@ -114,42 +102,20 @@ class Summary {
           "shape group", g.shapes, [&](const auto& s) { return text_.shape(s); }, g.label.text);
   }
 
-  /// Those that surfaces name; what is nested in them is part of their text.
-  void materials() {
-    std::set<MaterialId> used;
-    for_each_shape([&](const ShapeDescription& s) {
-      if (!std::holds_alternative<InstanceShape>(s.geometry)) used.insert(s.material);
-    });
-    list("bsdfs", used,
-         [&](MaterialId id) { return fmt::format("{}: {}", text_.name(id), text_.material(id)); });
-  }
-
-  void media() {
-    std::set<MediumId> used;
-    const auto use = [&](std::optional<MediumId> id) {
-      if (id) used.insert(*id);
-    };
-    for_each_shape([&](const ShapeDescription& s) { use(s.interior), use(s.exterior); });
-    for (const SensorDescription& s : scene_.sensors) use(s.medium);
-    list("media", used, [&](MediumId id) {
-      return fmt::format("{}: {}", text_.name(id), text_.medium(scene_.media[size_t(id)]));
-    });
+  void named(const std::string& name, const std::vector<NamedText>& things) {
+    list(name, things, [](const NamedText& t) { return fmt::format("{}: {}", t.name, t.text); });
   }
 
   void lights() {
-    std::vector<std::string> all;
-    for_each_shape([&](const ShapeDescription& s) {
-      if (s.emission) all.push_back(text_.area_light(s));
-    });
-    for (const LightDescription& l : scene_.lights) all.push_back(text_.light(l));
-    if (all.empty()) line("lights", "none");
-    list("lights", all, [](const std::string& text) { return text; });
+    if (parts_.lights.empty()) line("lights", "none");
+    list("lights", parts_.lights, [](const std::string& text) { return text; });
   }
 
   const LoadedScene& loaded_;
   const SceneDescription& scene_;
   const SceneFeatures features_;
-  DescriptionText text_;
+  const DescriptionText text_;
+  const SceneParts parts_;
   bool all_;
   std::string out_;
 };

@@ -109,7 +109,7 @@ int run_stability(const StabilityOptions& o) {
   const std::vector<const Row*> rows = select_rows(catalogue, o);
   const std::vector<std::string> methods = select_methods(o.methods);
   for (const std::string& path : {o.markdown, o.json})
-    if (const std::string why = path.empty() ? "" : unwritable_reason(path); !why.empty())
+    if (const std::string why = path.empty() ? "" : prepare_file(path); !why.empty())
       throw UsageError(fmt::format("cannot write {}: {}", path, why));
   if (!o.markdown.empty() && methods.size() < kMethods.size())
     throw UsageError("--markdown writes the columns of all methods: leave --methods away");

@@ -4,6 +4,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "app/scene_json.h"
 #include "base/atomic_file.h"
 
 namespace duet {
@@ -14,11 +15,6 @@ uint64_t memory_peak_bytes() {
   rusage usage{};
   getrusage(RUSAGE_SELF, &usage);
   return uint64_t(usage.ru_maxrss) * 1024;
-}
-
-/// Names of files need not be UTF-8, which JSON is.
-std::string text(const nlohmann::ordered_json& j) {
-  return j.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
 }
 
 }  // namespace
@@ -76,7 +72,7 @@ void StatisticsFile::add(const RenderRecord& record, const RenderResult& result,
   j["triangles"] = counts.triangles;
   j["instances"] = counts.instances;
   j["interrupted"] = result.interrupted;
-  entries_.push_back(text(j));
+  entries_.push_back(json_text(j));
 }
 
 void StatisticsFile::add_failure(const std::string& scene, const std::vector<std::string>& messages,
@@ -86,7 +82,7 @@ void StatisticsFile::add_failure(const std::string& scene, const std::vector<std
   j["failed"] = true;
   j["messages"] = messages;
   j["interrupted"] = interrupted;
-  entries_.push_back(text(j));
+  entries_.push_back(json_text(j));
 }
 
 void StatisticsFile::write(bool several) const {

@@ -5,7 +5,11 @@
 #include <tbb/task_arena.h>
 
 #include <algorithm>
+#include <condition_variable>
+#include <mutex>
+#include <system_error>
 #include <thread>
+#include <vector>
 
 #if defined(__SSE2__)
 #include <xmmintrin.h>
@@ -14,6 +18,8 @@
 namespace duet {
 
 namespace {
+
+constexpr auto kParallelism = tbb::global_control::max_allowed_parallelism;
 
 /// Denormals cost a hundred cycles each and say nothing; restores the mode when it goes away.
 class FlushDenormals {
@@ -35,19 +41,53 @@ class FlushDenormals {
 
 }  // namespace
 
+int startable_threads(int threads) {
+  std::mutex mutex;
+  std::condition_variable released;
+  bool enough = false;
+  std::vector<std::thread> started;
+  try {
+    while (int(started.size()) + 1 < threads)
+      started.emplace_back([&] {
+        std::unique_lock lock(mutex);
+        released.wait(lock, [&] { return enough; });
+      });
+  } catch (const std::system_error&) {
+    // The limit is reached: what was started counts.
+  }
+  {
+    const std::lock_guard lock(mutex);
+    enough = true;
+  }
+  released.notify_all();
+  for (std::thread& t : started) t.join();
+  return int(started.size()) + 1;
+}
+
 int hardware_threads() {
-  return std::max(1, tbb::this_task_arena::max_concurrency());
+  static const int threads = [] {
+    const int processors = std::max(1, tbb::this_task_arena::max_concurrency());
+    const int startable = startable_threads(processors);
+    // TBB ends the program if it cannot start a thread, which it may try at any time: whenever a
+    // limit, such as Embree's, goes away. This one stays to the end.
+    if (startable < processors) new tbb::global_control(kParallelism, size_t(startable));
+    return startable;
+  }();
+  return threads;
 }
 
 void parallel_for(size_t count, int threads, const std::function<void(size_t)>& work) {
-  if (threads <= 1) {
+  // Without this TBB starts no more threads than the machine has processors. The least of all such
+  // limits holds, and Embree has one, too: to ask for more would make TBB print a warning.
+  const tbb::global_control limit(kParallelism, size_t(std::max(1, threads)));
+  const int allowed =
+      int(std::min(size_t(std::max(1, threads)), tbb::global_control::active_value(kParallelism)));
+  if (allowed <= 1) {
     const FlushDenormals mode;
     for (size_t i = 0; i < count; ++i) work(i);
     return;
   }
-  // Without this TBB starts no more threads than the machine has processors.
-  const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, size_t(threads));
-  tbb::task_arena arena(threads);
+  tbb::task_arena arena(allowed);
   arena.execute([&] {
     tbb::parallel_for(
         tbb::blocked_range<size_t>(0, count, 1),

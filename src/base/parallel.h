@@ -6,7 +6,11 @@
 
 namespace duet {
 
-/// Number of threads the machine runs at once, at least 1.
+/// How many of `threads` threads, the calling one among them, the system lets this process have: a
+/// limit on processes or memory may be in the way. At least 1.
+int startable_threads(int threads);
+
+/// Number of threads the machine runs at once and lets this process have, at least 1.
 int hardware_threads();
 
 /// Calls `work(i)` for every i in [0, count), each once, on up to `threads` threads; returns when

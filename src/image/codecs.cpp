@@ -8,6 +8,7 @@
 #include <memory>
 #include <stdexcept>
 
+#include "base/parallel.h"
 #include "image/codec_module.h"
 
 namespace duet {
@@ -50,6 +51,13 @@ const DuetCodecs* load() {
       tried += "\n  " + path.string();
       continue;
     }
+    // Libraries that it is linked with start threads while it is loaded, and end the program if
+    // they cannot.
+    constexpr int kThreads = 6;
+    if (startable_threads(kThreads) < kThreads)
+      throw std::runtime_error(
+          "the library for image formats needs threads, and the system lets this process have no "
+          "more");
     void* library = dlopen(path.c_str(), RTLD_NOW | RTLD_LOCAL);
     if (!library)
       throw std::runtime_error(

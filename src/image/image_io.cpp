@@ -132,12 +132,18 @@ ImageFile read_image(const std::string& path) {
   }
 }
 
-void write_exr(const std::string& path, const Image& image, const ExrOptions& options) {
-  write_file_atomically(path, encoded(path, [&] { return encode_exr(image, options); }));
+std::vector<uint8_t> exr_bytes(const std::string& path, const Image& image,
+                               const ExrOptions& options) {
+  return encoded(path, [&] { return encode_exr(image, options); });
 }
 
-void write_display_image(const std::string& path, int width, int height, int channels,
-                         const std::vector<uint8_t>& bytes, const TextFields& fields) {
+void write_exr(const std::string& path, const Image& image, const ExrOptions& options) {
+  write_file_atomically(path, exr_bytes(path, image, options));
+}
+
+std::vector<uint8_t> display_image_bytes(const std::string& path, int width, int height,
+                                         int channels, const std::vector<uint8_t>& bytes,
+                                         const TextFields& fields) {
   const std::string extension = extension_of(path);
   const bool png = extension == ".png", jpeg = extension == ".jpg" || extension == ".jpeg";
   if (!png && !jpeg)
@@ -151,7 +157,12 @@ void write_display_image(const std::string& path, int width, int height, int cha
   std::vector<uint8_t> file =
       encode_with_module(png ? "png" : "jpeg", width, height, channels, bytes);
   png ? add_png_text(file, fields) : add_jpeg_comment(file, fields);
-  write_file_atomically(path, file);
+  return file;
+}
+
+void write_display_image(const std::string& path, int width, int height, int channels,
+                         const std::vector<uint8_t>& bytes) {
+  write_file_atomically(path, display_image_bytes(path, width, height, channels, bytes));
 }
 
 }  // namespace duet

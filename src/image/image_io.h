@@ -53,15 +53,22 @@ struct ExrOptions {
   std::vector<std::pair<std::string, HeaderValue>> header;
 };
 
-/// ZIP-compressed scan lines. Equal images and options give equal bytes. The file is replaced as a
-/// whole (see base/atomic_file.h). Throws std::runtime_error with the reason if it cannot be
-/// written.
-void write_exr(const std::string& path, const Image& image, const ExrOptions& options);
-/// PNG or JPEG (quality 95, all chroma samples), by the extension, replaced as a whole. `bytes` has
+/// An OpenEXR file with ZIP-compressed scan lines. Equal images and options give equal bytes.
+/// Throws std::runtime_error, which names `path`.
+std::vector<uint8_t> exr_bytes(const std::string& path, const Image& image,
+                               const ExrOptions& options);
+/// A PNG or JPEG file (quality 95, all chroma samples), by the extension. `bytes` has
 /// width × height × channels sRGB values; 1 channel is grey, 3 are colours, and PNG takes an alpha
 /// that is not multiplied in as channel 2 or 4. `fields` become text chunks or the comment
-/// (text_fields.h). Throws std::runtime_error.
+/// (text_fields.h). Throws std::runtime_error, which names `path`.
+std::vector<uint8_t> display_image_bytes(const std::string& path, int width, int height,
+                                         int channels, const std::vector<uint8_t>& bytes,
+                                         const TextFields& fields = {});
+
+/// Write such files. The file is replaced as a whole (see base/atomic_file.h). Throw
+/// std::runtime_error with the reason if it cannot be written.
+void write_exr(const std::string& path, const Image& image, const ExrOptions& options);
 void write_display_image(const std::string& path, int width, int height, int channels,
-                         const std::vector<uint8_t>& bytes, const TextFields& fields = {});
+                         const std::vector<uint8_t>& bytes);
 
 }  // namespace duet

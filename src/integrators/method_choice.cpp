@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "base/log.h"
+#include "base/percent.h"
 #include "integrators/merge_parts.h"
 #include "integrators/method_risk.h"
 #include "integrators/method_rules.h"
@@ -223,7 +224,7 @@ MethodChoice take(const MethodPrices& prices, const MethodRules& rules) {
   choice.reason = c.name + ": ";
   if (!may.candidates[0])
     choice.reason += path.missing > kNegligible
-                         ? fmt::format("path would miss {:.2g} % of the light", 100 * path.missing)
+                         ? fmt::format("path would miss {} of the light", percent(path.missing))
                          : "path cannot find all light";
   else if (best == 0)
     choice.reason += "no other method promises more than 1.15 times its efficiency";

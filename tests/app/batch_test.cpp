@@ -1,7 +1,10 @@
 // Exit codes and what goes on when something goes wrong.
 #include <doctest/doctest.h>
+#include <sched.h>
 
+#include <algorithm>
 #include <csignal>
+#include <thread>
 
 #include "app/workplace.h"
 
@@ -23,7 +26,11 @@ TEST_SUITE("program") {
     CHECK(contains(o.err, "did you mean \"sphere\"?"));
     CHECK(contains(o.err, "cut.xml:"));
     CHECK(contains(o.err, "missing.xml"));
-    CHECK(contains(o.err, "3 of 5 scenes failed"));
+    const std::string summary = o.err.substr(std::min(o.err.size(), o.err.find("3 of 5 scenes")));
+    CHECK(contains(summary, "3 of 5 scenes failed:\n  bad.xml:2:10: unknown shape type \"spere\""));
+    CHECK(contains(summary, "\n  cut.xml:"));
+    CHECK(contains(summary, "\n  missing.xml: No such file or directory"));
+    CHECK(std::count(summary.begin(), summary.end(), '\n') == 4);
     CHECK(place.run({"missing.xml"}).code == 1);
   }
 
@@ -84,7 +91,7 @@ TEST_SUITE("program") {
     const Workplace place;
     place.scene();
     std::filesystem::create_directory(place.path("dir.exr"));
-    for (const char* output : {"nowhere/out.exr", "/dev/null/out.exr", "tiny.xml/out.exr"}) {
+    for (const char* output : {"/dev/null/out.exr", "tiny.xml/out.exr", "tiny.xml/a/out.exr"}) {
       const Outcome o = place.run({"tiny.xml", "-o", output, "--spp", "1000000000"});
       CAPTURE(o.err);
       CHECK(o.code == 1);
@@ -92,6 +99,68 @@ TEST_SUITE("program") {
     }
     CHECK(place.run({"tiny.xml", "-o", "dir.exr"}).code == 0);  // a directory like any other
     CHECK(place.has("dir.exr/tiny.exr"));
+  }
+
+  TEST_CASE("directories of output files are made") {
+    const Workplace place;
+    place.scene();
+    const Outcome o =
+        place.run({"tiny.xml", "-o", "a/b/out.exr", "-o", "{spp}/{scene}/", "-o", "c/d/", "--time",
+                   "0.2", "--stats", "s/stats.json", "--log", "l/m/log.txt"});
+    CAPTURE(o.err);
+    CHECK(o.code == 0);
+    for (const char* file : {"a/b/out.exr", "c/d/tiny.exr", "s/stats.json", "l/m/log.txt"}) {
+      CAPTURE(file);
+      CHECK(place.has(file));
+    }
+    CHECK(contains(o.err, "/tiny/tiny.exr"));
+    CHECK(place.run({"compare", "a/b/out.exr", "c/d/tiny.exr", "--html", "h/i.html"}).code == 0);
+    CHECK(place.has("h/i.html"));
+    // Not for what is a slip of the pen, nor for a scene that cannot be read.
+    const Outcome slip = place.run({"tiny.xml", "-o", "new/out"});
+    CHECK(slip.code == 2);
+    CHECK(contains(slip.err, "ends with /"));
+    CHECK(place.run({"missing.xml", "-o", "new/out.exr"}).code == 1);
+    CHECK(!place.has("new"));
+  }
+
+  TEST_CASE("a scene called scene.xml has the name of its folder") {
+    const Workplace place;
+    for (const char* folder : {"kitchen", "bath"}) {
+      std::filesystem::create_directory(place.path(folder));
+      place.scene(std::string(folder) + "/scene.xml");
+    }
+    place.scene("kitchen/scene_v3.xml");
+    CHECK(place.run({"kitchen/scene.xml", "bath/scene.xml", "kitchen/scene_v3.xml"}).code == 0);
+    CHECK(place.has("kitchen.exr"));
+    CHECK(place.has("bath.exr"));
+    CHECK(place.has("scene_v3.exr"));
+    CHECK(place.run({"kitchen/scene.xml", "bath", "-o", "{folder}-{scene}.png"}).code == 0);
+    CHECK(place.has("kitchen-kitchen.png"));
+    CHECK(place.has("bath-bath.png"));
+    CHECK(run_duet({"scene.xml"}, {.directory = place.path("bath")}).code == 0);
+    CHECK(place.has("bath/bath.exr"));
+    CHECK(place.run({"kitchen/scene.xml", "bath/../kitchen/scene.xml"}).code == 2);
+  }
+
+  TEST_CASE("more threads than processors are no reason for a warning") {
+    const Workplace place;
+    place.scene();
+    cpu_set_t all, one;
+    REQUIRE(sched_getaffinity(0, sizeof all, &all) == 0);
+    CPU_ZERO(&one);
+    for (int cpu = 0; cpu < CPU_SETSIZE && CPU_COUNT(&one) == 0; ++cpu)
+      if (CPU_ISSET(cpu, &all)) CPU_SET(cpu, &one);
+    for (const cpu_set_t* processors : {&all, &one}) {
+      sched_setaffinity(0, sizeof *processors, processors);
+      for (const char* threads : {"1", "2", "8", "64"}) {
+        const Outcome o = place.run({"tiny.xml", "-q", "-t", threads});
+        CAPTURE(threads);
+        CHECK(o.code == 0);
+        CHECK(o.err == "");
+      }
+    }
+    sched_setaffinity(0, sizeof all, &all);
   }
 
   TEST_CASE("an image that cannot be written is saved elsewhere") {
@@ -102,6 +171,7 @@ TEST_SUITE("program") {
                  {.directory = place.path(""), .environment = {{"TMPDIR", refuge.path("")}}});
     REQUIRE(duet.wait_for_message("error", 120));  // some passes are done
     std::filesystem::remove_all(place.path("out"));
+    place.write("out", "a file now");
     duet.send(SIGINT);
     const Outcome o = duet.wait(120);
     CAPTURE(o.err);

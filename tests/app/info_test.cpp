@@ -1,6 +1,8 @@
 // duet info and duet plugins.
 #include <doctest/doctest.h>
 
+#include <nlohmann/json.hpp>
+
 #include "app/workplace.h"
 #include "mitsuba/vocabulary.h"
 #include "mitsuba/vocabulary_text.h"
@@ -98,6 +100,73 @@ TEST_SUITE("program") {
                    "differs from Mitsuba 1: by how much is in docs/compatibility.md\n"
                    "    direct-delta-lights: Mitsuba 3.9.1 adds"));
     CHECK(!contains(place.run({"info", "tiny.xml"}).out, "differs"));
+  }
+
+  TEST_CASE("info as JSON says the same") {
+    const Workplace place;
+    TinyScene rich = rich_scene();
+    rich.extra += "<emitter type=\"point\"><float name=\"brightnes\" value=\"1\"/></emitter>";
+    place.scene("rich.xml", rich);
+    const Outcome o = place.run({"info", "rich.xml", "--json", "-D", "spp=12"});
+    CAPTURE(o.err);
+    CAPTURE(o.out);
+    REQUIRE(o.code == 0);
+    const auto j = nlohmann::json::parse(o.out);
+    CHECK(j["file"] == "rich.xml");
+    CHECK(j["name"] == "rich");
+    CHECK(j["version"] == "3.0.0");
+    CHECK(j["parameters"]["spp"] == "12");
+    CHECK(j["integrator"]["name"] == "path");
+    CHECK(contains(j["integrator"]["parameters"], "max_depth=4 rr_depth=5"));
+    const auto& sensor = j["sensors"].at(0);
+    CHECK(sensor["type"] == "perspective");
+    CHECK(sensor["width"] == 16);
+    CHECK(sensor["height"] == 12);
+    CHECK(sensor["spp"] == 12);
+    CHECK(sensor["crop"].is_null());
+    CHECK(j["shapes"]["count"] == 5);
+    CHECK(j["shapes"]["kinds"]["instance"] == 2);
+    CHECK(j["shapes"]["triangles_in_all_copies"] == 28);
+    CHECK(j["shapes"]["bounds"]["lower"][0] == doctest::Approx(-21));
+    CHECK(j["shape_groups"].at(0)["shapes"].size() == 2);
+    CHECK(j["bsdfs"].size() == 4);
+    CHECK(j["media"].empty());
+    CHECK(j["lights"].size() == 4);
+    CHECK(j["rules"]["needs_light_walks"] == true);
+    CHECK(j["methods"].size() >= 8);
+    for (const auto& m : j["methods"]) {
+      CHECK(m["renders"] == m["obstacle"].is_null());
+      CHECK(m["renders"] == (m["name"] != "aov"));  // which needs layers
+    }
+    CHECK(j["approximated"].empty());
+    REQUIRE(j["warnings"].size() == 1);
+    CHECK(contains(j["warnings"][0]["message"], "brightnes"));
+    CHECK(j["warnings"][0]["file"] == "rich.xml");
+    CHECK(j["warnings"][0]["line"] > 0);
+  }
+
+  TEST_CASE("info as JSON names obstacles and failures, and is valid for every file name") {
+    const Workplace place;
+    TinyScene medium;
+    medium.extra = R"(<shape type="sphere"><medium type="homogeneous" name="interior"/></shape>)";
+    const std::string name = "caf\xe9 \"x\".xml";  // no UTF-8
+    place.scene(name, medium);
+    place.write("bad.xml", "<scene version=\"3.0.0\">\n<shap/></scene>");
+    const Outcome o = place.run({"info", name, "bad.xml", "--json"});
+    CHECK(o.code == 1);
+    CAPTURE(o.out);
+    const auto list = nlohmann::json::parse(o.out);
+    REQUIRE(list.size() == 2);
+    CHECK(list[0]["file"] == "caf\xef\xbf\xbd \"x\".xml");
+    std::string without;
+    for (const auto& m : list[0]["methods"])
+      if (m["renders"] == false) without += m["name"].get<std::string>() + " ";
+    CHECK(contains(without, "ppm"));
+    CHECK(!contains(without, "volpath"));
+    CHECK(list[1]["file"] == "bad.xml");
+    CHECK(contains(list[1]["error"], "bad.xml:2:1: unknown element"));
+    CHECK(place.run({name, "--stats", "s.json"}).code == 0);
+    CHECK(nlohmann::json::accept(read_file(place.path("s.json"))));
   }
 
   TEST_CASE("info goes on after a bad scene") {

@@ -133,7 +133,7 @@ TEST_SUITE("program") {
         {{"7"}, "--list"},
         {{"--methods", "path,bdtp"}, "did you mean \"bdpt\"?"},
         {{"--methods", "path", "--markdown", "a.md"}, "--methods"},
-        {{"--json", "nowhere/a.json"}, "nowhere"},
+        {{"--json", "/dev/null/a.json"}, "/dev/null"},
         {{"-t", "0"}, "--threads"},
     };
     for (const auto& [arguments, named] : cases) {

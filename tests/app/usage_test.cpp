@@ -1,6 +1,9 @@
 // Values that make no sense, for every flag there is: exit code 2 and a message.
 #include <doctest/doctest.h>
 
+#include <algorithm>
+#include <sstream>
+
 #include "app/workplace.h"
 
 using namespace duet::test;
@@ -23,6 +26,14 @@ void check_refused(const Workplace& place, const Arguments& arguments, const std
   CHECK(contains(o.err, named));
   CHECK(o.out.empty());
   CHECK(place.count() == files);
+}
+
+/// The words with one space between them.
+std::string in_one_line(const std::string& text) {
+  std::istringstream words(text);
+  std::string line;
+  for (std::string word; words >> word;) line += (line.empty() ? "" : " ") + word;
+  return line;
 }
 
 }  // namespace
@@ -112,7 +123,7 @@ TEST_SUITE("program") {
         {{"-o", "{scene.exr"}, "{scene}"},
         {{"-x", "--time", "1", "-o", "{spp}.exr"}, "{spp}"},
         {{"-a", "nowhere"}, "nowhere"},
-        {{"--stats", "nowhere/stats.json"}, "nowhere"},
+        {{"--stats", "tiny.xml/stats.json"}, "tiny.xml"},
         {{"--stats", "."}, "directory"},
         {{"--log", "."}, "--log"},
         {{"--frobnicate"}, "frobnicate"},
@@ -131,7 +142,10 @@ TEST_SUITE("program") {
     check_refused(place, {"render"}, "scene");
     check_refused(place, {"-q"}, "scene");
     check_refused(place, {"rendr", "tiny.xml"}, "did you mean \"render\"?");
+    check_refused(place, {"help", "rendr"}, "did you mean \"render\"?");
+    check_refused(place, {"hlep"}, "did you mean \"help\"?");
     check_refused(place, {"info"}, "scene");
+    check_refused(place, {"info", "tiny.xml", "--json", "--xml"}, "--xml");
     check_refused(place, {"info", "tiny.xml", "tiny.xml", "--xml"}, "--xml");
     check_refused(place, {"info", "tiny.xml", "-D", "x=1"}, "$spp");
     check_refused(place, {"plugins", "bsd"}, "did you mean \"bsdf\"?");
@@ -206,14 +220,38 @@ TEST_SUITE("program") {
       const Outcome o = place.run(arguments);
       CHECK(o.code == 0);
       CHECK(o.err.empty());
+      const std::string text = in_one_line(o.out);
       for (const std::string& part : parts) {
         CAPTURE(part);
-        CHECK(contains(o.out, part));
+        CHECK(contains(text, part));
       }
     }
+    CHECK(place.run({"help"}).out == place.run({"--help"}).out);
+    CHECK(place.run({"help", "render"}).out == place.run({"render", "--help"}).out);
+    CHECK(place.run({"help", "render"}).code == 0);
     const Outcome version = place.run({"--version"});
     CHECK(version.code == 0);
     CHECK(version.out == "duet " DUET_VERSION "\n");
+  }
+
+  TEST_CASE("help fits the width") {
+    const Workplace place;
+    for (const char* command : {"", "render", "info", "compare", "chart", "plugins", "stability"}) {
+      Arguments arguments{"--help"};
+      if (*command != '\0') arguments.insert(arguments.begin(), command);
+      std::istringstream lines(place.run(arguments).out);
+      size_t count = 0;
+      for (std::string line; std::getline(lines, line); ++count) {
+        CAPTURE(command);
+        CAPTURE(line);
+        const auto is_start = [](char c) { return (static_cast<unsigned char>(c) & 0xc0) != 0x80; };
+        CHECK(std::count_if(line.begin(), line.end(), is_start) <= 80);
+        CHECK(!line.ends_with(' '));
+      }
+      CHECK(count > 10);
+    }
+    const std::string chart = place.run({"chart", "--help"}).out;
+    CHECK(contains(chart, "mean.exr' \\\n      --variance"));
   }
 
   TEST_CASE("results that cannot be printed are a failure") {

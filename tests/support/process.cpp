@@ -23,7 +23,8 @@ void pause() {
 
 /// Opens a file as one of the standard streams; only async-signal-safe calls.
 void redirect(const char* path, int stream) {
-  const int file = open(path, O_WRONLY | O_CREAT | O_TRUNC, 0600);
+  const int how = stream == STDIN_FILENO ? O_RDONLY : O_WRONLY | O_CREAT | O_TRUNC;
+  const int file = open(path, how | O_NOCTTY, 0600);
   if (file < 0 || dup2(file, stream) < 0) _exit(127);
 }
 
@@ -37,11 +38,12 @@ Process::Process(const std::vector<std::string>& arguments, const ProcessOptions
   for (std::string& t : texts) argv.push_back(t.data());
   argv.push_back(nullptr);
   const std::string out = o.output.empty() ? streams_.path("out") : o.output;
-  const std::string err = streams_.path("err");
+  const std::string err = o.errors.empty() ? streams_.path("err") : o.errors;
   id_ = fork();
   if (id_ != 0) return;
   if (!o.directory.empty() && chdir(o.directory.c_str()) != 0) _exit(127);
   for (const auto& [name, value] : o.environment) setenv(name.c_str(), value.c_str(), 1);
+  if (!o.input.empty()) redirect(o.input.c_str(), STDIN_FILENO);
   redirect(out.c_str(), STDOUT_FILENO);
   redirect(err.c_str(), STDERR_FILENO);
   if (o.file_limit > 0) {

@@ -24,8 +24,10 @@ struct ProcessOptions {
   std::vector<std::pair<std::string, std::string>> environment = {};
   /// Bytes that a file may have, as `ulimit -f` sets them; 0 is no limit.
   size_t file_limit = 0;
-  /// Where standard output goes; "" is Outcome::out.
-  std::string output = {};
+  /// The file that is standard input; "" is that of the tests.
+  std::string input = {};
+  /// Where standard output and standard error go; "" is Outcome::out and Outcome::err.
+  std::string output = {}, errors = {};
   /// Standard streams that are closed, by number.
   std::vector<int> closed = {};
   /// Signals that are ignored, as nohup does it; SIGINT, SIGTERM and SIGHUP have their effect
