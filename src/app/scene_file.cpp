@@ -17,6 +17,7 @@ MitsubaOptions mitsuba_options(const ReadOptions& options) {
   mitsuba.search_paths = options.search_paths;
   for (const std::string& define : options.defines)
     mitsuba.defines.push_back(parse_assignment("-D", define));
+  mitsuba.replacing_methods = options.methods;
   return mitsuba;
 }
 
@@ -67,7 +68,9 @@ void check_defines(const ReadOptions& options) {
 }
 
 bool report(const Diagnostics& diagnostics, bool strict) {
-  for (const Diagnostic& d : diagnostics.all()) log::write(log::Level::quiet, d.to_string());
+  const bool verbose = log::level() == log::Level::verbose;
+  for (const Diagnostic& d : verbose ? diagnostics.all() : diagnostics.summary())
+    log::write(log::Level::quiet, d.to_string());
   return diagnostics.has_errors() || (strict && !diagnostics.all().empty());
 }
 
