@@ -8,8 +8,8 @@ namespace {
 
 /// A definition on the command line with the place where it is used.
 SourceLocation place_of(const std::string& define, const SourceLocation& used) {
-  constexpr size_t longest = 80;
-  const std::string shown = define.size() > longest ? define.substr(0, longest) + "…" : define;
+  const std::string quoted = in_quotes(define);  // cut, and without control characters
+  const std::string shown = quoted.substr(1, quoted.size() - 2);
   return {std::make_shared<const std::string>(fmt::format("-D {} ({})", shown, used.to_string()))};
 }
 

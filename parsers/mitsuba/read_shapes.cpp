@@ -202,8 +202,11 @@ void read_sphere(SceneReader& s, Properties& p, ShapeDescription& out) {
   double r = p.number("radius");
   // In Mitsuba 3 it scales, so that a negative one turns the normals.
   if (r == 0 || (r < 0 && p.is_0x())) {
-    p.error("radius", "the parameter \"radius\" of {} must be {}, not {}", describe(p.node()),
-            p.is_0x() ? "positive" : "other than 0", r);
+    if (p.is_0x())
+      p.error("radius", "the parameter \"radius\" of {} must be positive, not {}",
+              describe(p.node()), r);
+    else
+      p.error("radius", "the parameter \"radius\" of {} must be other than 0", describe(p.node()));
     r = 1;
   }
   out.to_world = Matrix4::translate(c[0], c[1], c[2]) * Matrix4::scale(r, r, r);
