@@ -4,6 +4,7 @@
 #include <initializer_list>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "mitsuba/substitution.h"
@@ -23,14 +24,21 @@ class Attributes {
   bool has(std::string_view name) const { return find(name); }
   /// The value, or "" if the attribute is missing.
   const std::string& operator[](std::string_view name) const;
-  /// The attribute's place, or the element's if it is missing.
+  /// The same with the definition of the caller's that it contains.
+  Expansion expansion(std::string_view name) const;
+  /// The attribute's place, or the element's if it is missing. Where the value comes from a
+  /// definition of the caller's, that is the place; it names the one in the file.
   const SourceLocation& where(std::string_view name) const;
   const SourceLocation& where() const { return where_; }
+  /// The place of what is wrong with all attributes together: that of the first definition of the
+  /// caller's among them, or the element.
+  const SourceLocation& where_all() const;
 
  private:
   struct Attribute {
     std::string name, value;
     SourceLocation where;
+    std::string define;
   };
   const Attribute* find(std::string_view name) const;
 

@@ -6,6 +6,7 @@
 #include "base/readable.h"
 #include "mitsuba/property_values.h"
 #include "mitsuba/references.h"
+#include "mitsuba/scene_file_xml.h"
 #include "mitsuba/text.h"
 
 namespace duet {
@@ -15,20 +16,7 @@ namespace {
 constexpr int kDeepestInclude = 16, kDeepestNesting = 64;
 constexpr int kMostIncludes = 10000;
 constexpr size_t kMostNodes = 4'000'000;
-
-std::optional<FileVersion> parse_version(std::string_view text) {
-  int parts[3] = {0, 0, 0};
-  size_t i = 0;
-  for (std::string_view rest = trim(text);; ++i) {
-    const size_t dot = rest.find('.');
-    const auto part = parse_integer(rest.substr(0, dot));
-    if (i == 3 || !part || *part < 0 || *part > 1000) return std::nullopt;
-    parts[i] = int(*part);
-    if (dot == rest.npos) break;
-    rest = rest.substr(dot + 1);
-  }
-  return FileVersion{parts[0], parts[1], parts[2]};
-}
+constexpr std::string_view kWayOut = "; -i METHOD renders the scene with another one";
 
 class Loader {
  public:
@@ -46,6 +34,7 @@ class Loader {
     load_file(file, tree_.nodes.front(), options_.search_paths, nowhere, "");
     references_.resolve();
     tree_.parameters = substitution_.scene_parameters();
+    tree_.integrator_replaced = !options_.replacing_methods.empty();
     return std::move(tree_);
   }
 
@@ -76,16 +65,16 @@ class Loader {
       report_.error(where, "cannot read {}{}", path, why.empty() ? "" : ": " + why);
       return;
     }
-    File file;
-    file.xml =
-        XmlDocument::parse(std::move(*text), std::make_shared<const std::string>(path), report_);
-    if (!file.xml) return;
+    auto parsed = parse_scene_file(std::move(*text), path, access_, report_);
+    if (!parsed) return;
+    File file{std::move(parsed->xml), parsed->version, nullptr};
     file.folders = std::make_shared<std::vector<std::string>>(folders);
     file.folders->insert(file.folders->begin(), folder_of(path));
 
     const pugi::xml_node root = file.xml->root();
-    if (!read_version(file, root)) return;
     open_files_.push_back(key);
+    const bool annotations = substitution_.keeps_annotations();
+    substitution_.keep_annotations(file.version.is_0x());
     const bool main = open_files_.size() == 1;
     if (std::string_view(root.name()) == "scene") {
       Attributes(*file.xml, root, substitution_, report_).check({"!version", "id", "name", "type"});
@@ -101,33 +90,8 @@ class Loader {
     } else {
       load_element(file, root, parent, 1, name);
     }
+    substitution_.keep_annotations(annotations);
     open_files_.pop_back();
-  }
-
-  bool read_version(File& file, pugi::xml_node root) {
-    const pugi::xml_attribute attribute = root.attribute("version");
-    if (!attribute) {
-      report_.error(file.xml->where(root), "<{}> needs the attribute \"version\"", root.name());
-      return false;
-    }
-    const SourceLocation where = file.xml->where(attribute);
-    const auto version = parse_version(attribute.value());
-    if (!version) {
-      report_.error(where, "{} is not a version of the form 3.0.0", in_quotes(attribute.value()));
-      return false;
-    }
-    if (*version < FileVersion{0, 4, 0}) {
-      report_.error(where,
-                    "scenes of Mitsuba {} are not understood, only those of 0.4 to 3; Mitsuba 0.6 "
-                    "can convert it",
-                    attribute.value());
-      return false;
-    }
-    if (version->major > 3)
-      report_.warning(where, "version {} is unknown; the scene is read as version 3",
-                      attribute.value());
-    file.version = *version;
-    return true;
   }
 
   void load_children(File& file, pugi::xml_node element, Node& parent, int depth) {
@@ -162,12 +126,14 @@ class Loader {
     if (tag == "include") return load_include(file, attributes, parent);
     if (tag == "default") {
       if (attributes.check({"!name", "!value"}))
-        substitution_.set_default(attributes["name"], attributes["value"]);
+        substitution_.set_default(attributes["name"], attributes.expansion("value"));
     } else if (tag == "alias") {
       if (attributes.check({"!id", "!as"}))
         references_.add_alias(attributes["as"], attributes["id"], where);
     } else if (tag == "path") {
       load_path(file, attributes);
+    } else if (tag == "mode") {
+      report_.warning(where, "<mode> is no element of Mitsuba and has no effect");
     } else if (tag == "scene") {
       report_.error(where, "<scene> can only be the root of a file");
     } else if (tag == "camera" || tag == "luminaire") {
@@ -204,18 +170,49 @@ class Loader {
     node.version = file.version;
     node.where = a.where();
     node.folders = file.folders;
+    node.replaced = valid && is_replaced(node, element, file);
     if (valid) find_node_plugin(node, a.where("type"));
     if (!node.id.empty()) references_.add_id(node, a.where("id"));
     const std::string& written = a.has("name") ? a["name"] : name;
     parent.properties.push_back({snake_case(written), written, &node, node.where, node.where});
+    const Report::Mute mute(report_, node.replaced);
     load_children(file, element, node, depth + 1);
+  }
+
+  /// Whether the integrator is one in whose place another method is run, and holds none that is
+  /// run.
+  bool is_replaced(const Node& node, pugi::xml_node element, const File& file) {
+    if (node.kind != PluginKind::integrator || options_.replacing_methods.empty()) return false;
+    const Plugin* plugin = find_plugin(node.kind, node.type);
+    for (const char* layers : {"aov", "moment", "field", "multichannel"})
+      if (plugin && plugin->name == layers) return false;
+    const Report::Mute mute(report_);
+    return !names_run_method(element, file);
+  }
+
+  bool names_run_method(pugi::xml_node element, const File& file) {
+    const Attributes a(*file.xml, element, substitution_, report_);
+    const auto& methods = options_.replacing_methods;
+    const std::string type = file.version.is_0x() ? to_lower(a["type"]) : a["type"];
+    if (std::find(methods.begin(), methods.end(), type) != methods.end()) return true;
+    for (pugi::xml_node nested : element.children("integrator"))
+      if (names_run_method(nested, file)) return true;
+    return false;
   }
 
   void find_node_plugin(Node& node, const SourceLocation& where) {
     const Plugin* plugin = find_plugin(node.kind, node.type);
     const std::string_view tag = tag_of(node.kind);
-    if (plugin && plugin->support == Support::refused) {
-      report_.error(where, "{} type \"{}\" is refused: {}", tag, node.type, plugin->note);
+    const bool refused = plugin && plugin->support == Support::refused;
+    const bool integrator = node.kind == PluginKind::integrator;
+    if (node.replaced && (refused || !plugin)) {
+      report_.warning(where, "the integrator \"{}\" is {}: {} takes its place", node.type,
+                      refused ? "refused" : "unknown", fmt::join(options_.replacing_methods, ", "));
+      // Its name for what the methods share.
+      node.plugin = find_plugin(node.kind, "path");
+    } else if (refused) {
+      report_.error(where, "{} type \"{}\" is refused: {}{}", tag, node.type, plugin->note,
+                    integrator ? kWayOut : "");
     } else if (plugin) {
       node.plugin = plugin;
       node.type = plugin->name;
@@ -224,7 +221,8 @@ class Loader {
       for (int i = 0; i < kPluginKinds && hint.empty(); ++i)
         if (find_plugin(PluginKind(i), node.type))
           hint = fmt::format(" (there is a {} of that name)", tag_of(PluginKind(i)));
-      report_.error(where, "unknown {} type {}{}", tag, in_quotes(node.type), hint);
+      report_.error(where, "unknown {} type {}{}{}", tag, in_quotes(node.type), hint,
+                    integrator ? kWayOut : "");
     }
   }
 
@@ -234,9 +232,10 @@ class Loader {
     PropertyValue value = read_value(context, element, a);
     const std::string& name = a["name"];
     if (name.empty() && !std::holds_alternative<NullReference>(value)) return;
-    const SourceLocation& where = a.where(a.has("filename")      ? "filename"
-                                          : a.has("temperature") ? "temperature"
-                                                                 : "value");
+    const SourceLocation& where = a.has("filename")      ? a.where("filename")
+                                  : a.has("temperature") ? a.where("temperature")
+                                  : a.has("value")       ? a.where("value")
+                                                         : a.where_all();
     parent.properties.push_back({snake_case(name), name, std::move(value), a.where(), where});
   }
 
@@ -244,6 +243,7 @@ class Loader {
     if (!a.check({"!id", "name"})) return;
     parent.properties.push_back(
         {snake_case(a["name"]), a["name"], Broken{}, a.where(), a.where("id")});
+    if (report_.is_muted()) return;
     references_.add_reference(parent, a["id"], a.where("id"));
   }
 

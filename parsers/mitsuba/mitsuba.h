@@ -47,6 +47,11 @@ struct MitsubaOptions {
   std::vector<std::pair<std::string, std::string>> defines;
   /// Further directories to look for files, after the scene's own.
   std::vector<std::string> search_paths;
+  /// Methods that take the place of the scene's integrator afterwards, one after the other. One of
+  /// another type is replaced, then: it may be unknown, its parameters are not checked, and of
+  /// those only max_depth, rr_depth, hide_emitters and strict_normals are read. Integrators that
+  /// make layers are no methods, and stay.
+  std::vector<std::string> replacing_methods;
   FileAccess files;
 };
 

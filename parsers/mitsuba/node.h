@@ -64,6 +64,8 @@ struct Node {
   FileVersion version;
   SourceLocation where;
   std::vector<Property> properties;
+  /// An integrator in whose place another method is run: nothing is reported about it.
+  bool replaced = false;
   /// Folders in which its files are looked for, first to last; shared by a file's nodes.
   std::shared_ptr<const std::vector<std::string>> folders;
 };
@@ -72,6 +74,8 @@ struct Node {
 struct NodeTree {
   std::deque<Node> nodes;
   std::vector<std::pair<std::string, std::string>> parameters;
+  /// Whether the scene's integrator does not matter, so that it may have none.
+  bool integrator_replaced = false;
 };
 
 /// `<bsdf type="diffuse">`, for messages.

@@ -33,10 +33,16 @@ Properties::Properties(const Node& node, Report& report) : node_(node), report_(
     const Parameter* parameter =
         p.name.empty() ? nullptr : find_parameter(node.kind, *node.plugin, p.name);
     if (parameter && !is_parameter_kind(p)) parameter = nullptr;
-    const Entry* first = nullptr;
+    Entry* first = nullptr;
     if (parameter)
-      for (const Entry& e : entries_)
+      for (Entry& e : entries_)
         if (e.parameter == parameter) first = &e;
+    if (first && is_0x() && first->property->written == p.written) {
+      report_.warning(p.where, "the parameter {} is given again, and the last value holds",
+                      in_quotes(p.written));
+      first->property = &p;
+      continue;
+    }
     if (first) {
       report_.error(p.where, "the parameter {} is given twice, first in line {}",
                     in_quotes(p.written), first->property->where.line);

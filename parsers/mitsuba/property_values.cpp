@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "mitsuba/ior.h"
 #include "mitsuba/text.h"
 
 namespace duet {
@@ -99,10 +100,28 @@ PropertyValue checked_spectrum(const ElementContext& c, const SourceLocation& wh
   return samples;
 }
 
+/// The index of refraction in a file that comes with Mitsuba, whose folder is among those where it
+/// looks: data/ior/Au.eta.spd and the like.
+std::optional<Triple> own_index(std::string_view parameter, std::string_view file) {
+  constexpr std::string_view folder = "data/ior/";
+  const bool real = parameter == "eta";
+  const std::string_view ending = real ? ".eta.spd" : ".k.spd";
+  if ((!real && parameter != "k") || !file.starts_with(folder) || !file.ends_with(ending))
+    return std::nullopt;
+  file.remove_prefix(folder.size());
+  file.remove_suffix(ending.size());
+  const ConductorEntry* entry = find_conductor(file);
+  if (!entry) return std::nullopt;
+  const Spectrum& s = real ? entry->eta : entry->k;
+  return Triple{double(s.r), double(s.g), double(s.b)};
+}
+
 /// Lines of a wavelength and a value; "#" begins a comment.
 PropertyValue read_spectrum_file(const ElementContext& c, const Attributes& a) {
   const SourceLocation& where = a.where("filename");
   const auto path = find_file(a["filename"], c.folders, c.access);
+  if (!path)
+    if (const auto index = own_index(a["name"], a["filename"])) return RgbColor{*index};
   const auto text = path ? c.access.read(*path) : std::nullopt;
   if (!text) {
     c.report.error(where, "{}",
@@ -130,11 +149,15 @@ PropertyValue read_spectrum_file(const ElementContext& c, const Attributes& a) {
 
 PropertyValue read_spectrum(const ElementContext& c, const Attributes& a) {
   if (!a.check({"!name", "value", "filename", "intent"})) return Broken{};
-  if (a.has("value") == a.has("filename")) {
+  // To Mitsuba 3 an empty one is as good as none.
+  const auto given = [&](std::string_view name) {
+    return a.has(name) && (c.version.is_0x() || !a[name].empty());
+  };
+  if (given("value") == given("filename")) {
     c.report.error(a.where(), "<spectrum> needs either \"value\" or \"filename\"");
     return Broken{};
   }
-  if (a.has("filename")) return read_spectrum_file(c, a);
+  if (given("filename")) return read_spectrum_file(c, a);
 
   const SourceLocation& where = a.where("value");
   const auto parts = split_list(a["value"]);
@@ -220,8 +243,11 @@ PropertyValue read_value(const ElementContext& c, pugi::xml_node element, const 
   if (tag == "blackbody") return read_blackbody(c, a);
   if (tag == "transform" || tag == "animation") {
     const bool good = a.check({"!name"});
+    const bool uv = snake_case(a["name"]) == "to_uv";
     PropertyValue value =
-        tag == "transform" ? read_transform(c, element) : read_animation(c, element);
+        tag == "transform"
+            ? read_transform(c, element, uv ? TransformSpace::uv : TransformSpace::world)
+            : read_animation(c, element);
     return good ? value : PropertyValue(Broken{});
   }
   return a.check({"name"}) ? PropertyValue(NullReference{}) : PropertyValue(Broken{});

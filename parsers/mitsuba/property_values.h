@@ -27,8 +27,11 @@ const std::vector<std::string>& value_elements();
 PropertyValue read_value(const ElementContext& context, pugi::xml_node element,
                          const Attributes& attributes);
 
+/// Whether a transform acts in space or on texture coordinates, whose z does not matter.
+enum class TransformSpace { world, uv };
 /// The product of the steps in a <transform>; Broken, with errors, if one of them is wrong.
-PropertyValue read_transform(const ElementContext& context, pugi::xml_node element);
+PropertyValue read_transform(const ElementContext& context, pugi::xml_node element,
+                             TransformSpace space = TransformSpace::world);
 
 /// The transforms in an <animation>, in the order of their times, or the only one that they are;
 /// Broken, with errors, if they make no motion.

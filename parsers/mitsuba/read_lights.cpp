@@ -45,6 +45,8 @@ void read_spot(SceneReader& s, Properties& p, LightDescription& out) {
   light.intensity = s.constant_color(p, "intensity");
   light.cutoff_angle = p.number("cutoff_angle");
   light.beam_width = p.optional_number("beam_width").value_or(0.75 * light.cutoff_angle);
+  // In Mitsuba 3 the light is even as far as it reaches, then.
+  if (!p.is_0x()) light.beam_width = std::min(light.beam_width, light.cutoff_angle);
   if (light.beam_width > light.cutoff_angle)
     p.error("beam_width", "the beam width {} is greater than the cutoff angle {}", light.beam_width,
             light.cutoff_angle);

@@ -56,7 +56,23 @@ void read_pixel_format(SceneReader& s, Properties& p, FilmDescription& out) {
         out.pixel_format = format;
         return;
       }
+  if (const std::string format = snake_case(text);
+      p.is_0x() && (format == "spectrum" || format == "spectrum_alpha")) {
+    s.approximate(p.where("pixel_format"), "the image has red, green and blue, not a spectrum");
+    out.pixel_format = format == "spectrum" ? PixelFormat::rgb : PixelFormat::rgba;
+    return;
+  }
   out.pixel_format = p.choice<PixelFormat>("pixel_format", formats);
+}
+
+void read_component_format(SceneReader& s, Properties& p, FilmDescription& out) {
+  out.component_format =
+      p.choice<ComponentFormat>("component_format", {{"float16", ComponentFormat::half},
+                                                     {"float32", ComponentFormat::single},
+                                                     {"uint32", ComponentFormat::single}});
+  if (p.string("component_format") == "uint32")
+    s.approximate_loudly(p.where("component_format"),
+                         "the image is written as float32, not as whole numbers (uint32)");
 }
 
 bool is_rigid(const Matrix4& m) {
@@ -150,9 +166,7 @@ void read_orthographic(SceneReader& s, Properties& p, SensorDescription& out) {
 void read_hdrfilm(SceneReader& s, Properties& p, FilmDescription& out) {
   read_size(s, p, out);
   read_pixel_format(s, p, out);
-  out.component_format = p.choice<ComponentFormat>(
-      "component_format",
-      {{"float16", ComponentFormat::half}, {"float32", ComponentFormat::single}});
+  read_component_format(s, p, out);
 }
 
 void read_mfilm(SceneReader& s, Properties& p, FilmDescription& out) {

@@ -15,13 +15,30 @@ namespace {
 
 /// The nested material; nothing if there is none or it has an error.
 std::optional<MaterialId> attached_material(SceneReader& s, Properties& p) {
-  const Node* node = p.child(PluginKind::bsdf);
+  const Node* node = nullptr;
+  for (const Properties::Child& child : p.children(PluginKind::bsdf)) {
+    // Mitsuba 0.x takes the last one.
+    if (node && p.is_0x())
+      s.report().warning(child.property->where, "{} has several BSDFs, and the last one holds",
+                         describe(p.node()));
+    else if (node)
+      s.report().error(child.property->where, "{} can have only one bsdf", describe(p.node()));
+    node = child.node;
+  }
   return node ? s.material(*node) : std::nullopt;
 }
 
 void attach_media(SceneReader& s, Properties& p, ShapeDescription& out) {
   for (const Properties::Child& child : p.children(PluginKind::medium)) {
     const std::string& name = child.property->name;
+    if (name != "interior" && name != "exterior" && !p.is_0x()) {
+      // Mitsuba 3 loads it and goes on without a word.
+      s.report().warning(child.property->where,
+                         "the medium has no effect: it is called neither \"interior\" nor "
+                         "\"exterior\"");
+      s.medium(*child.node);
+      continue;
+    }
     if (name != "interior" && name != "exterior") {
       s.report().error(child.property->where,
                        "a medium of a shape is called \"interior\" or \"exterior\", not {}",
@@ -182,7 +199,16 @@ void read_sdfgrid(SceneReader& s, Properties& p, ShapeDescription& out) {
 void read_sphere(SceneReader& s, Properties& p, ShapeDescription& out) {
   out.geometry = SphereShape{};
   const Triple c = p.triple("center");
-  const double r = p.number("radius");
+  double r = p.number("radius");
+  // In Mitsuba 3 it scales, so that a negative one turns the normals.
+  if (r == 0 || (r < 0 && p.is_0x())) {
+    if (p.is_0x())
+      p.error("radius", "the parameter \"radius\" of {} must be positive, not {}",
+              describe(p.node()), r);
+    else
+      p.error("radius", "the parameter \"radius\" of {} must be other than 0", describe(p.node()));
+    r = 1;
+  }
   out.to_world = Matrix4::translate(c[0], c[1], c[2]) * Matrix4::scale(r, r, r);
   attach(s, p, out);
 }

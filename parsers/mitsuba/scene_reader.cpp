@@ -161,18 +161,20 @@ void SceneReader::approximate_loudly(const SourceLocation& where, std::string wh
 
 SceneDescription SceneReader::read(const NodeTree& tree, const std::string& file) {
   description_.file = file;
-  top_level(tree.nodes.front());
+  top_level(tree);
   settle_checkerboards(description_);
   return std::move(description_);
 }
 
-void SceneReader::top_level(const Node& scene) {
+void SceneReader::top_level(const NodeTree& tree) {
+  const Node& scene = tree.nodes.front();
   Properties p(scene, report_);
   // Everything is read in the order of the file, also what nobody refers to: Mitsuba does it, too.
   const Node* integrator = p.child(PluginKind::integrator);
   for (PluginKind kind :
        {PluginKind::texture, PluginKind::bsdf, PluginKind::shape, PluginKind::emitter,
-        PluginKind::sensor, PluginKind::medium, PluginKind::phase, PluginKind::volume})
+        PluginKind::sensor, PluginKind::medium, PluginKind::phase, PluginKind::volume,
+        PluginKind::film, PluginKind::sampler, PluginKind::rfilter})
     p.children(kind);
   for (const Property& property : scene.properties) {
     const Node* const* child = std::get_if<const Node*>(&property.value);
@@ -213,6 +215,15 @@ void SceneReader::top_level(const Node& scene) {
           description_.sensors.push_back(std::move(sensor));
         }
         break;
+      case PluginKind::film:
+        if (FilmDescription film; true) read_into(node, film);
+        break;
+      case PluginKind::sampler:
+        if (SamplerDescription sampler; true) read_into(node, sampler);
+        break;
+      case PluginKind::rfilter:
+        if (FilterDescription filter; true) read_into(node, filter);
+        break;
       default:
         break;
     }
@@ -225,7 +236,7 @@ void SceneReader::top_level(const Node& scene) {
     description_.integrator.where = integrator->where;
     read_into(*integrator, description_.integrator);
   }
-  check_scene(scene, integrator != nullptr);
+  check_scene(tree, integrator != nullptr);
 }
 
 std::optional<AreaEmission> SceneReader::emission(const Node& node) {
@@ -236,8 +247,9 @@ std::optional<AreaEmission> SceneReader::emission(const Node& node) {
   return read_into(node, emission) ? std::optional(emission) : std::nullopt;
 }
 
-void SceneReader::check_scene(const Node& scene, bool have_integrator) {
+void SceneReader::check_scene(const NodeTree& tree, bool have_integrator) {
   if (report_.has_errors()) return;
+  const Node& scene = tree.nodes.front();
   const bool old = scene.version.is_0x();
   if (description_.sensors.empty()) report_.error(scene.where, "the scene has no sensor");
   // Mitsuba 0.x renders the last sensor, Mitsuba 3 the first one.
@@ -247,8 +259,9 @@ void SceneReader::check_scene(const Node& scene, bool have_integrator) {
   if (!have_integrator) {
     description_.integrator.where = scene.where;
     description_.integrator.method = AutoIntegratorDescription{};
-    approximate_loudly(scene.where,
-                       old ? "the scene has no integrator: \"auto\" is used (Mitsuba 0.6 would use "
+    if (!tree.integrator_replaced)
+      approximate_loudly(
+          scene.where, old ? "the scene has no integrator: \"auto\" is used (Mitsuba 0.6 would use "
                              "\"direct\")"
                            : "the scene has no integrator: \"auto\" is used (Mitsuba 3 would use "
                              "\"path\")");

@@ -81,10 +81,10 @@ class SceneReader {
   void approximate_loudly(const SourceLocation& where, std::string what);
 
  private:
-  void top_level(const Node& scene);
+  void top_level(const NodeTree& tree);
   /// Reads the irradiance meters on a shape of the scene.
   void sensors_on_shape(const Node& node, bool misplaced, size_t shape);
-  void check_scene(const Node& scene, bool have_integrator);
+  void check_scene(const NodeTree& tree, bool have_integrator);
   /// The colour of a property, or the texture it names; nothing after an error.
   std::optional<ColorInput> color_of(Properties& p, std::string_view name, const Property& property,
                                      ColorMeaning meaning);
@@ -126,9 +126,15 @@ bool SceneReader::read_into(const Node& node, T& result) {
   }
   if (!may_enter(node)) return false;
   active_.push_back(&node);
+  const Report::Mute mute(report_, node.replaced);
+  const size_t approximations = description_.approximations.size();
   Properties properties(node, report_);
   (*read)(*this, properties, result);
   properties.finish();
+  if (node.replaced)
+    description_.approximations.erase(
+        description_.approximations.begin() + ptrdiff_t(approximations),
+        description_.approximations.end());
   active_.pop_back();
   return true;
 }

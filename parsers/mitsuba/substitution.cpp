@@ -16,10 +16,10 @@ constexpr size_t kLongestValue = 1 << 16;
 
 Substitution::Substitution(const std::vector<std::pair<std::string, std::string>>& defines) {
   for (const auto& [name, value] : defines)
-    if (!name.empty()) parameters_.try_emplace(name, Parameter{value});
+    if (!name.empty()) parameters_.try_emplace(name, Parameter{{value, name + "=" + value}});
 }
 
-void Substitution::set_default(const std::string& name, const std::string& value) {
+void Substitution::set_default(const std::string& name, const Expansion& value) {
   if (!name.empty()) mark(parameters_.try_emplace(name, Parameter{value}).first->second);
 }
 
@@ -37,9 +37,9 @@ Substitution::Parameters::iterator Substitution::longest_prefix(std::string_view
   }
 }
 
-std::optional<std::string> Substitution::expand(std::string_view text, const SourceLocation& where,
-                                                Report& report) {
-  std::string result;
+std::optional<Expansion> Substitution::expand(std::string_view text, const SourceLocation& where,
+                                              Report& report) {
+  std::string result, define;
   for (size_t i = 0; i < text.size();) {
     if (text[i] == '\\' && i + 1 < text.size() && text[i + 1] == '$') {
       result += '$';
@@ -56,25 +56,31 @@ std::optional<std::string> Substitution::expand(std::string_view text, const Sou
       const auto is_name = [](unsigned char c) { return std::isalnum(c) || c == '_'; };
       const auto end = std::find_if_not(rest.begin(), rest.end(), is_name);
       const std::string name(rest.begin(), end);
+      if (annotations_ && end != rest.end() && *end == '[') {
+        result += text[i++];
+        continue;
+      }
       report.error(where, "undefined parameter {}{}", in_quotes("$" + name),
                    did_you_mean(name, report.names_for_hint(parameters_)));
       return std::nullopt;
     }
     mark(meant->second);
-    result += meant->second.value;
+    const Expansion& value = meant->second.value;
+    result += value.text;
+    if (define.empty()) define = value.define;
     i += 1 + meant->first.size();
     if (result.size() > kLongestValue) {
       report.error(where, "the value gets longer than {} bytes", kLongestValue);
       return std::nullopt;
     }
   }
-  return result;
+  return Expansion{std::move(result), std::move(define)};
 }
 
 std::vector<std::pair<std::string, std::string>> Substitution::scene_parameters() const {
   std::vector<std::pair<std::string, std::string>> result(size_t(next_order_), {"", ""});
   for (const auto& [name, p] : parameters_)
-    if (p.order >= 0) result[size_t(p.order)] = {name, p.value};
+    if (p.order >= 0) result[size_t(p.order)] = {name, p.value.text};
   return result;
 }
 

@@ -7,11 +7,20 @@ namespace duet {
 
 namespace {
 
+/// Numbers are printed with few digits; the last row is exactly affine or not meant to be so.
+bool is_affine(const Matrix4& m) {
+  const auto& last = m[3];
+  return std::abs(last[0]) + std::abs(last[1]) + std::abs(last[2]) + std::abs(last[3] - 1) <= 1e-6;
+}
+
 /// One step of a <transform>: its matrix, or nothing after an error.
 class StepReader {
  public:
-  StepReader(const ElementContext& context, pugi::xml_node element)
-      : c_(context), tag_(element.name()), a_(c_.xml, element, c_.substitution, c_.report) {}
+  StepReader(const ElementContext& context, pugi::xml_node element, TransformSpace space)
+      : c_(context),
+        tag_(element.name()),
+        a_(c_.xml, element, c_.substitution, c_.report),
+        space_(space) {}
 
   std::optional<Matrix4> read() {
     if (tag_ == "translate") return translate();
@@ -65,8 +74,8 @@ class StepReader {
     if (!a_.check({"x", "y", "z", "value"})) return std::nullopt;
     const auto v = components(1);
     if (!v) return std::nullopt;
-    if ((*v)[0] == 0 || (*v)[1] == 0 || (*v)[2] == 0) {
-      c_.report.error(a_.where(), "a scale of zero cannot be inverted");
+    if ((*v)[0] == 0 || (*v)[1] == 0 || ((*v)[2] == 0 && space_ == TransformSpace::world)) {
+      c_.report.error(a_.where_all(), "a scale of zero cannot be inverted");
       return std::nullopt;
     }
     return Matrix4::scale((*v)[0], (*v)[1], (*v)[2]);
@@ -80,7 +89,7 @@ class StepReader {
     const auto [x, y, z] = *axis;
     const double length = std::sqrt(x * x + y * y + z * z);
     if (!(length > 0)) {
-      c_.report.error(a_.where(), "the axis of a rotation cannot be zero");
+      c_.report.error(a_.where_all(), "the axis of a rotation cannot be zero");
       return std::nullopt;
     }
     Matrix4 m = Matrix4::rotate(*angle, x, y, z);
@@ -114,7 +123,7 @@ class StepReader {
     auto m = Matrix4::look_at(*origin, *target, *up);
     if (!m)
       c_.report.error(
-          a_.where(), "<{}> has no direction: {}", tag_,
+          a_.where_all(), "<{}> has no direction: {}", tag_,
           *origin == *target ? "origin and target are the same" : "\"up\" is parallel to the view");
     return m;
   }
@@ -131,36 +140,48 @@ class StepReader {
     const size_t size = n->size() == 9 ? 3 : 4;
     Matrix4 m;
     for (size_t i = 0; i < n->size(); ++i) m[int(i / size)][i % size] = (*n)[i];
+    if (!c_.version.is_0x() && !is_affine(m)) {
+      c_.report.warning(a_.where("value"),
+                        "the last row {} {} {} {} of the matrix has no effect in Mitsuba 3: it is "
+                        "taken to be 0 0 0 1",
+                        m[3][0], m[3][1], m[3][2], m[3][3]);
+      m[3] = {0, 0, 0, 1};
+    }
     return m;
   }
 
   const ElementContext& c_;
   std::string tag_;
   Attributes a_;
+  TransformSpace space_;
 };
 
 }  // namespace
 
-PropertyValue read_transform(const ElementContext& c, pugi::xml_node element) {
+PropertyValue read_transform(const ElementContext& c, pugi::xml_node element,
+                             TransformSpace space) {
   Matrix4 product;
   bool good = true;
   for (pugi::xml_node child : element.children()) {
     if (child.type() != pugi::node_element) continue;
-    if (const auto step = StepReader(c, child).read())
+    if (const auto step = StepReader(c, child, space).read())
       product = *step * product;
     else
       good = false;
   }
   if (!good) return Broken{};
   const SourceLocation where = c.xml.where(element);
-  // Numbers are printed with few digits; the last row is exactly affine or not meant to be so.
-  const auto& last = product[3];
-  if (std::abs(last[0]) + std::abs(last[1]) + std::abs(last[2]) + std::abs(last[3] - 1) > 1e-6) {
+  if (!is_affine(product)) {
+    const auto& last = product[3];
     c.report.error(where, "the transform is not affine: its last row is {} {} {} {}, not 0 0 0 1",
                    last[0], last[1], last[2], last[3]);
     return Broken{};
   }
   product[3] = {0, 0, 0, 1};
+  if (space == TransformSpace::uv && product.is_finite()) {
+    product[2] = {0, 0, 1, 0};
+    return product;
+  }
   const auto inverse = product.is_finite() ? product.inverse() : std::nullopt;
   if (!inverse) {
     c.report.error(where, "the transform cannot be inverted");

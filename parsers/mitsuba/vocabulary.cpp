@@ -84,7 +84,7 @@ bool may_contain(PluginKind outer, PluginKind inner) {
   using enum PluginKind;
   switch (outer) {
     case PluginKind::scene:
-      return inner != film && inner != rfilter && inner != sampler && inner != PluginKind::scene;
+      return inner != PluginKind::scene;
     case integrator:
       return inner == integrator || inner == PluginKind::texture;
     case sensor:

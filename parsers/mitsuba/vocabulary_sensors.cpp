@@ -70,7 +70,7 @@ constexpr Plugin kSensors[] = {
 
 constexpr Parameter kHdrfilm[] = {
     {"pixel_format", string, "rgb", "luminance, luminance_alpha, rgb, rgba, xyz, xyza"},
-    {"component_format", string, "float16", "float16 or float32"},
+    {"component_format", string, "float16", "float16 or float32; uint32 becomes float32"},
     {.name = "file_format", .type = string, .preset = "openexr", .support = ignored},
     {.name = "channel_names",
      .type = string,

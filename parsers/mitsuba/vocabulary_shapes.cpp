@@ -59,8 +59,9 @@ constexpr Parameter kSerialized[] = {
 };
 constexpr Parameter kFlat[] = {kFlipNormals, kFlatAnyway};
 constexpr Parameter kDisk[] = {kFlipNormals};
-constexpr Parameter kSphere[] = {
-    {"center", point, "0 0 0"}, {"radius", number, "1", "", positive}, kFlipNormals};
+constexpr Parameter kSphere[] = {{"center", point, "0 0 0"},
+                                 {"radius", number, "1", "in 3.x a negative one turns the normals"},
+                                 kFlipNormals};
 constexpr Parameter kCylinder[] = {{"p0", point, "0 0 0"},
                                    {"p1", point, "0 0 1"},
                                    {"radius", number, "1", "", positive},

@@ -25,7 +25,8 @@ because Mitsuba is believed to be wrong.
 
 Names are those of Mitsuba 3. All files may also write them as Mitsuba 0.x does (`toWorld` for
 `to_world`), and a name that only one version has is understood in files of both. Where two defaults
-are given, the second is that of 0.x files.
+are given, the second is that of 0.x files. Ways to write scenes other than by plugins and
+parameters are listed in [constructs.md](constructs.md).
 )";
 
 constexpr std::string_view heading(PluginKind kind) {

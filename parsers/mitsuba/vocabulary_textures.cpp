@@ -130,7 +130,7 @@ constexpr Plugin kTextures[] = {
     {"scale", v0, kScale, &read_scale, "holds a texture"},
     {"uniform", v3, kUniform, &read_uniform},
     {"srgb", v3, kSrgb, &read_srgb},
-    {"d65", v3, kD65, &read_d65},
+    {.name = "d65", .versions = v3, .parameters = kD65, .reader = &read_d65, .aliases = "srgb_d65"},
     {"rawconstant", v3, kRawConstant, &read_rawconstant},
     {"irregular", v3, kIrregular, &read_irregular},
     {"regular", v3, kRegular, &read_regular},

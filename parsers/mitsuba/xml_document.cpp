@@ -5,28 +5,20 @@
 
 namespace duet {
 
-std::unique_ptr<XmlDocument> XmlDocument::parse(std::string text,
-                                                std::shared_ptr<const std::string> file,
-                                                Report& report) {
-  std::unique_ptr<XmlDocument> xml(new XmlDocument);
-  xml->file_ = std::move(file);
-  xml->text_ = std::move(text);
+std::unique_ptr<XmlDocument> XmlDocument::parse(XmlText text, Report& report) {
+  std::unique_ptr<XmlDocument> xml(new XmlDocument(std::move(text)));
   std::string& t = xml->text_;
   if (t.find('\0') != std::string::npos) {
-    report.error(xml->begin(), "this is not an XML file in UTF-8: it contains zero bytes");
+    report.error(xml->begin(),
+                 "this is not an XML file in UTF-8 or UTF-16: it contains zero bytes");
     return nullptr;
   }
-  // Before parsing, which puts zero bytes and plain spaces in the place of some line ends.
-  xml->line_starts_.push_back(0);
-  for (size_t i = 0; i < t.size(); ++i)
-    if (t[i] == '\n') xml->line_starts_.push_back(i + 1);
-
   const pugi::xml_parse_result result = xml->document_.load_buffer_inplace(
       t.data(), t.size(), pugi::parse_default, pugi::encoding_utf8);
   if (!result) {
     std::string reason = result.description();
     if (!reason.empty()) reason[0] = char(std::tolower(static_cast<unsigned char>(reason[0])));
-    report.error(xml->at(size_t(std::max<ptrdiff_t>(result.offset, 0))),
+    report.error(xml->source_.at(size_t(std::max<ptrdiff_t>(result.offset, 0))),
                  "this is not well-formed XML: {}", reason);
     return nullptr;
   }
@@ -39,17 +31,11 @@ std::unique_ptr<XmlDocument> XmlDocument::parse(std::string text,
   return xml;
 }
 
-SourceLocation XmlDocument::at(size_t offset) const {
-  const auto next = std::upper_bound(line_starts_.begin(), line_starts_.end(), offset);
-  const size_t line = size_t(next - line_starts_.begin());
-  return {file_, int(line), int(offset - line_starts_[line - 1]) + 1};
-}
-
 SourceLocation XmlDocument::at_name(const char* name, size_t before) const {
   const std::less<const char*> earlier;
   if (earlier(name, text_.data()) || !earlier(name, text_.data() + text_.size())) return begin();
   const size_t offset = size_t(name - text_.data());
-  return at(offset - std::min(before, offset));
+  return source_.at(offset - std::min(before, offset));
 }
 
 SourceLocation XmlDocument::where(pugi::xml_node element) const {

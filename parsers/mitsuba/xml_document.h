@@ -6,17 +6,15 @@
 #include <string>
 #include <vector>
 
-#include "mitsuba/report.h"
+#include "mitsuba/xml_text.h"
 
 namespace duet {
 
 class XmlDocument {
  public:
   /// Null, with an error in `report`, if the text is not well-formed XML. Entities that a document
-  /// type declares are not expanded.
-  static std::unique_ptr<XmlDocument> parse(std::string text,
-                                            std::shared_ptr<const std::string> file,
-                                            Report& report);
+  /// type declares are left as they are.
+  static std::unique_ptr<XmlDocument> parse(XmlText text, Report& report);
 
   pugi::xml_node root() const { return document_.document_element(); }
   /// Where the element's "<" is.
@@ -24,17 +22,15 @@ class XmlDocument {
   /// Where the attribute's name begins.
   SourceLocation where(pugi::xml_attribute attribute) const;
   /// The first line: the place of what concerns the whole file.
-  SourceLocation begin() const { return {file_, 1, 1}; }
+  SourceLocation begin() const { return source_.at(0); }
 
  private:
-  XmlDocument() = default;
-  SourceLocation at(size_t offset) const;
+  explicit XmlDocument(XmlText source) : source_(std::move(source)), text_(source_.release()) {}
   /// pugixml leaves names where they are in the text.
   SourceLocation at_name(const char* name, size_t before) const;
 
-  std::shared_ptr<const std::string> file_;
-  std::string text_;
-  std::vector<size_t> line_starts_;
+  XmlText source_;
+  std::string text_;  ///< the parser writes into it
   pugi::xml_document document_;
 };
 

@@ -126,6 +126,7 @@ ChartOptions ChartOptionParser::finish() {
   if (methods_.empty() && external_.empty()) methods_ = {"path,bdpt,vcm"};
   for (const std::string& text : methods_)
     for (ChartMethod& m : parse_methods(text)) o.methods.push_back(std::move(m));
+  for (const ChartMethod& m : o.methods) o.read.methods.push_back(m.integrator.name);
   for (ChartMethod& m : o.methods)
     for (size_t i = 0; i < parameters_.size(); ++i)
       m.integrator.parameters.insert(m.integrator.parameters.begin() + std::ptrdiff_t(i),

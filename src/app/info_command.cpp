@@ -8,6 +8,7 @@
 #include "app/scene_operand.h"
 #include "app/scene_summary.h"
 #include "base/log.h"
+#include "integrators/make_integrator.h"
 #include "mitsuba/writer.h"
 
 namespace duet {
@@ -16,8 +17,18 @@ namespace {
 
 struct InfoOptions {
   ReadOptions read;
+  std::string method;
   bool xml = false, json = false, all = false;
 };
+
+/// The scene as it is rendered with the method, if there is one.
+void use_method(SceneDescription& description, const std::string& method) {
+  try {
+    apply_override(description.integrator, {method, {}, {}});
+  } catch (const std::invalid_argument& e) {
+    throw UsageError(e.what());
+  }
+}
 
 void print_xml(const std::string& file, const LoadedScene& scene, bool strict) {
   const MitsubaXml xml = write_mitsuba_xml(scene.description);
@@ -26,7 +37,9 @@ void print_xml(const std::string& file, const LoadedScene& scene, bool strict) {
   if (strict && !xml.losses.empty()) throw SceneFailure(xml.losses[0], true);
 }
 
-int info(const InfoOptions& o) {
+int info(InfoOptions o) {
+  if (o.all) log::set_level(log::Level::verbose);
+  if (!o.method.empty()) o.read.methods = {o.method};
   if (o.xml && o.read.scenes.size() > 1)
     throw UsageError("--xml writes one scene; several were given");
   read_standard_input(o.read.scenes);
@@ -35,7 +48,8 @@ int info(const InfoOptions& o) {
   nlohmann::ordered_json all = nlohmann::ordered_json::array();
   for (const std::string& file : o.read.scenes) {
     try {
-      const LoadedScene scene = load_scene(file, o.read);
+      LoadedScene scene = load_scene(file, o.read);
+      use_method(scene.description, o.method);
       if (o.json)
         all.push_back(scene_json(file, scene));
       else if (o.xml)
@@ -58,6 +72,7 @@ void add_info_command(CLI::App& app, int& exit_code) {
   CLI::App* c = app.add_subcommand("info", "Say what scenes contain and how they are modelled");
   const auto o = std::make_shared<InfoOptions>();
   add_read_options(*c, o->read);
+  c->add_option("-i,--integrator", o->method, "Method instead of the scene's, as when rendering");
   c->add_flag("-v,--verbose", o->all, "List everything, however much there is");
   CLI::Option* xml =
       c->add_flag("--xml", o->xml,

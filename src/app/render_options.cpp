@@ -199,6 +199,7 @@ RenderOptions RenderOptionParser::finish() {
   RenderOptions& o = options_;
   finish_numbers();
   finish_window();
+  if (!o.integrator.name.empty()) o.read.methods = {o.integrator.name};
   for (const std::string& p : integrator_parameters_)
     o.integrator.parameters.push_back(parse_assignment("-I", p));
   o.integrator.layers = layers_;

@@ -1,6 +1,7 @@
 #include "app/scene_file.h"
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <set>
 
 #include "app/arguments.h"
@@ -21,6 +22,7 @@ MitsubaOptions mitsuba_options(const ReadOptions& options) {
   mitsuba.files.read = [on_disk = with_disk({}).read](const std::string& path) {
     return path == kStandardInput ? standard_input() : on_disk(path);
   };
+  mitsuba.replacing_methods = options.methods;
   return mitsuba;
 }
 
@@ -77,14 +79,15 @@ void check_defines(const ReadOptions& options) {
 }
 
 void report(const Diagnostics& diagnostics, bool strict) {
-  const Diagnostic* first = nullptr;
-  for (const Diagnostic& d : diagnostics.all()) {
+  const bool verbose = log::level() == log::Level::verbose;
+  for (const Diagnostic& d : verbose ? diagnostics.all() : diagnostics.summary())
     log::write(log::Level::quiet, d.to_string());
-    const bool counts = d.severity == Severity::error || (strict && !diagnostics.has_errors());
-    if (counts && !first) first = &d;
-  }
-  if (!first) return;
+  if (!diagnostics.has_errors() && !(strict && !diagnostics.all().empty())) return;
   if (!diagnostics.has_errors()) log::error("warnings are errors because of --strict");
+  const auto first =
+      std::find_if(diagnostics.all().begin(), diagnostics.all().end(), [&](const Diagnostic& d) {
+        return d.severity == Severity::error || !diagnostics.has_errors();
+      });
   throw SceneFailure(fmt::format("{}: {}", first->where.to_string(), first->message), true);
 }
 

@@ -20,6 +20,8 @@ struct ReadOptions {
   std::vector<std::string> scenes;   ///< files, or kStandardInput
   std::vector<std::string> defines;  ///< NAME=VALUE
   std::vector<std::string> search_paths;
+  /// Methods that take the place of the scene's integrator, so that it may be unknown.
+  std::vector<std::string> methods;
   bool strict = false;  ///< warnings are errors
 };
 

@@ -1,6 +1,7 @@
 #include "base/diagnostics.h"
 
 #include <algorithm>
+#include <unordered_map>
 #include <utility>
 
 namespace duet {
@@ -20,12 +21,23 @@ std::string Diagnostic::to_string() const {
 void Diagnostics::add(Diagnostic d) {
   if (d.severity == Severity::error) ++errors_;
   // The same remark from the same place (a file included twice, a parameter read twice) is one.
-  const auto same = [&](const Diagnostic& e) {
-    return e.severity == d.severity && e.message == d.message &&
-           e.where.to_string() == d.where.to_string();
-  };
-  if (std::any_of(entries_.begin(), entries_.end(), same)) return;
-  entries_.push_back(std::move(d));
+  if (seen_.insert(d.to_string()).second) entries_.push_back(std::move(d));
+}
+
+std::vector<Diagnostic> Diagnostics::summary() const {
+  std::unordered_map<std::string, size_t> counts;
+  for (const Diagnostic& d : entries_)
+    if (d.severity == Severity::warning) ++counts[d.message];
+  std::vector<Diagnostic> result;
+  for (const Diagnostic& d : entries_) {
+    result.push_back(d);
+    if (d.severity != Severity::warning) continue;
+    size_t& count = counts[d.message];
+    if (count == 0) result.pop_back();
+    if (count > 1) result.back().message += fmt::format(" ({} times)", count);
+    count = 0;
+  }
+  return result;
 }
 
 std::string nearest_name(const std::string& name, const std::vector<std::string>& known) {

@@ -7,6 +7,7 @@
 #include <memory>
 #include <stdexcept>
 #include <string>
+#include <unordered_set>
 #include <vector>
 
 namespace duet {
@@ -47,11 +48,15 @@ class Diagnostics {
   void add(Diagnostic diagnostic);
 
   const std::vector<Diagnostic>& all() const { return entries_; }
+  /// What people read: all errors, but of warnings with the same text only the first, which says
+  /// how many there are.
+  std::vector<Diagnostic> summary() const;
   size_t error_count() const { return errors_; }
   bool has_errors() const { return errors_ > 0; }
 
  private:
   std::vector<Diagnostic> entries_;
+  std::unordered_set<std::string> seen_;
   size_t errors_ = 0;
 };
 

@@ -1,6 +1,7 @@
 // duet info and duet plugins.
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
 
 #include "app/workplace.h"
@@ -12,6 +13,10 @@ using namespace duet;
 using namespace duet::test;
 
 namespace {
+
+bool has(const std::string& text, const std::string& part) {
+  return text.find(part) != text.npos;
+}
 
 TinyScene rich_scene() {
   TinyScene s;
@@ -32,6 +37,40 @@ TinyScene rich_scene() {
 }  // namespace
 
 TEST_SUITE("program") {
+  TEST_CASE("-i takes the place of an integrator that nobody knows") {
+    const Workplace place;
+    TinyScene s;
+    s.integrator =
+        "<integrator type='path_sms_ss'><integer name='max_depth' value='3'/></integrator>";
+    place.scene("fork.xml", s);
+    const Outcome refused = place.run({"fork.xml", "-o", "a.exr"});
+    CHECK(refused.code == 1);
+    CHECK(has(refused.err, "-i METHOD renders the scene with another one"));
+    const Outcome rendered = place.run({"fork.xml", "-i", "path", "--spp", "1", "-o", "a.exr"});
+    CHECK(rendered.code == 0);
+    CHECK(has(rendered.err, "\"path_sms_ss\" is unknown: path takes its place"));
+    CHECK(place.has("a.exr"));
+    CHECK(place.run({"fork.xml", "-i", "path", "--strict", "-o", "b.exr"}).code == 1);
+    const Outcome info = place.run({"info", "fork.xml", "-i", "bdpt"});
+    CHECK(info.code == 0);
+    CHECK(has(info.out, "bdpt: max_depth=3"));
+  }
+
+  TEST_CASE("warnings of one kind are one line, and all of them with -v") {
+    const Workplace place;
+    TinyScene s;
+    for (int i = 0; i < 3; ++i)
+      s.extra += "<shape type='cube'><float name='odd' value='1'/></shape>\n";
+    place.scene("odd.xml", s);
+    const Outcome few = place.run({"info", "odd.xml"});
+    CHECK(has(few.err, "\"odd\" of <shape type=\"cube\"> (3 times)"));
+    CHECK(std::count(few.err.begin(), few.err.end(), '\n') == 1);
+    const Outcome all = place.run({"info", "odd.xml", "-v"});
+    CHECK(std::count(all.err.begin(), all.err.end(), '\n') == 3);
+    CHECK(!has(all.err, "times"));
+    CHECK(place.run({"info", "odd.xml", "--strict"}).code == 1);
+  }
+
   TEST_CASE("info tells what a scene contains") {
     const Workplace place;
     place.scene("rich.xml", rich_scene());

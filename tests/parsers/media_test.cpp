@@ -287,7 +287,7 @@ TEST_CASE("media on shapes, sensors and lights") {
       std::holds_alternative<DiffuseMaterial>(material("0.6.0", both + "<emitter type='area'/>")));
   CHECK(std::holds_alternative<ConductorMaterial>(
       material("0.6.0", both + "<bsdf type='conductor'/>")));
-  CHECK(read("3.0.0", media + "<shape type='sphere'><ref name='inside' id='a'/></shape>")
+  CHECK(read("0.6.0", media + "<shape type='sphere'><ref name='inside' id='a'/></shape>")
             .has("is called \"interior\" or \"exterior\""));
   CHECK(read("3.0.0",
              media + "<shape type='sphere'>" + both + "<ref name='interior' id='b'/></shape>")

@@ -148,8 +148,10 @@ TEST_CASE("shape: places and orientation") {
   CHECK(shape("3.0.0", "disk", "<boolean name='flip_normals' value='true'/>").flip_normals);
   CHECK(std::holds_alternative<RectangleShape>(shape("3.0.0", "rectangle", "").geometry));
   CHECK(std::holds_alternative<CubeShape>(shape("0.6.0", "cube", "").geometry));
+  CHECK(fails("0.6.0", "<shape type='sphere'><float name='radius' value='-1'/></shape>",
+              "must be positive, not -1"));
   CHECK(fails("3.0.0", "<shape type='sphere'><float name='radius' value='0'/></shape>",
-              "must be positive, not 0"));
+              "must be other than 0"));
   CHECK(fails("3.0.0", "<shape type='cylinder'><point name='p1' value='0 0 0'/></shape>",
               "the same point"));
 }

@@ -45,10 +45,14 @@ std::string ReadResult::messages() const {
 
 ReadResult read_text(const std::string& text, MemoryFiles files,
                      std::vector<std::pair<std::string, std::string>> defines) {
-  files.texts["/scene/scene.xml"] = text;
-  ReadResult result;
   MitsubaOptions options;
   options.defines = std::move(defines);
+  return read_with(std::move(options), text, std::move(files));
+}
+
+ReadResult read_with(MitsubaOptions options, const std::string& text, MemoryFiles files) {
+  files.texts["/scene/scene.xml"] = text;
+  ReadResult result;
   options.files = files.access();
   result.scene = read_mitsuba("/scene/scene.xml", options, result.diagnostics);
   return result;

@@ -32,6 +32,9 @@ struct ReadResult {
 ReadResult read_text(const std::string& text, MemoryFiles files = {},
                      std::vector<std::pair<std::string, std::string>> defines = {});
 
+/// The same with these options.
+ReadResult read_with(MitsubaOptions options, const std::string& text, MemoryFiles files = {});
+
 /// The content of a scene, with its root, and a sensor and an integrator so that it is complete.
 std::string scene_text(const std::string& version, const std::string& content);
 ReadResult read_scene(const std::string& version, const std::string& content,
