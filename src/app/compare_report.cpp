@@ -6,6 +6,7 @@
 
 #include "app/commands.h"
 #include "app/compare.h"
+#include "app/compare_verdict.h"
 
 namespace duet {
 
@@ -38,8 +39,7 @@ std::string cell(const std::optional<double>& value) {
 }
 
 /// The columns of the table: what most people look at.
-constexpr const char* kColumns[] = {"relrmse", "trimmed", "worst", "flip",
-                                    "hdrflip", "ratio",   "bias",  "z"};
+constexpr const char* kColumns[] = {"relrmse", "trimmed", "worst", "flip", "hdrflip", "ratio", "p"};
 
 std::string table(const std::vector<Comparison>& all) {
   std::string html = "<div class=\"card scroll\"><table>\n<tr><th>image</th><th>verdict</th>";
@@ -76,6 +76,10 @@ std::string details(const Comparison& c, size_t number) {
       fmt::format("<h2 id=\"i{}\">{} {}</h2>\n", number, escape_markup(c.name), badge(c));
   if (!c.failure.empty()) return html + fmt::format("<p>{}</p>\n", escape_markup(c.failure));
   if (!c.missed.empty()) html += fmt::format("<p>{}</p>\n", escape_markup(missed_text(c)));
+  html += fmt::format("<p>{}</p>\n", escape_markup(known_text(c)));
+  if (!c.warning.empty()) html += fmt::format("<p>Warning: {}.</p>\n", escape_markup(c.warning));
+  if (c.measurements.bias_test)
+    html += fmt::format("<p>{}</p>\n", escape_markup(bias_test_text(*c.measurements.bias_test)));
   if (c.measurements.tiles) html += tile_text(*c.measurements.tiles);
   return html + "<div class=\"card\">" + viewer_html(c.images, 1) + "</div>\n";
 }
