@@ -10,7 +10,9 @@
 
 #include "app/arguments.h"
 #include "app/commands.h"
+#include "app/compare_verdict.h"
 #include "app/output.h"
+#include "base/log.h"
 #include "image/colours.h"
 #include "image/image_io.h"
 #include "math/spectrum.h"
@@ -82,8 +84,11 @@ void measure(const LinearImage& image, const LinearImage& reference,
       m.hdr_flip = hdr->mean;
       flip = std::move(*hdr);
     }
+  if (noise) m.bias_test = test_bias(image.image, reference.image, *noise);
   c.missed = missed_of(options.requirements, m);
-  c.verdict = judge(m, c.missed);
+  c.verdict = judge(m, options.requirements, c.missed);
+  c.warning = clipping_warning(image, reference);
+  if (!c.warning.empty()) log::warning("{}: {}", options.image, c.warning);
   c.tells_noise = noise.has_value() || m.tiles.has_value();
   if (longest > 0) add_images(image.image, reference.image, flip, longest, c);
 }

@@ -31,6 +31,7 @@ struct Comparison {
   std::vector<Requirement> missed;
   Verdict verdict = Verdict::fail;
   bool tells_noise = false;  ///< whether noise and bias could be told apart
+  std::string warning;       ///< what makes the figures misleading, or ""
   /// For the report.
   std::vector<ViewedImage> images;
   /// Whether there are figures.

@@ -9,6 +9,7 @@
 
 #include "app/commands.h"
 #include "app/compare.h"
+#include "app/compare_verdict.h"
 #include "app/output.h"
 #include "base/parallel.h"
 #include "base/percent.h"
@@ -37,9 +38,10 @@ void print_figures(const Comparison& c) {
       fmt::print("{:10} {:+.2f}\n", f.name, *m.bias);
     else if (f.value)
       fmt::print("{:10} {:.6g}\n", f.name, *f.value);
-    else if (f.needs == "--variance" && !c.measurements.tiles)
+    else if (f.needs.starts_with("--variance") && !c.measurements.tiles)
       fmt::print("{:10} not available (no --variance)\n", f.name);
   }
+  if (c.measurements.bias_test) fmt::print("{}", bias_test_text(*c.measurements.bias_test));
   if (!c.measurements.tiles) return;
   const TileComparison& t = *c.measurements.tiles;
   fmt::print(
@@ -73,7 +75,12 @@ nlohmann::ordered_json to_json(const CompareOptions& o, const Comparison& c) {
   if (m.bias) j["bias"] = *m.bias;
   j["mean_ratio"] = m.mean_ratio;
   if (const auto& t = c.measurements.tiles)
-    j["tile_test"] = {{"tiles", t->tiles},
+    j["tile_test"] = {{"p", t->p},
+                      {"significance", kTileSignificance},
+                      {"tile_p", t->tile_p},
+                      {"z2_p", t->z2_p},
+                      {"mean_p", t->mean_p},
+                      {"tiles", t->tiles},
                       {"rejected", t->rejected},
                       {"mean_z2", t->mean_z2},
                       {"least_p", t->least_p},
@@ -82,8 +89,11 @@ nlohmann::ordered_json to_json(const CompareOptions& o, const Comparison& c) {
                       {"ratio_error", t->ratio_error},
                       {"visible_bias", t->visible_bias},
                       {"visible_bias_worst", t->visible_bias_worst}};
+  if (const auto& t = c.measurements.bias_test) j["bias_test"] = to_json(*t);
+  if (!c.warning.empty()) j["warning"] = c.warning;
   j["missed"] = texts(c.missed);
   j["verdict"] = name_of(c.verdict);
+  j["known"] = known_text(c);
   return j;
 }
 
@@ -94,10 +104,7 @@ void print_one(const CompareOptions& o, const Comparison& c) {
   }
   print_figures(c);
   for (const Requirement& r : c.missed) fmt::print("missed     {}\n", r.text);
-  fmt::print("verdict    {}{}\n", name_of(c.verdict),
-             c.verdict == Verdict::noisy && !c.tells_noise
-                 ? " (or biased: only --variance can tell these apart)"
-                 : "");
+  fmt::print("verdict    {}\n", verdict_text(c));
 }
 
 void print_all(const CompareOptions& o, const std::vector<Comparison>& all) {
@@ -158,7 +165,8 @@ void check_options(CompareOptions& o, bool directories) {
     o.requirements.push_back(parse_requirement(text));
     for (const Figure& f : figures({}))
       if (f.name == o.requirements.back().figure && !f.needs.empty() &&
-          (f.needs == "--variance" ? o.variance.empty() : !o.batches))
+          !(o.batches ? f.needs.ends_with("--batches")
+                      : f.needs.starts_with("--variance") && !o.variance.empty()))
         throw UsageError(fmt::format("--require \"{}\" needs {}", text, f.needs));
   }
   if (o.batches && !o.variance.empty())
@@ -241,11 +249,11 @@ void add_compare_command(CLI::App& app, int& exit_code) {
       "--require-complete is missed.\n"
       "Examples:\n"
       "  duet compare a.exr mean.exr --variance variance.exr --require 'relrmse<0.05' --require "
-      "'bias<4'\n"
+      "'p>0.01'\n"
       "  duet compare a.png b.png --require 'flip<0.05' --flip-map flip.png\n"
       "  duet compare renders/ references/ --html report.html --junit report.xml --require "
       "'trimmed<0.01'\n"
-      "  duet compare --batches 'a-*.exr' 'b-*.exr' --require 'tiles<1' --require 'tilez2<1.6'");
+      "  duet compare --batches 'a-*.exr' 'b-*.exr' --require 'relrmse<0.05'");
   c->callback([o, &exit_code] {
     o->threads = hardware_threads();
     exit_code = compare(*o);

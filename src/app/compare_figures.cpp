@@ -14,17 +14,17 @@ namespace duet {
 
 namespace {
 
-/// Whether a figure tells a bias from noise.
-bool shows_bias(const std::string& figure) {
-  return figure == "bias" || figure == "z" || figure == "zrms" || figure.starts_with("tile");
-}
-
 template <class T>
 std::optional<double> of_tiles(const Measurements& m, T TileComparison::*member) {
   return m.tiles ? std::optional(double((*m.tiles).*member)) : std::nullopt;
 }
 
 }  // namespace
+
+std::optional<double> Measurements::p_value() const {
+  if (tiles) return tiles->p;
+  return bias_test && bias_test->tests > 0 ? std::optional(bias_test->p) : std::nullopt;
+}
 
 std::vector<Figure> figures(const Measurements& measurements) {
   const ImageMetrics& m = measurements.metrics;
@@ -58,6 +58,8 @@ std::vector<Figure> figures(const Measurements& measurements) {
        "--variance"},
       {"zrms", m.z_rms, "root mean square of (a - b) / standard error; needs --variance",
        "--variance"},
+      {"p", measurements.p_value(), "p-value of the test for bias; needs --variance or --batches",
+       "--variance or --batches"},
       {"tiles", of_tiles(measurements, &TileComparison::rejected),
        "tiles of 8x8 whose means differ, Welch's t, 0.01 (Sidak); needs --batches", "--batches"},
       {"tilez2", of_tiles(measurements, &TileComparison::mean_z2),
@@ -104,6 +106,8 @@ const char* name_of(Verdict v) {
   switch (v) {
     case Verdict::pass:
       return "PASS";
+    case Verdict::none:
+      return "no threshold given";
     case Verdict::noisy:
       return "NOISY";
     case Verdict::biased:
@@ -114,14 +118,14 @@ const char* name_of(Verdict v) {
   return "";
 }
 
-Verdict judge(const Measurements& measurements, const std::vector<Requirement>& missed) {
+Verdict judge(const Measurements& measurements, const std::vector<Requirement>& requirements,
+              const std::vector<Requirement>& missed) {
   const ImageMetrics& m = measurements.metrics;
   if (m.nan_pixels > 0 || m.infinite_pixels > 0) return Verdict::fail;
-  if ((m.z_share && *m.z_share < kRequiredZShare) || (m.bias && std::abs(*m.bias) > kNotableBias))
+  // Written so that a p-value that is not a number is no pass.
+  if (const auto p = measurements.p_value(); p && !(*p >= kBiasSignificance))
     return Verdict::biased;
-  if (measurements.tiles && !measurements.tiles->equal()) return Verdict::biased;
-  for (const Requirement& r : missed)
-    if (shows_bias(r.figure)) return Verdict::biased;
+  if (requirements.empty()) return Verdict::none;
   return missed.empty() ? Verdict::pass : Verdict::noisy;
 }
 
@@ -129,9 +133,11 @@ std::string figures_help() {
   std::string text = "Figures, over the channels R, G, B of all pixels:\n";
   for (const Figure& f : figures({})) text += fmt::format("  {:9} {}\n", f.name, f.formula);
   text +=
-      "Verdicts: PASS; NOISY, a required figure is missed but noise explains all differences; "
-      "BIASED, noise does not explain them (z below 0.9975, |bias| above 4, or with --batches a "
-      "tile that differs or a tilez2 of 1.6); FAIL, not finite.\n";
+      "Verdicts: BIASED, noise does not explain the differences: p below 0.01, which at most one "
+      "unbiased image in a hundred has; PASS, every --require is met; NOISY, one is missed, but no "
+      "bias was found; FAIL, not finite; no threshold given, without --require. docs/compare.md "
+      "has "
+      "the test, how it was measured, and what it does not notice.\n";
   return text;
 }
 

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "image/bias_test.h"
 #include "image/display_metrics.h"
 #include "image/flip.h"
 #include "image/metrics.h"
@@ -20,6 +21,10 @@ struct Measurements {
   PercentageErrors percentage;
   std::optional<double> flip, hdr_flip;
   std::optional<TileComparison> tiles;
+  std::optional<BiasTest> bias_test;
+  /// The p-value of the test that tells bias from noise, with --variance or --batches; empty also
+  /// if no pixel could be tested.
+  std::optional<double> p_value() const;
 };
 
 /// A number that --require can test.
@@ -44,9 +49,12 @@ Requirement parse_requirement(const std::string& text);
 std::vector<Requirement> missed_of(const std::vector<Requirement>& requirements,
                                    const Measurements& measurements);
 
-enum class Verdict { pass, noisy, biased, fail };
+/// Without a requirement there is nothing to pass: the verdict is `none` if no bias is found.
+enum class Verdict { pass, none, noisy, biased, fail };
 const char* name_of(Verdict verdict);
-Verdict judge(const Measurements& measurements, const std::vector<Requirement>& missed);
+/// Only a test with a known rate of false alarms makes the verdict BIASED (docs/compare.md).
+Verdict judge(const Measurements& measurements, const std::vector<Requirement>& requirements,
+              const std::vector<Requirement>& missed);
 
 /// The help on figures and verdicts.
 std::string figures_help();

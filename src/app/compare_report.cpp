@@ -7,6 +7,7 @@
 
 #include "app/commands.h"
 #include "app/compare.h"
+#include "app/compare_verdict.h"
 #include "base/percent.h"
 
 namespace duet {
@@ -37,8 +38,8 @@ std::string cell(const std::optional<double>& value, int digits) {
 
 /// The figures of the table: what most people look at, if it is there, and what is required.
 std::vector<std::string> columns(const CompareOptions& o, const std::vector<Comparison>& all) {
-  static constexpr const char* usual[] = {"relrmse", "trimmed", "worst", "flip", "hdrflip", "psnr",
-                                          "ssim",    "ratio",   "p",     "bias", "z"};
+  static constexpr const char* usual[] = {"relrmse", "trimmed", "worst", "flip", "hdrflip",
+                                          "psnr",    "ssim",    "ratio", "p"};
   std::vector<std::string> names;
   const std::vector<Figure> known = figures({});
   for (size_t i = 0; i < known.size(); ++i) {
@@ -119,6 +120,10 @@ std::string details(const Comparison& c, size_t number) {
       fmt::format("<section data-verdict=\"{}\">\n<h2 id=\"i{}\">{} {}</h2>\n",
                   escape_markup(outcome_name(c)), number, escape_markup(c.name), badge(c));
   if (!c.missed.empty()) html += fmt::format("<p>{}</p>\n", escape_markup(missed_text(c)));
+  html += fmt::format("<p>{}</p>\n", escape_markup(known_text(c)));
+  if (!c.warning.empty()) html += fmt::format("<p>Warning: {}.</p>\n", escape_markup(c.warning));
+  if (c.measurements.bias_test)
+    html += fmt::format("<p>{}</p>\n", escape_markup(bias_test_text(*c.measurements.bias_test)));
   if (c.measurements.tiles) html += tile_text(*c.measurements.tiles);
   return html + "<div class=\"card\">" + viewer_html(c.images, 1) + "</div>\n" + all_figures(c) +
          "</section>\n";

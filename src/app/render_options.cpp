@@ -65,15 +65,6 @@ void RenderOptionParser::add_method_options(CLI::App& c) {
 void RenderOptionParser::add_image_options(CLI::App& c) {
   c.option_defaults()->group("Image");
   c.add_option("-s,--sensor", sensor_, "Which of the scene's sensors, counting from 0");
-  c.add_option("--seed", seed_, "Seed of the random numbers");
-  c.add_flag("--strict-sampler", options_.strict_sampler,
-             "The sampler that the scene names, instead of Duet's Sobol' points");
-  c.add_option("-t,--threads", threads_, "Number of threads (default: all)");
-}
-
-void RenderOptionParser::add_image_options(CLI::App& c) {
-  c.option_defaults()->group("Image");
-  c.add_option("-s,--sensor", sensor_, "Which of the scene's sensors, counting from 0");
   c.add_option("--size", size_, "Image size WxH instead of the scene's, without its crop window");
   c.add_option("--crop", crop_, "Render only the window x,y,w,h, in pixels");
   c.add_option("--aov", layers_, layer_help())->delimiter(',')->allow_extra_args(false);

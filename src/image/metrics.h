@@ -39,9 +39,9 @@ struct ImageMetrics {
   std::optional<double> z_rms;
 };
 
-/// The least z_share of an image that noise explains.
+/// The least z_share of an image whose noise is normal; it does not decide a verdict.
 inline constexpr double kRequiredZShare = 0.9975;
-/// The largest |bias| that is not notable.
+/// The largest |bias| that is not notable; it does not decide a verdict either (bias_test.h does).
 inline constexpr double kNotableBias = 4;
 
 /// Both images must have channels R, G and B (or Y alone) and the same size; throws

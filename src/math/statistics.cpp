@@ -1,5 +1,6 @@
 #include "math/statistics.h"
 
+#include <algorithm>
 #include <limits>
 
 namespace duet {
@@ -29,7 +30,7 @@ double incomplete_beta(double x, double a, double b) {
 template <class F>
 double argument_of(const F& f, double value, double high) {
   double low = 0;
-  for (int i = 0; i < 100; ++i) {
+  for (int i = 0; i < 100 && high - low > 1e-14 * high; ++i) {
     const double middle = 0.5 * (low + high);
     (f(middle) > value ? low : high) = middle;
   }
@@ -61,8 +62,28 @@ double student_of_normal(double z, double dof) {
   return argument_of([&](double t) { return student_p_value(t, dof); }, p, high);
 }
 
+double chi_square_p_value(double x, double dof) {
+  if (!(x > 0)) return 1;
+  const double a = 0.5 * dof, h = 0.5 * x;
+  const double front = std::exp(a * std::log(h) - h - std::lgamma(a));
+  constexpr int kMany = 10000;
+  if (h < a + 1) {  // one minus the series of the lower part
+    double term = 1 / a, sum = term;
+    for (int n = 1; n < kMany && term > 1e-17 * sum; ++n) sum += term *= h / (a + n);
+    return std::max(0.0, 1 - front * sum);
+  }
+  // The continued fraction of the upper part, backwards; far from its start it converges fast.
+  double fraction = 0;
+  for (int n = 200; n >= 1; --n) fraction = n * (n - a) / (h + 2 * n + 1 - a - fraction);
+  return front / (h + 1 - a - fraction);
+}
+
 double sidak(double alpha, double tests) {
   return -std::expm1(std::log1p(-alpha) / tests);
+}
+
+double sidak_p_value(double p, double tests) {
+  return p < 1 ? -std::expm1(tests * std::log1p(-p)) : 1;
 }
 
 MeanEstimate estimate_mean(std::span<const double> values) {

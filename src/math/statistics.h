@@ -18,9 +18,14 @@ double student_p_value(double t, double dof);
 double normal_of_student(double t, double dof);
 /// Its inverse: the |t| that is as improbable as z.
 double student_of_normal(double z, double dof);
+/// Probability that a variate of the chi-square distribution is above x; dof is any number above 0.
+/// Source: Abramowitz & Stegun, 6.5.29 and 6.5.31.
+double chi_square_p_value(double x, double dof);
 /// The level of each of `tests` independent tests so that all of them together have level `alpha`.
 /// Source: Sidak, "Rectangular confidence regions …", JASA 62, 1967.
 double sidak(double alpha, double tests);
+/// Its inverse: the p-value of all of `tests` tests together of which the least p-value is p.
+double sidak_p_value(double p, double tests);
 
 /// The mean of independent values and the square of its standard error; a value that is known
 /// exactly has an error of zero.

@@ -59,8 +59,11 @@ TEST_SUITE("program") {
     const Gallery g;
     const Outcome plain = g.compare({"good.exr", "reference.exr"});
     CHECK(plain.code == 0);
-    CHECK(verdict(plain) == "PASS");
+    // Without a threshold there is nothing to pass.
+    CHECK(contains(plain.out, "verdict    no threshold given: relrmse 0.2"));
+    CHECK(contains(plain.out, "without --variance"));
     CHECK(contains(plain.out, "bias       not available"));
+    CHECK(contains(plain.out, "p          not available"));
     const std::vector<std::string> v{"--variance", "variance.exr"};
     const auto with = [&](std::vector<std::string> a, const std::vector<std::string>& more) {
       a.insert(a.end(), more.begin(), more.end());
@@ -79,6 +82,17 @@ TEST_SUITE("program") {
     const Outcome biased = g.compare(with({"shifted.exr", "reference.exr"}, v));
     CHECK(biased.code == 0);
     CHECK(verdict(biased) == "BIASED");
+    CHECK(contains(biased.out, "different beyond noise, p "));
+    const Outcome known = g.compare(with({"good.exr", "reference.exr"}, v));
+    CHECK(contains(known.out, "verdict    no threshold given: no bias found, p "));
+    CHECK(contains(known.out, "(95 %)"));
+    // A figure whose rate of false alarms nobody knows does not make the verdict BIASED.
+    const Outcome tails =
+        g.compare(with({"good.exr", "reference.exr", "--require", "zrms<0.5"}, v));
+    CHECK(tails.code == 3);
+    CHECK(verdict(tails) == "NOISY");
+    CHECK(g.compare(with({"good.exr", "reference.exr", "--require", "p>0.01"}, v)).code == 0);
+    CHECK(g.compare(with({"shifted.exr", "reference.exr", "--require", "p>0.01"}, v)).code == 3);
     const Outcome missed =
         g.compare(with({"--require", "bias<4", "shifted.exr", "reference.exr"}, v));
     CHECK(missed.code == 3);
@@ -97,12 +111,32 @@ TEST_SUITE("program") {
   TEST_CASE("the samples of variances come from the options or the headers") {
     const Gallery g;
     // The same deviation from a hundredth of the samples is nothing to wonder about.
-    CHECK(verdict(g.compare({"good.exr", "reference.exr", "--variance", "variance.exr"})) ==
-          "PASS");
-    CHECK(verdict(g.compare({"good.exr", "reference.exr", "--variance", "variance.exr", "--spp",
-                             "1600"})) == "BIASED");
-    CHECK(verdict(g.compare({"shifted.exr", "reference.exr", "--variance", "variance.exr",
-                             "--reference-spp", "0.01"})) == "PASS");
+    const auto passes = [&](std::vector<std::string> arguments) {
+      arguments.insert(arguments.end(), {"--require", "p>0.01"});
+      return g.compare(arguments).code == 0;
+    };
+    CHECK(passes({"good.exr", "reference.exr", "--variance", "variance.exr"}));
+    // A hundred times the samples explain a tenth of this noise. It is no bias: the light is right.
+    const std::vector<std::string> more{"reference.exr", "--variance", "variance.exr", "--spp",
+                                        "1600"};
+    const auto with_more = [&](std::vector<std::string> arguments) {
+      arguments.insert(arguments.end(), more.begin(), more.end());
+      return g.compare(arguments);
+    };
+    const auto calm = nlohmann::json::parse(with_more({"--json", "good.exr"}).out);
+    CHECK(double(calm["zrms"]) == doctest::Approx(10).epsilon(0.05));
+    CHECK(double(calm["z"]) < 0.9975);
+    CHECK(calm["verdict"] == "no threshold given");
+    CHECK(contains(calm["known"], "the noise is 10 times"));
+    CHECK(verdict(with_more({"shifted.exr"})) == "BIASED");
+    // Where the variance is the largest number of a half, it is not known.
+    write_noise(g.path("unknown.exr"), 0, 65504 - 1, 6, 64);
+    const std::vector<std::string> unknown{"shifted.exr", "reference.exr", "--variance",
+                                           "unknown.exr"};
+    CHECK(contains(g.compare(unknown).out, "no pixel has a known variance"));
+    CHECK_FALSE(passes(unknown));
+    CHECK(passes(
+        {"shifted.exr", "reference.exr", "--variance", "variance.exr", "--reference-spp", "0.01"}));
     const Outcome o =
         g.compare({"small.exr", "small.exr", "--variance", "small.exr", "--reference-spp", "1"});
     CHECK(o.code == 2);
@@ -127,6 +161,46 @@ TEST_SUITE("program") {
     CHECK(j["verdict"] == "NOISY");
   }
 
+  TEST_CASE("the test for bias as JSON") {
+    const Gallery g;
+    const auto run = [&](const char* image) {
+      return nlohmann::json::parse(
+          g.compare({image, "reference.exr", "--variance", "variance.exr", "--json"}).out);
+    };
+    const auto good = run("good.exr"), shifted = run("shifted.exr");
+    CHECK(good["verdict"] == "no threshold given");
+    CHECK(double(good["p"]) >= 0.01);
+    CHECK(good["p"] == good["bias_test"]["p"]);
+    CHECK(good["bias_test"]["significance"] == 0.01);
+    CHECK(good["bias_test"]["tests"] == 198);
+    CHECK(contains(good["known"], "no bias found"));
+    // The error of the mean of 4096 values is 0.2 / 64, and 4.06 + 0.84 of them are noticed.
+    CHECK(double(good["bias_test"]["noticed_mean"]) == doctest::Approx(0.0155).epsilon(0.2));
+    CHECK(double(good["bias_test"]["noticed_tile"]) == doctest::Approx(0.125).epsilon(0.2));
+    CHECK(shifted["verdict"] == "BIASED");
+    CHECK(double(shifted["bias_test"]["mean"]["ratio"]) == doctest::Approx(1.05).epsilon(0.01));
+    CHECK(int(shifted["bias_test"]["tile"]["width"]) == 8);
+    CHECK(double(shifted["bias_test"]["bound95"]) > 0.05);
+  }
+
+  TEST_CASE("what was clipped for display is warned about") {
+    const Gallery g;
+    // good.exr is brighter than 1 in half of its values; the .png of differences is made for
+    // display.
+    CHECK(g.compare({"good.exr", "reference.exr", "--diff", "d.png"}).code == 0);
+    const Outcome o = g.compare({"d.png", "good.exr", "--json", "--html", "r.html"});
+    CHECK(contains(o.err, "above 1"));
+    CHECK(contains(nlohmann::json::parse(o.out)["warning"], "the image is made for display"));
+    CHECK(contains(read_file(g.path("r.html")), "made for display"));
+    const Outcome other = g.compare({"good.exr", "d.png"});
+    CHECK(contains(other.err, "the reference is made for display"));
+    CHECK_FALSE(contains(g.compare({"d.png", "d.png"}).err, "made for display"));
+    CHECK_FALSE(contains(g.compare({"good.exr", "shifted.exr"}).err, "made for display"));
+    // Nothing of an image below 1 was clipped.
+    write_noise(g.path("dim.exr"), 0, -0.5, 1, 64);
+    CHECK_FALSE(contains(g.compare({"d.png", "dim.exr"}).err, "made for display"));
+  }
+
   TEST_CASE("difference images") {
     const Gallery g;
     CHECK(g.compare({"shifted.exr", "reference.exr", "--diff", "d.png"}).code == 0);
@@ -143,8 +217,8 @@ TEST_SUITE("program") {
     CHECK(contains(sizes.err, "32x32"));
     CHECK(g.compare({"missing.exr", "reference.exr"}).code == 1);
     CHECK(g.compare({"no.exr", "reference.exr"}).code == 1);
-    for (const char* wrong :
-         {"rmse", "rmse<", "rmse<nan", "<1", "rmsee<1", "rmse<1x", "rmse<inf", "bias<4", "z>0.9"}) {
+    for (const char* wrong : {"rmse", "rmse<", "rmse<nan", "<1", "rmsee<1", "rmse<1x", "rmse<inf",
+                              "bias<4", "z>0.9", "p>0.01"}) {
       CAPTURE(wrong);
       const Outcome o = g.compare({"good.exr", "reference.exr", "--require", wrong});
       CHECK(o.code == 2);

@@ -71,6 +71,53 @@ TEST_CASE("the tile test sees a bias of one tile that the mean hides") {
   CHECK(seen <= 39);
 }
 
+TEST_CASE("tiles that vary together are no bias") {
+  // Images whose brightness varies as a whole, as when few light sub-paths serve all pixels.
+  const auto set = [](unsigned seed) {
+    std::mt19937 generator(seed);
+    std::normal_distribution<double> noise(0, 1);
+    TileBatches b;
+    for (int i = 0; i < 16; ++i) {
+      Image image(8, 8, {"R", "G", "B"});
+      const double common = 1 + 0.1 * noise(generator);
+      for (float& v : image.data) v = float(common * (1 + 0.05 * noise(generator)));
+      b.add(image);
+    }
+    return b;
+  };
+  int alarms = 0, notable = 0;
+  for (unsigned i = 0; i < 100; ++i) {
+    const TileComparison c = compare_tiles(set(2 * i), set(2 * i + 1));
+    alarms += !c.equal();
+    notable += c.mean_z2 > 1.6;
+  }
+  CHECK(notable > 10);  // mean_z2 alone would say so
+  // Of 100 tests at 0.01, six or more fail with a probability of 0.0005.
+  CHECK(alarms < 6);
+}
+
+TEST_CASE("many small differences are found together") {
+  // A bias of two standard errors in every tile, up and down by turns.
+  int found = 0;
+  for (unsigned seed = 0; seed < 10; ++seed) {
+    std::mt19937 generator(seed);
+    std::normal_distribution<double> noise(0, 1);
+    TileBatches a, b;
+    for (int i = 0; i < 32; ++i) {
+      Image image(8, 8, {"Y"});
+      for (size_t k = 0; k < 64; ++k)
+        image.data[k] = float(1 + (i < 16 && k % 2 ? 0.07 : 0) - (i < 16 && k % 2 == 0 ? 0.07 : 0) +
+                              0.1 * noise(generator));
+      (i < 16 ? a : b).add(image);
+    }
+    const TileComparison c = compare_tiles(a, b);
+    found += c.z2_p < 0.001;
+    CHECK(c.mean_p > 0.001);
+    CHECK_FALSE(c.equal());
+  }
+  CHECK(found == 10);
+}
+
 TEST_CASE("tiles without variance") {
   const TileComparison same = compare_tiles(batches(3, 0, 0, 1), batches(3, 0, 0, 2));
   CHECK(same.tiles == 0);

@@ -98,3 +98,23 @@ TEST_CASE("levels of many tests") {
   CHECK(1 - std::pow(1 - sidak(0.01, 64), 64) == doctest::Approx(0.01));
   CHECK(sidak(0.05, 1) == doctest::Approx(0.05));
 }
+
+TEST_CASE("the upper tail of the chi-square distribution") {
+  // Abramowitz & Stegun, table 26.8.
+  CHECK(chi_square_p_value(6.63490, 1) == doctest::Approx(0.01).epsilon(1e-5));
+  CHECK(chi_square_p_value(0.0157908, 1) == doctest::Approx(0.9).epsilon(1e-4));
+  CHECK(chi_square_p_value(20.5150, 8) == doctest::Approx(0.0086).epsilon(0.002));
+  CHECK(chi_square_p_value(124.342, 100) == doctest::Approx(0.05).epsilon(1e-4));
+  // With two degrees of freedom it is exponential.
+  for (const double x : {0.1, 1.0, 3.0, 10.0, 100.0})
+    CHECK(chi_square_p_value(x, 2) == doctest::Approx(std::exp(-x / 2)));
+  CHECK(chi_square_p_value(0, 3) == 1);
+  CHECK(chi_square_p_value(1e12, 3) == 0);
+}
+
+TEST_CASE("Sidak's correction and its inverse") {
+  for (const double n : {1.0, 10.0, 198.0})
+    CHECK(sidak_p_value(sidak(0.01, n), n) == doctest::Approx(0.01));
+  CHECK(sidak_p_value(1, 10) == 1);
+  CHECK(sidak_p_value(0, 10) == 0);
+}

@@ -17,6 +17,8 @@ struct ReferenceCase {
   /// Twice what was measured when the case was written.
   double relative_rmse;
   double z_share = kRequiredZShare;
+  /// Mitsuba is off in a part of the image by more than the noise (docs/compatibility.md).
+  bool differs = false;
 };
 
 /// For scenes with paths so rare and bright that the spread of the reference's passes has missed
@@ -32,7 +34,7 @@ inline const std::vector<ReferenceCase>& reference_cases() {
       {"bsdf-measured", "bsdf-measured", {}, 256, 0.2},
       {"bsdf-plastics", "bsdf-plastics", {}, 256, 0.066},
       {"bsdf-principled", "bsdf-principled", {}, 1024, 0.08, kHeavyTails},
-      {"bsdf-wrappers", "bsdf-wrappers", {}, 1024, 0.05, kHeavyTails},
+      {"bsdf-wrappers", "bsdf-wrappers", {}, 1024, 0.05, kHeavyTails, true},
       {"camera", "camera", {}, 256, 0.01},
       {"cornell-box", "cornell-box", {{"size", "128"}}, 512, 0.05},
       {"curves", "curves", {}, 256, 0.2},

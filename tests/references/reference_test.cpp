@@ -1,4 +1,5 @@
 // Every scene against its reference, which Mitsuba has rendered (docs/references.md).
+#include "image/bias_test.h"
 #include "image/metrics.h"
 #include "references/cases.h"
 
@@ -11,8 +12,9 @@ TEST_SUITE("references") {
       CAPTURE(c.reference);
       const Reference reference(c.reference);
       const Image image = PreparedScene(c.scene, c.defines).render(c.spp);
-      const ImageMetrics m = compare_images(
-          image, reference.mean, NoiseModel{&reference.variance, double(c.spp), reference.spp});
+      const NoiseModel noise{&reference.variance, double(c.spp), reference.spp};
+      const ImageMetrics m = compare_images(image, reference.mean, noise);
+      CHECK(test_bias(image, reference.mean, noise).biased() == c.differs);
       CHECK(m.nan_pixels + m.infinite_pixels == 0);
       CHECK(m.relative_rmse < c.relative_rmse);
       CHECK(std::abs(*m.bias) < kNotableBias);
@@ -26,8 +28,8 @@ TEST_SUITE("references") {
     const Reference reference("textures");
     Image image = PreparedScene("textures").render(256);
     for (float& v : image.data) v *= 0.99f;
-    const ImageMetrics m =
-        compare_images(image, reference.mean, NoiseModel{&reference.variance, 256, reference.spp});
-    CHECK(std::abs(*m.bias) > kNotableBias);
+    const NoiseModel noise{&reference.variance, 256, reference.spp};
+    CHECK(std::abs(*compare_images(image, reference.mean, noise).bias) > kNotableBias);
+    CHECK(test_bias(image, reference.mean, noise).biased());
   }
 }

@@ -11,10 +11,6 @@
 
 namespace duet::test {
 
-/// Regularised upper incomplete gamma function Q(a, x).
-double gamma_q(double a, double x);
-/// Probability that a χ² variate with `dof` degrees of freedom exceeds `statistic`.
-double chi2_p_value(double statistic, int dof);
 /// Outcome of a χ² test. `pass` is false also if samples fell where the density is zero.
 struct Chi2Result {
   bool pass = false;
