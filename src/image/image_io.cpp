@@ -161,8 +161,8 @@ std::vector<uint8_t> display_image_bytes(const std::string& path, int width, int
 }
 
 void write_display_image(const std::string& path, int width, int height, int channels,
-                         const std::vector<uint8_t>& bytes) {
-  write_file_atomically(path, display_image_bytes(path, width, height, channels, bytes));
+                         const std::vector<uint8_t>& bytes, const TextFields& fields) {
+  write_file_atomically(path, display_image_bytes(path, width, height, channels, bytes, fields));
 }
 
 }  // namespace duet

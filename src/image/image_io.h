@@ -69,6 +69,6 @@ std::vector<uint8_t> display_image_bytes(const std::string& path, int width, int
 /// std::runtime_error with the reason if it cannot be written.
 void write_exr(const std::string& path, const Image& image, const ExrOptions& options);
 void write_display_image(const std::string& path, int width, int height, int channels,
-                         const std::vector<uint8_t>& bytes);
+                         const std::vector<uint8_t>& bytes, const TextFields& fields = {});
 
 }  // namespace duet

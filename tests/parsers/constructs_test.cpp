@@ -11,7 +11,8 @@ namespace {
 
 /// One way to write something, the same plainly, and what is said about it ("" if nothing is).
 struct Construct {
-  std::string name, text, plain, warning;
+  std::string name, text, plain;
+  std::string warning = {};
 };
 
 /// A light, without which there are warnings in files of 0.x.
