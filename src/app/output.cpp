@@ -33,15 +33,6 @@ bool is_directory(const std::string& path) {
   return path.ends_with('/') || fs::is_directory(path, ignored);
 }
 
-/// Whether the directory is there now; the current one has an empty name.
-bool make_directories(const fs::path& directory, std::error_code& error) {
-  if (directory.empty()) return true;
-  // A slash at the end would make it an error that the directory is there.
-  fs::create_directories(directory.has_filename() ? directory : directory.parent_path(), error);
-  std::error_code ignored;
-  return fs::is_directory(directory, ignored);
-}
-
 bool has_alpha(PixelFormat f) {
   return f == PixelFormat::rgba || f == PixelFormat::xyza || f == PixelFormat::luminance_alpha;
 }
@@ -117,6 +108,14 @@ std::string output_path(const std::string& pattern, const OutputNames& names,
         "-o {}: images are written as .exr, .png or .jpg; the name of a new directory ends with /",
         path));
   return path;
+}
+
+bool make_directories(const fs::path& directory, std::error_code& error) {
+  if (directory.empty()) return true;
+  // A slash at the end would make it an error that the directory is there.
+  fs::create_directories(directory.has_filename() ? directory : directory.parent_path(), error);
+  std::error_code ignored;
+  return fs::is_directory(directory, ignored);
 }
 
 std::string prepare_file(const std::string& path) {

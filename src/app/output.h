@@ -1,6 +1,7 @@
 // Where images go and in which form.
 #pragma once
 
+#include <filesystem>
 #include <string>
 #include <vector>
 
@@ -33,6 +34,10 @@ bool is_display_format(const std::string& path);
 /// The format that images of such a name are written in: "exr", "png", "jpg" or, for all others,
 /// "".
 std::string image_format(const std::string& path);
+
+/// Makes a directory and those above it. Whether it is there now; the current one has an empty
+/// name.
+bool make_directories(const std::filesystem::path& directory, std::error_code& error);
 
 /// Makes the directories in which a file is to be created or replaced. Empty, or why it could not
 /// be.

@@ -1,7 +1,9 @@
 // duet render: scenes in, images out.
 #include <CLI/CLI.hpp>
+#include <filesystem>
 
 #include "app/commands.h"
+#include "app/output.h"
 #include "app/render_options.h"
 #include "app/render_scene.h"
 #include "app/scene_operand.h"
@@ -51,6 +53,8 @@ class RenderCommand {
                    : options_.verbose ? log::Level::verbose
                                       : log::Level::normal);
     if (options_.log_file.empty()) return;
+    std::error_code ignored;  // the file says what is wrong
+    make_directories(std::filesystem::path(options_.log_file).parent_path(), ignored);
     try {
       log::open_file(options_.log_file);
     } catch (const std::exception& e) {

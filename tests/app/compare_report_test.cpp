@@ -60,8 +60,8 @@ TEST_SUITE("program") {
     CHECK(plain.code == 0);
     CHECK(contains(plain.err, "extra.exr: no reference in b"));
     CHECK(contains(plain.err, "lost.exr: no image in a"));
-    CHECK(contains(plain.out, "extra.exr  MISSING  no reference in b"));
-    CHECK(contains(plain.out, "lost.exr   MISSING  no image in a"));
+    CHECK(contains(plain.out, "extra.exr  MISSING             no reference in b"));
+    CHECK(contains(plain.out, "lost.exr   MISSING             no image in a"));
     CHECK(contains(plain.out, "1 compared: 1 "));
     CHECK(contains(plain.out, "1 MISSING in b; 1 MISSING in a"));
     std::string junit = read_file(g.path("j.xml"));

@@ -48,7 +48,7 @@ TEST_SUITE("program") {
     place.scene("kitchen.xml");
     place.write("empty.xml", "");
     place.write("binary.xml", std::string("\x7f"
-                                          "ELF\0\0\0\0",
+                                          "ELF\0\1\1\1",
                                           8));
     mkfifo(place.path("pipe.xml").c_str(), 0600);
     const std::pair<const char*, const char*> cases[] = {
