@@ -1,6 +1,5 @@
 #include "measured/measured_file.h"
 
-#include <bit>
 #include <cmath>
 #include <cstring>
 #include <limits>
@@ -9,15 +8,6 @@
 namespace duet {
 
 namespace {
-
-static_assert(std::endian::native == std::endian::little, "the file's byte order is assumed");
-
-template <class T>
-T read_raw(ByteReader& in, const char* what) {
-  T value;
-  std::memcpy(&value, in.take(sizeof(T), what), sizeof(T));
-  return value;
-}
 
 /// An array of the file that has not been read yet.
 struct Field {
@@ -34,23 +24,23 @@ Fields read_header(ByteReader& in) {
   if (in.size() < sizeof kMagic + 6 ||
       std::memcmp(in.take(sizeof kMagic, "the header"), kMagic, sizeof kMagic) != 0)
     in.fail("is not a measured material (a tensor file)");
-  const int major = read_raw<uint8_t>(in, "the header"),
-            minor = read_raw<uint8_t>(in, "the header");
+  const int major = in.take_value<uint8_t>("the header"),
+            minor = in.take_value<uint8_t>("the header");
   if (major != 1) in.fail("is of version {}.{}; only 1.0 is known", major, minor);
-  const uint32_t count = read_raw<uint32_t>(in, "the header");
+  const uint32_t count = in.take_value<uint32_t>("the header");
   if (count > 100) in.fail("has {} fields, which are too many", count);
   Fields fields;
   for (uint32_t i = 0; i < count; ++i) {
-    const uint16_t length = read_raw<uint16_t>(in, "the header");
+    const uint16_t length = in.take_value<uint16_t>("the header");
     const uint8_t* text = in.take(length, "the header");
     const std::string name(reinterpret_cast<const char*>(text), length);
-    const uint16_t dimensions = read_raw<uint16_t>(in, "the header");
+    const uint16_t dimensions = in.take_value<uint16_t>("the header");
     if (dimensions > 8) in.fail("has a field with {} dimensions", dimensions);
     Field f;
-    f.type = read_raw<uint8_t>(in, "the header");
-    f.offset = read_raw<uint64_t>(in, "the header");
+    f.type = in.take_value<uint8_t>("the header");
+    f.offset = in.take_value<uint64_t>("the header");
     for (uint16_t d = 0; d < dimensions; ++d)
-      f.shape.push_back(read_raw<uint64_t>(in, "the header"));
+      f.shape.push_back(in.take_value<uint64_t>("the header"));
     fields[name] = std::move(f);
   }
   return fields;
@@ -78,7 +68,7 @@ std::vector<float> read_floats(ByteReader& in, const Field& f, const char* name,
   in.seek(f.offset);
   std::vector<float> values(count);
   for (float& v : values) {
-    v = read_raw<float>(in, name);
+    v = in.take_value<float>(name);
     if (!std::isfinite(v) || (is_density && v < 0))
       in.fail("the field \"{}\" has the value {:g}", name, v);
   }
@@ -130,7 +120,7 @@ MeasuredTable parse_measured(ByteReader& in) {
   if (jacobian.shape[0] != 1 || jacobian.offset >= in.size())
     in.fail("the field \"jacobian\" is not one byte");
   in.seek(jacobian.offset);
-  t.has_jacobian = read_raw<uint8_t>(in, "jacobian") != 0;
+  t.has_jacobian = in.take_value<uint8_t>("jacobian") != 0;
   return t;
 }
 

@@ -4,8 +4,10 @@
 
 #include <fmt/format.h>
 
+#include <bit>
 #include <cstdint>
 #include <cstdio>
+#include <cstring>
 #include <memory>
 #include <new>
 #include <span>
@@ -53,6 +55,15 @@ class ByteReader {
     const uint8_t* p = next_;
     next_ += count;
     return p;
+  }
+
+  /// A number of a binary file, with its lowest byte first.
+  template <class T>
+  T take_value(const char* what) {
+    static_assert(std::endian::native == std::endian::little, "the machine's order is the file's");
+    T value;
+    std::memcpy(&value, take(sizeof(T), what), sizeof(T));
+    return value;
   }
 
   /// The next line without its end (LF or CR LF); false at the end of the file. The text is valid

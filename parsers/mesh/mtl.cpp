@@ -5,24 +5,22 @@
 #include <limits>
 
 #include "base/diagnostics.h"
+#include "mesh/words.h"
 
 namespace duet {
 
 namespace {
 
-constexpr std::string_view kSpace = " \t\r\f\v";
+constexpr std::string_view kWhiteSpace = " \t\r\f\v";
 
 std::string_view trimmed(std::string_view text) {
-  const size_t first = text.find_first_not_of(kSpace);
+  const size_t first = text.find_first_not_of(kWhiteSpace);
   if (first == text.npos) return {};
-  return text.substr(first, text.find_last_not_of(kSpace) - first + 1);
+  return text.substr(first, text.find_last_not_of(kWhiteSpace) - first + 1);
 }
 
-std::string_view take_word(std::string_view& text) {
-  text = trimmed(text);
-  const std::string_view word = text.substr(0, text.find_first_of(kSpace));
-  text.remove_prefix(word.size());
-  return word;
+std::string_view next_word(std::string_view& text) {
+  return take_word(text, [](char c) { return kWhiteSpace.find(c) != kWhiteSpace.npos; });
 }
 
 class MtlReader {
@@ -34,7 +32,7 @@ class MtlReader {
     if (rest_.starts_with("\xef\xbb\xbf")) rest_.remove_prefix(3);
     while (next_line()) {
       std::string_view words = text_;
-      const std::string keyword(take_word(words));
+      const std::string keyword(next_word(words));
       if (keyword == "newmtl")
         begin(trimmed(words));
       else if (keyword == "Kd" || keyword == "Ks")
@@ -106,22 +104,22 @@ class MtlReader {
   }
 
   MtlMaterial::Value number(const std::string& keyword, std::string_view words) const {
-    const double value = next_number(keyword, take_word(words));
+    const double value = next_number(keyword, next_word(words));
     return {{value, value, value}, "", line_};
   }
 
   /// Three numbers, or one for a grey.
   MtlMaterial::Value color(const std::string& keyword, std::string_view words) const {
-    MtlMaterial::Value value = number(keyword, take_word(words));
-    const std::string_view second = take_word(words);
+    MtlMaterial::Value value = number(keyword, next_word(words));
+    const std::string_view second = next_word(words);
     if (second.empty() || second[0] == '#') return value;
     value.numbers[1] = next_number(keyword, second);
-    value.numbers[2] = next_number(keyword, take_word(words));
+    value.numbers[2] = next_number(keyword, next_word(words));
     return value;
   }
 
   MtlMaterial::Value image(const std::string& keyword, std::string_view words) const {
-    const std::string_view name = take_word(words);
+    const std::string_view name = next_word(words);
     if (name.empty()) fail("{} needs the name of an image", keyword);
     return {{}, std::string(name), line_};
   }
@@ -133,7 +131,7 @@ class MtlReader {
   }
 
   int model(std::string_view words) const {
-    const double value = next_number("illum", take_word(words));
+    const double value = next_number("illum", next_word(words));
     if (value != std::floor(value) || std::abs(value) > 1000)
       fail("{} is not an illumination model", value);
     return int(value);

@@ -1,23 +1,13 @@
 #include "mesh/obj_lines.h"
 
+#include "mesh/words.h"
+
 namespace duet {
 
 namespace {
 
 bool is_space(char c) {
   return c == ' ' || c == '\t';
-}
-
-/// Takes the first word off `text`; empty if there is none. (string_view::find_first_of is several
-/// times slower, and every word of the file passes here.)
-std::string_view take_word(std::string_view& text) {
-  size_t begin = 0;
-  while (begin < text.size() && is_space(text[begin])) ++begin;
-  size_t end = begin;
-  while (end < text.size() && !is_space(text[end])) ++end;
-  const std::string_view word = text.substr(begin, end - begin);
-  text.remove_prefix(end);
-  return word;
 }
 
 bool is_digit(char c) {
@@ -79,7 +69,7 @@ std::string_view without_comment(std::string_view text) {
 
 /// True for lines of vertices, normals, texture coordinates and faces.
 bool is_data(std::string_view text) {
-  const std::string_view keyword = take_word(text);
+  const std::string_view keyword = take_word(text, is_space);
   return keyword == "v" || keyword == "vn" || keyword == "vt" || keyword == "f";
 }
 
@@ -114,7 +104,7 @@ ObjLines::int_type ObjLines::underflow() {
 }
 
 void ObjLines::note_library(std::string_view text) {
-  if (take_word(text) != "mtllib") return;
+  if (take_word(text, is_space) != "mtllib") return;
   while (!text.empty() && is_space(text.front())) text.remove_prefix(1);
   while (!text.empty() && is_space(text.back())) text.remove_suffix(1);
   library_ = text;
@@ -134,7 +124,7 @@ void ObjLines::check() {
   text_.resize(without_comment(text_).size());
   if (text_.find('\0') != text_.npos) fail(first_line_, "not a text file");
   std::string_view words = text_;
-  const std::string_view keyword = take_word(words);
+  const std::string_view keyword = take_word(words, is_space);
   if (keyword == "f")
     check_corners(text_.size() - words.size());
   else if (keyword == "vt")
@@ -145,7 +135,7 @@ void ObjLines::check() {
 
 void ObjLines::check_numbers(std::string_view words, int required, int checked) const {
   for (int i = 0; i < checked; ++i) {
-    const std::string_view word = take_word(words);
+    const std::string_view word = take_word(words, is_space);
     if (word.empty() && i < required)
       fail(first_line_, "{} number{} needed", required, required > 1 ? "s are" : " is");
     if (!word.empty() && !is_number(word)) fail(first_line_, "\"{}\" is not a number", word);
@@ -158,7 +148,8 @@ void ObjLines::check_corners(size_t begin) {
   for (size_t i = text_.size(); i-- > begin;)
     if (text_[i] == '/' && ends(i + 1) && !ends(i - 1)) text_[i] = ' ';
   std::string_view words = std::string_view(text_).substr(begin);
-  for (std::string_view word = take_word(words); !word.empty(); word = take_word(words))
+  for (std::string_view word = take_word(words, is_space); !word.empty();
+       word = take_word(words, is_space))
     if (!is_corner(word))
       fail(first_line_, "\"{}\" is not a vertex of the form 1, 1/2, 1//3 or 1/2/3", word);
 }

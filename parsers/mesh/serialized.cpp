@@ -3,7 +3,6 @@
 #include <zlib.h>
 
 #include <algorithm>
-#include <bit>
 #include <cstring>
 #include <limits>
 
@@ -13,20 +12,11 @@ namespace duet {
 
 namespace {
 
-static_assert(std::endian::native == std::endian::little, "the file's byte order is assumed");
-
 constexpr uint16_t kMagic = 0x041c;
 constexpr uint32_t kHasNormals = 0x1, kHasTexcoords = 0x2, kHasColors = 0x8, kFaceNormals = 0x10,
                    kDoublePrecision = 0x2000;
 /// DEFLATE encodes at most 258 bytes by two bits.
 constexpr uint64_t kGreatestRatio = 1032;
-
-template <class T>
-T read_raw(ByteReader& in, const char* what) {
-  T value;
-  std::memcpy(&value, in.take(sizeof(T), what), sizeof(T));
-  return value;
-}
 
 /// Where mesh `index` begins, from the table at the end of the file.
 uint64_t find_mesh(ByteReader& in, int version, int index) {
@@ -34,14 +24,14 @@ uint64_t find_mesh(ByteReader& in, int version, int index) {
   // A file of one mesh may lack the table.
   if (index == 0) return 0;
   in.seek(in.size() - sizeof(uint32_t));
-  const uint64_t count = read_raw<uint32_t>(in, "the number of meshes");
+  const uint64_t count = in.take_value<uint32_t>("the number of meshes");
   const uint64_t entry = version == 4 ? sizeof(uint64_t) : sizeof(uint32_t);
   if (count > (in.size() - sizeof(uint32_t)) / entry)
     in.fail("the table of meshes is damaged (it has {} entries)", count);
   if (uint64_t(index) >= count) in.fail("there is no mesh {}; there are {}", index, count);
   in.seek(in.size() - sizeof(uint32_t) - (count - uint64_t(index)) * entry);
-  const uint64_t position = version == 4 ? read_raw<uint64_t>(in, "the table of meshes")
-                                         : read_raw<uint32_t>(in, "the table of meshes");
+  const uint64_t position = version == 4 ? in.take_value<uint64_t>("the table of meshes")
+                                         : in.take_value<uint32_t>("the table of meshes");
   if (position > in.size()) in.fail("the table of meshes is damaged (mesh at byte {})", position);
   return position;
 }
@@ -144,12 +134,12 @@ void read_tuples(Inflater& data, bool is_double, size_t count, std::vector<T>& r
 
 TriangleMesh parse_serialized(ByteReader& in, const MeshOptions& options) {
   const char* const kHeader = "the header";
-  if (read_raw<uint16_t>(in, kHeader) != kMagic) in.fail("not a .serialized file");
-  const int version = read_raw<uint16_t>(in, kHeader);
+  if (in.take_value<uint16_t>(kHeader) != kMagic) in.fail("not a .serialized file");
+  const int version = in.take_value<uint16_t>(kHeader);
   if (version != 3 && version != 4)
     in.fail("is of version {}; only versions 3 and 4 can be read", version);
   in.seek(find_mesh(in, version, options.shape_index));
-  if (read_raw<uint16_t>(in, kHeader) != kMagic)
+  if (in.take_value<uint16_t>(kHeader) != kMagic)
     in.fail("mesh {} does not begin where the table says", options.shape_index);
   in.take(sizeof(uint16_t), kHeader);
 

@@ -1,5 +1,6 @@
 // Sensors with their films, filters and samplers.
 #include <cmath>
+#include <numbers>
 
 #include "mitsuba/focal_length.h"
 #include "mitsuba/readers.h"
@@ -117,7 +118,7 @@ void read_sensor(SceneReader& s, Properties& p, SensorDescription& out) {
 
 double diagonal_fov(double focal_length) {
   const double diagonal = std::sqrt(36.0 * 36 + 24 * 24);
-  return 2 * std::atan(diagonal / (2 * focal_length)) * (180 / 3.14159265358979323846);
+  return 2 * std::atan(diagonal / (2 * focal_length)) * (180 / std::numbers::pi);
 }
 
 std::pair<double, FovAxis> read_fov(Properties& p) {

@@ -1,5 +1,6 @@
 // Sun and sky of both Mitsubas.
 #include <cmath>
+#include <numbers>
 #include <span>
 
 #include "mitsuba/readers.h"
@@ -73,7 +74,7 @@ void read_common(Properties& p, LightDescription& out) {
 
 /// x to the north, z up, where azimuths run to the east by south: as in Mitsuba 3.
 std::array<double, 3> direction_3x(const SunAngles& a) {
-  constexpr double pi = 3.14159265358979323846;
+  constexpr double pi = std::numbers::pi;
   const double azimuth = a.azimuth - pi, s = std::sin(a.zenith);
   return {s * std::cos(azimuth), s * std::sin(azimuth), std::cos(a.zenith)};
 }

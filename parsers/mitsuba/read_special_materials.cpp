@@ -7,7 +7,7 @@
 
 namespace duet {
 
-void read_hair(SceneReader& s, Properties& p, MaterialDescription& out) {
+void read_hair_material(SceneReader& s, Properties& p, MaterialDescription& out) {
   HairMaterial m;
   m.longitudinal_roughness = p.number("longitudinal_roughness");
   m.azimuthal_roughness = p.number("azimuthal_roughness");
@@ -25,7 +25,7 @@ void read_hair(SceneReader& s, Properties& p, MaterialDescription& out) {
   out.model = m;
 }
 
-void read_measured(SceneReader& s, Properties& p, MaterialDescription& out) {
+void read_measured_material(SceneReader& s, Properties& p, MaterialDescription& out) {
   const std::string file = s.file(p, "filename");
   if (file.empty()) return;
   try {

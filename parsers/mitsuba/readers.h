@@ -20,8 +20,8 @@ void read_difftrans(SceneReader&, Properties&, MaterialDescription&);
 void read_null(SceneReader&, Properties&, MaterialDescription&);
 
 // read_special_materials.cpp
-void read_hair(SceneReader&, Properties&, MaterialDescription&);
-void read_measured(SceneReader&, Properties&, MaterialDescription&);
+void read_hair_material(SceneReader&, Properties&, MaterialDescription&);
+void read_measured_material(SceneReader&, Properties&, MaterialDescription&);
 void read_pplastic(SceneReader&, Properties&, MaterialDescription&);
 void read_filter_of_light(SceneReader&, Properties&, MaterialDescription&);
 void read_coating(SceneReader&, Properties&, MaterialDescription&);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <span>
 #include <vector>
 
@@ -10,8 +11,6 @@
 namespace duet {
 
 namespace {
-
-constexpr double kPiD = 3.14159265358979323846;
 
 /// Values at equal steps of the wavelength in nm: linear between them, zero beyond.
 struct Curve {
@@ -74,13 +73,13 @@ double transmittance(double wavelength, double turbidity, double mass) {
 Spectrum sun_irradiance_0x(double turbidity, double zenith) {
   // Kasten's formula.
   const double mass =
-      1 / (std::cos(zenith) + 0.15 * std::pow(93.885 - zenith * 180 / kPiD, -1.253));
+      1 / (std::cos(zenith) + 0.15 * std::pow(93.885 - zenith * 180 / std::numbers::pi, -1.253));
   std::vector<SpectrumSample> radiance{{kFirst - kStep, 0}};
   for (double w = kFirst; w <= kLast; w += kStep)
     radiance.push_back({w, 10 * kSun(w) * transmittance(w, turbidity, mass)});
   radiance.push_back({kLast + kStep, 0});
-  const double half = kSunAperture0x * kPiD / 360;
-  const double solid_angle = 4 * kPiD * std::pow(std::sin(half / 2), 2);
+  const double half = kSunAperture0x * std::numbers::pi / 360;
+  const double solid_angle = 4 * std::numbers::pi * std::pow(std::sin(half / 2), 2);
   return spectrum_to_rgb(radiance, ColorMeaning::emission) * float(solid_angle);
 }
 

@@ -1,5 +1,6 @@
 #include <cmath>
 
+#include "math/angles.h"
 #include "mitsuba/property_values.h"
 #include "mitsuba/text.h"
 
@@ -99,8 +100,8 @@ class StepReader {
                       "Mitsuba 3 does not normalise the axis of a rotation: one of length {} also "
                       "stretches",
                       length);
-    const double s = std::sin(*angle * (3.14159265358979323846 / 180));
-    const double d = 1 - std::cos(*angle * (3.14159265358979323846 / 180));
+    const double s = std::sin(*angle * kRadians);
+    const double d = 1 - std::cos(*angle * kRadians);
     const double c = 1 - d;
     m[0] = {c + x * x * d, x * y * d - z * s, x * z * d + y * s, 0};
     m[1] = {x * y * d + z * s, c + y * y * d, y * z * d - x * s, 0};

@@ -100,8 +100,8 @@ constexpr Parameter kRadius{
     .note = "of merging in the first iteration, in world units; 0: from the size of a pixel",
     .range = not_negative,
     .aliases = "initial_radius"};
-constexpr Parameter kAlpha{"alpha", number, "0",
-                           "how fast the radius shrinks; 0: the method's default", fraction};
+constexpr Parameter kRadiusAlpha{"alpha", number, "0",
+                                 "how fast the radius shrinks; 0: the method's default", fraction};
 constexpr Parameter kPpm[] = {
     kMaxDepth,
     {.name = "rr_depth",
@@ -145,9 +145,9 @@ constexpr Parameter kPhotonmapper[] = {
     {.name = "lookup_size", .type = integer, .support = inert},
     {.name = "granularity", .type = integer, .support = inert}};
 constexpr Parameter kBpm[] = {kMaxDepth,   kRrDepth, kHideEmitters, kDropPaths,
-                              kLightPaths, kRadius,  kAlpha};
+                              kLightPaths, kRadius,  kRadiusAlpha};
 constexpr Parameter kVcm[] = {kMaxDepth,   kRrDepth,     kHideEmitters, kDropPaths,
-                              kLightPaths, kConnections, kRadius,       kAlpha};
+                              kLightPaths, kConnections, kRadius,       kRadiusAlpha};
 
 constexpr Parameter kDepth[] = {{.name = "hide_emitters", .type = boolean, .support = inert}};
 constexpr Parameter kAov[] = {

@@ -6,7 +6,7 @@ namespace duet::vocabulary {
 namespace {
 
 constexpr Parameter kToWorld{"to_world", transform}, kPlace{"to_world", transform, "", kMovable};
-constexpr Parameter kScale{"scale", number, "1", "multiplies the light", not_negative};
+constexpr Parameter kLightScale{"scale", number, "1", "multiplies the light", not_negative};
 constexpr Parameter kIntensity{"intensity", emission, "1", "radiant intensity, W/sr"};
 constexpr Parameter kRadiance{
     .name = "radiance", .type = emission, .preset = "1", .aliases = "intensity"};
@@ -22,7 +22,7 @@ constexpr Parameter kSpot[] = {
     kPlace};
 constexpr Parameter kProjector[] = {
     {"irradiance", emission, "1"},
-    kScale,
+    kLightScale,
     {"fov", number, "", "either this or focal_length", degrees},
     {"fov_axis", string, "x", "x, y, diagonal, smaller or larger"},
     {"focal_length", string, "50mm", "of a lens before 36 mm × 24 mm film"},
@@ -52,11 +52,11 @@ constexpr Parameter kEnvmap[] = {
 constexpr Parameter kCollimated[] = {{"power", emission, "1", "in watts"}, kPlace};
 
 constexpr Parameter kTurbidity{"turbidity", number, "3", "of the air, from 1 to 10"};
-constexpr Parameter kAlbedo{.name = "albedo",
-                            .type = reflectance,
-                            .preset = "0.3",
-                            .note = "of the ground",
-                            .preset_0x = "0.2"};
+constexpr Parameter kGroundAlbedo{.name = "albedo",
+                                  .type = reflectance,
+                                  .preset = "0.3",
+                                  .note = "of the ground",
+                                  .preset_0x = "0.2"};
 constexpr Parameter kYear{"year", integer, "2010"}, kMonth{"month", integer, "7"},
     kDay{"day", integer, "10"}, kHour{"hour", number, "15", "of the time zone"},
     kMinute{"minute", number, "0"}, kSecond{"second", number, "0"},
@@ -106,21 +106,21 @@ constexpr Parameter kYear{"year", integer, "2010"}, kMonth{"month", integer, "7"
                    .note = "nothing is rasterised; 0.6 blurs the sun over some texels",
                    .versions = v0,
                    .support = inert};
-constexpr Parameter kSky[] = {kTurbidity, kAlbedo,       kYear,    kMonth,    kDay,
-                              kHour,      kMinute,       kSecond,  kLatitude, kLongitude,
-                              kTimezone,  kSunDirection, kStretch, kExtend,   kSkyResolution,
-                              kScale,     kToWorld};
+constexpr Parameter kSky[] = {kTurbidity,  kGroundAlbedo, kYear,    kMonth,    kDay,
+                              kHour,       kMinute,       kSecond,  kLatitude, kLongitude,
+                              kTimezone,   kSunDirection, kStretch, kExtend,   kSkyResolution,
+                              kLightScale, kToWorld};
 constexpr Parameter kSun[] = {kSunTurbidity,   kYear,          kMonth,        kDay,
                               kHour,           kMinute,        kSecond,       kLatitude,
                               kLongitude,      kTimezone,      kSunDirection, kSunStretch,
-                              kSunRadiusScale, kSkyResolution, kScale,        kToWorld};
+                              kSunRadiusScale, kSkyResolution, kLightScale,   kToWorld};
 constexpr Parameter kSunsky[] = {
-    kTurbidity,      kAlbedo,        kYear,        kMonth,      kDay,      kHour,
+    kTurbidity,      kGroundAlbedo,  kYear,        kMonth,      kDay,      kHour,
     kMinute,         kSecond,        kLatitude,    kLongitude,  kTimezone, kSunDirection,
     kSunScale,       kSkyScale,      kSunAperture, kComplexSun, kStretch,  kExtend,
-    kSunRadiusScale, kSkyResolution, kScale,       kToWorld};
+    kSunRadiusScale, kSkyResolution, kLightScale,  kToWorld};
 constexpr Parameter kTimedSunsky[] = {kTurbidity,
-                                      kAlbedo,
+                                      kGroundAlbedo,
                                       {"start_year", integer, "2025"},
                                       {"start_month", integer, "1"},
                                       {"start_day", integer, "1"},

@@ -228,7 +228,7 @@ constexpr Plugin kBsdfs[] = {
     {"mixturebsdf", both, kMixture, &read_mixturebsdf, "holds BSDFs; Mitsuba 3 has none"},
     {"circular", v3, kCircular, &read_filter_of_light, kUnpolarized},
     {"coating", both, kCoating, &read_coating, "holds a BSDF; Mitsuba 3 has none"},
-    {"hair", v3, kHair, &read_hair, "for bsplinecurve"},
+    {"hair", v3, kHair, &read_hair_material, "for bsplinecurve"},
     {.name = "hk",
      .parameters = kThinLayer,
      .reader = &read_hk,
@@ -237,7 +237,7 @@ constexpr Plugin kBsdfs[] = {
      "woven cloth is its average colours and a wide highlight; the file's own parameters are "
      "colours; Mitsuba 3 has none",
      approximated},
-    {"measured", v3, kMeasured, &read_measured, "files in RGB"},
+    {"measured", v3, kMeasured, &read_measured_material, "files in RGB"},
     {.name = "measured_polarized",
      .versions = v3,
      .note = "light has no polarisation here",

@@ -5,12 +5,12 @@ namespace duet::vocabulary {
 
 namespace {
 
-constexpr Parameter kScale{.name = "scale",
-                           .type = number,
-                           .preset = "1",
-                           .note = "multiplies the extinction",
-                           .range = not_negative,
-                           .aliases = "density_multiplier size_multiplier"};
+constexpr Parameter kMediumScale{.name = "scale",
+                                 .type = number,
+                                 .preset = "1",
+                                 .note = "multiplies the extinction",
+                                 .range = not_negative,
+                                 .aliases = "density_multiplier size_multiplier"};
 /// How light is sampled, which does not change what it does.
 constexpr Parameter kSampleEmitters{
     .name = "sample_emitters", .type = boolean, .versions = v3, .support = inert};
@@ -48,7 +48,7 @@ constexpr Parameter kHomogeneous[] = {
      .preset = "(of the material)",
      .note = "scattering counts 1 - g times",
      .versions = v0},
-    kScale,
+    kMediumScale,
     kSampleEmitters,
     kSpectralExtinction,
     {.name = "strategy",
@@ -78,7 +78,7 @@ constexpr Parameter kHeterogeneous[] = {
      .note = "has no effect: phase functions that need it are approximated",
      .versions = v0,
      .support = approximated},
-    kScale,
+    kMediumScale,
     kSampleEmitters,
     kSpectralExtinction,
     {.name = "method", .type = string, .versions = v0, .support = inert},

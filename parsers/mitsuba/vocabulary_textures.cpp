@@ -69,11 +69,11 @@ constexpr Parameter kMeshAttribute[] = {
     {.name = "name", .type = string, .note = "vertex_… or face_…", .required = true},
     {"scale", number, "1"}};
 
-constexpr Parameter kScale[] = {{.name = "scale",
-                                 .type = unbounded,
-                                 .preset = "1",
-                                 .note = "number or colour",
-                                 .aliases = "value"}};
+constexpr Parameter kScaleTexture[] = {{.name = "scale",
+                                        .type = unbounded,
+                                        .preset = "1",
+                                        .note = "number or colour",
+                                        .aliases = "value"}};
 
 constexpr Parameter kUniform[] = {{.name = "value", .type = number, .preset = "1"},
                                   {.name = "wavelength_min", .type = number, .support = inert},
@@ -127,7 +127,7 @@ constexpr Plugin kTextures[] = {
     {"checkerboard", both, kCheckerboard, &read_checkerboard},
     {"mesh_attribute", v3, kMeshAttribute, &read_mesh_attribute},
     {"vertexcolors", v0, {}, &read_vertexcolors},
-    {"scale", v0, kScale, &read_scale, "holds a texture"},
+    {"scale", v0, kScaleTexture, &read_scale, "holds a texture"},
     {"uniform", v3, kUniform, &read_uniform},
     {"srgb", v3, kSrgb, &read_srgb},
     {.name = "d65", .versions = v3, .parameters = kD65, .reader = &read_d65, .aliases = "srgb_d65"},

@@ -1,23 +1,14 @@
 #include "volume/vol_file.h"
 
-#include <bit>
 #include <cmath>
 #include <cstring>
+#include <numbers>
 
 namespace duet {
 
 namespace {
 
-static_assert(std::endian::native == std::endian::little, "the file's byte order is assumed");
-
 enum class Encoding : int32_t { float32 = 1, float16 = 2, uint8 = 3, directions = 4 };
-
-template <class T>
-T read_raw(ByteReader& in, const char* what) {
-  T value;
-  std::memcpy(&value, in.take(sizeof(T), what), sizeof(T));
-  return value;
-}
 
 /// IEEE 754 binary16.
 float half_to_float(uint16_t h) {
@@ -44,7 +35,7 @@ size_t bytes_per_node(Encoding encoding, int channels) {
 
 /// Spherical coordinates in steps of π/255 and 2π/255.
 void decode_direction(const uint8_t* bytes, float* out) {
-  constexpr double step = 3.14159265358979323846 / 255;
+  constexpr double step = std::numbers::pi / 255;
   const double theta = bytes[0] * step, phi = 2 * bytes[1] * step;
   out[0] = float(std::sin(theta) * std::cos(phi));
   out[1] = float(std::sin(theta) * std::sin(phi));
@@ -69,13 +60,13 @@ void decode_node(Encoding encoding, const uint8_t* bytes, int channels, float* o
 Encoding read_header(ByteReader& in, VolumeGrid& grid) {
   if (in.size() < 4 || std::memcmp(in.take(3, "the header"), "VOL", 3) != 0)
     in.fail("is not a volume file");
-  if (const int version = read_raw<uint8_t>(in, "the header"); version != 3)
+  if (const int version = in.take_value<uint8_t>("the header"); version != 3)
     in.fail("is of version {}; only 3 is known", version);
-  const int encoding = read_raw<int32_t>(in, "the header");
+  const int encoding = in.take_value<int32_t>("the header");
   if (encoding < 1 || encoding > 4) in.fail("has the unknown encoding {}", encoding);
-  for (int& n : grid.size) n = read_raw<int32_t>(in, "the header");
+  for (int& n : grid.size) n = in.take_value<int32_t>("the header");
   const auto& [x, y, z] = grid.size;
-  grid.channels = read_raw<int32_t>(in, "the header");
+  grid.channels = in.take_value<int32_t>("the header");
   constexpr int most = 1 << 16;
   for (const int n : grid.size)
     if (n < 1 || n > most) in.fail("has an impossible size of {} x {} x {}", x, y, z);
@@ -84,7 +75,7 @@ Encoding read_header(ByteReader& in, VolumeGrid& grid) {
   if (Encoding(encoding) == Encoding::directions && grid.channels != 3)
     in.fail("has directions with {} channels instead of 3", grid.channels);
   for (auto* corner : {&grid.lower, &grid.upper})
-    for (float& v : *corner) v = read_raw<float>(in, "the header");
+    for (float& v : *corner) v = in.take_value<float>("the header");
   for (size_t i = 0; i < 3; ++i)
     if (!std::isfinite(grid.lower[i]) || !std::isfinite(grid.upper[i]) ||
         !(grid.upper[i] > grid.lower[i]))

@@ -42,7 +42,7 @@ LogAxis axis_around(const std::vector<double>& values, double from, double to, d
   return {low / extra, high * extra, from, to};
 }
 
-std::string percent(double v) {
+std::string percent_tick(double v) {
   return tick_text(100 * v) + " %";
 }
 
@@ -151,7 +151,7 @@ class Drawing {
     for (const Tick& t : y_.ticks())
       if (t.labelled)
         add("<text x=\"{}\" y=\"{:.1f}\" text-anchor=\"end\">{}</text>", kLeft - 8,
-            y_(t.value) + 4.5, percent(t.value));
+            y_(t.value) + 4.5, percent_tick(t.value));
     add("</g>");
   }
 

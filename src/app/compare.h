@@ -11,6 +11,9 @@
 
 namespace duet {
 
+/// Longest side of an image in the report of one comparison.
+inline constexpr int kLongestOfOne = 1024;
+
 struct CompareOptions {
   std::string image, reference, variance;
   std::string diff, false_colour, flip_map, html, junit;

@@ -20,7 +20,6 @@ namespace {
 
 /// Longest side of an image in the report of directories: pages of hundreds of images should open.
 constexpr int kLongestOfMany = 512;
-constexpr int kLongestOfOne = 1024;
 /// Fewer images of a side than this leave their variance uncertain.
 constexpr size_t kFewBatches = 8;
 

@@ -6,6 +6,7 @@
 
 #include "base/numbering.h"
 #include "geometry/mesh.h"
+#include "math/angles.h"
 #include "math/hash.h"
 
 namespace duet {
@@ -152,7 +153,7 @@ void merge_equal_vertices(TriangleMesh& mesh) {
 }
 
 void compute_creased_normals(TriangleMesh& mesh, double max_angle) {
-  const float threshold = float(std::cos(max_angle * (3.14159265358979323846 / 180)));
+  const float threshold = float(std::cos(max_angle * kRadians));
   mesh.normals.clear();
   merge_equal_vertices(mesh);
 

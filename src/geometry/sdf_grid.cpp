@@ -8,7 +8,7 @@ namespace duet {
 
 namespace {
 
-using Local = std::array<double, 3>;
+using Double3 = std::array<double, 3>;
 using Cell = std::array<int, 3>;
 
 Cell lower_corner(const SdfGrid& grid, uint32_t cell) {
@@ -28,11 +28,11 @@ struct Trilinear {
       for (int i = 0; i < 8; ++i)
         if (i & bit) k[i] -= k[i ^ bit];
   }
-  double operator()(const Local& p) const {
+  double operator()(const Double3& p) const {
     const double x = p[0], y = p[1], z = p[2];
     return k[0] + k[1] * x + y * (k[2] + k[3] * x) + z * (k[4] + k[5] * x + y * (k[6] + k[7] * x));
   }
-  Local gradient(const Local& p) const {
+  Double3 gradient(const Double3& p) const {
     const double x = p[0], y = p[1], z = p[2];
     return {k[1] + k[3] * y + z * (k[5] + k[7] * y), k[2] + k[3] * x + z * (k[6] + k[7] * x),
             k[4] + k[5] * x + y * (k[6] + k[7] * x)};
@@ -47,7 +47,7 @@ struct Cubic {
 };
 
 /// The distance along the line o + t d.
-Cubic along(const Trilinear& f, const Local& o, const Local& d) {
+Cubic along(const Trilinear& f, const Double3& o, const Double3& d) {
   // Multiplied out one coordinate after the other: first z, then y, then x.
   const auto line = [&](double a, double b, int i) {
     return std::array<double, 2>{a + b * o[size_t(i)], b * d[size_t(i)]};
@@ -105,10 +105,10 @@ void cell_bounds(const SdfGrid& grid, uint32_t cell, Point3f& lower, Point3f& up
   }
 }
 
-bool intersect_cell(const SdfGrid& grid, uint32_t cell, const Local& o, const Local& d,
+bool intersect_cell(const SdfGrid& grid, uint32_t cell, const Double3& o, const Double3& d,
                     double tnear, double tfar, double& t) {
   const Cell c = lower_corner(grid, cell);
-  Local from, by;
+  Double3 from, by;
   double begin = tnear, end = tfar;
   for (size_t i = 0; i < 3; ++i) {
     const double scale = grid.size[i] - 1;
@@ -150,9 +150,9 @@ namespace {
 /// The continuous normal: gradients of the eight cells around the node nearest to p, each a
 /// difference across its cell where p is along the other axes, are normalised and interpolated.
 /// Cells outside of the grid do not count. `p` is in units of cells.
-Normal3f smooth_normal(const SdfGrid& grid, const Local& p) {
+Normal3f smooth_normal(const SdfGrid& grid, const Double3& p) {
   Cell first, own;
-  Local weight, inside;
+  Double3 weight, inside;
   for (size_t i = 0; i < 3; ++i) {
     const int cells = grid.size[i] - 1;
     first[i] = int(std::lround(p[i])) - 1;
@@ -181,9 +181,9 @@ Normal3f smooth_normal(const SdfGrid& grid, const Local& p) {
       const int node = first[axis] + k;
       difference[axis][k] = (plane(axis, node + 1) - plane(axis, node)) * (grid.size[axis] - 1);
     }
-  Local sum{};
+  Double3 sum{};
   for (int i = 0; i < 8; ++i) {
-    const Local g{difference[0][i & 1], difference[1][i >> 1 & 1], difference[2][i >> 2]};
+    const Double3 g{difference[0][i & 1], difference[1][i >> 1 & 1], difference[2][i >> 2]};
     double w = 1;
     for (size_t axis = 0; axis < 3; ++axis) w *= i >> axis & 1 ? weight[axis] : 1 - weight[axis];
     const double l = std::sqrt(g[0] * g[0] + g[1] * g[1] + g[2] * g[2]);
@@ -195,18 +195,18 @@ Normal3f smooth_normal(const SdfGrid& grid, const Local& p) {
 
 }  // namespace
 
-SdfPoint surface_point(const SdfGrid& grid, uint32_t cell, const Local& p) {
+SdfPoint surface_point(const SdfGrid& grid, uint32_t cell, const Double3& p) {
   const Cell c = lower_corner(grid, cell);
-  Local local, scale;
+  Double3 local, scale;
   for (size_t i = 0; i < 3; ++i) {
     scale[i] = grid.size[i] - 1;
     local[i] = std::clamp(p[i] * scale[i] - c[i], 0.0, 1.0);
   }
   const Trilinear f(grid, c);
-  const Local g = f.gradient(local);
+  const Double3 g = f.gradient(local);
   const double g2 = g[0] * g[0] + g[1] * g[1] + g[2] * g[2];
   SdfPoint s;
-  Local unit;
+  Double3 unit;
   const double value = f(local);
   for (size_t i = 0; i < 3; ++i) {
     if (g2 > 0) local[i] = std::clamp(local[i] - value * g[i] / g2, 0.0, 1.0);

@@ -2,12 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 namespace duet {
 
 namespace {
-
-constexpr double kPiD = 3.14159265358979323846;
 
 /// Mitchell & Netravali, "Reconstruction Filters in Computer Graphics", 1988, eq. 8.
 double cubic(double x, double b, double c) {
@@ -32,7 +31,7 @@ double mitsuba_gaussian(double x) {
 }
 
 double sinc(double x) {
-  return x == 0 ? 1 : std::sin(kPiD * x) / (kPiD * x);
+  return x == 0 ? 1 : std::sin(std::numbers::pi * x) / (std::numbers::pi * x);
 }
 
 }  // namespace

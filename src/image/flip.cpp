@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numbers>
 #include <numeric>
 
 #include "base/parallel.h"
@@ -11,8 +12,6 @@
 namespace duet {
 
 namespace {
-
-constexpr double kPi = 3.14159265358979323846;
 
 using Triple = std::array<float, 3>;
 using Plane = std::vector<float>;
@@ -113,8 +112,8 @@ struct Sensitivity {
 
   Sensitivity() {
     constexpr double widest = 0.04;
-    const int radius =
-        int(std::ceil(3 * std::sqrt(widest / (2 * kPi * kPi)) * kFlipPixelsPerDegree));
+    const int radius = int(std::ceil(
+        3 * std::sqrt(widest / (2 * std::numbers::pi * std::numbers::pi)) * kFlipPixelsPerDegree));
     const std::pair<double, double> terms[3][2] = {
         {{1, 0.0047}, {0, 0}}, {{1, 0.0053}, {0, 0}}, {{34.1, 0.04}, {13.5, 0.025}}};
     for (size_t channel = 0; channel < 3; ++channel) {
@@ -125,11 +124,11 @@ struct Sensitivity {
         double sum = 0;
         for (int i = -radius; i <= radius; ++i) {
           const double d = i / kFlipPixelsPerDegree;
-          g.kernel.push_back(float(std::exp(-kPi * kPi * d * d / b)));
+          g.kernel.push_back(float(std::exp(-std::numbers::pi * std::numbers::pi * d * d / b)));
           sum += g.kernel.back();
         }
         for (float& k : g.kernel) k = float(k / sum);
-        g.weight = float(a * std::sqrt(kPi / b) * sum * sum);
+        g.weight = float(a * std::sqrt(std::numbers::pi / b) * sum * sum);
         total += g.weight;
         of_channel[channel].push_back(std::move(g));
       }

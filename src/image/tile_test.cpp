@@ -18,7 +18,7 @@ constexpr int kTests = 3;  // single tiles, all tiles together, the whole images
 constexpr double kRounding = 1e-5;
 /// A difference of this size relative to the mean of the whole image does not count: what happens
 /// that rarely in a tile that is next to black is not distributed as the test assumes.
-constexpr double kNegligible = 1e-5;
+constexpr double kNegligibleDifference = 1e-5;
 /// With fewer images on a side the degrees of freedom that Welch & Satterthwaite estimate are too
 /// uncertain that far out in the tails; those of the smaller side alone are on the safe side.
 constexpr size_t kFewImages = 8;
@@ -156,7 +156,7 @@ TileComparison compare_tiles(const TileBatches& a, const TileBatches& b) {
     if (mean > 0 && std::abs(a.tile(i).mean() / mean - 1) > std::abs(c.worst_ratio - 1))
       c.worst_ratio = a.tile(i).mean() / mean;
     WelchTest w = welch_test(a.tile(i).estimate(), b.tile(i).estimate(),
-                             kNegligible * std::abs(b.total().mean()));
+                             kNegligibleDifference * std::abs(b.total().mean()));
     if (w.error > 0 && fewest < kFewImages) {
       w.dof = double(fewest - 1);
       w.p = student_p_value(w.t, w.dof);

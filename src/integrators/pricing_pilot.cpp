@@ -14,7 +14,7 @@ namespace duet {
 
 namespace {
 
-constexpr uint64_t kSeed = 0x7072696365ull, kLightSeed = 0x6c69676874ull;
+constexpr uint64_t kEyeSeed = 0x7072696365ull, kLightSeed = 0x6c69676874ull;
 /// Longer paths add next to nothing to what the pilot is asked.
 constexpr int kLongest = FamilyWeights::kMostVertices / 2;
 constexpr size_t kWalksPerBlock = 64;
@@ -61,7 +61,7 @@ class PricingPilot {
     light.walk = options_;
     light.max_depth = max_depth_ - 1;
     light.hide_emitters = plan.hide_emitters;
-    light.seed = kSeed ^ plan.seed;
+    light.seed = kEyeSeed ^ plan.seed;
     light.threads = plan.threads;
     const Pilot sizes = run_pilot(scene, plan.film, light);
     const double radius = sizes.first_radius();
@@ -178,7 +178,7 @@ class PricingPilot {
   /// Where the walk's pixel lies: one in each cell of a grid, the same for two walks in succession.
   Point2f pixel(size_t walk) const {
     const size_t cell = walk / 2, side = size_t(plan_.pixels_per_side);
-    const uint64_t random = mix64(hash_combine(kSeed ^ plan_.seed, cell));
+    const uint64_t random = mix64(hash_combine(kEyeSeed ^ plan_.seed, cell));
     const auto place = [&](size_t at, uint64_t bits, int size) {
       const double x = (double(at) + double(to_unit_float(uint32_t(bits)))) / double(side) * size;
       return std::min(float(std::floor(x)), float(size - 1));
@@ -188,7 +188,7 @@ class PricingPilot {
   }
 
   void eye_walk(size_t index, PricingRecord& out) {
-    Sampler sampler(SampleSequence::independent, kSeed ^ plan_.seed, 0, index);
+    Sampler sampler(SampleSequence::independent, kEyeSeed ^ plan_.seed, 0, index);
     sampler.start_sample(0);
     const Point2f u = sampler.next_2d();
     const Point2f corner = pixel(index), film{corner.x + u.x, corner.y + u.y};
@@ -205,7 +205,7 @@ class PricingPilot {
     walk.throughput = Spectrum(1);
     walk.trail = &trail;
     FamilyWeights weights(set_);
-    JoinRoulette roulette(threshold_, hash_combine(kSeed ^ plan_.seed, index));
+    JoinRoulette roulette(threshold_, hash_combine(kEyeSeed ^ plan_.seed, index));
     bool sees_sky = !plan_.hide_emitters;  // not before light has been scattered
     for (int depth = 1; depth <= max_depth_; ++depth) {
       weights.set_eye(trail);

@@ -1,12 +1,12 @@
 #include "lights/delta.h"
 
+#include <numbers>
+
 #include "math/warp.h"
 
 namespace duet {
 
 namespace {
-
-constexpr double kPiD = 3.14159265358979323846;
 
 /// Light of the given intensity at a point that is `away` from an emitter at `position`, whose rays
 /// have the density `emission` there.
@@ -68,7 +68,7 @@ std::optional<EmissionSample> PointEmitter::sample_emission(const Point2f&,
 }
 
 double PointEmitter::power(double) const {
-  return 4 * kPiD * double(intensity_.luminance());
+  return 4 * std::numbers::pi * double(intensity_.luminance());
 }
 
 SpotEmitter::SpotEmitter(const Transform& to_world, const Spectrum& intensity, double cutoff,
@@ -82,7 +82,7 @@ SpotEmitter::SpotEmitter(const Transform& to_world, const Spectrum& intensity, d
       inv_transition_(float(1 / std::max(cutoff_ - beam_width_, 1e-30))),
       uv_scale_(float(0.5 / std::tan(cutoff))),
       span_(float(2 * std::sin(0.5 * cutoff) * std::sin(0.5 * cutoff))),
-      density_(float(inverse_determinant(to_world) / (2 * kPiD * double(span_)))),
+      density_(float(inverse_determinant(to_world) / (2 * std::numbers::pi * double(span_)))),
       texture_(texture) {}
 
 std::optional<LightSample> SpotEmitter::sample_direct(const Point3f& from, const Point2f&) const {
@@ -113,8 +113,8 @@ double SpotEmitter::power(double) const {
   // 2π ∫ falloff(θ) sin θ dθ
   const double fade = cutoff_ - beam_width_;
   const double solid_angle =
-      fade > 1e-9 ? 2 * kPiD * (1 - (std::sin(cutoff_) - std::sin(beam_width_)) / fade)
-                  : 2 * kPiD * (1 - std::cos(cutoff_));
+      fade > 1e-9 ? 2 * std::numbers::pi * (1 - (std::sin(cutoff_) - std::sin(beam_width_)) / fade)
+                  : 2 * std::numbers::pi * (1 - std::cos(cutoff_));
   const Spectrum mean = texture_ ? intensity_ * texture_->average() : intensity_;
   return solid_angle * double(mean.luminance());
 }
@@ -126,7 +126,7 @@ ProjectorEmitter::ProjectorEmitter(const Transform& to_world, const ColorSlot& i
       axis_(to_world(Vector3f(0, 0, 1))),
       irradiance_(irradiance),
       scale_(scale) {
-  const double width = 2 * std::tan(0.5 * horizontal_fov * kPiD / 180);
+  const double width = 2 * std::tan(0.5 * horizontal_fov * std::numbers::pi / 180);
   inv_width_ = float(1 / width);
   inv_height_ = float(aspect / width);
   density_ = inv_width_ * inv_height_ * float(inverse_determinant(to_world));
@@ -166,7 +166,7 @@ std::optional<EmissionSample> ProjectorEmitter::sample_emission(const Point2f&,
 }
 
 double ProjectorEmitter::power(double) const {
-  return kPiD * double(scale_) * double(irradiance_.average().luminance()) /
+  return std::numbers::pi * double(scale_) * double(irradiance_.average().luminance()) /
          (double(inv_width_) * double(inv_height_));
 }
 
@@ -199,7 +199,7 @@ float DirectionalEmitter::direct_density(const EmissionSample&, const Point3f&) 
 }
 
 double DirectionalEmitter::power(double scene_radius) const {
-  return kPiD * scene_radius * scene_radius * double(irradiance_.luminance());
+  return std::numbers::pi * scene_radius * scene_radius * double(irradiance_.luminance());
 }
 
 }  // namespace duet

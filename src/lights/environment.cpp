@@ -2,19 +2,14 @@
 
 #include <array>
 #include <cassert>
+#include <numbers>
 
 #include "math/warp.h"
 
 namespace duet {
 
-namespace {
-
-constexpr double kPiD = 3.14159265358979323846;
-
-}  // namespace
-
 double EnvironmentLight::sphere_power(double radius, double mean) {
-  return 4 * kPiD * kPiD * radius * radius * mean;
+  return 4 * std::numbers::pi * std::numbers::pi * radius * radius * mean;
 }
 
 LightSample EnvironmentLight::from_afar(const Vector3f& wi, const Spectrum& radiance,
@@ -70,7 +65,7 @@ EnvironmentMap::EnvironmentMap(int width, int height, std::vector<Spectrum> texe
       axes_(rotation(to_world)) {
   assert(width >= 1 && width < BilinearDistribution::kMaxWidth && height >= 2);
   assert(texels_.size() == size_t(width) * size_t(height));
-  const double step = kPiD / (height - 1);
+  const double step = std::numbers::pi / (height - 1);
   for (int y = 0; y < height; ++y) row_weights_[size_t(y)] = float(std::sin(y * step));
   // The density interpolates the product with sin θ, which is zero at the poles; what shines there
   // still has to be found if everything around is black.

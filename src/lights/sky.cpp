@@ -1,6 +1,7 @@
 #include "lights/sky.h"
 
 #include <cmath>
+#include <numbers>
 
 #include "lights/sky_tables.h"
 #include "math/trig.h"
@@ -10,7 +11,6 @@ namespace duet {
 
 namespace {
 
-constexpr double kPiD = 3.14159265358979323846;
 /// The models' units to those of radiance.
 constexpr float kUnit = float(1 / 106.7502593994140625);
 
@@ -30,7 +30,7 @@ template <class Table>
 float interpolate(const Table& table, int width, int column, const Between& turbidity, float albedo,
                   float elevation) {
   constexpr float binomial[kSkyControlPoints] = {1, 5, 10, 10, 5, 1};
-  const float x = std::min(float(std::cbrt(2 / kPiD * double(elevation))), 1.0f);
+  const float x = std::min(float(std::cbrt(2 / std::numbers::pi * double(elevation))), 1.0f);
   float sum = 0;
   for (int t = 0; t < 2; ++t)
     for (int a = 0; a < 2; ++a) {
@@ -46,7 +46,7 @@ float interpolate(const Table& table, int width, int column, const Between& turb
 
 Spectrum sun_irradiance(double turbidity, double elevation) {
   const Between t(turbidity - 1, kSkyTurbidities);
-  const Between e((elevation * 180 / kPiD - 2) / 3, kSunElevations);
+  const Between e((elevation * 180 / std::numbers::pi - 2) / 3, kSunElevations);
   Spectrum sum(0.0f);
   for (int i = 0; i < 2; ++i)
     for (int j = 0; j < 2; ++j) {
@@ -84,19 +84,19 @@ Sky::Sky(const SkyOptions& o, const Matrix4& to_world)
     channel(zenith_) = interpolate(kSkyRadiance, 3, c, turbidity, channel(albedo), elevation) *
                        kUnit * float(o.sky_scale);
   }
-  const double half = o.sun_aperture * kPiD / 360;
+  const double half = o.sun_aperture * std::numbers::pi / 360;
   // In this form what is small keeps its digits: 1 − cos x = 2 sin²(x / 2).
   const double span = 2 * std::pow(std::sin(half / 2), 2);
   one_minus_cos_sun_ = float(span);
   sun_chord2_ = float(2 * span);
-  sun_density_ = float(1 / (2 * kPiD * span));
+  sun_density_ = float(1 / (2 * std::numbers::pi * span));
   const Spectrum irradiance =
       o.disk ? o.disk->irradiance : sun_irradiance(o.turbidity, double(elevation));
   sun_radiance_ = irradiance * (sun_density_ * float(o.sun_scale));
   if (extend_)
     lowest_ = -1;
   else
-    lowest_ = float(std::cos(std::min(kPiD, 0.5 * kPiD * o.stretch)));
+    lowest_ = float(std::cos(std::min(std::numbers::pi, 0.5 * std::numbers::pi * o.stretch)));
   if (std::abs(lowest_) < 1e-6f) lowest_ = 0;
   tabulate();
 }
@@ -160,12 +160,12 @@ void Sky::tabulate() {
   // No field is left out, whatever the points in it say.
   for (float& w : weights) w += float(0.02 * sum / (kRows * kColumns));
   cells_ = DiscreteDistribution(weights);
-  const double solid_angle = 2 * kPiD * double(1 - lowest_);
+  const double solid_angle = 2 * std::numbers::pi * double(1 - lowest_);
   cell_density_ = float(kRows * kColumns / solid_angle);
   const double from_sky = sum / (kRows * kColumns) * solid_angle;
   const double from_sun =
       shines_ ? std::max(0.0, double(sun_radiance_.luminance()) / double(sun_density_)) : 0;
-  mean_ = (from_sky + from_sun) / (4 * kPiD);
+  mean_ = (from_sky + from_sun) / (4 * std::numbers::pi);
   sun_share_ = from_sun + from_sky > 0 ? float(from_sun / (from_sun + from_sky)) : 0;
 }
 

@@ -143,14 +143,6 @@ std::optional<ModelSample> PrincipledModel::sample(const Vector3f& wo, float u, 
   return ModelSample{.wi = wi, .weight = e.value / e.pdf, .pdf = e.pdf, .eta = side};
 }
 
-namespace {
-
-float unit(float x) {
-  return std::clamp(x, 0.0f, 1.0f);
-}
-
-}  // namespace
-
 float principled_eta(float specular, bool transmits) {
   // Transmission through an interface without refraction is not a microfacet model.
   if (transmits && specular == 0) specular = 1e-3f;
@@ -171,16 +163,16 @@ PrincipledModel Principled::model(const Surface& s) const {
   m.base_color = o.base_color(s);
   m.tint = tint_of(m.base_color);
   m.roughness = std::max(o.roughness(s), 0.0f);
-  m.facets = principled_facets(m.roughness, unit(o.anisotropic(s)));
-  m.metallic = unit(o.metallic(s));
-  m.spec_trans = unit(o.spec_trans(s));
+  m.facets = principled_facets(m.roughness, clamped_to_unit(o.anisotropic(s)));
+  m.metallic = clamped_to_unit(o.metallic(s));
+  m.spec_trans = clamped_to_unit(o.spec_trans(s));
   m.eta = o.eta;
-  m.spec_tint = unit(o.spec_tint(s));
+  m.spec_tint = clamped_to_unit(o.spec_tint(s));
   m.sheen = std::max(o.sheen(s), 0.0f);
-  m.sheen_tint = unit(o.sheen_tint(s));
-  m.flatness = unit(o.flatness(s));
+  m.sheen_tint = clamped_to_unit(o.sheen_tint(s));
+  m.flatness = clamped_to_unit(o.flatness(s));
   m.clearcoat = std::max(o.clearcoat(s), 0.0f);
-  m.clearcoat_alpha2 = sqr(lerp(0.1f, 0.001f, unit(o.clearcoat_gloss(s))));
+  m.clearcoat_alpha2 = sqr(lerp(0.1f, 0.001f, clamped_to_unit(o.clearcoat_gloss(s))));
   m.clearcoat_scale = (m.clearcoat_alpha2 - 1) * kInvPi / std::log(m.clearcoat_alpha2);
   m.diffuse_rate = o.diffuse_reflectance_sampling_rate;
   m.specular_rate = o.main_specular_sampling_rate;

@@ -4,6 +4,8 @@
 // to a BSDF with Integrated Subsurface Scattering", 2015.
 #pragma once
 
+#include <algorithm>
+
 #include "materials/fresnel.h"
 #include "materials/microfacet.h"
 #include "materials/model.h"
@@ -17,6 +19,10 @@ Microfacet principled_facets(float roughness, float anisotropic);
 /// scattering; `cos_d` is the cosine between a direction and the half vector. Without cosine
 /// factor.
 float principled_diffuse(float cos_o, float cos_i, float cos_d, float roughness, float flatness);
+
+inline float clamped_to_unit(float x) {
+  return std::clamp(x, 0.0f, 1.0f);
+}
 
 /// A colour scaled to luminance one; white for black.
 Spectrum tint_of(const Spectrum& color);

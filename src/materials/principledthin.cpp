@@ -90,14 +90,6 @@ std::optional<ModelSample> PrincipledThinModel::sample(const Vector3f& wo, float
   return ModelSample{.wi = wi, .weight = e.value / e.pdf, .pdf = e.pdf};
 }
 
-namespace {
-
-float unit(float x) {
-  return std::clamp(x, 0.0f, 1.0f);
-}
-
-}  // namespace
-
 PrincipledThin::PrincipledThin(const PrincipledThinOptions& options) : options_(options) {
   const PrincipledThinOptions& o = options_;
   if (all_constant(o.base_color, o.roughness, o.anisotropic, o.spec_trans, o.eta, o.spec_tint,
@@ -111,16 +103,16 @@ PrincipledThinModel PrincipledThin::model(const Surface& s) const {
   m.base_color = o.base_color(s);
   m.tint = tint_of(m.base_color);
   m.roughness = std::max(o.roughness(s), 0.0f);
-  m.spec_trans = unit(o.spec_trans(s));
+  m.spec_trans = clamped_to_unit(o.spec_trans(s));
   m.eta = std::clamp(o.eta(s), 1e-2f, 1e2f);
-  const float anisotropic = unit(o.anisotropic(s));
+  const float anisotropic = clamped_to_unit(o.anisotropic(s));
   m.facets = principled_facets(m.roughness, anisotropic);
   // Burley 2015, figure 15: what is refracted twice is spread according to the index.
   m.transmission_facets = principled_facets((0.65f * m.eta - 0.35f) * m.roughness, anisotropic);
-  m.spec_tint = unit(o.spec_tint(s));
+  m.spec_tint = clamped_to_unit(o.spec_tint(s));
   m.sheen = std::max(o.sheen(s), 0.0f);
-  m.sheen_tint = unit(o.sheen_tint(s));
-  m.flatness = unit(o.flatness(s));
+  m.sheen_tint = clamped_to_unit(o.sheen_tint(s));
+  m.flatness = clamped_to_unit(o.flatness(s));
   m.diff_trans = 0.5f * std::clamp(o.diff_trans(s), 0.0f, 2.0f);
   const float reflection = 0.5f * m.spec_trans * o.spec_reflectance_sampling_rate;
   const float transmission = 0.5f * m.spec_trans * o.spec_transmittance_sampling_rate;

@@ -1,5 +1,6 @@
 #include "materials/rough_transmittance.h"
 
+#include <numbers>
 #include <utility>
 
 #include "materials/microfacet.h"
@@ -19,7 +20,7 @@ struct Quadrature {
 
   explicit Quadrature(int n) : nodes(size_t(n)), weights(size_t(n)) {
     for (int i = 0; i < n; ++i) {
-      double x = std::cos(3.14159265358979323846 * (i + 0.75) / (n + 0.5)), derivative = 1;
+      double x = std::cos(std::numbers::pi * (i + 0.75) / (n + 0.5)), derivative = 1;
       for (int step = 0; step < 8; ++step) {
         double p0 = 1, p1 = x;
         for (int k = 2; k <= n; ++k)

@@ -3,6 +3,8 @@
 
 #include <cmath>
 
+#include "math/angles.h"
+
 namespace duet {
 
 /// The axis of the image along which a field of view is given.
@@ -10,14 +12,13 @@ enum class FovAxis { x, y, diagonal, smaller, larger };
 
 /// The horizontal field of view in degrees of an image `aspect` times as wide as high.
 inline double horizontal_fov(double fov, FovAxis axis, double aspect) {
-  const double to_radians = 3.14159265358979323846 / 180;
-  const double t = std::tan(0.5 * fov * to_radians);
+  const double t = std::tan(0.5 * fov * kRadians);
   if (axis == FovAxis::smaller) axis = aspect > 1 ? FovAxis::y : FovAxis::x;
   if (axis == FovAxis::larger) axis = aspect > 1 ? FovAxis::x : FovAxis::y;
   double half_width = t;
   if (axis == FovAxis::y) half_width = t * aspect;
   if (axis == FovAxis::diagonal) half_width = t / std::sqrt(1 + 1 / (aspect * aspect));
-  return 2 * std::atan(half_width) / to_radians;
+  return 2 * std::atan(half_width) / kRadians;
 }
 
 }  // namespace duet

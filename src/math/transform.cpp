@@ -1,5 +1,7 @@
 #include "math/transform.h"
 
+#include "math/angles.h"
+
 namespace duet {
 
 Matrix4 Matrix4::operator*(const Matrix4& o) const {
@@ -68,7 +70,7 @@ Matrix4 Matrix4::rotate(double degrees, double x, double y, double z) {
   Matrix4 r;
   if (!(l > 0)) return r;
   x /= l, y /= l, z /= l;
-  const double angle = degrees * (3.14159265358979323846 / 180);
+  const double angle = degrees * kRadians;
   const double s = std::sin(angle), c = std::cos(angle), d = 1 - c;
   r[0] = {c + x * x * d, x * y * d - z * s, x * z * d + y * s, 0};
   r[1] = {x * y * d + z * s, c + y * y * d, y * z * d - x * s, 0};

@@ -11,7 +11,7 @@ namespace duet {
 namespace {
 
 /// Their triangles take up some gigabytes.
-constexpr double kMostCells = 1 << 26;
+constexpr double kMostPatches = 1 << 26;
 
 /// Numbers of heights are one more than a power of two.
 int height_count(int pixels) {
@@ -25,7 +25,7 @@ bool SceneBuilder::read_heights(TextureId id, const HeightFieldShape& shape, con
   const TextureDescription& d = description_.textures[size_t(id)];
   const auto fill = [&](int width, int height, const auto& color) {
     out.columns = width, out.rows = height;
-    if (double(height_count(width) - 1) * (height_count(height) - 1) > kMostCells) {
+    if (double(height_count(width) - 1) * (height_count(height) - 1) > kMostPatches) {
       diagnostics_.error(d.where, "a height field of {} × {} pixels is too large", width, height);
       return false;
     }

@@ -3,15 +3,10 @@
 #include "lights/beam.h"
 #include "lights/delta.h"
 #include "lights/sky.h"
+#include "math/angles.h"
 #include "scene/builder.h"
 
 namespace duet {
-
-namespace {
-
-constexpr double kRadians = 3.14159265358979323846 / 180;
-
-}  // namespace
 
 void SceneBuilder::add_light(std::unique_ptr<Light> light, double sampling_weight) {
   scene_->lights.push_back(std::move(light));

@@ -102,6 +102,29 @@ TEST_SUITE("program") {
         CHECK(window.image.pixel(x, y)[0] == full.image.pixel(x + 5, y + 2)[0]);
   }
 
+  TEST_CASE("colours of a PNG are not multiplied by its alpha") {
+    const Workplace place;
+    // A lamp in front of nothing: what it covers in part has its colour, too.
+    place.write("lamp.xml", R"(<scene version="3.0.0"><integrator type="path"/>
+      <sensor type="perspective"><float name="fov" value="90"/>
+        <transform name="to_world"><lookat origin="0,0,2" target="0,0,0" up="0,1,0"/></transform>
+        <sampler type="independent"><integer name="sample_count" value="64"/></sampler>
+        <film type="hdrfilm"><integer name="width" value="16"/><integer name="height" value="12"/>
+          <string name="pixel_format" value="rgba"/><rfilter type="box"/></film></sensor>
+      <shape type="disk"><emitter type="area"><rgb name="radiance" value="0.5"/></emitter></shape>
+      </scene>)");
+    REQUIRE(place.run({"lamp.xml", "-o", "lamp.png"}).code == 0);
+    const ImageFile shown = read_image(place.path("lamp.png"));
+    REQUIRE(shown.image.channel_count() == 4);
+    int covered_in_part = 0;
+    for (size_t i = 0; i < shown.bytes.size(); i += 4) {
+      const uint8_t alpha = shown.bytes[i + 3];
+      covered_in_part += alpha > 0 && alpha < 255;
+      if (alpha > 0) CHECK(std::abs(int(shown.bytes[i]) - 188) <= 1);  // sRGB of one half
+    }
+    CHECK(covered_in_part >= 12);
+  }
+
   TEST_CASE("the film decides on half or float and on the channels") {
     const Workplace place;
     const auto film = [](const std::string& format, const std::string& component) {

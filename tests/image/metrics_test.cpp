@@ -112,6 +112,9 @@ TEST_CASE("noise of the stated variance passes the z-test, a shift does not") {
   m = compare_images(shifted, b, noise);
   CHECK(*m.z_share > 0.9975);
   CHECK(*m.bias > 4);
+  // Half of the noise is the reference's, which has as many samples.
+  m = compare_images(with_noise(a, 0.05f, 3), b, NoiseModel{&variance, 16, 16});
+  CHECK(*m.z_rms == doctest::Approx(1).epsilon(0.03));
   // Twice the noise that the samples explain.
   m = compare_images(with_noise(b, 0.15f, 2), b, noise);
   CHECK(*m.z_share < kRequiredZShare);

@@ -52,3 +52,20 @@ TEST_CASE("lights around nothing emit finite rays") {
     CHECK(is_finite(e->weight));
   }
 }
+
+TEST_CASE("lights are chosen by the weights that the scene gives them") {
+  // Two of a kind: without weights each has a probability of one half.
+  const auto probability = [](const std::string& first, const std::string& second) {
+    return build(first + second)->picker.probability(0);
+  };
+  const std::string weight = "<float name='sampling_weight' value='3'/>";
+  const auto point = [](const std::string& more) {
+    return "<emitter type='point'>" + more + "</emitter>";
+  };
+  const auto area = [](const std::string& more) {
+    return "<shape type='rectangle'><emitter type='area'>" + more + "</emitter></shape>";
+  };
+  CHECK(probability(point(""), point("")) == doctest::Approx(0.5));
+  CHECK(probability(point(weight), point("")) == doctest::Approx(0.75));
+  CHECK(probability(area(weight), area("")) == doctest::Approx(0.75));
+}
