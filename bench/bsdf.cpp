@@ -102,7 +102,6 @@ class FlatTexture final : public Texture {
   float value(const Surface&) const override { return 0.5f; }
   Point2f gradient(const Surface&) const override { return {0.1f, 0.2f}; }
   Spectrum average() const override { return Spectrum(0.5f); }
-  float maximum() const override { return 1; }
 };
 
 }  // namespace
@@ -159,6 +158,6 @@ int main(int argc, char** argv) {
   run("principledthin", PrincipledThin({}));
   run("mask of diffuse", Mask({0.5f}, diffuse));
   run("blend of diffuse and mirror", Blend({0.5f}, diffuse, mirror));
-  run("bumpmap on diffuse", BumpMap(texture, 1, {}, diffuse));
-  run("bumpmap on roughplastic", BumpMap(texture, 1, {}, plastic));
+  run("bumpmap on diffuse", BumpMap({0, &texture}, 1, {}, diffuse));
+  run("bumpmap on roughplastic", BumpMap({0, &texture}, 1, {}, plastic));
 }

@@ -2,6 +2,8 @@
 """Plants bugs into a copy of the sources, one at a time, and checks that the named test fails for each.
 
     tests/mutations.py [NAME...]      all of them, or those named; --list prints them
+    tests/mutations.py --markdown     the table of docs/mutations.md
+    tests/mutations.py --check        whether that page has this table, and every place is there; builds nothing
 
 Builds in a temporary folder (--work FOLDER keeps it for the next run). Exits with 1 if a bug goes unnoticed, or if a
 place to plant it is gone.
@@ -46,16 +48,39 @@ def fails(work, test):
                 "--test-suite-exclude=agreement,references"]).returncode != 0
 
 
+def markdown():
+    rows = [f"| {name} (`{file}`) | {test} |" for name, file, _, _, test in MUTATIONS]
+    return "\n".join(["| bug | has to be noticed by |", "|---|---|", *rows]) + "\n"
+
+
+def check():
+    """Prints what is stale, here or in docs/mutations.md; returns whether nothing is."""
+    stale = [f"{name}: the place in {file} is gone" for name, file, there, _, _ in MUTATIONS
+             if (ROOT / file).read_text().count(there) != 1]
+    page = (ROOT / "docs" / "mutations.md").read_text()
+    if f"\n\n{markdown()}\n" not in page:
+        stale.append("the table of docs/mutations.md is not what --markdown prints")
+    print("\n".join(stale) or "nothing is stale")
+    return not stale
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawTextHelpFormatter)
     parser.add_argument("names", nargs="*")
     parser.add_argument("--list", action="store_true")
+    parser.add_argument("--markdown", action="store_true")
+    parser.add_argument("--check", action="store_true")
     parser.add_argument("--work", type=pathlib.Path)
     options = parser.parse_args()
     if options.list:
         for name, file, _, _, test in MUTATIONS:
             print(f"{name} ({file}): \"{test}\"")
         return 0
+    if options.markdown:
+        print(markdown(), end="")
+        return 0
+    if options.check:
+        return 0 if check() else 1
     work = options.work or pathlib.Path(tempfile.mkdtemp(prefix="duet-mutations-"))
     for name in ["src", "parsers", "tests", "scenes", "reference", "CMakeLists.txt"]:
         update(ROOT / name, work / name)

@@ -61,8 +61,9 @@ bool transmits(const SceneDescription& d, MaterialId id) {
       d.materials[size_t(id)].model);
 }
 
-/// The one texture of an adapter: a parameter, or nested without a name that matters.
-std::optional<TextureId> only_texture(SceneReader& s, Properties& p, std::string_view name) {
+/// The one texture of an adapter: a parameter, which may be a colour as well, or nested without a
+/// name that matters.
+std::optional<ColorInput> only_texture(SceneReader& s, Properties& p, std::string_view name) {
   const auto children = p.children(PluginKind::texture);
   const bool named = !name.empty() && p.has(name);
   if (children.size() + (named ? 1 : 0) != 1) {
@@ -70,7 +71,16 @@ std::optional<TextureId> only_texture(SceneReader& s, Properties& p, std::string
                      children.size() + (named ? 1 : 0));
     return std::nullopt;
   }
-  return named ? s.texture(p, name) : s.texture(*children[0].node);
+  if (named) return s.color(p, name);
+  return s.color(*children[0].node, ColorMeaning::reflectance);
+}
+
+/// The same as a number.
+std::optional<FloatInput> only_number(SceneReader& s, Properties& p) {
+  const auto input = only_texture(s, p, "");
+  if (!input) return std::nullopt;
+  if (const TextureId* id = std::get_if<TextureId>(&*input)) return *id;
+  return double(std::get<Spectrum>(*input).mean());
 }
 
 }  // namespace
@@ -122,7 +132,7 @@ void read_bumpmap(SceneReader& s, Properties& p, MaterialDescription& out) {
   m.scale = p.number("scale");
   m.flip_invalid_normals = p.boolean("flip_invalid_normals");
   m.use_shadowing_function = p.boolean("use_shadowing_function");
-  std::optional<TextureId> height;
+  std::optional<FloatInput> height;
   // In 0.x the height is scaled by a texture around the texture.
   const auto children = p.children(PluginKind::texture);
   const Node* wrapper = children.size() == 1 ? children[0].node : nullptr;
@@ -132,12 +142,12 @@ void read_bumpmap(SceneReader& s, Properties& p, MaterialDescription& out) {
     const Spectrum factor = s.constant_color(scale, "scale");
     m.scale *= double(factor.r == factor.g && factor.g == factor.b ? factor.r : factor.luminance());
     scale.finish();
-    if (inner)
-      height = s.texture(*inner);
-    else
+    if (const auto id = inner ? s.texture(*inner) : std::nullopt)
+      height = *id;
+    else if (!inner)
       s.report().error(wrapper->where, "{} needs a texture", describe(*wrapper));
   } else {
-    height = only_texture(s, p, "");
+    height = only_number(s, p);
   }
   const auto ids = nested(s, p, 1, 1);
   if (!height || ids.empty()) return;

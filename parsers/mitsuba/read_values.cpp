@@ -76,15 +76,19 @@ std::optional<ColorInput> SceneReader::color_of(Properties& p, std::string_view 
       p.wrong_type(name, property);
       return std::nullopt;
     }
-    if (std::holds_alternative<ReadInto<MeantColor>>((*node)->plugin->reader)) {
-      MeantColor color{meaning, {}};
-      read_into(**node, color);
-      return color.value;
-    }
-    if (const auto id = texture(**node)) return *id;
-    return std::nullopt;
+    return color(**node, meaning);
   }
   p.wrong_type(name, property);
+  return std::nullopt;
+}
+
+std::optional<ColorInput> SceneReader::color(const Node& node, ColorMeaning meaning) {
+  if (node.plugin && std::holds_alternative<ReadInto<MeantColor>>(node.plugin->reader)) {
+    MeantColor color{meaning, {}};
+    read_into(node, color);
+    return color.value;
+  }
+  if (const auto id = texture(node)) return *id;
   return std::nullopt;
 }
 

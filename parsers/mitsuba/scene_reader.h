@@ -31,6 +31,8 @@ class SceneReader {
   Spectrum constant_color(Properties& p, std::string_view name);
   FloatInput number_or_texture(Properties& p, std::string_view name);
   std::optional<TextureId> texture(Properties& p, std::string_view name);
+  /// What the plugin of a texture is as a colour parameter; nothing after an error.
+  std::optional<ColorInput> color(const Node& node, ColorMeaning meaning);
   /// A colour or volume, and a number or volume.
   ColorVolume color_volume(Properties& p, std::string_view name);
   FloatVolume float_volume(Properties& p, std::string_view name);

@@ -58,8 +58,8 @@ class Marker {
   void model(const TwoSidedMaterial&) {}
   void model(const MaskMaterial& m) { mark(m.opacity); }
   void model(const BlendMaterial& m) { mark(m.weight); }
-  void model(const BumpMapMaterial& m) { mark(FloatInput(m.height)); }
-  void model(const NormalMapMaterial& m) { mark(ColorInput(m.normals)); }
+  void model(const BumpMapMaterial& m) { mark(m.height); }
+  void model(const NormalMapMaterial& m) { mark(m.normals); }
   void model(const NullMaterial&) {}
 
   void model(const PointLight&) {}

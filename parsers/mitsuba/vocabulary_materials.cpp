@@ -188,7 +188,7 @@ constexpr Parameter kBumpMap[] = {
      .versions = v3,
      .preset_0x = "false"}};
 constexpr Parameter kNormalMap[] = {
-    {.name = "normalmap", .type = texture, .note = "may be nameless in 0.x"},
+    {.name = "normalmap", .type = reflectance, .note = "(n + 1) / 2; may be nameless in 0.x"},
     {.name = "flip_invalid_normals",
      .type = boolean,
      .preset = "true",

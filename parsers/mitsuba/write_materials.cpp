@@ -282,19 +282,4 @@ void SceneWriter::write_model(const BlendMaterial& m) {
   out_.reference({}, material_id(m.second));
 }
 
-void SceneWriter::write_model(const BumpMapMaterial& m) {
-  out_.reference({}, texture_id(m.height));
-  out_.number("scale", m.scale);
-  out_.boolean("flip_invalid_normals", m.flip_invalid_normals);
-  out_.boolean("use_shadowing_function", m.use_shadowing_function);
-  out_.reference({}, material_id(m.nested));
-}
-
-void SceneWriter::write_model(const NormalMapMaterial& m) {
-  out_.reference("normalmap", texture_id(m.normals));
-  out_.boolean("flip_invalid_normals", m.flip_invalid_normals);
-  out_.boolean("use_shadowing_function", m.use_shadowing_function);
-  out_.reference({}, material_id(m.nested));
-}
-
 }  // namespace duet

@@ -1,4 +1,4 @@
-// Fibres, measurements, filters, coats and layers as Mitsuba 3 writes them, or would.
+// Fibres, measurements, filters, coats, layers and maps as Mitsuba 3 writes them, or would.
 #include "mitsuba/scene_writer.h"
 
 namespace duet {
@@ -49,6 +49,27 @@ void SceneWriter::write_model(const ThinLayerMaterial& m) {
   color("sigma_a", m.sigma_a);
   out_.number("thickness", m.thickness);
   if (m.g != 0) lose("the phase function of \"hk\" is missing");
+}
+
+void SceneWriter::write_model(const BumpMapMaterial& m) {
+  if (const TextureId* height = std::get_if<TextureId>(&m.height)) {
+    out_.reference({}, texture_id(*height));
+  } else {
+    out_.open("texture", "uniform");
+    number("value", m.height);
+    out_.close();
+  }
+  out_.number("scale", m.scale);
+  out_.boolean("flip_invalid_normals", m.flip_invalid_normals);
+  out_.boolean("use_shadowing_function", m.use_shadowing_function);
+  out_.reference({}, material_id(m.nested));
+}
+
+void SceneWriter::write_model(const NormalMapMaterial& m) {
+  color("normalmap", m.normals);
+  out_.boolean("flip_invalid_normals", m.flip_invalid_normals);
+  out_.boolean("use_shadowing_function", m.use_shadowing_function);
+  out_.reference({}, material_id(m.nested));
 }
 
 }  // namespace duet

@@ -96,10 +96,10 @@ std::string DescriptionText::material(MaterialId id) const {
                                material(m.second));
           },
           [&](const BumpMapMaterial& m) {
-            return fmt::format("bumpmap {} [{}]", texture_name(m.height), material(m.nested));
+            return fmt::format("bumpmap {} [{}]", input(m.height), material(m.nested));
           },
           [&](const NormalMapMaterial& m) {
-            return fmt::format("normalmap {} [{}]", texture_name(m.normals), material(m.nested));
+            return fmt::format("normalmap {} [{}]", input(m.normals), material(m.nested));
           },
           [&](const NullMaterial&) { return std::string("null"); },
       },

@@ -1,18 +1,18 @@
 #include "app/render_scene.h"
 
-#include <unistd.h>
-
 #include <algorithm>
 #include <chrono>
 
 #include "app/commands.h"
 #include "app/film_layout.h"
+#include "app/memory_estimate.h"
+#include "app/render_report.h"
 #include "app/scene_images.h"
 #include "app/scene_operand.h"
 #include "app/signals.h"
 #include "app/standard_output.h"
 #include "base/log.h"
-#include "base/percent.h"
+#include "base/memory_limit.h"
 #include "scene/build.h"
 #include "scene/features.h"
 
@@ -34,31 +34,6 @@ class Stopwatch {
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
 };
 
-/// Refuses images that this machine has no room for, before they take all of it.
-void check_memory(const FilmLayout& layout, const Integrator& integrator,
-                  const RenderBudget& budget) {
-  const size_t channels = integrator.channels().size();
-  const double pixels = double(layout.crop.width()) * layout.crop.height();
-  // Their mean is one more.
-  const double films = budget.target_error ? kErrorBatches + 1 : 1;
-  const double bytes = pixels * films * double((channels + 1) * sizeof(double)) +
-                       pixels * (films + 1) * double(channels * sizeof(float)) +
-                       integrator.memory_bytes(layout);
-  const double memory = double(sysconf(_SC_PHYS_PAGES)) * double(sysconf(_SC_PAGESIZE));
-  if (bytes > memory)
-    throw SceneFailure(fmt::format(
-        "an image of {}x{} with {} channels takes {:.0f} GB of memory; there are {:.0f}",
-        layout.crop.width(), layout.crop.height(), channels, bytes * 1e-9, memory * 1e-9));
-}
-
-SceneCounts count(const Scene& scene) {
-  SceneCounts n;
-  n.emitters = scene.lights.size();
-  n.instances = scene.instances.size();
-  for (const Shape& s : scene.shapes) n.triangles += s.mesh ? s.mesh->triangles.size() : 0;
-  return n;
-}
-
 class SceneRenderer {
  public:
   SceneRenderer(const std::string& file, const RenderOptions& options, const Batch& batch,
@@ -77,14 +52,14 @@ class SceneRenderer {
     if (interrupt_exit_code() != 0) return give_up();
     decide();
     record_.noise_only = integrator_->blurs() || !record_.bias.empty();
-    check_memory(layout_, *integrator_, request_.budget);
+    check_memory();
     const RenderResult result = render_with_progress();
     if (result.spp == 0) return give_up();
     seconds_.render = watch_.lap();
     const std::vector<std::string> written = write(result);
     seconds_.write = watch_.lap();
     summarize(result, written);
-    statistics_.add(record_, result, seconds_, count(*scene_));
+    statistics_.add(record_, result, seconds_, count_parts(*scene_));
     return target_outcome(result);
   }
 
@@ -223,13 +198,25 @@ class SceneRenderer {
     log::info("{}: auto chose {}", file_, decision->reason);
   }
 
+  /// Refuses an image for which there is no room before it takes what there is.
+  void check_memory() const {
+    const MemoryEstimate estimate =
+        estimate_memory(*integrator_, layout_, request_.budget,
+                        view_.film.component_format == ComponentFormat::half);
+    const MemoryLimit limit = memory_limit();
+    log::detail("{}: {}; the limit is {} ({})", file_, describe(estimate), memory_text(limit.bytes),
+                limit.source);
+    const std::string why = memory_refusal(estimate, memory_in_use(), limit);
+    if (!why.empty()) throw SceneFailure(why);
+  }
+
   RenderResult render_with_progress() {
     ProgressDisplay display(options_.progress,
                             batch_.is_several() ? output_names(file_).scene : file_, batch_);
     request_.progress = [&](const RenderProgress& p) { display.show(p); };
     // Standard output takes one image: the last.
     if (!has_standard_output()) request_.wants_snapshot = take_snapshot_request;
-    request_.snapshot = [&](const RenderResult& so_far) { write_snapshot(so_far); };
+    request_.snapshot = [&](RenderResult so_far) { write_snapshot(std::move(so_far)); };
     return render(*scene_, *integrator_, layout_, request_);
   }
 
@@ -265,12 +252,7 @@ class SceneRenderer {
   }
 
   void summarize(const RenderResult& r, const std::vector<std::string>& written) const {
-    std::string text =
-        fmt::format("{}{}: {}{} spp in {}", batch_.label(), file_,
-                    r.interrupted ? "interrupted, " : "", r.spp, format_seconds(r.seconds));
-    if (r.relative_rmse)
-      text += fmt::format(", relative standard error {}{}{}", r.rmse_is_upper_bound ? "below " : "",
-                          percent(*r.relative_rmse), record_.noise_only ? " (noise only)" : "");
+    std::string text = batch_.label() + file_ + ": " + describe(record_, r);
     for (const std::string& p : written) text += " -> " + p;
     log::info("{}", text);
     if (r.counters.nonfinite_samples > 0)
@@ -280,18 +262,9 @@ class SceneRenderer {
 
   /// Says so if the error that was asked for has not been reached.
   RenderOutcome target_outcome(const RenderResult& r) const {
-    if (!request_.budget.target_error || target_met(record_, r)) return RenderOutcome::rendered;
-    if (!r.relative_rmse)
-      log::warning("{}: --target-error {}: {}", file_, percent(*request_.budget.target_error),
-                   r.interrupted ? "interrupted before the error was known"
-                                 : "the error is not known, or the image is black");
-    else
-      log::warning("{}: --target-error {} is not met: the estimate is {}, and {}", file_,
-                   percent(*request_.budget.target_error), percent(*r.relative_rmse),
-                   r.interrupted ? "the render was interrupted"
-                   : request_.budget.spp && r.spp >= *request_.budget.spp
-                       ? "the samples of --spp are used up"
-                       : "the time is used up");
+    const std::string missed = target_miss(record_, r);
+    if (missed.empty()) return RenderOutcome::rendered;
+    log::warning("{}: {}", file_, missed);
     return RenderOutcome::target_missed;
   }
 

@@ -19,6 +19,14 @@ uint64_t memory_peak_bytes() {
 
 }  // namespace
 
+SceneCounts count_parts(const Scene& scene) {
+  SceneCounts n;
+  n.emitters = scene.lights.size();
+  n.instances = scene.instances.size();
+  for (const Shape& s : scene.shapes) n.triangles += s.mesh ? s.mesh->triangles.size() : 0;
+  return n;
+}
+
 bool target_met(const RenderRecord& record, const RenderResult& result) {
   const std::optional<double>& target = record.requested.target_error;
   return target && result.relative_rmse && *result.relative_rmse <= *target;

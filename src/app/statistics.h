@@ -14,6 +14,7 @@ struct PhaseSeconds {
 struct SceneCounts {
   size_t emitters = 0, triangles = 0, instances = 0;
 };
+SceneCounts count_parts(const Scene& scene);
 
 /// Whether the error that was asked for has been reached, as far as is known; false if it was not
 /// asked for.

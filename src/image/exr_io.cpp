@@ -15,6 +15,7 @@
 #include <OpenEXR/ImfMultiPartInputFile.h>
 #include <OpenEXR/ImfOutputFile.h>
 #include <OpenEXR/ImfPartType.h>
+#include <OpenEXR/ImfStdIO.h>
 #include <OpenEXR/ImfStringAttribute.h>
 
 #include <algorithm>
@@ -22,6 +23,7 @@
 #include <cstring>
 #include <stdexcept>
 
+#include "image/exr_sizes.h"
 #include "image/half.h"
 #include "image/image_limits.h"
 
@@ -111,15 +113,12 @@ std::vector<std::pair<std::string, std::string>> read_attributes(const Imf::Head
   return fields;
 }
 
-/// Checks what is said of a part before memory is made for it; returns the size of its pixels.
+/// Checks what is said of a part before memory is made for its pixels; returns their size.
 uint64_t check_part(const Imf::Header& header) {
   if (header.hasType() && Imf::isDeepData(header.type()))
     throw std::runtime_error("deep images cannot be read");
   const Imath::Box2i& window = header.dataWindow();
-  const int64_t width = int64_t(window.max.x) - window.min.x + 1,
-                height = int64_t(window.max.y) - window.min.y + 1;
-  if (width <= 0 || height <= 0 || width > kGreatestImageSize || height > kGreatestImageSize)
-    throw std::runtime_error(fmt::format("an image of {} x {} cannot be read", width, height));
+  const int width = window.max.x - window.min.x + 1, height = window.max.y - window.min.y + 1;
   uint64_t channels = 0;
   for (auto c = header.channels().begin(); c != header.channels().end(); ++c, ++channels)
     if (c.channel().xSampling != 1 || c.channel().ySampling != 1)
@@ -137,9 +136,8 @@ bool is_exr(const std::vector<uint8_t>& bytes) {
 
 ImageFile decode_exr(const std::string& path, const std::vector<uint8_t>& bytes) {
   try {
-    Imf::Header::setMaxImageSize(kGreatestImageSize, kGreatestImageSize);
-    Imf::Header::setMaxTileSize(1 << 13, 1 << 13);
     MemoryInput stream(path, bytes);
+    check_sizes(stream);
     Imf::MultiPartInputFile input(stream, 0, false);
     const Imf::Header& first = input.header(0);
     const Imath::Box2i window = first.dataWindow(), display = first.displayWindow();
@@ -187,7 +185,9 @@ ImageFile decode_exr(const std::string& path, const std::vector<uint8_t>& bytes)
 ImageFacts exr_facts(const std::string& path) {
   ImageFacts facts;
   try {
-    Imf::InputFile input(path.c_str(), 0);
+    Imf::StdIFStream stream(path.c_str());
+    check_sizes(stream);
+    Imf::InputFile input(stream, 0);
     facts.fields = read_attributes(input.header());
     facts.is_complete = input.isComplete();
     if (!facts.is_complete || input.header().hasTileDescription()) return facts;

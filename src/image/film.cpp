@@ -53,6 +53,25 @@ double sample_scale(double wanted, uint64_t samples) {
   return samples > 0 ? wanted / double(samples) : 1.0;
 }
 
+/// Where there is light: all of the image, or the window.
+PixelBounds lit_part(const FilmLayout& layout) {
+  return layout.ends_at_crop ? layout.crop : PixelBounds{0, 0, layout.full.x, layout.full.y};
+}
+
+/// Calls `f(sampled, stored)` for the tiles of a film, row by row.
+template <class F>
+void for_tiles(const FilmLayout& layout, int border, F&& f) {
+  constexpr int kSize = Film::kTileSize;
+  const PixelBounds sampled = layout.crop.grow(border).intersect(lit_part(layout));
+  for (int ty = sampled.y0 / kSize; ty * kSize < sampled.y1; ++ty)
+    for (int tx = sampled.x0 / kSize; tx * kSize < sampled.x1; ++tx) {
+      const PixelBounds square{tx * kSize, ty * kSize, (tx + 1) * kSize, (ty + 1) * kSize};
+      const PixelBounds inside = square.intersect(sampled);
+      const PixelBounds stored = inside.grow(border).intersect(layout.crop);
+      if (!stored.empty()) f(inside, stored);
+    }
+}
+
 }  // namespace
 
 PixelBounds PixelBounds::intersect(const PixelBounds& o) const {
@@ -87,19 +106,31 @@ void FilmTile::add_sample(const ReconstructionFilter& filter, const Point2f& p,
 Film::Film(const FilmLayout& layout, std::vector<std::string> channels)
     : full_(layout.full),
       crop_(layout.crop),
-      image_(layout.ends_at_crop ? crop_ : PixelBounds{0, 0, full_.x, full_.y}),
+      image_(lit_part(layout)),
       filter_(layout.filter),
       channels_(std::move(channels)) {
-  const PixelBounds sampled = crop_.grow(filter_.border()).intersect(image_);
-  const int n = int(channels_.size());
-  for (int ty = sampled.y0 / kTileSize; ty * kTileSize < sampled.y1; ++ty)
-    for (int tx = sampled.x0 / kTileSize; tx * kTileSize < sampled.x1; ++tx) {
-      const PixelBounds square{tx * kTileSize, ty * kTileSize, (tx + 1) * kTileSize,
-                               (ty + 1) * kTileSize};
-      const PixelBounds inside = square.intersect(sampled);
-      const PixelBounds stored = inside.grow(filter_.border()).intersect(crop_);
-      if (!stored.empty()) tiles_.emplace_back(inside, stored, n);
-    }
+  for_tiles(layout, filter_.border(), [&](const PixelBounds& sampled, const PixelBounds& stored) {
+    tiles_.emplace_back(sampled, stored, int(channels_.size()));
+  });
+}
+
+double Film::tile_bytes(const FilmLayout& layout, size_t channels) {
+  // What an allocation takes besides.
+  constexpr double kHead = 16;
+  double bytes = 0;
+  for_tiles(layout, ReconstructionFilter(layout.filter).border(),
+            [&](const PixelBounds&, const PixelBounds& stored) {
+              bytes += sizeof(FilmTile) + kHead +
+                       double(stored.width()) * stored.height() *
+                           double((channels + 1) * sizeof(double));
+            });
+  return bytes;
+}
+
+double Film::layer_bytes() const {
+  size_t sums = colour_sums_.size() + squares_.size();
+  for (const SplatLayer& layer : splats_) sums += layer.sums.size();
+  return double(sums * sizeof(double));
 }
 
 Image Film::develop() const {

@@ -87,6 +87,11 @@ class Film {
   /// image, or outside the window if the image ends there.
   Film(const FilmLayout& layout, std::vector<std::string> channels);
 
+  /// Bytes that the tiles of such a film take, without making them.
+  static double tile_bytes(const FilmLayout& layout, size_t channels);
+  /// Bytes that splats and moments take besides.
+  double layer_bytes() const;
+
   const ReconstructionFilter& filter() const { return filter_; }
   const PixelBounds& crop() const { return crop_; }
   Point2i full_size() const { return full_; }
@@ -122,7 +127,7 @@ class Film {
  private:
   Point2i full_;
   PixelBounds crop_;
-  PixelBounds image_;  ///< where there is light: all of the image, or the window
+  PixelBounds image_;  ///< where there is light
   ReconstructionFilter filter_;
   std::vector<std::string> channels_;
   std::vector<FilmTile> tiles_;

@@ -82,13 +82,10 @@ bool BidirectionalIntegrator::has_technique(int s, int t) const {
 
 std::string BidirectionalIntegrator::bias() const {
   if (!is_thesis_) return "";
-  // As measured with the thesis's settings (docs/thesis.md).
-  return fmt::format("the weights of the thesis do not sum to one: the image is biased ({})",
-                     options_.weights == ReuseWeights::thesis_a
-                         ? "reading a: 3.9 % too dark on average in the thesis's modified box, up "
-                           "to 16 % in places"
-                         : "reading b: right on average in the thesis's modified box, but from 5 % "
-                           "too dark to 10 % too bright in places");
+  return fmt::format(
+      "the weights of the thesis do not sum to one (reading {}): the image is biased, by how much "
+      "depends on the scene; weights=exact is unbiased",
+      options_.weights == ReuseWeights::thesis_a ? "a" : "b");
 }
 
 bool BidirectionalIntegrator::blurs() const {
@@ -97,10 +94,17 @@ bool BidirectionalIntegrator::blurs() const {
 
 double BidirectionalIntegrator::memory_bytes(const FilmLayout& film) const {
   // Roulette leaves few walks with more vertices than this.
-  constexpr int kVertices = 6;
-  if (options_.method == Method::ptracer) return 0;
-  return double(light_walks(film.full)) * std::clamp(max_depth_ - 1, 0, kVertices) *
-         double(sizeof(LightVertex) + (merges(options_.method) ? 24 : 0));
+  constexpr int kMostVertices = 6;
+  int vertices = std::clamp(max_depth_ - 1, 0, kMostVertices);
+  if (options_.method == Method::reuse) vertices = std::min(vertices, options_.max_light_depth);
+  LightPassPlan plan;
+  plan.walks = light_walks(film.full);
+  plan.keep_vertices =
+      merges(options_.method) || (connects(options_.method) && options_.connections != 0);
+  if (options_.method == Method::reuse && !is_thesis_) plan.windows = &windows_;
+  return LightPass::memory_bytes(plan, vertices) +
+         (merges(options_.method) ? VertexGrid::memory_bytes(double(plan.walks) * double(vertices))
+                                  : 0.0);
 }
 
 void BidirectionalIntegrator::prepare(Film& film) const {

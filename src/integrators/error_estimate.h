@@ -19,6 +19,10 @@ std::optional<double> batch_relative_rmse(const std::vector<Film>& films);
 class PartialMeans {
  public:
   explicit PartialMeans(const Film& film);
+  /// Bytes that it takes for a film whose tiles take `tile_bytes`.
+  static double memory_bytes(double tile_bytes, double pixels, bool has_splats) {
+    return tile_bytes + pixels * double(sizeof(Pixel) + (has_splats ? 3 * sizeof(double) : 0));
+  }
   /// Takes note of what has been added to the film since the last call.
   void add_part(const Film& film);
   std::optional<double> relative_rmse() const;

@@ -134,7 +134,7 @@ LimitLocations find_limits(const SceneDescription& scene) {
 
 const std::vector<IntegratorName>& integrator_names() {
   static const std::vector<IntegratorName> names{
-      {"auto", "path, bdpt or vcm, whichever a short pilot finds to suit the scene"},
+      {"auto", "path, volpath, bdpt, vcm or ppm, whichever suits the scene"},
       {"path", "path tracing with next event estimation"},
       {"volpath", "path tracing through participating media"},
       {"volpathmis", "the same by its second name in Mitsuba"},

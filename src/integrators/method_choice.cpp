@@ -229,14 +229,14 @@ MethodChoice take(const MethodPrices& prices, const MethodRules& rules) {
   else if (best == 0)
     choice.reason += "no other method promises more than 1.15 times its efficiency";
   else
-    choice.reason += fmt::format("{:.2g} times the efficiency of path",
-                                 path.error * path.cost / p.error / p.cost);
+    choice.reason += fmt::format("{} times the efficiency of path",
+                                 ratio(path.error * path.cost / p.error / p.cost));
   choice.reason += fmt::format(", by a pilot of {} eye walks", prices.walks);
   if (risk.doubt(best, kHysteresis) > kDoubt)
     choice.reason += fmt::format(
-        ", too short to be sure: the choice is what loses least if it is wrong, {:.2g} times the "
+        ", too short to be sure: the choice is what loses least if it is wrong, {} times the "
         "work of the best in one of five cases",
-        risk.loss(best));
+        ratio(risk.loss(best)));
   choice.reason += "; " + describe(rules);
   if (c.merges > 0) {
     choice.bias = may.unbiased ? "merging is consistent, but biased"

@@ -40,6 +40,7 @@ class Renderer {
     outlook.threads = request.threads;
     integrator.begin(scene, outlook);
     const int films = request.budget.target_error ? kErrorBatches : 1;
+    films_.reserve(size_t(films));
     for (int i = 0; i < films; ++i)
       integrator.prepare(films_.emplace_back(layout, integrator.channels()));
     prepared_ = seconds();

@@ -59,7 +59,7 @@ struct RenderRequest {
   /// Asked between passes, once every pixel has a sample: whether `snapshot` is to get the image so
   /// far. Rendering goes on afterwards.
   std::function<bool()> wants_snapshot;
-  std::function<void(const RenderResult&)> snapshot;
+  std::function<void(RenderResult)> snapshot;
 };
 
 /// Renders until the budget is used up, pass by pass. The image depends on the

@@ -48,9 +48,10 @@ double inverse_determinant(const Transform& t) {
                       double(r[0][2]) * minor(0, 1));
 }
 
-/// Looks up a texture on no surface.
-Surface at_uv(const Point2f& uv) {
+/// To look up a texture on no surface. The position is that at which a volume is looked up.
+Surface at_uv(const Point2f& uv, const Point3f& position) {
   Surface s;
+  s.position = position;
   s.uv = uv;
   return s;
 }
@@ -97,8 +98,8 @@ inline std::optional<LightSample> SpotEmitter::send(const Vector3f& away) const 
   const float falloff = std::min((cutoff_angle_ - angle) * inv_transition_, 1.0f);
   Spectrum intensity = intensity_ * falloff;
   if (texture_)
-    intensity *= texture_->color(
-        at_uv({0.5f + uv_scale_ * local.x / local.z, 0.5f + uv_scale_ * local.y / local.z}));
+    intensity *= texture_->color(at_uv(
+        {0.5f + uv_scale_ * local.x / local.z, 0.5f + uv_scale_ * local.y / local.z}, position_));
   const float stretch = cubed_ratio(length_squared(away), length_squared(local));
   return from_point(position_, away, intensity, density_ * stretch);
 }
@@ -145,7 +146,8 @@ inline std::optional<LightSample> ProjectorEmitter::send(const Vector3f& away) c
   // The image's first row is at the top; +x is at its left.
   const Point2f uv{0.5f - local.x / local.z * inv_width_, 0.5f - local.y / local.z * inv_height_};
   if (!(uv.x >= 0 && uv.x <= 1 && uv.y >= 0 && uv.y <= 1)) return std::nullopt;
-  const Spectrum image = irradiance_(at_uv(uv)) * (kPi * scale_);
+  // Mitsuba looks up volumes at the origin of the world here, and at the light in a spot light.
+  const Spectrum image = irradiance_(at_uv(uv, Point3f(0.0f))) * (kPi * scale_);
   // The distance along the axis counts in the projector's units, that to the light in the world's.
   const float d2 = length_squared(away), z2 = local.z * local.z;
   const float inv_distance = 1 / std::sqrt(d2);

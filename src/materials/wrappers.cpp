@@ -123,7 +123,7 @@ SurfaceNeeds NormalMap::needs() const {
 }
 
 Normal3f NormalMap::normal(const Surface& s) const {
-  const Spectrum c = normals_.color(s);
+  const Spectrum c = normals_(s);
   return {2 * c.r - 1, 2 * c.g - 1, 2 * c.b - 1};
 }
 

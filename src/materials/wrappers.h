@@ -130,7 +130,7 @@ class Perturbed : public Material {
 /// Source: Blinn, "Simulation of Wrinkled Surfaces", 1978.
 class BumpMap final : public Perturbed {
  public:
-  BumpMap(const Texture& height, float scale, const PerturbationOptions& options,
+  BumpMap(const FloatSlot& height, float scale, const PerturbationOptions& options,
           const Material& nested)
       : Perturbed(options, nested), height_(height), scale_(scale) {}
   SurfaceNeeds needs() const override;
@@ -139,14 +139,14 @@ class BumpMap final : public Perturbed {
   Normal3f normal(const Surface& surface) const override;
 
  private:
-  const Texture& height_;
+  FloatSlot height_;
   float scale_;
 };
 
 /// Normals in the shading frame, stored as colours (n + 1) / 2.
 class NormalMap final : public Perturbed {
  public:
-  NormalMap(const Texture& normals, const PerturbationOptions& options, const Material& nested)
+  NormalMap(const ColorSlot& normals, const PerturbationOptions& options, const Material& nested)
       : Perturbed(options, nested), normals_(normals) {}
   SurfaceNeeds needs() const override;
 
@@ -154,7 +154,7 @@ class NormalMap final : public Perturbed {
   Normal3f normal(const Surface& surface) const override;
 
  private:
-  const Texture& normals_;
+  ColorSlot normals_;
 };
 
 }  // namespace duet

@@ -15,10 +15,4 @@ VolumeTexture::VolumeTexture(const ColorVolumeSlot& volume)
   average_ = average_ / float(kPoints * kPoints * kPoints);
 }
 
-float VolumeTexture::maximum() const {
-  constexpr float kFar = 1e4f;
-  return volume_.grid ? volume_.grid->maximum(Point3f(-kFar), Point3f(kFar))
-                      : volume_.constant.max();
-}
-
 }  // namespace duet

@@ -18,7 +18,6 @@ class VolumeTexture final : public Texture {
   Point2f gradient(const Surface&) const override { return {0, 0}; }
   Spectrum average() const override { return average_; }
   bool needs_uv() const override { return false; }
-  float maximum() const override;
 
  private:
   ColorVolumeSlot volume_;

@@ -205,21 +205,21 @@ const Material* SceneBuilder::perturbed(MaterialId id, const SourceLocation& whe
 
 std::unique_ptr<Material> SceneBuilder::make(const BumpMapMaterial& m,
                                              const SourceLocation& where) {
-  const Texture* height = texture(m.height);
+  const FloatSlot height = slot(m.height);
   const Material* nested = perturbed(m.nested, where);
-  if (!height || !nested) return nullptr;
+  if (!nested) return nullptr;
   return std::make_unique<BumpMap>(
-      *height, float(m.scale),
-      PerturbationOptions{m.flip_invalid_normals, m.use_shadowing_function}, *nested);
+      height, float(m.scale), PerturbationOptions{m.flip_invalid_normals, m.use_shadowing_function},
+      *nested);
 }
 
 std::unique_ptr<Material> SceneBuilder::make(const NormalMapMaterial& m,
                                              const SourceLocation& where) {
-  const Texture* normals = texture(m.normals);
+  const ColorSlot normals = slot(m.normals);
   const Material* nested = perturbed(m.nested, where);
-  if (!normals || !nested) return nullptr;
+  if (!nested) return nullptr;
   return std::make_unique<NormalMap>(
-      *normals, PerturbationOptions{m.flip_invalid_normals, m.use_shadowing_function}, *nested);
+      normals, PerturbationOptions{m.flip_invalid_normals, m.use_shadowing_function}, *nested);
 }
 
 std::unique_ptr<Material> SceneBuilder::make(const NullMaterial&, const SourceLocation&) {

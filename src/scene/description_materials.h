@@ -181,7 +181,7 @@ struct MixtureMaterial {
 };
 
 struct BumpMapMaterial {
-  TextureId height{};
+  FloatInput height = 0.0;
   double scale = 1;
   bool flip_invalid_normals = true, use_shadowing_function = true;
   MaterialId nested{};
@@ -189,7 +189,7 @@ struct BumpMapMaterial {
 };
 
 struct NormalMapMaterial {
-  TextureId normals{};
+  ColorInput normals = Spectrum(0.5f, 0.5f, 1.0f);  ///< (n + 1) / 2
   bool flip_invalid_normals = true, use_shadowing_function = true;
   MaterialId nested{};
   bool operator==(const NormalMapMaterial&) const = default;

@@ -7,9 +7,6 @@ Bitmap::Bitmap(std::shared_ptr<const BitmapPixels> pixels, TextureFilter filter,
     : pixels_(std::move(pixels)), filter_(filter), wrap_u_(wrap_u), wrap_v_(wrap_v) {
   const auto has = [&](WrapMode w) { return wrap_u == w || wrap_v == w; };
   bordered_ = has(WrapMode::zero) || has(WrapMode::one);
-  maximum_ = pixels_->maximum();
-  if (has(WrapMode::zero)) maximum_ = std::max(maximum_, 0.0f);
-  if (has(WrapMode::one)) maximum_ = std::max(maximum_, 1.0f);
   for (size_t i = 0; i < 2; ++i)
     for (size_t j = 0; j < 3; ++j) m_[i][j] = float(to_uv.m[i][j]);
 }

@@ -20,7 +20,6 @@ class Bitmap final : public Texture {
   /// Of the bilinear interpolant, which is not continuous; zero without interpolation.
   Point2f gradient(const Surface& s) const override;
   Spectrum average() const override { return pixels_->average(); }
-  float maximum() const override { return maximum_; }
   Point2i resolution() const override { return {pixels_->width(), pixels_->height()}; }
 
  private:
@@ -50,7 +49,6 @@ class Bitmap final : public Texture {
   WrapMode wrap_u_, wrap_v_;
   bool bordered_;  ///< by constants
   float m_[2][3];
-  float maximum_;
 };
 
 }  // namespace duet

@@ -51,12 +51,10 @@ BitmapPixels::BitmapPixels(int width, int height, int channels, const std::vecto
 
 void BitmapPixels::measure() {
   double sum[3] = {0, 0, 0};
-  maximum_ = -INFINITY;
   for (int y = 0; y < height_; ++y)
     for (int x = 0; x < width_; ++x) {
       const Spectrum c = color(x, y);
       for (int k = 0; k < 3; ++k) sum[k] += c[k];
-      maximum_ = std::max(maximum_, c.max());
     }
   const double n = double(width_) * height_;
   average_ = {float(sum[0] / n), float(sum[1] / n), float(sum[2] / n)};

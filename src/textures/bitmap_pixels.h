@@ -39,7 +39,6 @@ class BitmapPixels {
   int height() const { return height_; }
   bool is_grey() const { return channels_ == 1; }
   Spectrum average() const { return average_; }
-  float maximum() const { return maximum_; }
 
   /// Calls `f` with a function (x, y) → texel that knows how the pixels are stored.
   template <class F>
@@ -85,7 +84,6 @@ class BitmapPixels {
   std::vector<float> floats_;
   std::array<float, 256> table_{};
   Spectrum average_;
-  float maximum_ = 0;
 };
 
 /// The linear value of a number under a transfer curve: 1 is linear, −1 sRGB, another number a

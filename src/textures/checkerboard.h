@@ -18,7 +18,6 @@ class Checkerboard final : public Texture {
   /// Zero wherever it exists.
   Point2f gradient(const Surface&) const override { return {0, 0}; }
   Spectrum average() const override { return (first_.average() + second_.average()) * 0.5f; }
-  float maximum() const override { return std::max(first_.maximum(), second_.maximum()); }
   Point2i resolution() const override { return {2, 2}; }
 
  private:

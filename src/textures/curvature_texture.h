@@ -21,7 +21,6 @@ class CurvatureMap final : public ShapeTexture {
   Point2f gradient(const Surface& s) const override;
   /// Unknown: in the middle of what there can be, as in Mitsuba.
   Spectrum average() const override { return Spectrum(0.5f); }
-  float maximum() const override { return 1; }
 
  private:
   CurvatureKind shown_;

@@ -16,7 +16,6 @@ class GridTexture final : public Texture {
   float value(const Surface& s) const override { return slot(s)(s).luminance(); }
   Point2f gradient(const Surface&) const override { return {0, 0}; }
   Spectrum average() const override;
-  float maximum() const override { return std::max(field_.maximum(), line_.maximum()); }
   Point2i resolution() const override { return {32, 32}; }
 
  private:
@@ -38,7 +37,6 @@ class ScaledTexture final : public Texture {
   }
   Spectrum average() const override { return inner_.average() * scale_; }
   bool needs_uv() const override { return inner_.needs_uv(); }
-  float maximum() const override { return inner_.maximum() * scale_.max(); }
   Point2i resolution() const override { return inner_.resolution(); }
 
  private:

@@ -60,11 +60,4 @@ Spectrum MeshAttributeMap::average() const {
   return {float(sum[0] / double(n)), float(sum[1] / double(n)), float(sum[2] / double(n))};
 }
 
-float MeshAttributeMap::maximum() const {
-  float m = 0;
-  for (const auto& [mesh, data] : data_.entries())
-    for (const float v : data->data) m = std::max(m, v * scale_);
-  return m;
-}
-
 }  // namespace duet

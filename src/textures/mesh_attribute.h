@@ -21,7 +21,6 @@ class MeshAttributeMap final : public ShapeTexture {
   /// By the mesh's texture coordinates; zero if it has none.
   Point2f gradient(const Surface& s) const override;
   Spectrum average() const override;
-  float maximum() const override;
   bool needs_uv() const override { return false; }
 
  private:

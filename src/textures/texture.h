@@ -19,8 +19,6 @@ class Texture {
   virtual Spectrum average() const = 0;
   /// Whether a lookup reads the texture coordinates (and not just where on the mesh it is).
   virtual bool needs_uv() const { return true; }
-  /// Upper bound of any channel of color().
-  virtual float maximum() const = 0;
   /// How finely the texture varies over the unit square of texture coordinates: texels along u and
   /// v.
   virtual Point2i resolution() const { return {1, 1}; }
@@ -33,7 +31,6 @@ struct ColorSlot {
 
   Spectrum operator()(const Surface& s) const { return texture ? texture->color(s) : constant; }
   Spectrum average() const { return texture ? texture->average() : constant; }
-  float maximum() const { return texture ? texture->maximum() : constant.max(); }
   bool is_constant() const { return !texture; }
   bool needs_uv() const { return texture && texture->needs_uv(); }
 };
@@ -44,6 +41,7 @@ struct FloatSlot {
   const Texture* texture = nullptr;
 
   float operator()(const Surface& s) const { return texture ? texture->value(s) : constant; }
+  Point2f gradient(const Surface& s) const { return texture ? texture->gradient(s) : Point2f(); }
   float average() const { return texture ? texture->average().luminance() : constant; }
   bool is_constant() const { return !texture; }
   bool needs_uv() const { return texture && texture->needs_uv(); }

@@ -30,7 +30,6 @@ class Wireframe final : public ShapeTexture {
   Point2f gradient(const Surface& s) const override;
   /// Of both colours, as in Mitsuba 0.6.
   Spectrum average() const override { return (options_.interior + options_.edge) * 0.5f; }
-  float maximum() const override { return std::max(options_.interior.max(), options_.edge.max()); }
   bool needs_uv() const override { return false; }
 
  private:

@@ -1,5 +1,7 @@
 #include "transport/light_pass.h"
 
+#include <algorithm>
+
 #include "base/parallel.h"
 #include "transport/light_walk.h"
 
@@ -16,6 +18,17 @@ constexpr uint64_t kLightStream = 0x6c69676874ull;
 constexpr uint64_t kMediaStream = 0x6d65646961ull;
 
 }  // namespace
+
+double LightPass::memory_bytes(const LightPassPlan& plan, int vertices_per_walk) {
+  // Arrays that grow by doubling may hold twice as much as they need to.
+  constexpr double kGrowth = 2;
+  const double vertices = vertices_per_walk;
+  const double trail = plan.windows ? kGrowth * ((vertices + 2) * sizeof(TrailVertex) + 4) : 0.0;
+  const double kept = plan.keep_vertices ? vertices * sizeof(LightVertex) + 6 : 0.0;
+  const double at_a_time = std::min(double(plan.walks), double(kWalksPerBlock * kBlocksAtATime));
+  return double(plan.walks) * (kept + trail) +
+         at_a_time * kGrowth * (vertices * (sizeof(LightVertex) + sizeof(LightSplat)) + trail);
+}
 
 void LightPass::reserve(size_t vertices, size_t walks) {
   vertices_.vertices.reserve(vertices);

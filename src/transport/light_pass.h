@@ -49,6 +49,8 @@ class LightPass {
     const uint32_t first = walk == 0 ? 0 : trail_ends_[walk - 1];
     return {trails_.data() + first, trail_ends_[walk] - first};
   }
+  /// Bytes that passes of such a plan take if each walk has so many vertices that can be connected.
+  static double memory_bytes(const LightPassPlan& plan, int vertices_per_walk);
   /// Makes room for the vertices of an average pass.
   void reserve(size_t vertices, size_t walks);
 

@@ -52,6 +52,10 @@ class VertexGrid {
   /// largest build so far. There are as many buckets as points, rounded up to a power of two, and
   /// at least 8.
   size_t memory_bytes() const;
+  /// The same, at most, of a grid of so many vertices.
+  static double memory_bytes(double count) {
+    return count * double(sizeof(Entry) + 2 * sizeof(uint32_t));
+  }
   float radius() const { return radius_; }
 
  private:

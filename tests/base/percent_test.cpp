@@ -6,6 +6,7 @@
 #include <limits>
 
 using duet::percent;
+using duet::ratio;
 
 TEST_CASE("percentages have three digits and no exponent") {
   CHECK(percent(0) == "0 %");
@@ -22,4 +23,15 @@ TEST_CASE("percentages have three digits and no exponent") {
   CHECK(percent(1e-30) == "0 %");
   CHECK(percent(std::numeric_limits<double>::infinity()) == "inf %");
   CHECK(percent(std::nan("")) == "nan %");
+}
+
+TEST_CASE("ratios have two digits and no exponent") {
+  CHECK(ratio(0) == "0");
+  CHECK(ratio(0.01234) == "0.012");
+  CHECK(ratio(1) == "1");
+  CHECK(ratio(1.26) == "1.3");
+  CHECK(ratio(12.6) == "13");
+  CHECK(ratio(126.4) == "126");
+  CHECK(ratio(123456) == "123456");
+  CHECK(ratio(std::numeric_limits<double>::infinity()) == "inf");
 }

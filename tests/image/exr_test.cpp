@@ -14,6 +14,7 @@
 #include <cmath>
 #include <random>
 
+#include "image/image_facts.h"
 #include "image/image_io.h"
 #include "support/files.h"
 
@@ -50,6 +51,30 @@ void write_channel(const std::string& path, Imf::Header header, Imf::PixelType t
 }
 
 }  // namespace
+
+TEST_CASE("EXR: reading changes no limits of other users of OpenEXR in the process") {
+  TemporaryDirectory directory;
+  const std::string path = directory.path("a.exr");
+  write_exr(path, Image(4, 4, {"R", "G", "B"}), {});
+  read_image(path);
+  Imf::Header wide(1 << 20, 1);
+  wide.channels().insert("Y", Imf::Channel(Imf::HALF));
+  CHECK_NOTHROW(wide.sanityCheck());
+  wide.setTileDescription(Imf::TileDescription(1 << 20, 1 << 15));
+  CHECK_NOTHROW(wide.sanityCheck(true));
+}
+
+TEST_CASE("EXR: tiles larger than is read are refused from the header") {
+  TemporaryDirectory directory;
+  const std::string path = directory.path("a.exr");
+  Imf::Header header(8, 8);
+  header.channels().insert("Y", Imf::Channel(Imf::FLOAT));
+  header.setTileDescription(Imf::TileDescription(1 << 14, 16));
+  { Imf::TiledOutputFile out(path.c_str(), header); }
+  CHECK_THROWS_WITH_AS(read_image(path), (path + ": tiles of 16384 x 16 cannot be read").c_str(),
+                       ReadError);
+  CHECK_THROWS_AS(read_image_facts(path), ReadError);
+}
 
 TEST_CASE("EXR: indices are exact beside colours in half floats") {
   TemporaryDirectory directory;

@@ -33,6 +33,9 @@ Choice choose(const TransportScene& s, int max_depth = 8, int threads = 2, int s
   IntegratorDescription d;
   d.method = c.method;
   Choice choice{integrator_name(d), 0, c.reason, c.bias};
+  // The help names every method that there is to choose from.
+  REQUIRE(integrator_names()[0].name == "auto");
+  CHECK((" " + integrator_names()[0].summary).find(" " + choice.name) != std::string::npos);
   if (const auto* b = std::get_if<BidirectionalIntegratorDescription>(&c.method)) {
     choice.light_paths = b->light_paths;
     CHECK(b->max_depth == max_depth);

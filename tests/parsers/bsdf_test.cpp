@@ -188,6 +188,21 @@ TEST_CASE("bsdf: those that hold others") {
             .flip_invalid_normals);
   CHECK(!bsdf<NormalMapMaterial>("0.6.0", "normalmap", grey + kBoard).flip_invalid_normals);
 
+  // What is the same everywhere can be a map, too.
+  const auto normals = [&](const std::string& value) {
+    return bsdf<NormalMapMaterial>("3.0.0", "normalmap", grey + value).normals;
+  };
+  CHECK(normals("<texture name='normalmap' type='rawconstant'>"
+                "<vector name='value' value='.2 .3 .9'/></texture>") ==
+        ColorInput(Spectrum(0.2f, 0.3f, 0.9f)));
+  CHECK(normals("<rgb name='normalmap' value='.2 .3 .9'/>") ==
+        ColorInput(Spectrum(0.2f, 0.3f, 0.9f)));
+  CHECK(normals("<float name='normalmap' value='.7'/>") == ColorInput(Spectrum(0.7f)));
+  CHECK(bsdf<BumpMapMaterial>(
+            "3.0.0", "bumpmap",
+            "<texture type='uniform'><float name='value' value='0.25'/></texture>" + grey)
+            .height == FloatInput(0.25));
+
   // A colour is an opacity per channel in 0.6; a number in Mitsuba 3: (0.2 + 0.3 + 0.4) / 3.
   const std::string coloured = grey + "<rgb name='opacity' value='.2 .3 .4'/>";
   CHECK(std::get<double>(bsdf<MaskMaterial>("3.0.0", "mask", coloured).opacity) ==

@@ -205,8 +205,8 @@ TEST_CASE("OBJ materials: images, from beside the OBJ file or the scene's folder
   CHECK(bitmap(r, std::get<TextureId>(mask.opacity)).file == "/scene/meshes/wood.png");
   const auto& materials = r.description().materials;
   const auto& bump = std::get<BumpMapMaterial>(materials.at(size_t(mask.nested)).model);
-  CHECK(bitmap(r, bump.height).file == "/scene/bark.png");
-  CHECK(bitmap(r, bump.height).raw);
+  CHECK(bitmap(r, std::get<TextureId>(bump.height)).file == "/scene/bark.png");
+  CHECK(bitmap(r, std::get<TextureId>(bump.height)).raw);
   const auto& base = std::get<DiffuseMaterial>(materials.at(size_t(bump.nested)).model);
   const BitmapTexture& wood = bitmap(r, std::get<TextureId>(base.reflectance));
   CHECK(wood.file == "/scene/meshes/wood.png");

@@ -74,6 +74,17 @@ TEST_CASE("every scene of the project is read without a word and survives a roun
   CHECK(count >= 15);
 }
 
+TEST_CASE("maps that are the same everywhere survive a round trip") {
+  const ReadResult r = read_scene("3.0.0", R"(<emitter type="constant"/>
+    <shape type="sphere"><bsdf type="normalmap"><bsdf type="diffuse"/>
+      <texture type="rawconstant" name="normalmap"><vector name="value" value="0.2, 0.3, 0.9"/>
+      </texture></bsdf></shape>
+    <shape type="sphere"><bsdf type="bumpmap"><bsdf type="diffuse"/>
+      <texture type="uniform"><float name="value" value="0.25"/></texture></bsdf></shape>)");
+  REQUIRE_MESSAGE(r.scene, r.messages());
+  check_equal(r.description(), again(r.description()));
+}
+
 TEST_CASE("the file of 0.6 and that of 3 in two-versions describe the same scene") {
   const SceneDescription a = read_from_disk((kScenes / "two-versions/scene.xml").string()),
                          b = read_from_disk((kScenes / "two-versions/scene-0.6.xml").string());

@@ -226,13 +226,14 @@ const Material& TestMaterial::make(const json& j) {
   if (type == "bumpmap") {
     textures_.emplace_back(
         new FlatTexture(Spectrum(0.5f), {j["slope"][0].get<float>(), j["slope"][1].get<float>()}));
-    return keep(new BumpMap(*textures_.back(), number(j, "scale", 1), perturbation, *nested[0]));
+    return keep(
+        new BumpMap({0, textures_.back().get()}, number(j, "scale", 1), perturbation, *nested[0]));
   }
   if (type == "normalmap") {
     const Vector3f n = normalize(to_vector(j["normal"]));
     textures_.emplace_back(
         new FlatTexture(Spectrum(0.5f * (n.x + 1), 0.5f * (n.y + 1), 0.5f * (n.z + 1))));
-    return keep(new NormalMap(*textures_.back(), perturbation, *nested[0]));
+    return keep(new NormalMap({{}, textures_.back().get()}, perturbation, *nested[0]));
   }
   throw std::runtime_error("unknown bsdf " + type);
 }

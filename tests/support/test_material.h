@@ -19,7 +19,6 @@ class FlatTexture final : public Texture {
   float value(const Surface&) const override { return color_.luminance(); }
   Point2f gradient(const Surface&) const override { return gradient_; }
   Spectrum average() const override { return color_; }
-  float maximum() const override { return color_.max(); }
 
  private:
   Spectrum color_;

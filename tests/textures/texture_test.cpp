@@ -81,7 +81,6 @@ TEST_CASE("textures look up what Mitsuba looks up") {
       // At texture coordinates of a few units, single precision leaves this much.
       for (int k = 0; k < 3; ++k) check_near(c[k], row[size_t(2 + k)], 2e-5f);
       check_near(texture->value(s), row[5], 2e-5f);
-      CHECK(c.max() <= texture->maximum() * 1.0001f);
       const Point2f g = texture->gradient(s);
       check_near(g.x, row[6], 1e-4f);
       check_near(g.y, row[7], 1e-4f);
@@ -128,7 +127,6 @@ TEST_CASE("mesh attributes are interpolated as Mitsuba does") {
       const Spectrum c = texture.color(s);
       for (int k = 0; k < 3; ++k) check_near(c[k], row[size_t(2 + k)], 1e-5f);
       if (a["channels"] == 1) check_near(texture.value(s), row[5], 1e-5f);
-      CHECK(c.max() <= texture.maximum() * 1.0001f);
       // A step along u changes the value as the gradient says.
       const auto moved = [&](float du, float dv) {
         const auto& t = mesh.triangles[s.primitive];

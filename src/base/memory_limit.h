@@ -1,0 +1,26 @@
+// How much memory there is for this process.
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+namespace duet {
+
+struct MemoryLimit {
+  double bytes = 0;    ///< infinite if nothing is known
+  std::string source;  ///< for people: what sets the limit
+};
+
+/// The least of the machine's physical memory (/proc/meminfo) and of what the control groups of the
+/// process, or those around them, allow: memory.max of version 2, memory.limit_in_bytes of version
+/// 1. Source: cgroups(7), proc(5), and cgroup-v2 and cgroup-v1/memory in the documentation of
+/// Linux. Files are looked for under `root`.
+MemoryLimit memory_limit(const std::filesystem::path& root = "/");
+
+/// Memory that this process has in use, in bytes; 0 if that is not known.
+double memory_in_use(const std::filesystem::path& root = "/");
+
+/// For people: "512 MB", "1.23 GB".
+std::string memory_text(double bytes);
+
+}  // namespace duet

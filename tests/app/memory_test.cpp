@@ -1,0 +1,95 @@
+// What a render takes in memory is what the guard expected before it began.
+#include <doctest/doctest.h>
+
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+#include <regex>
+
+#include "app/workplace.h"
+#include "base/memory_limit.h"
+
+using namespace duet::test;
+
+namespace {
+
+/// A room from which no path gets out.
+constexpr const char* kRoom =
+    "<scene version='3.0.0'>"
+    "<default name='filter' value='box'/><default name='component' value='float16'/>"
+    "<integrator type='path'><integer name='max_depth' value='6'/>"
+    "</integrator><sensor type='perspective'><float name='fov' value='60'/>"
+    "<film type='hdrfilm'><string name='component_format' value='$component'/>"
+    "<rfilter type='$filter'/></film></sensor>"
+    "<shape type='cube'><boolean name='flip_normals' value='true'/></shape>"
+    "<shape type='sphere'><float name='radius' value='0.3'/><point name='center' x='0' y='0.5' "
+    "z='0.6'/>"
+    "<emitter type='area'/></shape></scene>";
+
+struct Memory {
+  double estimate = 0, peak = 0;
+};
+
+Memory render(const Workplace& place, int size, std::vector<std::string> arguments) {
+  arguments.insert(arguments.begin(),
+                   {"room.xml", "-v", "-o", "room.exr", "--stats", "stats.json", "--threads", "2",
+                    "--size", fmt::format("{}x{}", size, size)});
+  const Outcome o = place.run(arguments);
+  REQUIRE_MESSAGE(o.code == 0, o.err);
+  std::smatch text;
+  REQUIRE_MESSAGE(std::regex_search(o.err, text, std::regex("needs about ([0-9.]+) (MB|GB)")),
+                  o.err);
+  const auto stats = nlohmann::json::parse(read_file(place.path("stats.json")));
+  return {std::stod(text[1]) * (text[2] == "MB" ? 1e6 : 1e9), stats["memory_peak_bytes"]};
+}
+
+}  // namespace
+
+TEST_SUITE("program") {
+  TEST_CASE("the guard expects as much memory as a render takes") {
+    const Workplace place;
+    place.write("room.xml", kRoom);
+    const std::vector<std::vector<std::string>> settings{
+        {"--spp", "2"},
+        {"--spp", "2", "-D", "filter=gaussian", "-D", "component=float32"},
+        {"--spp", "1", "--aov", "albedo,normal,position,depth"},
+        {"--spp", "1", "--aov", "moments,variance"},
+        {"--spp", "8", "--target-error", "0.01%"},
+        {"--spp", "8", "--target-error", "0.01%", "-D", "filter=gaussian"},
+        {"--spp", "1", "-i", "ptracer"},
+        {"--spp", "1", "-i", "bdpt", "-I", "light_paths=0.5"},
+        {"--spp", "1", "-i", "bdpt", "--techniques"},
+        {"--spp", "1", "-i", "reuse"},
+        {"--spp", "1", "-i", "vcm", "-I", "light_paths=1"},
+        {"--spp", "1", "-i", "auto"},
+        {"--spp", "2", "--crop", "100,100,500,500"},
+    };
+    for (const auto& setting : settings) {
+      INFO(fmt::format("{}", fmt::join(setting, " ")));
+      // What a small image takes is what the program takes anyway.
+      std::vector<std::string> small = setting;
+      if (const auto crop = std::find(small.begin(), small.end(), "--crop"); crop != small.end())
+        small.erase(crop, small.end());
+      const double start = render(place, 16, small).peak;
+      const Memory m = render(place, 700, setting);
+      const double taken = m.peak - start;
+      MESSAGE(fmt::format("{:.0f} MB of {:.0f} MB expected", taken * 1e-6, m.estimate * 1e-6));
+      CHECK(taken <= m.estimate);
+      CHECK(m.estimate <= 2 * taken);
+    }
+  }
+
+  TEST_CASE("an image for which there is no room is refused with all the numbers") {
+    const Workplace place;
+    place.write("room.xml", kRoom);
+    const Outcome o = place.run({"room.xml", "--size", "65536x65536", "-i", "vcm"});
+    CHECK(o.code == 1);
+    const std::regex expected(
+        "the image needs about [0-9]+ GB of memory \\([0-9]+ GB for sums of samples, [0-9]+ GB for "
+        "light walks, [0-9]+ GB for copies\\) beside the [0-9]+ MB in use; the limit is [0-9.]+ "
+        "[MG]B "
+        "\\((physical memory|control group, /.*)\\)");
+    CHECK_MESSAGE(std::regex_search(o.err, expected), o.err);
+  }
+}
