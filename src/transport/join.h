@@ -94,7 +94,7 @@ inline Join join_light(const Scene& scene, const Weights& weights, const Vertex&
                        RenderCounters& counters, [[maybe_unused]] RandomStream* random = nullptr) {
   const Point2f u = sampler.next_2d();
   const LightPicker::Pick pick =
-      scene.picker.size() == 1 ? LightPicker::Pick{0, 1} : scene.picker.pick(sampler.next_1d());
+      scene.picker.size() == 1 ? LightPicker::Pick{0, 1} : scene.picker.pick(sampler.next_1d(), u);
   const Light& light = *scene.lights[pick.light];
   const auto sample = light.sample_direct(eye.position(), u);
   if (!sample || (strict_normals && eye.has_two_sides(sample->wi))) return {};
