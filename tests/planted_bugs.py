@@ -172,4 +172,13 @@ MUTATIONS = [
      "p && !(*p >= kBiasSignificance)", "p && !(*p >= 0)", "verdicts and exit codes of compare*"),
     ("colours of a PNG stay multiplied by alpha", "src/app/output.cpp",
      "if (with_alpha && p[3] > 0) s /= p[3];", "", "colours of a PNG*"),
+    ("connections weighed as if photons were merged at mirrors", "src/transport/weights.h",
+     "end.merges ? merge_term_ : 0.0f", "merge_term_", SUMS),
+    ("photons merged within sharp lobes", "src/materials/bsdf.h",
+     "return merges() && !(has_nearly_specular()", "return merges() && !(false && has_nearly_specular()",
+     "within a nearly specular lobe nothing is merged*"),
+    ("large tables picked from by 24 bits", "src/math/distribution.h",
+     "kMostCoarse = 4096;", "kMostCoarse = size_t(1) << 30;", "each of 2^25 equal weights*"),
+    ("two renders move a scene at the same time", "src/scene/scene_motion.cpp",
+     "if (holder != std::this_thread::get_id())", "if (motion == nullptr)", "a scene that moves is refused*"),
 ]

@@ -14,7 +14,7 @@ ShapePoints::ShapePoints(const Shape& shape) : shape_(shape) {
 
 ShapePoint ShapePoints::sample(const Point2f& u) const {
   if (!shape_.mesh) return sample_analytic(shape_, u);
-  const auto pick = triangles_.sample(u.x);
+  const auto pick = triangles_.sample(u.x, u);
   return sample_triangle(shape_, pick.index, {pick.remapped, u.y});
 }
 

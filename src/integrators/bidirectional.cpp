@@ -77,7 +77,7 @@ bool BidirectionalIntegrator::has_technique(int s, int t) const {
   if (t == 1 && !options_.light_image) return false;
   if (options_.method == Method::reuse) return windows_.share(s, t) > 0;
   if (s >= 2 && t >= 2 && options_.connections == 0) return false;
-  return connects(options_.method);
+  return connects(options_.method) || (s == 1 && merges(options_.method));
 }
 
 std::string BidirectionalIntegrator::bias() const {
@@ -204,8 +204,9 @@ void BidirectionalIntegrator::iteration(const Scene& scene, Film& film, const Sa
   if (set_.merges) {
     const std::vector<LightVertex>& v = lights_.vertices().vertices;
     grid_.build(
-        uint32_t(v.size()), [&](uint32_t i) { return v[i].position; }, float(radius(samples.first)),
-        control.threads);
+        uint32_t(v.size()),
+        [&](uint32_t i) { return v[i].merges ? v[i].position : VertexGrid::nowhere(); },
+        float(radius(samples.first)), control.threads);
   }
   CameraIntegrator::render_samples(scene, film, samples, control, counters);
   film.end_pass();

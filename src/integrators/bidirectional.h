@@ -53,7 +53,11 @@ class BidirectionalIntegrator final : public CameraIntegrator {
   template <class Vertex, class Weights>
   void walk(const Weights& weights, Trail* trail, Eye<Vertex>& eye) const;
   template <class Vertex, class Weights>
-  void join(const Weights& weights, const Vertex& v, Eye<Vertex>& eye) const;
+  void join(const Weights& weights, const Vertex& v, bool light_sample, Eye<Vertex>& eye) const;
+  /// Whether the method takes a light sample at a vertex to which `walk` has come. Those that leave
+  /// light to photons do so only for what is scattered by nearly specular lobes.
+  template <class Vertex>
+  bool samples_light(const Vertex& v, const Walk& walk) const;
   template <class Vertex, class Weights>
   void connect(const Weights& weights, const Vertex& v, Eye<Vertex>& eye) const;
   template <class Vertex, class Weights>

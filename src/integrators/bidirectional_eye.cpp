@@ -12,16 +12,6 @@ constexpr size_t kCrowd = 4096;
 /// Keeps the random numbers of shadow rays through media apart from others.
 constexpr uint64_t kShadowStream = 0x736861646f77ull;
 
-/// Weights of path tracing alone, for the tail of the thesis.
-struct TailWeights {
-  float hit(const Walk& walk, float direct, float) const {
-    return walk.from_specular ? 1.0f : walk.forward / (walk.forward + direct);
-  }
-  float light_sample(const PathVertex&, float direct, float bsdf, const JoinEnd&) const {
-    return direct / (direct + bsdf);
-  }
-};
-
 }  // namespace
 
 /// An eye walk under way.
@@ -103,7 +93,7 @@ void BidirectionalIntegrator::walk(const Weights& weights, Trail* trail, Eye<Ver
   const auto pass = [&](const Vertex& v) {
     eye.sampler.start_dimension(dimension);
     if (v.is_smooth()) {
-      if (!Vertex::kMedia || depth < max_depth_) join(weights, v, eye);
+      if (!Vertex::kMedia || depth < max_depth_) join(weights, v, samples_light(v, walk), eye);
     } else {
       eye.counters.connections.failed_specular += uint64_t(candidates(v, eye));
     }
@@ -122,7 +112,7 @@ void BidirectionalIntegrator::walk(const Weights& weights, Trail* trail, Eye<Ver
     if (!straight) alpha = 1;
     if (Vertex::kMedia && straight) return goes_on;
     ++depth;
-    return goes_on && (options_.method != Method::ppm || walk.specular) &&
+    return goes_on && (options_.method != Method::ppm || walk.unmerged) &&
            (!Vertex::kMedia || (depth <= max_depth_ && options_.method != Method::ptracer));
   };
   for (;;) {
@@ -130,7 +120,7 @@ void BidirectionalIntegrator::walk(const Weights& weights, Trail* trail, Eye<Ver
         !enter_tail(walk, eye))
       return;
     // Where merging or light tracing does the rest, only what is seen directly is left to be hit.
-    const bool hits = set_.light_samples || (set_.merges ? walk.specular : depth == 1);
+    const bool hits = set_.light_samples || (set_.merges ? walk.unmerged : depth == 1);
     Hit hit;
     ++eye.counters.closest_rays;
     const bool found = scene.accel->closest_hit(walk.ray, hit);
@@ -190,9 +180,9 @@ void BidirectionalIntegrator::walk(const Weights& weights, Trail* trail, Eye<Ver
 }
 
 template <class Vertex, class Weights>
-void BidirectionalIntegrator::join(const Weights& weights, const Vertex& v,
+void BidirectionalIntegrator::join(const Weights& weights, const Vertex& v, bool light_sample,
                                    Eye<Vertex>& eye) const {
-  if (set_.light_samples && eye.scene.picker.size() > 0)
+  if (light_sample && eye.scene.picker.size() > 0)
     add(eye, 1, v.depth + 1,
         join_light(eye.scene, weights, v, options_.strict_normals, eye.sampler, eye.roulette,
                    eye.counters, &eye.shadows));
@@ -205,6 +195,11 @@ void BidirectionalIntegrator::join(const Weights& weights, const Vertex& v,
   }
   if constexpr (!std::is_same_v<Weights, WindowWeights>)
     if (eye.merging && v.merges()) merge(weights, v, eye);
+}
+
+template <class Vertex>
+bool BidirectionalIntegrator::samples_light(const Vertex& v, const Walk& walk) const {
+  return set_.light_samples || (set_.merges && walk.unmerged && v.bsdf.has_nearly_specular());
 }
 
 template <class Vertex>
@@ -278,8 +273,7 @@ void BidirectionalIntegrator::merge(const Weights& weights, const Vertex& v,
   const float kernel = eye.photon_share / (set_.merge_area * set_.light_paths);
   for (const uint32_t index : eye.photons) {
     const LightVertex& photon = lights_.vertices().vertices[index];
-    if (int(photon.depth) + v.depth > max_depth_ || (Vertex::kMedia && photon.in_medium()))
-      continue;
+    if (int(photon.depth) + v.depth > max_depth_) continue;
     const Join found = join_merge(weights, photon, v, kernel, options_.strict_normals);
     if (found.value.is_black()) continue;
     ++eye.counters.merges;
@@ -327,20 +321,20 @@ void BidirectionalIntegrator::thesis_tail(const PathVertex& limit, Walk& walk,
     Hit hit;
     ++eye.counters.closest_rays;
     if (!scene.accel->closest_hit(walk.ray, hit)) {
-      if (scene.environment) add(eye, 0, depth + 1, join_escape(scene, TailWeights(), walk));
+      if (scene.environment) add(eye, 0, depth + 1, join_escape(scene, PathWeights(), walk));
       return;
     }
     ++eye.counters.path_vertices;
     const Surface s = scene.surface(walk.ray, hit);
     if (s.shape->light != kNone)
-      add(eye, 0, depth + 1, join_hit(scene, TailWeights(), walk, s, hit.t * hit.t));
+      add(eye, 0, depth + 1, join_hit(scene, PathWeights(), walk, s, hit.t * hit.t));
     if (depth == max_depth_) return;
     reached.emplace(scene, s, -walk.ray.direction, walk.throughput, Partials{}, depth);
     v = &*reached;
     if (!v->bsdf.has_smooth() || scene.picker.size() == 0) continue;
     eye.sampler.start_dimension(kFirstVertexDimension + kDimensionsPerVertex * uint32_t(depth - 1));
     add(eye, 1, depth + 1,
-        join_light(scene, TailWeights(), *v, options_.strict_normals, eye.sampler, eye.roulette,
+        join_light(scene, PathWeights(), *v, options_.strict_normals, eye.sampler, eye.roulette,
                    eye.counters));
   }
 }

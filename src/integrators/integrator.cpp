@@ -38,6 +38,7 @@ void for_each_tile(Film& film, const PassControl& control, RenderCounters& count
 }
 
 void Integrator::begin(const Scene& scene, const RenderOutlook& outlook) {
+  const MotionLease lease(scene.motion.get());
   if (scene.motion) scene.motion->pose(0.5);
   choose(scene, outlook);
 }
@@ -45,6 +46,7 @@ void Integrator::begin(const Scene& scene, const RenderOutlook& outlook) {
 void Integrator::render_pass(const Scene& scene, Film& film, const SampleRange& samples,
                              const PassControl& control, RenderCounters& counters) {
   if (!scene.motion) return render_samples(scene, film, samples, control, counters);
+  const MotionLease lease(scene.motion.get());
   for_each_sample(samples, control, [&](const SampleRange& one, const PassControl& part) {
     scene.motion->pose(time_of_sample(samples, one.first));
     render_samples(scene, film, one, part, counters);

@@ -92,7 +92,7 @@ class Integrator {
   /// Adds samples to every pixel of the film. The sums of the film are the same bit for bit however
   /// its samples are divided into passes. A pass that is cancelled leaves a film whose mean is
   /// still right. If the scene moves, it is posed for each sample (motion_blur.h), so passes over
-  /// it come one after another.
+  /// it come one after another: this and begin() take a MotionLease.
   void render_pass(const Scene& scene, Film& film, const SampleRange& samples,
                    const PassControl& control, RenderCounters& counters);
   /// Turns what the film has summed up into what its channels are called, once `spp` samples per

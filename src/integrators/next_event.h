@@ -31,7 +31,7 @@ inline Spectrum sample_light(const Scene& scene, const Surface& s, const B& bsdf
                              RenderCounters& counters) {
   const Point2f u = sampler.next_2d();
   const LightPicker::Pick pick =
-      scene.picker.size() == 1 ? LightPicker::Pick{0, 1} : scene.picker.pick(sampler.next_1d());
+      scene.picker.size() == 1 ? LightPicker::Pick{0, 1} : scene.picker.pick(sampler.next_1d(), u);
   const Light& chosen = *scene.lights[pick.light];
   // The common kind is called directly, so that the compiler can look into it.
   const auto light = chosen.kind() == LightKind::area

@@ -10,6 +10,7 @@
 #include "integrators/error_estimate.h"
 #include "integrators/pass_length.h"
 #include "integrators/sample_allocation.h"
+#include "scene/scene_motion.h"
 
 namespace duet {
 
@@ -247,6 +248,7 @@ class Renderer {
 
 RenderResult render(const Scene& scene, Integrator& integrator, const FilmLayout& layout,
                     const RenderRequest& request) {
+  const MotionLease lease(scene.motion.get());
   return Renderer(scene, integrator, layout, request).run();
 }
 

@@ -64,7 +64,8 @@ struct RenderRequest {
 
 /// Renders until the budget is used up, pass by pass. The image depends on the
 /// scene, the integrator, the film, the seed, the sequence and the number of samples; never on the
-/// number of threads, nor on how the samples are divided into passes.
+/// number of threads, nor on how the samples are divided into passes. Throws std::runtime_error if
+/// the scene moves and another render of it is under way.
 RenderResult render(const Scene& scene, Integrator& integrator, const FilmLayout& layout,
                     const RenderRequest& request);
 

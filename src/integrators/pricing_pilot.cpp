@@ -78,7 +78,11 @@ class PricingPilot {
     record_.seen.resize(walks_ / 2);
     trace_light();
     grid_.build(
-        uint32_t(light_.vertices.size()), [&](uint32_t i) { return light_.vertices[i].position; },
+        uint32_t(light_.vertices.size()),
+        [&](uint32_t i) {
+          const LightVertex& v = light_.vertices[i];
+          return v.merges ? v.position : VertexGrid::nowhere();
+        },
         query_radius_, plan_.threads);
     trace_eye();
     return std::move(record_);
@@ -92,7 +96,7 @@ class PricingPilot {
   /// What contributions of an eye walk under way have in common.
   struct EyeState {
     uint16_t cell;
-    bool first = true;   ///< nothing but delta lobes so far
+    bool first = true;   ///< Walk::unmerged
     bool sharp = false;  ///< as in PricedContribution
   };
 
@@ -241,12 +245,12 @@ class PricingPilot {
         add(out.eye, direct.value * direct.weight, weights.shares(), Technique::unidirectional,
             at.cell, at.sharp);
         connect(index, v, weights, roulette, at, out);
-        merge(index, v, weights, at, out);
+        if (v.merges()) merge(index, v, weights, at, out);
       }
       sampler.start_dimension(dimension + kScatteringDimension);
       bool straight = false;
       if (!scatter<Transport::radiance>(v, set_, options_, sampler, walk, &straight)) return;
-      if (at.first && !walk.specular) {
+      if (at.first && !walk.unmerged) {
         at.first = false;
         at.sharp = walk.forward > PricingRecord::kSharpDensity;
       }

@@ -15,7 +15,7 @@ enum class Technique : uint8_t {
   unidirectional,
   light_image,
   connection,
-  first_merge,  ///< at the first vertex of the eye walk that does not scatter by a delta lobe
+  first_merge,  ///< at the first vertex of the eye walk where FamilyShares::first_merge is
   later_merge
 };
 

@@ -48,7 +48,7 @@ struct ChosenLight {
 inline ChosenLight choose_light(const Scene& scene, const Point3f& from, Sampler& sampler) {
   const Point2f u = sampler.next_2d();
   const LightPicker::Pick pick =
-      scene.picker.size() == 1 ? LightPicker::Pick{0, 1} : scene.picker.pick(sampler.next_1d());
+      scene.picker.size() == 1 ? LightPicker::Pick{0, 1} : scene.picker.pick(sampler.next_1d(), u);
   return {scene.lights[pick.light]->sample_direct(from, u), pick.probability};
 }
 

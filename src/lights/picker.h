@@ -30,9 +30,9 @@ class LightPicker {
     uint32_t light;
     float probability;
   };
-  /// There must be at least one light.
-  Pick pick(float u) const {
-    const auto p = distribution_.sample(u);
+  /// There must be at least one light. `others` as in DiscreteDistribution::sample().
+  Pick pick(float u, const Point2f& others) const {
+    const auto p = distribution_.sample(u, others);
     return {p.index, p.probability};
   }
   float probability(uint32_t light) const { return distribution_.probability(light); }

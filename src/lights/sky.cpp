@@ -197,7 +197,7 @@ std::optional<LightSample> Sky::sample_direct(const Point3f&, const Point2f& u) 
         square_to_cone({std::min(u.x / sun_share_, 0x1.fffffep-1f), u.y}, one_minus_cos_sun_));
   } else {
     const float v = std::min((u.x - sun_share_) / (1 - sun_share_), 0x1.fffffep-1f);
-    const auto pick = cells_.sample(v);
+    const auto pick = cells_.sample(v, u);
     const float row = float(pick.index / kColumns) + pick.remapped;
     const float z = lowest_ + (1 - lowest_) * row / kRows;
     float s, c;

@@ -99,7 +99,7 @@ Point2f TriangleCells::within(const Cell& c, const Point2f& b) const {
 }
 
 ShapePoint TriangleCells::sample(const Point2f& u) const {
-  const auto pick = cells_.sample(u.y);
+  const auto pick = cells_.sample(u.y, u);
   const uint32_t per_triangle = uint32_t(n_) * uint32_t(n_);
   const uint32_t triangle = n_ == 1 ? pick.index : pick.index / per_triangle;
   Point2f b = square_to_triangle({u.x, pick.remapped});

@@ -74,6 +74,18 @@ class Bsdf {
   bool has_delta() const { return has_delta_; }
   /// Whether sample() looks at `u`.
   bool needs_choice() const { return needs_choice_; }
+  /// Whether photons may be merged here at all: not where most of the light is scattered by lobes
+  /// that are nearly specular (kNearlySpecular). Light that arrives a little beside a point is
+  /// scattered in quite another way by these, so that merging would blur and brighten what they
+  /// show. The answer is the same for all directions.
+  bool merges() const { return nearly_specular_share_ <= kMostNearlySpecular * smooth_share_; }
+  /// The same for light that is scattered with a density, and a reverse_pdf(): where the smaller
+  /// part of it meets nearly specular lobes, nothing is merged within them. The answer is the same
+  /// from both ends.
+  bool merges(float pdf, float reverse) const {
+    return merges() && !(has_nearly_specular() && std::max(pdf, reverse) > kDensestMerged);
+  }
+  bool has_nearly_specular() const { return nearly_specular_share_ > 0; }
 
   const Frame& frame() const { return frame_; }
   int component_count() const { return count_; }
@@ -82,6 +94,11 @@ class Bsdf {
  private:
   friend class BsdfBuilder;
   friend class Material;
+
+  /// Share of nearly specular lobes among the smooth ones up to which photons are merged.
+  static constexpr float kMostNearlySpecular = 0.5f;
+  /// Per solid angle: that of the reflection off facets with α = kNearlySpecular at its peak.
+  static constexpr float kDensestMerged = float(1 / (4 * kPi * kNearlySpecular * kNearlySpecular));
 
   bool is_plain_diffuse() const {
     return count_ == 1 && components_[0].kind == ModelKind::diffuse && components_[0].covers[0] < 0;
@@ -94,6 +111,8 @@ class Bsdf {
   Vector3f wo_;  ///< in the shading frame
   int count_ = 0, cover_count_ = 0;
   bool has_smooth_ = false, has_delta_ = false, needs_choice_ = false;
+  /// Of the components with smooth lobes, in sum; and what is nearly specular of it.
+  float smooth_share_ = 0, nearly_specular_share_ = 0;
   union {  // keeps unused components untouched
     BsdfComponent components_[kMaxComponents];
   };
@@ -106,6 +125,7 @@ class Bsdf {
 struct ConstantMaterial {
   BsdfComponent component;
   bool has_smooth, has_delta, needs_choice;
+  float nearly_specular_share;
   bool two_sided;  ///< the back looks like the front
 };
 
@@ -123,13 +143,15 @@ class BsdfBuilder {
   void add(const M& model) {
     BsdfComponent& c = bsdf_.components_[bsdf_.count_++];
     set_model(c, model);
-    complete(c, model.has_smooth(), model.has_delta(), model.needs_choice());
+    complete(c, model.has_smooth(), model.has_delta(), model.needs_choice(),
+             nearly_specular_share(model));
   }
   void add(const ConstantMaterial& constant) {
     BsdfComponent& c = bsdf_.components_[bsdf_.count_++];
     c = constant.component;
     const float side = constant.two_sided && wo_.z < 0 ? -1.0f : 1.0f;
-    complete(c, constant.has_smooth, constant.has_delta, constant.needs_choice);
+    complete(c, constant.has_smooth, constant.has_delta, constant.needs_choice,
+             constant.nearly_specular_share);
     c.side *= side;
   }
 
@@ -169,12 +191,17 @@ class BsdfBuilder {
   }
 
  private:
-  void complete(BsdfComponent& c, bool has_smooth, bool has_delta, bool needs_choice) {
+  void complete(BsdfComponent& c, bool has_smooth, bool has_delta, bool needs_choice,
+                float nearly_specular) {
     for (int i = 0; i < kMaxCovers; ++i) c.covers[i] = covers_[i];
     c.side = side_;
     c.share = share_;
     bsdf_.has_smooth_ |= has_smooth;
     bsdf_.has_delta_ |= has_delta;
+    if (has_smooth) {
+      bsdf_.smooth_share_ += share_;
+      bsdf_.nearly_specular_share_ += share_ * nearly_specular;
+    }
     // A tilt is chosen too, where the direction towards the eye is not yet known.
     bsdf_.needs_choice_ |= needs_choice || bsdf_.count_ > 1 || share_ < 1 || covers_[0] >= 0;
   }
@@ -216,6 +243,8 @@ class Material {
       bsdf.has_smooth_ = constant_->has_smooth;
       bsdf.has_delta_ = constant_->has_delta;
       bsdf.needs_choice_ = constant_->needs_choice;
+      bsdf.smooth_share_ = 1;
+      bsdf.nearly_specular_share_ = constant_->nearly_specular_share;
       copy_component(bsdf.components_[0], constant_->component);
       if (constant_->two_sided && bsdf.wo_.z < 0) bsdf.components_[0].side = -1;
     } else {
@@ -270,6 +299,7 @@ class Material {
     c.has_smooth = model.has_smooth();
     c.has_delta = model.has_delta();
     c.needs_choice = model.needs_choice();
+    c.nearly_specular_share = nearly_specular_share(model);
     c.two_sided = false;
     constant_ = c;
   }

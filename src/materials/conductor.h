@@ -31,6 +31,7 @@ struct RoughConductorModel {
   bool has_smooth() const { return !specular_reflectance.is_black(); }
   bool has_delta() const { return false; }
   bool needs_choice() const { return false; }
+  float nearly_specular_share() const { return microfacet.is_nearly_specular() ? 1.0f : 0.0f; }
 
   ModelEval eval(const Vector3f& wo, const Vector3f& wi, Transport) const;
   std::optional<ModelSample> sample(const Vector3f& wo, float, const Point2f& v, Transport) const;

@@ -35,6 +35,7 @@ struct RoughDielectricModel {
   bool has_smooth() const { return eta != 1; }
   bool has_delta() const { return eta == 1; }
   bool needs_choice() const { return eta != 1; }
+  float nearly_specular_share() const { return microfacet.is_nearly_specular() ? 1.0f : 0.0f; }
 
   ModelEval eval(const Vector3f& wo, const Vector3f& wi, Transport transport) const;
   std::optional<ModelSample> sample(const Vector3f& wo, float u, const Point2f& v,

@@ -32,6 +32,8 @@ class Microfacet {
         visible_(sample_visible) {}
 
   bool samples_visible() const { return visible_; }
+  /// Along x or y.
+  bool is_nearly_specular() const { return std::min(alpha_u_, alpha_v_) < float(kNearlySpecular); }
 
   /// Area of facets with normal m per surface area and solid angle.
   float density(const Vector3f& m) const {

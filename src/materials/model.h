@@ -49,6 +49,11 @@ inline std::optional<ModelSample> sample_from(const ModelEval& e, const Vector3f
 /// eval and sample must agree: over many samples, mean(weight · g(wi)) = ∫ f |cos| g dwi plus the
 /// delta terms. The density of the reverse direction is had by exchanging wo and wi and taking the
 /// other transport; a delta lobe is picked with the same probability from either end.
+///
+/// A model that may have nearly specular lobes also provides
+///
+///   float nearly_specular_share()                share of these in the light that its smooth lobes
+///                                                scatter, from 0 to 1; the same for all directions
 template <class M>
 concept ScatteringModel = requires(const M& m, const Vector3f& w, float u, const Point2f& v) {
   { m.eval(w, w, Transport::radiance) } -> std::same_as<ModelEval>;
@@ -57,5 +62,13 @@ concept ScatteringModel = requires(const M& m, const Vector3f& w, float u, const
   { m.has_delta() } -> std::same_as<bool>;
   { m.needs_choice() } -> std::same_as<bool>;
 };
+
+template <ScatteringModel M>
+inline float nearly_specular_share(const M& model) {
+  if constexpr (requires { model.nearly_specular_share(); })
+    return model.nearly_specular_share();
+  else
+    return 0;
+}
 
 }  // namespace duet

@@ -47,6 +47,11 @@ std::optional<ModelSample> PlasticModel::sample(const Vector3f& wo, float u, con
   return ModelSample{wi, coated_base * ((1 - fo) * (1 - fi) / (1 - p)), (1 - p) * wi.z * kInvPi};
 }
 
+float RoughPlasticModel::nearly_specular_share() const {
+  if (!microfacet.is_nearly_specular()) return 0;
+  return lobe_probability(normal_reflectance(eta), specular_weight, diffuse_weight);
+}
+
 float RoughPlasticModel::specular_probability(float transmitted) const {
   return lobe_probability(1 - transmitted, specular_weight, diffuse_weight);
 }

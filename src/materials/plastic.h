@@ -46,6 +46,7 @@ struct RoughPlasticModel {
   bool has_smooth() const { return specular_weight + diffuse_weight > 0; }
   bool has_delta() const { return false; }
   bool needs_choice() const { return specular_weight > 0 && diffuse_weight > 0; }
+  float nearly_specular_share() const;
 
   ModelEval eval(const Vector3f& wo, const Vector3f& wi, Transport) const;
   std::optional<ModelSample> sample(const Vector3f& wo, float u, const Point2f& v, Transport) const;

@@ -17,6 +17,9 @@ struct PolarizedPlasticModel {
   bool has_smooth() const { return true; }
   bool has_delta() const { return false; }
   bool needs_choice() const { return specular_probability > 0 && specular_probability < 1; }
+  float nearly_specular_share() const {
+    return microfacet.is_nearly_specular() ? specular_probability : 0.0f;
+  }
 
   ModelEval eval(const Vector3f& wo, const Vector3f& wi, Transport) const;
   std::optional<ModelSample> sample(const Vector3f& wo, float u, const Point2f& v,

@@ -36,6 +36,19 @@ Spectrum tint_of(const Spectrum& color) {
   return l > 0 ? color / l : Spectrum(1);
 }
 
+float PrincipledModel::nearly_specular_share() const {
+  const bool sharp = facets.is_nearly_specular(),
+             sharp_coat = clearcoat_alpha2 < float(sqr(kNearlySpecular));
+  if (!(sharp || (sharp_coat && clearcoat > 0))) return 0;
+  // What the lobes scatter of light along the normal.
+  const float f = normal_reflectance(eta);
+  const float specular = metallic + bsdf() + brdf() * f;
+  const float coat = 0.25f * clearcoat * normal_reflectance(1.5f);
+  const float diffuse = brdf() * (1 - f) * base_color.luminance();
+  const float all = specular + coat + diffuse;
+  return all > 0 ? ((sharp ? specular : 0.0f) + (sharp_coat ? coat : 0.0f)) / all : 0.0f;
+}
+
 PrincipledModel::Choice PrincipledModel::choice() const {
   Choice c{brdf() * diffuse_rate, 0.25f * clearcoat * clearcoat_rate, specular_rate};
   const float sum = c.diffuse + c.clearcoat + c.specular;

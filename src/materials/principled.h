@@ -43,6 +43,7 @@ struct PrincipledModel {
   bool has_smooth() const { return true; }
   bool has_delta() const { return false; }
   bool needs_choice() const { return true; }
+  float nearly_specular_share() const;
 
   ModelEval eval(const Vector3f& wo, const Vector3f& wi, Transport transport) const;
   std::optional<ModelSample> sample(const Vector3f& wo, float u, const Point2f& v,

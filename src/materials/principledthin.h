@@ -23,6 +23,10 @@ struct PrincipledThinModel {
   bool has_smooth() const { return true; }
   bool has_delta() const { return false; }
   bool needs_choice() const { return true; }
+  float nearly_specular_share() const {
+    return (facets.is_nearly_specular() ? pick_reflection : 0.0f) +
+           (transmission_facets.is_nearly_specular() ? pick_transmission : 0.0f);
+  }
 
   ModelEval eval(const Vector3f& wo, const Vector3f& wi, Transport transport) const;
   std::optional<ModelSample> sample(const Vector3f& wo, float u, const Point2f& v,

@@ -1,6 +1,7 @@
 // A diffuse base with an anisotropic glossy lobe fitted to measurements.
 #pragma once
 
+#include "materials/microfacet_kind.h"
 #include "materials/model.h"
 #include "materials/ward_variant.h"
 
@@ -20,6 +21,9 @@ struct WardModel {
   bool has_smooth() const { return !(diffuse.is_black() && specular.is_black()); }
   bool has_delta() const { return false; }
   bool needs_choice() const { return specular_probability > 0 && specular_probability < 1; }
+  float nearly_specular_share() const {
+    return std::min(alpha_u, alpha_v) < float(kNearlySpecular) ? specular_probability : 0.0f;
+  }
 
   ModelEval eval(const Vector3f& wo, const Vector3f& wi, Transport) const;
   std::optional<ModelSample> sample(const Vector3f& wo, float u, const Point2f& v,

@@ -8,16 +8,16 @@ namespace {
 
 /// Turns weights into a cumulative sum from 0 to exactly 1 in `cdf` (one entry more than weights)
 /// and its guide; returns the sum. Weights that are all zero are treated as equal.
-template <class Index>
-double accumulate(std::span<const float> weights, float* cdf, Index* guide) {
+template <class Real, class Index>
+double accumulate(std::span<const float> weights, Real* cdf, Index* guide) {
   const size_t n = weights.size();
   double sum = 0;
   for (const float w : weights) sum += double(w);
   double running = 0;
   cdf[0] = 0;
   for (size_t i = 0; i < n; ++i) {
-    running += sum > 0 ? double(weights[i]) / sum : 1.0 / double(n);
-    cdf[i + 1] = float(running);
+    running += sum > 0 ? double(weights[i]) : 1.0;
+    cdf[i + 1] = Real(running / (sum > 0 ? sum : double(n)));
   }
   // The last entry with weight closes the sum, so that no variate below 1 falls behind it.
   size_t last = n;
@@ -25,7 +25,7 @@ double accumulate(std::span<const float> weights, float* cdf, Index* guide) {
   for (size_t i = last; i <= n; ++i) cdf[i] = 1;
   size_t interval = 0;
   for (size_t k = 0; k < n; ++k) {
-    while (cdf[interval + 1] <= float(double(k) / double(n))) ++interval;
+    while (cdf[interval + 1] <= Real(double(k) / double(n))) ++interval;
     guide[k] = Index(interval);
   }
   return sum;
@@ -34,9 +34,15 @@ double accumulate(std::span<const float> weights, float* cdf, Index* guide) {
 }  // namespace
 
 DiscreteDistribution::DiscreteDistribution(std::span<const float> weights)
-    : cdf_(weights.size() + 1), guide_(weights.size()) {
+    : guide_(weights.size()) {
   assert(!weights.empty());
-  sum_ = accumulate(weights, cdf_.data(), guide_.data());
+  if (weights.size() > kMostCoarse) {
+    fine_cdf_.resize(weights.size() + 1);
+    sum_ = accumulate(weights, fine_cdf_.data(), guide_.data());
+  } else {
+    cdf_.resize(weights.size() + 1);
+    sum_ = accumulate(weights, cdf_.data(), guide_.data());
+  }
 }
 
 BilinearDistribution::BilinearDistribution(int width, int height)

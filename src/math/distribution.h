@@ -1,10 +1,13 @@
 // Discrete and piecewise distributions built from tables of weights.
 #pragma once
 
+#include <algorithm>
+#include <bit>
 #include <cstdint>
 #include <span>
 #include <vector>
 
+#include "math/hash.h"
 #include "math/vector.h"
 
 namespace duet {
@@ -13,9 +16,9 @@ namespace duet {
 /// to 1; entry i of `guide` is the interval in which i/n lies, from where the search takes a step
 /// or two on average, whatever the weights. Source: Chen & Asau, "On Generating Random Variates
 /// from an Empirical Distribution", 1974.
-template <class Index>
-inline uint32_t find_interval(const float* cdf, const Index* guide, uint32_t n, float u) {
-  const uint32_t k = uint32_t(u * float(n));
+template <class Real, class Index>
+inline uint32_t find_interval(const Real* cdf, const Index* guide, uint32_t n, Real u) {
+  const uint32_t k = uint32_t(u * Real(n));
   uint32_t i = guide[k < n ? k : n - 1];
   while (cdf[i + 1] <= u) ++i;
   while (cdf[i] > u) --i;  // the product above may have been rounded up
@@ -23,9 +26,15 @@ inline uint32_t find_interval(const float* cdf, const Index* guide, uint32_t n, 
 }
 
 /// Picks an index with probability proportional to its weight, by inversion of the cumulative sum,
-/// so that well distributed variates stay well distributed.
+/// so that well distributed variates stay well distributed. The probabilities that it tells are
+/// those with which it picks: differences of the cumulative sum, which is in double precision and
+/// met by variates of 53 bits where there are more than kMostCoarse weights.
 class DiscreteDistribution {
  public:
+  /// A variate of 24 bits makes the probability of one among n equal indices wrong by n / 2²⁴ of
+  /// it: no more than 1/4096.
+  static constexpr size_t kMostCoarse = 4096;
+
   DiscreteDistribution() = default;
   /// Weights must be finite and not negative. If they are all zero, every index gets equal weight.
   explicit DiscreteDistribution(std::span<const float> weights);
@@ -35,18 +44,37 @@ class DiscreteDistribution {
     float probability;
     float remapped;  ///< uniform in [0, 1) again, independent of the index
   };
-  Pick sample(float u) const {
-    const uint32_t i = find_interval(cdf_.data(), guide_.data(), uint32_t(guide_.size()), u);
-    const float p = cdf_[i + 1] - cdf_[i];
-    return {i, p, std::min((u - cdf_[i]) / p, 0x1.fffffep-1f)};
+  /// `others` are two numbers in [0, 1) that are used for something else besides. In large tables
+  /// the bits that u has not are a hash of them and u.
+  Pick sample(float u, const Point2f& others) const {
+    if (!fine_cdf_.empty()) return pick(fine_cdf_, fine_variate(u, others));
+    return pick(cdf_, u);
   }
-  float probability(uint32_t index) const { return cdf_[index + 1] - cdf_[index]; }
+  float probability(uint32_t index) const {
+    return fine_cdf_.empty() ? cdf_[index + 1] - cdf_[index]
+                             : float(fine_cdf_[index + 1] - fine_cdf_[index]);
+  }
   size_t size() const { return guide_.size(); }
   /// Sum of the weights as they were given.
   double sum() const { return sum_; }
 
  private:
-  std::vector<float> cdf_;
+  template <class Real>
+  Pick pick(const std::vector<Real>& cdf, Real u) const {
+    const uint32_t i = find_interval(cdf.data(), guide_.data(), uint32_t(guide_.size()), u);
+    const Real p = cdf[i + 1] - cdf[i];
+    return {i, float(p), std::min(float((u - cdf[i]) / p), 0x1.fffffep-1f)};
+  }
+  /// The 24 bits of u, and 29 more.
+  static double fine_variate(float u, const Point2f& others) {
+    const uint64_t both =
+        uint64_t(std::bit_cast<uint32_t>(others.x)) << 32 | std::bit_cast<uint32_t>(others.y);
+    const uint64_t more = hash_combine(std::bit_cast<uint32_t>(u), both) >> 35;
+    return double(u) + double(more) * 0x1p-53;
+  }
+
+  std::vector<float> cdf_;        ///< of up to kMostCoarse weights
+  std::vector<double> fine_cdf_;  ///< of more
   std::vector<uint32_t> guide_;
   double sum_ = 0;
 };
@@ -94,7 +122,7 @@ class BilinearDistribution {
   };
   template <class Node>
   Sample sample(const Point2f& u, const Node& node) const {
-    const auto row = rows_.sample(u.y);
+    const auto row = rows_.sample(u.y, u);
     const uint32_t n = uint32_t(width_) - 1;
     const float* cdf = &conditional_[size_t(row.index) * uint32_t(width_)];
     const uint32_t i = find_interval(cdf, &guides_[size_t(row.index) * n], n, u.x);

@@ -82,7 +82,7 @@ PdfW Tabulated::eval(const Point3f&, const Vector3f& wo, const Vector3f& wi) con
 }
 
 PhaseSample Tabulated::sample(const Point3f&, const Vector3f& wo, float, const Point2f& v) const {
-  const auto pick = intervals_.sample(v.y);
+  const auto pick = intervals_.sample(v.y, v);
   const float a = density_[pick.index], b = density_[pick.index + 1];
   const float f = sample_linear(pick.remapped, a, b);
   const float cosine =

@@ -128,6 +128,7 @@ Shape SceneBuilder::geometry(ShapeDescription& d, const SurfaceNeeds& needs) {
     if (!has_finite_positions(*mesh))
       diagnostics_.error(d.where, "the transform moves vertices beyond the range of numbers");
     strip(*mesh, shape.needs, shape_textures_);
+    if (use_ == AccelUse::moving) movable_meshes_[scene_->shapes.size()] = mesh;
     shape.mesh = std::move(mesh);
   }
   if (!shape.mesh && !shape.curves) {

@@ -195,6 +195,8 @@ class SceneBuilder {
   std::vector<Emission> emissions_;
   /// Per light of the scene.
   std::vector<double> sampling_weights_;
+  /// The meshes of shapes by their index in the scene, if place_shape() may move them.
+  std::map<size_t, std::shared_ptr<TriangleMesh>> movable_meshes_;
   /// What place_shape() and place_instance() have moved, as Accel::update() needs it.
   std::vector<uint32_t> moved_shapes_, moved_instances_;
 };

@@ -4,6 +4,7 @@
 
 #include <set>
 
+#include "materials/microfacet_kind.h"
 #include "scene/description.h"
 
 namespace duet {

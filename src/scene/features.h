@@ -11,9 +11,6 @@ namespace duet {
 struct SceneDescription;
 struct ShapeDescription;
 
-/// Roughness α below which reflections are so sharp that what lies behind them is hard to find.
-inline constexpr double kNearlySpecular = 0.05;
-
 /// Counts of the things that are used. What an instanced group holds counts once, however often it
 /// is placed.
 struct SceneFeatures {

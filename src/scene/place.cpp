@@ -17,9 +17,8 @@ void SceneBuilder::place_shape(uint32_t index, const Matrix4& to_world, const Tr
   if (local) {
     TriangleMesh moved = *local;
     transform_mesh(moved, to_world);
-    // The scene's mesh was made by world_mesh(), and not made const. Its arrays stay where they
-    // are.
-    auto& mesh = const_cast<TriangleMesh&>(*shape.mesh);
+    // The arrays stay where they are.
+    TriangleMesh& mesh = *movable_meshes_.at(index);
     std::copy(moved.positions.begin(), moved.positions.end(), mesh.positions.begin());
     if (!mesh.normals.empty()) mesh.normals = std::move(moved.normals);
   } else {

@@ -1,4 +1,5 @@
-// The scene as it is rendered: immutable once built.
+// The scene as it is rendered: immutable once built, except that one that moves is posed for every
+// sample by the one render that holds its MotionLease.
 #pragma once
 
 #include <memory>
@@ -52,7 +53,8 @@ struct Scene {
   bool has_passable_surfaces = false;
   std::unique_ptr<Accel> accel;
   SceneFeatures features;  ///< of the description that this was built from
-  /// Moves the scene between passes; null if it stands still while the shutter is open.
+  /// Moves the scene between passes, for one render at a time (MotionLease); null if it stands
+  /// still while the shutter is open.
   std::shared_ptr<SceneMotion> motion;
 
   Scene() = default;

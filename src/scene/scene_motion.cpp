@@ -1,5 +1,6 @@
 #include "scene/scene_motion.h"
 
+#include <stdexcept>
 #include <utility>
 
 #include "scene/builder.h"
@@ -86,6 +87,21 @@ void SceneMotion::pose(double share) {
     }
   }
   builder_->settle();
+}
+
+MotionLease::MotionLease(SceneMotion* motion) : motion_(motion) {
+  if (!motion) return;
+  std::thread::id holder;
+  if (motion->holder_.compare_exchange_strong(holder, std::this_thread::get_id())) return;
+  if (holder != std::this_thread::get_id())
+    throw std::runtime_error(
+        "the scene moves while its shutter is open and is being rendered already: only one render "
+        "at a time can move it (build the scene once more for another)");
+  motion_ = nullptr;
+}
+
+MotionLease::~MotionLease() {
+  if (motion_) motion_->holder_.store({});
 }
 
 }  // namespace duet

@@ -1,7 +1,9 @@
 // Moves a scene through the time that the shutter is open.
 #pragma once
 
+#include <atomic>
 #include <memory>
+#include <thread>
 #include <vector>
 
 #include "scene/description.h"
@@ -27,7 +29,7 @@ struct Mover {
 /// A shape that neither shines nor measures becomes an instance, which is fast to move.
 std::vector<Mover> take_movers(SceneDescription& description, size_t sensor);
 
-/// Poses a scene. To be used between passes only, from one thread.
+/// Poses a scene. To be used between passes only, from one thread, by who holds a MotionLease.
 class SceneMotion {
  public:
   /// `builder` has built the scene without errors, from what take_movers() left.
@@ -39,10 +41,28 @@ class SceneMotion {
   void pose(double share);
 
  private:
+  friend class MotionLease;
   std::shared_ptr<SceneBuilder> builder_;
   std::vector<Mover> movers_;
   double open_, close_;
-  double share_ = 0.5;  ///< where everything is
+  double share_ = 0.5;                     ///< where everything is
+  std::atomic<std::thread::id> holder_{};  ///< of the lease, if any
+};
+
+/// The right to pose a scene and to look at it, while it lives: one thread at a time has it, which
+/// renders one sample after the other. Of a scene that stands still, whose motion is null,
+/// everybody may have one.
+class MotionLease {
+ public:
+  /// A thread that has a lease may take further ones. Throws std::runtime_error if another thread
+  /// has one.
+  explicit MotionLease(SceneMotion* motion);
+  ~MotionLease();
+  MotionLease(const MotionLease&) = delete;
+  MotionLease& operator=(const MotionLease&) = delete;
+
+ private:
+  SceneMotion* motion_;  ///< to be given back; null if there is nothing to give back
 };
 
 }  // namespace duet

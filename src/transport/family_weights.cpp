@@ -30,6 +30,7 @@ void FamilyWeights::take_light(Path& path, int m, const JoinEnd& end) const {
                           : i == m - 1 ? double(end.beyond) * double(light_[size_t(m)].back)
                                        : double(v.reverse);
     path.specular[size_t(i)] = i < m && v.specular;
+    path.merges[size_t(i)] = i < m ? v.merges : end.merges;
   }
 }
 
@@ -42,6 +43,7 @@ void FamilyWeights::take_eye(Path& path, int n, const JoinEnd& end) const {
                     : j == n - 1 ? double(end.beyond) * double(eye_[size_t(n)].back)
                                  : double(v.reverse);
     path.specular[i] = j < n && v.specular;
+    path.merges[i] = j < n ? v.merges : end.merges;
   }
 }
 
@@ -53,11 +55,12 @@ float FamilyWeights::weigh(const Path& path, int s, bool merges) const {
   const auto joins = [&](int i) {  // the two ends between vertex i and the next
     return (i == 0 || smooth(i)) && (i == last || smooth(i + 1));
   };
-  int first = last;  // smooth vertex, seen from the eye
-  while (first >= 1 && !smooth(first)) --first;
+  const auto merges_at = [&](int i) { return smooth(i) && path.merges[size_t(i)]; };
+  int first = last;  // seen from the eye
+  while (first >= 1 && !merges_at(first)) --first;
   Sums sums;
   const auto add_merge = [&](int i, double density) {
-    if (smooth(i)) sums.merges += density * eta_;
+    if (merges_at(i)) sums.merges += density * eta_;
     if (i == first) sums.first_merge = density * eta_;
   };
   double own = 0;
@@ -114,6 +117,7 @@ float FamilyWeights::hit(const Walk& walk, float direct, float emission) const {
     const size_t i = size_t(n + 1 - j);
     path.light[i] = double(eye_[size_t(j)].reverse);
     path.specular[i] = eye_[size_t(j)].specular;
+    path.merges[i] = eye_[size_t(j)].merges;
   }
   path.found = double(walk.forward);
   path.direct = double(direct);
@@ -152,8 +156,8 @@ float FamilyWeights::merge(const LightVertex& light, float light_reverse, const 
   const int m = int(light.depth), n = eye.depth;
   Path& path = start(m + n - 1);
   const TrailVertex& common = eye_[size_t(n)];
-  take_light(path, m, {common.forward, light_reverse});
-  take_eye(path, n - 1, {eye_reverse * common.back, 0});
+  take_light(path, m, {common.forward, light_reverse, true});
+  take_eye(path, n - 1, {eye_reverse * common.back, 0, eye_[size_t(n - 1)].merges});
   // Seen from the merge, the last vertex and the one before are as recorded.
   if (n > 1) path.specular[size_t(path.count + 2 - n)] = eye_[size_t(n - 1)].specular;
   if (n > 2) path.light[size_t(path.count + 3 - n)] = double(eye_[size_t(n - 2)].reverse);

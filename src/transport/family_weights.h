@@ -16,7 +16,8 @@ struct FamilyShares {
   float light_image = 0;     ///< t = 1
   float connections = 0;     ///< s, t >= 2
   float merges = 0;
-  /// Of these the one at the first vertex from the eye that does not scatter by a delta lobe.
+  /// Of these the one at the first vertex from the eye at which photons are merged and that does
+  /// not scatter by a delta lobe.
   float first_merge = 0;
 };
 
@@ -54,7 +55,7 @@ class FamilyWeights {
     /// per solid angle; and that of both vertices for a light walk.
     double found = 0, direct = 0, emitted = 0;
     std::array<double, kMostVertices> light{}, eye{};  ///< area densities; light[1] has no meaning
-    std::array<bool, kMostVertices> specular{};
+    std::array<bool, kMostVertices> specular{}, merges{};
   };
   Path& start(int count) const;
   /// Vertices 1 … m of the light walk, seen from the vertex beyond by `end`.

@@ -94,7 +94,7 @@ inline Join join_light(const Scene& scene, const Weights& weights, const Vertex&
                        RenderCounters& counters, [[maybe_unused]] RandomStream* random = nullptr) {
   const Point2f u = sampler.next_2d();
   const LightPicker::Pick pick =
-      scene.picker.size() == 1 ? LightPicker::Pick{0, 1} : scene.picker.pick(sampler.next_1d());
+      scene.picker.size() == 1 ? LightPicker::Pick{0, 1} : scene.picker.pick(sampler.next_1d(), u);
   const Light& light = *scene.lights[pick.light];
   const auto sample = light.sample_direct(eye.position(), u);
   if (!sample || (strict_normals && eye.has_two_sides(sample->wi))) return {};
@@ -106,6 +106,7 @@ inline Join join_light(const Scene& scene, const Weights& weights, const Vertex&
   const float hit = sample->delta ? 0.0f : f.pdf.value;
   JoinEnd eye_end{sample->emission * eye.cosine(sample->wi) / direct,
                   eye.reverse_pdf(sample->wi, Transport::radiance)};
+  eye_end.merges = eye.merges(f.pdf.value, eye_end.beyond);
   Join join{eye.throughput * f.value * sample->weight * (1 / pick.probability),
             weights.light_sample(eye, direct * pick.probability, hit, eye_end)};
   const float kept = roulette.keep(join.value * join.weight);
@@ -177,7 +178,8 @@ inline std::optional<CameraJoin> join_camera(const Scene& scene, const Weights& 
   if (f.value.is_black()) return std::nullopt;
   const float adjoint = light.adjoint(seen->direction);
   if (!(adjoint > 0)) return std::nullopt;
-  JoinEnd light_end{seen->importance * light.cosine(seen->direction), f.reverse.value};
+  JoinEnd light_end{seen->importance * light.cosine(seen->direction), f.reverse.value,
+                    light.merges(f.pdf.value, f.reverse.value)};
   Join join{light.throughput * f.value * (adjoint * seen->importance),
             camera_weight(weights, light, light_end, seen->film)};
   const float kept = roulette.keep(join.value * join.weight);
@@ -219,8 +221,10 @@ inline Join join_ends(const Scene& scene, const Weights& weights, const Vertex& 
   const float adjoint = light.adjoint(-to_light);
   if (!(adjoint > 0)) return fails(counters.connections.failed_zero);
   const float inverse_d2 = 1 / d2;
-  JoinEnd light_end{f.pdf.value * light.cosine(to_light) * inverse_d2, g.reverse.value};
-  JoinEnd eye_end{g.pdf.value * eye.cosine(to_light) * inverse_d2, f.reverse.value};
+  JoinEnd light_end{f.pdf.value * light.cosine(to_light) * inverse_d2, g.reverse.value,
+                    light.merges(g.pdf.value, g.reverse.value)};
+  JoinEnd eye_end{g.pdf.value * eye.cosine(to_light) * inverse_d2, f.reverse.value,
+                  eye.merges(f.pdf.value, f.reverse.value)};
   Join join{eye.throughput * f.value * light.throughput * g.value * (adjoint * inverse_d2),
             weights.connection(light, light_end, eye, eye_end)};
   const float kept = roulette.keep(join.value * join.weight);
@@ -253,7 +257,7 @@ inline Join join_merge(const Weights& weights, const LightVertex& light, const P
   const float cosine = eye.cosine(wi);
   if (!(cosine > 0) || (strict_normals && sides_differ(eye.surface, wi))) return {};
   const BsdfPair f = eye.bsdf.eval_both_ways(wi, Transport::radiance);
-  if (f.value.is_black()) return {};
+  if (f.value.is_black() || !eye.merges(f.pdf.value, f.reverse.value)) return {};
   return {eye.throughput * f.value * light.throughput * (kernel / cosine),
           weights.merge(light, f.pdf.value, eye, f.reverse.value)};
 }

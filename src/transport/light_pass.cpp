@@ -61,7 +61,8 @@ void LightPass::trace(const Scene& scene, const LightPassPlan& plan, const Weigh
         if (seen)
           block.splats.push_back({{seen->film, seen->join.value}, seen->join.weight, v.depth});
       }
-      if (plan.keep_vertices) block.vertices.vertices.emplace_back(v, hit);
+      if (plan.keep_vertices && (plan.set.connections || v.merges()))
+        block.vertices.vertices.emplace_back(v, hit);
     };
     const int length = trace_light_walk<Vertex>(scene, plan.set, plan.walk, plan.max_depth, sampler,
                                                 block.counters, trail, visit, ~key ^ kMediaStream);

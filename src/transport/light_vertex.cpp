@@ -29,7 +29,8 @@ LightVertex::LightVertex(const PathVertex& v, const Hit& hit)
       primitive(hit.primitive),
       instance(hit.instance),
       barycentric{0, 0},
-      depth(uint32_t(v.depth)) {
+      depth(uint16_t(v.depth)),
+      merges(v.merges()) {
   if (const ShapeKind kind = v.surface.shape->kind;
       kind == ShapeKind::mesh || kind == ShapeKind::curves) {
     barycentric[0] = quantize_unit(v.surface.barycentric.x);
@@ -51,7 +52,8 @@ LightVertex::LightVertex(const MediaVertex& v, const Hit& hit) {
   const auto address = std::bit_cast<std::array<uint32_t, 2>>(v.medium);
   primitive = address[0], instance = address[1];
   barycentric[0] = barycentric[1] = 0;
-  depth = uint32_t(v.depth);
+  depth = uint16_t(v.depth);
+  merges = false;
   set_direction_to_previous(v.wo);
 }
 

@@ -16,7 +16,8 @@ struct LightVertex {
   uint32_t shape, primitive, instance;
   uint32_t wo[2];           ///< octahedral, 32 bits per coordinate
   uint16_t barycentric[2];  ///< for what is interpolated; the position is exact
-  uint32_t depth;
+  uint16_t depth;
+  bool merges;  ///< whether photons are merged there
 
   LightVertex() = default;
   LightVertex(const PathVertex& v, const Hit& hit);

@@ -36,7 +36,7 @@ struct LightStart {
 inline std::optional<LightStart> start_light_walk(const Scene& scene, Sampler& sampler) {
   const float choice = sampler.next_1d();
   const Point2f position = sampler.next_2d(), direction = sampler.next_2d();
-  const LightPicker::Pick pick = scene.picker.pick(choice);
+  const LightPicker::Pick pick = scene.picker.pick(choice, position);
   const Light& light = *scene.lights[pick.light];
   const auto e = light.sample_emission(position, direction);
   if (!e || !(pick.probability > 0)) return std::nullopt;

@@ -36,7 +36,10 @@ struct MediaVertex : PathVertex {
   /// What makes densities per solid angle densities per area, or per volume.
   float cosine(const Vector3f& w) const { return in_medium ? extinction : PathVertex::cosine(w); }
   bool is_smooth() const { return in_medium || PathVertex::is_smooth(); }
-  bool merges() const { return !in_medium; }
+  bool merges() const { return !in_medium && PathVertex::merges(); }
+  bool merges(float pdf, float reverse) const {
+    return !in_medium && PathVertex::merges(pdf, reverse);
+  }
   BsdfEval eval(const Vector3f& w, Transport transport) const {
     if (!in_medium) return PathVertex::eval(w, transport);
     const PdfW f = medium->phase().eval(position(), wo, w);
@@ -133,11 +136,10 @@ inline bool scatter_in_medium(const MediaVertex& v, const TechniqueSet& set,
   walk.throughput = v.throughput;
   if (!survives(v.depth, options, sampler, walk)) return false;
   const float reverse = phase.eval(v.position(), s.wi, v.wo).value;
-  walk.partials = leave(v.partials, {s.pdf.value, reverse, v.extinction}, 0.0f,
-                        set.walk_connection_term(), 0.0f);
+  walk.partials = leave(v.partials, {s.pdf.value, reverse, v.extinction}, set, false);
   walk.forward = s.pdf.value;
-  walk.specular = walk.from_specular = false;
-  record_departure(walk, reverse, false);
+  walk.from_specular = false;
+  record_departure(walk, reverse, false, false);
   walk.cosine_out = v.extinction;
   walk.from = v.position();
   walk.transmittance = 1;

@@ -66,6 +66,13 @@ inline Partials leave(const Partials& at, const Departure& d, float merge_term,
           to_next * (merges + at.vcm * connection_term + d.reverse * at.vm)};
 }
 
+/// The same where photons are merged if the method merges, or else never.
+inline Partials leave(const Partials& at, const Departure& d, const TechniqueSet& set,
+                      bool merges) {
+  return leave(at, d, merges ? set.merge_term() : 0.0f, set.walk_connection_term(),
+               merges ? set.walk_merges() : 0.0f);
+}
+
 /// The same through a delta lobe. `jacobian` is the solid angle of directions that arrive per solid
 /// angle of directions that leave: |cos θ_in| n_in² / (|cos θ_out| n_out²), 1 for reflection. The
 /// lobe is picked with the same probability from both ends.
@@ -87,6 +94,7 @@ inline Partials arrive(const Partials& p, float d2, float cosine, float connecti
 struct JoinEnd {
   float arrival;  ///< area density with which the other end's walk would have made this vertex
   float beyond;   ///< density per solid angle with which it would have gone on to the one before
+  bool merges = false;  ///< whether photons may be merged at this vertex of the path
 };
 
 /// Relative density of all techniques that take vertices away from this end.

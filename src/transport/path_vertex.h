@@ -35,7 +35,9 @@ struct PathVertex {
   /// Whether the vertex can be joined with others.
   bool is_smooth() const { return bsdf.has_smooth(); }
   /// Whether photons can be merged with it.
-  static constexpr bool merges() { return true; }
+  bool merges() const { return bsdf.merges(); }
+  /// The same for light that is scattered with these densities; see Bsdf::merges().
+  bool merges(float pdf, float reverse) const { return bsdf.merges(pdf, reverse); }
   BsdfEval eval(const Vector3f& w, Transport transport) const { return bsdf.eval(w, transport); }
   BsdfPair eval_both_ways(const Vector3f& w, Transport transport) const {
     return bsdf.eval_both_ways(w, transport);

@@ -11,6 +11,7 @@ struct TrailVertex {
   float back;     ///< |cos| at the previous vertex over the squared distance: what makes a density
                   ///< per solid angle here one per area there (media: see arrive() in mis.h)
   bool specular;  ///< left by a delta lobe
+  bool merges = false;  ///< photons are merged there
 };
 
 /// Vertex 0 is on the light or on the lens; only those between them have all entries.

@@ -18,6 +18,9 @@ namespace duet {
 /// bucket by index.
 class VertexGrid {
  public:
+  /// The position of a point that is to be left out.
+  static Point3f nowhere() { return Point3f(INFINITY); }
+
   /// Sorts `count` points; `position(i)` yields the i-th, and is called several times and on
   /// several threads. Points that are not finite are left out. `radius` is positive, and its square
   /// a normal number. The result is the same for any number of threads. Memory is kept for the next

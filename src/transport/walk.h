@@ -23,7 +23,7 @@ struct Walk {
   Point3f from{};             ///< the last vertex
   bool from_specular = true;  ///< it was left by a delta lobe, or is on the lens
   float cosine_out = 1;       ///< |cos| with which the last vertex was left
-  bool specular = true;       ///< only delta lobes so far
+  bool unmerged = true;       ///< nothing so far could have been merged (Bsdf::merges())
   float forward = 0;          ///< density per solid angle of the ray
   Trail* trail = nullptr;     ///< filled if not null
 };
@@ -49,10 +49,10 @@ inline Partials first_eye_partials(const Scene& scene, const Ray& camera_ray, co
 }
 
 /// Records that the last vertex was left, by which the one before learns its reverse density.
-inline void record_departure(Walk& walk, float reverse, bool specular) {
+inline void record_departure(Walk& walk, float reverse, bool specular, bool merges) {
   if (!walk.trail) return;
   Trail& trail = *walk.trail;
-  trail.back().specular = specular;
+  trail.back().specular = specular, trail.back().merges = merges;
   if (trail.size() > 1) trail[trail.size() - 2].reverse = reverse * trail.back().back;
 }
 
@@ -101,14 +101,14 @@ inline bool scatter_on_surface(const PathVertex& v, const TechniqueSet& set,
     const float jacobian = s->eta == 1 ? 1.0f : in / (out * s->eta * s->eta);
     walk.partials = leave_specular(v.partials, cosine_out, jacobian);
     walk.forward = 1;
-    record_departure(walk, jacobian, true);
+    record_departure(walk, jacobian, true, false);
   } else {
     const float reverse = v.bsdf.reverse_pdf(s->wi, transport).value;
-    walk.partials = leave(v.partials, {s->pdf.value, reverse, cosine_out}, set.merge_term(),
-                          set.walk_connection_term(), set.walk_merges());
+    const bool merges = v.merges(s->pdf.value, reverse);
+    walk.partials = leave(v.partials, {s->pdf.value, reverse, cosine_out}, set, merges);
     walk.forward = s->pdf.value;
-    walk.specular = false;
-    record_departure(walk, reverse, false);
+    walk.unmerged &= !merges;
+    record_departure(walk, reverse, false, merges);
   }
   walk.cosine_out = cosine_out;
   walk.from = v.position();

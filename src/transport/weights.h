@@ -6,6 +6,25 @@
 
 namespace duet {
 
+/// Path tracing: light is found by rays and by light samples.
+struct PathWeights {
+  float hit(const Walk& walk, float direct, float) const {
+    return walk.from_specular ? 1.0f : walk.forward / (walk.forward + direct);
+  }
+  template <class Vertex>
+  float light_sample(const Vertex&, float direct, float bsdf, const JoinEnd&) const {
+    return direct / (direct + bsdf);
+  }
+};
+
+/// The same for methods that merge all light but what no photon may be merged for.
+struct PhotonWeights : PathWeights {
+  template <class Vertex>
+  float light_sample(const Vertex& eye, float direct, float bsdf, const JoinEnd& eye_end) const {
+    return eye_end.merges ? 0.0f : PathWeights::light_sample(eye, direct, bsdf, eye_end);
+  }
+};
+
 /// The balance heuristic over all techniques of a set, by running sums. With `merging` false they
 /// are those of a pixel in which a partly merged method does not merge.
 class BalanceWeights {
@@ -13,16 +32,19 @@ class BalanceWeights {
   explicit BalanceWeights(const TechniqueSet& set, bool merging = true)
       : partly_merged_(set.partly_merged),
         unmerged_(set.partly_merged && !merging),
+        photons_(set.merges && !set.light_samples),
         merge_term_(unmerged_ ? 0.0f : set.merge_term()),
         connection_term_(set.connection_term()),
         share_(set.connection_share),
         camera_scale_(set.connection_share / set.light_paths) {}
 
   float hit(const Walk& walk, float direct, float emission) const {
+    if (photons_) return PhotonWeights().hit(walk, direct, emission);
     return 1 / (1 + direct * walk.partials.vcm + share_ * emission * connections(walk.partials));
   }
   template <class Vertex>
   float light_sample(const Vertex& eye, float direct, float bsdf, const JoinEnd& eye_end) const {
+    if (photons_) return PhotonWeights().light_sample(eye, direct, bsdf, eye_end);
     return 1 / (1 + bsdf / direct + share_ * beyond(eye, eye_end));
   }
   template <class Vertex>
@@ -44,7 +66,7 @@ class BalanceWeights {
   template <class Vertex>
   float beyond(const Vertex& v, const JoinEnd& end) const {
     return beyond_end({v.partials.vcm, connections(v.partials), 0}, end,
-                      v.merges() ? merge_term_ : 0.0f);
+                      end.merges ? merge_term_ : 0.0f);
   }
   float connections(const Partials& p) const { return unmerged_ ? p.vm : p.vc; }
   Partials merges(const Partials& p) const {
@@ -52,6 +74,7 @@ class BalanceWeights {
   }
 
   bool partly_merged_, unmerged_;
+  bool photons_;  ///< rays find lights and light samples are taken only where nothing is merged
   float merge_term_, connection_term_, share_, camera_scale_;
 };
 
@@ -71,10 +94,8 @@ class MaskedWeights {
   const MergeMask& mask_;
 };
 
-/// For methods in which each path can be made in one way only.
-struct UnitWeights {
-  float hit(const Walk&, float, float) const { return 1; }
-  float light_sample(const PathVertex&, float, float, const JoinEnd&) const { return 1; }
+/// For methods in which each path can be made in one way only, or as PhotonWeights have it.
+struct UnitWeights : PhotonWeights {
   float camera(const PathVertex&, const JoinEnd&) const { return 1; }
   float connection(const PathVertex&, const JoinEnd&, const PathVertex&, const JoinEnd&) const {
     return 1;

@@ -3,9 +3,11 @@
 
 #include <algorithm>
 #include <atomic>
+#include <thread>
 
 #include "image/image_io.h"
 #include "image/tile_test.h"
+#include "scene/scene_motion.h"
 #include "support/statistics.h"
 #include "support/transport_scene.h"
 
@@ -389,4 +391,48 @@ TEST_CASE("moving scenes do not depend on threads, and every limit stops them") 
   };
   r = duet::render(*scene.scene, *integrator, scene.layout, request);
   CHECK(r.interrupted);
+}
+
+TEST_CASE("a scene that moves is refused to a second render at the same time") {
+  const TransportScene scene(kMovingCamera + kRoom + kLamp + kMovingInstance, "0.6.0");
+  SceneMotion* const motion = scene.scene->motion.get();
+  REQUIRE(motion);
+  const auto in_another_thread = [&](const auto& use) {
+    std::string message;
+    std::thread([&] {
+      try {
+        use();
+      } catch (const std::runtime_error& e) {
+        message = e.what();
+      }
+    }).join();
+    return message;
+  };
+  const auto begin = [&] { scene.method("auto", {})->begin(*scene.scene, {{8, 8}, 1, 1}); };
+  // What another render does, in the middle of one.
+  std::string from_begin, from_render;
+  RenderRequest request;
+  request.budget.spp = 2;
+  request.wants_snapshot = [] { return true; };
+  request.snapshot = [&](const RenderResult&) {
+    from_begin = in_another_thread(begin);
+    from_render = in_another_thread([&] { scene.render("path", {}, 1, 1, 1); });
+  };
+  const auto integrator = scene.method("auto", {});
+  const Image image = duet::render(*scene.scene, *integrator, scene.layout, request).image;
+  for (const std::string& message : {from_begin, from_render})
+    CHECK(
+        message.starts_with("the scene moves while its shutter is open and is being rendered "
+                            "already"));
+  CHECK(image.data == scene.render("auto", {}, 2, 0, 1).image.data);
+  {
+    const MotionLease lease(motion), again(motion);
+    CHECK(!in_another_thread(begin).empty());
+    CHECK(scene.render("path", {}, 1, 1, 1).spp == 1);
+    CHECK(!in_another_thread(begin).empty());
+  }
+  CHECK(in_another_thread(begin).empty());
+  // Scenes that stand still are anybody's.
+  const MotionLease still(nullptr);
+  CHECK(in_another_thread([] { const MotionLease other(nullptr); }).empty());
 }

@@ -48,7 +48,7 @@ TEST_CASE("lights are chosen by power, but none that shines is forgotten") {
   for (uint32_t i = 0; i < 4; ++i) sum += picker.probability(i);
   CHECK(sum == doctest::Approx(1));
   for (int i = 0; i < 1000; ++i) {
-    const auto pick = picker.pick((float(i) + 0.5f) / 1000);
+    const auto pick = picker.pick((float(i) + 0.5f) / 1000, {});
     CHECK(pick.probability == picker.probability(pick.light));
     CHECK(pick.light < 3);
   }
@@ -84,6 +84,6 @@ TEST_CASE("lights that are all dark, or alone, can still be picked") {
   one.point(0);
   const LightPicker alone(selection_weights(one.lights, one.factors, 1));
   CHECK(alone.probability(0) == 1);
-  CHECK(alone.pick(0.7f).light == 0);
+  CHECK(alone.pick(0.7f, {}).light == 0);
   CHECK(LightPicker(std::vector<float>{}).size() == 0);
 }

@@ -27,14 +27,19 @@ std::vector<std::string> scenes() {
   const std::string sun =
       "<emitter type='directional'><vector name='direction' value='0.2, 1, -0.4'/></emitter>";
   const std::string lamp = lamp_xml("0.3", "12");
+  const std::string sharp =
+      sphere_xml("0.5, 0, 0.4", "0.4",
+                 "<bsdf type='roughconductor'><float name='alpha' value='0.04'/></bsdf>") +
+      sphere_xml("-0.4, 0, 0.4", "0.4",
+                 "<bsdf type='roughdielectric'><float name='alpha' value='0.03'/></bsdf>");
   return {camera + walls + lamp + glass, camera + walls + point + metal + glass,
-          camera + walls + sun + sky + metal,
+          camera + walls + lamp + point + sharp, camera + walls + sun + sky + metal,
           camera + room_xml("<bsdf type='plastic'/>") + lamp + glass};
 }
 
 /// The weight of a join, and the shares of families if they are known. Techniques: `u` path
-/// tracing, `c` seen from the camera, `v` connection, `f` merge at the first vertex that does not
-/// scatter by a delta lobe, `m` later merge.
+/// tracing, `c` seen from the camera, `v` connection, `f` merge where FamilyShares::first_merge is,
+/// `m` later merge.
 struct Observation {
   char technique;
   float weight;
@@ -130,11 +135,13 @@ std::vector<Observation> observe(const Scene& scene, const TechniqueSet& set, ui
       for (const PathVertex& l : light)
         note('v', join_ends(scene, weights, l, v, false, roulette, counters));
       // How far the two vertices are apart does not matter to the weight.
-      for (const LightVertex& l : packed) note(merge, join_merge(weights, l, v, 1, false));
+      if (v.merges())
+        for (const LightVertex& l : packed)
+          if (l.merges) note(merge, join_merge(weights, l, v, 1, false));
     }
     sampler.start_dimension(8 * uint32_t(depth));
     if (!scatter<Transport::radiance>(v, set, {1000, false}, sampler, walk)) break;
-    if (!walk.specular) merge = 'm';
+    if (!walk.unmerged) merge = 'm';
   }
   return all;
 }

@@ -18,6 +18,7 @@ struct RandomPath {
   std::vector<float> cos_light, cos_eye;      ///< at x_i, towards x_{i-1} and x_{i+1}
   std::vector<float> d2;                      ///< between x_i and x_{i+1}
   std::vector<bool> specular;
+  std::vector<bool> merges;  ///< whether photons are merged at x_i, if anywhere
   float direct, emission, importance;
   bool light_can_be_hit;
 
@@ -27,6 +28,7 @@ struct RandomPath {
     };
     for (int i = 0; i <= k; ++i) {
       specular.push_back(i > 0 && i < k && r.next_1d() < 0.25f);
+      merges.push_back(r.next_1d() < 0.7f);
       // Through a delta lobe the two densities are one and the Jacobian.
       sigma_light.push_back(specular.back() ? 1.0f : log_uniform(0.01f, 30));
       sigma_eye.push_back(specular.back() ? log_uniform(0.4f, 2.5f) : log_uniform(0.01f, 30));
@@ -72,7 +74,8 @@ struct Densities {
       sum += d;
     }
     for (int i = 1; i < x.k; ++i) {
-      double d = set.merges && x.joinable(i) ? double(set.light_paths) * double(set.merge_area) : 0;
+      const bool merged = set.merges && x.joinable(i) && x.merges[size_t(i)];
+      double d = merged ? double(set.light_paths) * double(set.merge_area) : 0;
       for (int j = 1; j <= i; ++j) d *= x.p(j);
       for (int j = i; j < x.k; ++j) d *= x.q(j);
       merges.push_back(d);
@@ -93,8 +96,7 @@ struct Sums {
       const float forward = to_light ? x.sigma_eye[v] : x.sigma_light[v];
       const float reverse = to_light ? x.sigma_light[v] : x.sigma_eye[v];
       return x.specular[v] ? leave_specular(at, out, reverse / forward)
-                           : leave(at, {forward, reverse, out}, set.merge_term(),
-                                   set.walk_connection_term(), set.walk_merges());
+                           : leave(at, {forward, reverse, out}, set, x.merges[v]);
     };
     const float scale = 1 / (x.emission * x.cos_light[1] * set.connection_share);
     light[1].vcm = x.direct * scale;
@@ -140,7 +142,7 @@ double check_path(const RandomPath& x, const TechniqueSet& set, bool merging,
   }
   if (expected.joins[1] > 0) {
     // Reverse density at x_1 of going on to x_2.
-    const JoinEnd end{x.emission * x.cos_light[1] / x.direct, x.sigma_light[1]};
+    const JoinEnd end{x.emission * x.cos_light[1] / x.direct, x.sigma_light[1], x.merges[1]};
     compare(double(weights.light_sample(at(sums.eye[1]), x.direct,
                                         x.light_can_be_hit ? x.sigma_eye[1] : 0.0f, end)),
             expected.joins[1]);
@@ -148,12 +150,12 @@ double check_path(const RandomPath& x, const TechniqueSet& set, bool merging,
   for (int s = 2; s <= x.k; ++s) {
     if (!(expected.joins[size_t(s)] > 0)) continue;
     const size_t y = size_t(s - 1), z = size_t(s);
-    const JoinEnd light_end{float(x.q(s - 1)), x.sigma_eye[y]};
+    const JoinEnd light_end{float(x.q(s - 1)), x.sigma_eye[y], x.merges[y]};
     if (s == x.k) {
       compare(double(weights.camera(at(sums.light[y]), light_end)), expected.joins[size_t(s)]);
       continue;
     }
-    const JoinEnd eye_end{float(x.p(s)), x.sigma_light[z]};
+    const JoinEnd eye_end{float(x.p(s)), x.sigma_light[z], x.merges[z]};
     compare(double(weights.connection(at(sums.light[y]), light_end, at(sums.eye[z]), eye_end)),
             expected.joins[size_t(s)]);
   }
