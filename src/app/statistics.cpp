@@ -1,23 +1,12 @@
 #include "app/statistics.h"
 
-#include <sys/resource.h>
-
 #include <nlohmann/json.hpp>
 
 #include "app/scene_json.h"
 #include "base/atomic_file.h"
+#include "base/memory_limit.h"
 
 namespace duet {
-
-namespace {
-
-uint64_t memory_peak_bytes() {
-  rusage usage{};
-  getrusage(RUSAGE_SELF, &usage);
-  return uint64_t(usage.ru_maxrss) * 1024;
-}
-
-}  // namespace
 
 SceneCounts count_parts(const Scene& scene) {
   SceneCounts n;
@@ -50,7 +39,7 @@ void StatisticsFile::add(const RenderRecord& record, const RenderResult& result,
                   {"build", seconds.build},
                   {"render", seconds.render},
                   {"write", seconds.write}};
-  j["memory_peak_bytes"] = memory_peak_bytes();
+  j["memory_peak_bytes"] = uint64_t(memory_peak());
   j["rays"] = {{"closest", c.closest_rays}, {"shadow", c.shadow_rays}};
   j["paths"] = {{"camera", c.camera_paths}, {"light", c.light_paths}};
   j["mean_path_length"] =

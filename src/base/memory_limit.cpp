@@ -109,6 +109,10 @@ double memory_in_use(const fs::path& root) {
   return 1024 * kilobytes_of_line(root / "proc/self/status", "VmRSS:");
 }
 
+double memory_peak(const fs::path& root) {
+  return 1024 * kilobytes_of_line(root / "proc/self/status", "VmHWM:");
+}
+
 std::string memory_text(double bytes) {
   if (bytes < 1e9) return fmt::format("{:.0f} MB", bytes * 1e-6);
   return fmt::format("{:.{}f} GB", bytes * 1e-9, bytes < 1e10 ? 2 : bytes < 1e11 ? 1 : 0);

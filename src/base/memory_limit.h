@@ -19,6 +19,9 @@ MemoryLimit memory_limit(const std::filesystem::path& root = "/");
 
 /// Memory that this process has in use, in bytes; 0 if that is not known.
 double memory_in_use(const std::filesystem::path& root = "/");
+/// The most that it has had in use, likewise. (What getrusage() says goes on from the program that
+/// started this one.)
+double memory_peak(const std::filesystem::path& root = "/");
 
 /// For people: "512 MB", "1.23 GB".
 std::string memory_text(double bytes);

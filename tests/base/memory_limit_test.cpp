@@ -30,6 +30,7 @@ class Machine {
   }
   MemoryLimit limit() const { return memory_limit(root_.path("")); }
   double in_use() const { return memory_in_use(root_.path("")); }
+  double peak() const { return memory_peak(root_.path("")); }
 
  private:
   TemporaryDirectory root_;
@@ -113,11 +114,13 @@ TEST_CASE("files that say nothing set no limit") {
 TEST_CASE("what the process has in use") {
   const Machine machine;
   CHECK(machine.in_use() == 0);
-  machine.write("proc/self/status", "Name:\tduet\nVmRSS:\t    2048 kB\n");
+  machine.write("proc/self/status", "Name:\tduet\nVmHWM:\t    3072 kB\nVmRSS:\t    2048 kB\n");
   CHECK(machine.in_use() == 2 * kMB);
+  CHECK(machine.peak() == 3 * kMB);
   // Of this program: at least what it has just written to.
   const std::vector<char> used(size_t(64 * kMB), 1);
   CHECK(memory_in_use() > double(used.size()));
+  CHECK(memory_peak() >= memory_in_use());
   CHECK(memory_limit().bytes > memory_in_use());
 }
 

@@ -2,7 +2,10 @@
 // bright.
 #include <doctest/doctest.h>
 
+#include <array>
 #include <cmath>
+#include <filesystem>
+#include <optional>
 #include <set>
 
 #include "integrators/make_integrator.h"
@@ -99,8 +102,10 @@ std::optional<std::array<Moments, 3>> render_means(const std::string& text, std:
 TEST_CASE("what Mitsuba takes as a texture is taken and means the same") {
   const Json table = Json::parse(read_file(kFolder + "slots.json"));
   int count = 0;
-  for (const auto& [slot, answers] : table["results"].items())
-    for (const auto& [texture, answer] : answers.items()) {
+  for (const auto& answers : table["results"].items())
+    for (const auto& asked : answers.value().items()) {
+      const std::string &slot = answers.key(), &texture = asked.key();
+      const Json& answer = asked.value();
       INFO(slot << " = " << texture);
       std::string refusal;
       const auto means = render_means(scene_text(table, slot, texture), refusal);
