@@ -98,7 +98,7 @@ struct Row {
   std::optional<double> margin;  ///< share of a mean that merging may be off by, instead of its own
   int tiles = 4;                 ///< per side of the image
   int most_batches = 4096;       ///< images of a series that grows until a deviation is seen
-  /// Images end when their error is estimated to be this, and `spp` is the most they get.
+  /// Images end when their error is estimated to be this; `spp` does not count.
   std::optional<double> target_error;
   Region region{0, 0, 1, 1}, over{0, 0, 1, 1};
   std::map<std::string, Expectation> methods;

@@ -6,6 +6,7 @@
 
 #include "app/stability/checks.h"
 #include "integrators/pass.h"
+#include "math/statistics.h"
 
 namespace duet::stability {
 

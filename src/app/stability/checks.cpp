@@ -21,7 +21,7 @@ constexpr Check kChecks[] = {
      "the tiles is below the limit",
      "deviation of any one tile, as a share of its mean, or of a quarter of the image's if that is "
      "more",
-     "a mean z² of {}", 2.2, 0.05, true, measure_tiles},
+     "a mean z² of {}", 3.4, 0.05, true, measure_tiles},
     {"pixels", Unit::percent,
      "root mean square deviation of the pixels, without what noise adds to it; holds if no pixel "
      "differs",

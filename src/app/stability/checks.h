@@ -8,6 +8,7 @@
 #include "app/stability/catalogue.h"
 #include "app/stability/laboratory.h"
 #include "app/stability/power.h"
+#include "math/statistics.h"
 
 namespace duet::stability {
 

@@ -55,7 +55,7 @@ double mean_of(const std::vector<MeanEstimate>& estimates) {
 
 /// Tiles of the subject against those of the reference.
 struct GridComparison {
-  double mean_z2 = 0;  ///< about 1 if the means are equal
+  double mean_z2 = 0;  ///< of the deviations as normal variates: about 1 if the means are equal
   double least_p = 1;  ///< of all tiles
   double rms = 0;      ///< of the deviations, relative to the mean, without the noise
   double ratio = 1;    ///< of the means of the images
@@ -86,8 +86,8 @@ GridComparison compare(const std::vector<MeanEstimate>& a, const std::vector<Mea
     c.power.noise = std::max(c.power.noise, noise / rule.allowed_noise());
     if (!(error2 > 0)) continue;
     ++noisy;
-    const double excess = std::max(0.0, std::abs(d) - slack);
-    c.mean_z2 += excess * excess / error2;
+    const double z = normal_of_student(test.t, test.dof);
+    c.mean_z2 += z * z;
   }
   if (noisy > 0) c.mean_z2 /= noisy;
   c.ratio = mean_of(a) / mean_of(b);
@@ -118,6 +118,42 @@ std::vector<MeanEstimate> reference_means(const Cell& cell, const Variant& v, co
   return estimates;
 }
 
+/// Whether the images of the reference are made of the same random numbers as those of the subject.
+bool is_paired(const Cell& cell, const Variant& v) {
+  const SeriesPlan a = subject_plan(cell.row, cell.method, v),
+                   b = reference_plan(cell.row, cell.method, v);
+  return !exact_value(cell.row, v) && cell.row.reference.sum.empty() && a.seed == b.seed &&
+         a.spp == b.spp && a.independent == b.independent;
+}
+
+/// The subject and the reference of a comparison.
+struct Sides {
+  std::vector<MeanEstimate> subject, reference;
+};
+
+/// Images made of the same random numbers differ much less than they vary: what counts is the
+/// error of their differences.
+Sides paired_sides(const Cell& cell, const Variant& v, const Series& subject, const Means& means,
+                   Measurement& m) {
+  const Series reference = render_reference(cell.laboratory, cell.row, cell.method, v,
+                                            int(subject.pictures.size()));
+  require_finite(reference, m);
+  const auto b = means(reference);
+  auto a = means(subject);
+  Sides sides{{}, estimate_each(b)};
+  for (size_t n = 0; n < a.size(); ++n)
+    for (size_t i = 0; i < a[n].size(); ++i) a[n][i] += sides.reference[i].mean - b[n][i];
+  sides.subject = estimate_each(a);
+  for (MeanEstimate& e : sides.reference) e = {e.mean, 0, 0};
+  return sides;
+}
+
+Sides both_sides(const Cell& cell, const Variant& v, const Series& subject, const Means& means,
+                 const Rule& rule, Measurement& m) {
+  if (is_paired(cell, v)) return paired_sides(cell, v, subject, means, m);
+  return {estimate_each(means(subject)), reference_means(cell, v, subject, means, rule, m)};
+}
+
 /// The level of a test of one of so many means of each variant, and by how much they may be off.
 Rule rule_of(const Cell& cell, const Series& subject, double means, double resolution) {
   return {sidak(cell.level, double(cell.row.variants.size()) * means),
@@ -135,8 +171,8 @@ Measurement compare_grid(const Cell& cell, const Variant& v, const Series& subje
   Measurement m;
   const Means means = [&](const Series& s) { return tile_means(s, grid_x, grid_y); };
   const Rule rule = rule_of(cell, subject, double(grid_x) * grid_y, kTileResolution);
-  const auto b = reference_means(cell, v, subject, means, rule, m);
-  const GridComparison c = compare(estimate_each(means(subject)), b, rule);
+  const Sides sides = both_sides(cell, v, subject, means, rule, m);
+  const GridComparison c = compare(sides.subject, sides.reference, rule);
   m.value = c.rms;
   m.power = c.power;
   m.holds &= c.least_p > rule.level && (cell.limit <= 0 || c.mean_z2 < cell.limit);
@@ -169,8 +205,8 @@ Measurement compare_energy(const Cell& cell, const Series& subject, const Varian
     return of_each;
   };
   const Rule rule = rule_of(cell, subject, 1, kMeanResolution);
-  const auto b = reference_means(cell, v, subject, means, rule, m);
-  const GridComparison c = compare(estimate_each(means(subject)), b, rule);
+  const Sides sides = both_sides(cell, v, subject, means, rule, m);
+  const GridComparison c = compare(sides.subject, sides.reference, rule);
   m.value = c.ratio - 1;
   m.error = std::sqrt(c.error2);
   m.power = c.power;

@@ -138,8 +138,10 @@ Image Laboratory::image(Experiment& experiment, const SeriesPlan& plan, int batc
                         RenderCounters& counters) const {
   check_cancelled();
   RenderRequest request;
-  request.budget.spp = plan.spp;
-  request.budget.target_error = plan.target_error;
+  if (plan.target_error)
+    request.budget.target_error = plan.target_error;
+  else
+    request.budget.spp = plan.spp;
   request.seed = plan.batch_seed(batch);
   request.threads = threads;
   request.sequence = plan.independent ? SampleSequence::independent : SampleSequence::sobol;

@@ -140,6 +140,7 @@ std::string json(const std::vector<RowResult>& results) {
         cell["resolved"] = c.measured.power.resolved();
         cell["notices"] = c.measured.power.noticed;
         cell["has_to_notice"] = c.measured.power.required;
+        cell["noise"] = c.measured.power.noise;
         cell["detail"] = c.measured.detail;
         cell["seconds"] = c.seconds;
       }
