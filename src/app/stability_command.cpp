@@ -115,6 +115,12 @@ std::string earlier_page(const StabilityOptions& o) {
   return text;
 }
 
+/// The command that makes the whole page again.
+std::string whole_command(const StabilityOptions& o) {
+  return fmt::format("duet stability{}{} --markdown {}", o.fast ? " --fast" : "",
+                     o.folder.empty() ? "" : " --catalogue " + o.folder, o.markdown);
+}
+
 void write_text(const std::string& path, const std::string& text) {
   write_file_atomically(path, {reinterpret_cast<const uint8_t*>(text.data()), text.size()});
 }
@@ -156,7 +162,7 @@ int run_stability(const StabilityOptions& o) {
     log::warning("interrupted: the table is not complete, and no file is written");
     return interrupt_exit_code();
   }
-  if (!o.markdown.empty()) write_text(o.markdown, markdown(catalogue, results, command_line, earlier));
+  if (!o.markdown.empty()) write_text(o.markdown, markdown(catalogue, results, whole_command(o), earlier));
   if (!o.json.empty()) write_text(o.json, json(results));
   const int unexpected = count(results, Outcome::unexpected);
   const int unresolved = count(results, Outcome::not_resolved);
