@@ -108,10 +108,10 @@ std::string earlier_page(const StabilityOptions& o) {
   std::ifstream file(o.markdown);
   std::string text{std::istreambuf_iterator<char>(file), {}};
   if (text.empty() && !o.methods.empty())
-    throw UsageError(
-        fmt::format("--markdown writes the columns of all methods, and {} is not there to take those "
-                    "of the others from: leave --methods away",
-                    o.markdown));
+    throw UsageError(fmt::format(
+        "--markdown writes the columns of all methods, and {} is not there to take those "
+        "of the others from: leave --methods away",
+        o.markdown));
   return text;
 }
 
@@ -153,7 +153,8 @@ int run_stability(const StabilityOptions& o) {
       log::info("[{}/{}] {}: {}", results.size(), rows.size(), row->name, row->title);
       Laboratory laboratory(threads, [] { return interrupt_exit_code() != 0; });
       for (const std::string& method : methods) {
-        result.cells.push_back(judge(catalogue, *row, method, laboratory, o.fast ? kFastFactor : 1));
+        result.cells.push_back(
+            judge(catalogue, *row, method, laboratory, o.fast ? kFastFactor : 1));
         seconds += result.cells.back().seconds;
         print_cell(*row, result.cells.back());
       }
@@ -162,7 +163,8 @@ int run_stability(const StabilityOptions& o) {
     log::warning("interrupted: the table is not complete, and no file is written");
     return interrupt_exit_code();
   }
-  if (!o.markdown.empty()) write_text(o.markdown, markdown(catalogue, results, whole_command(o), earlier));
+  if (!o.markdown.empty())
+    write_text(o.markdown, markdown(catalogue, results, whole_command(o), earlier));
   if (!o.json.empty()) write_text(o.json, json(results));
   const int unexpected = count(results, Outcome::unexpected);
   const int unresolved = count(results, Outcome::not_resolved);
@@ -186,8 +188,10 @@ void add_stability_command(CLI::App& app, int& exit_code) {
   c->add_flag("--fast", o->fast, "Only those that together take less than a minute");
   c->add_option("--methods", o->methods, "Only these, such as path,bdpt");
   c->add_flag("--list", o->list, "Name the rows and run nothing");
-  c->add_option("--markdown", o->markdown, "Also write the table as docs/stability.md has it; if only some rows or methods are "
-                "run, the others of a page that is there stay");
+  c->add_option(
+      "--markdown", o->markdown,
+      "Also write the table as docs/stability.md has it; if only some rows or methods are "
+      "run, the others of a page that is there stay");
   c->add_option("--json", o->json, "Also write it for programs");
   c->add_option("--catalogue", o->folder,
                 "Folder with another catalogue.json and the scenes that it names")
@@ -196,7 +200,8 @@ void add_stability_command(CLI::App& app, int& exit_code) {
   c->add_flag("-q,--quiet", o->quiet, "No progress on standard error");
   c->footer(
       "Every method is expected to hold, to fail as known, or not to apply (docs/stability.md).\n"
-      "Every cell states the smallest deviation that it would have noticed; one that would miss too\n"
+      "Every cell states the smallest deviation that it would have noticed; one that would miss "
+      "too\n"
       "much is not resolved, and counts as a failure.\n"
       "Exit codes: 0 all as expected; 1 something is not; 2 wrong usage; 130/143 interrupted.\n"
       "Examples:\n"

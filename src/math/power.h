@@ -9,8 +9,8 @@ namespace duet {
 inline constexpr double kPowerShare = 0.95;
 
 /// The difference of two means that Welch's two-sided test of this level notices with probability
-/// kPowerShare. `error` is the standard error of the difference, in the unit of the means, `dof` its
-/// degrees of freedom; 0 without any error. Source: the normal approximation of the noncentral
+/// kPowerShare. `error` is the standard error of the difference, in the unit of the means, `dof`
+/// its degrees of freedom; 0 without any error. Source: the normal approximation of the noncentral
 /// t-distribution, Johnson & Welch, "Applications of the non-central t-distribution", Biometrika
 /// 31, 1940.
 double noticed_difference(double error, double dof, double level);

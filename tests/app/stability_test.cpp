@@ -183,8 +183,7 @@ TEST_SUITE("program") {
     CHECK(unbiased.code == 1);
     CHECK(!contains(unbiased.out, "takes vcm"));
     // Light of a point in a mirror's reflection is found by merging alone.
-    row["define"] = {
-        {"intensity", 1}, {"right", "mirror"}, {"ball", "mirror"}, {"ball2", "glass"}};
+    row["define"] = {{"intensity", 1}, {"right", "mirror"}, {"ball", "mirror"}, {"ball2", "glass"}};
     const Outcome merged = run("auto");
     CHECK(merged.code == 0);
     CHECK(contains(merged.out, "takes vcm"));
@@ -216,8 +215,8 @@ TEST_SUITE("program") {
     c.catalogue(json::array({tiles, bits, noise}));
     CHECK(c.stability({"-q", "--markdown", "a.md"}).code == 0);
     const std::string page = read_file(c.path("a.md"));
-    CHECK(contains(page,
-                   "Check `tiles`; limit: a mean z² of 3.4; methods that merge may be off by 5.00 %."));
+    CHECK(contains(
+        page, "Check `tiles`; limit: a mean z² of 3.4; methods that merge may be off by 5.00 %."));
     CHECK(contains(page, "Check `bits`; limit: below 1."));
     CHECK(contains(page, "Check `noise`; limit: below 50.0 %."));
     CHECK(contains(page, "| exact | holds |"));

@@ -29,7 +29,8 @@ TileBatches render(const ReferenceCase& c, const std::string& name) {
   int count = kBatches;
   for (int b = 0; b < count; ++b) {
     batches.add(scene.render(kSpp, 2, scene.layout.crop, uint64_t(b)));
-    if (b == kBatches - 1) count = int(std::clamp(needed(), double(kBatches), double(kMostBatches)));
+    if (b == kBatches - 1)
+      count = int(std::clamp(needed(), double(kBatches), double(kMostBatches)));
   }
   return batches;
 }

@@ -229,8 +229,7 @@ void check_statistic(const Object& o, const Row& row) {
   const Check& check = checks()[size_t(at - known.begin())];
   if (check.needs_reference && row.reference.method.empty() && !has_value)
     o.fail(fmt::format("check \"{}\" needs a reference", row.check));
-  if (row.limit && !check.limit_text)
-    o.fail(fmt::format("check \"{}\" has no limit", row.check));
+  if (row.limit && !check.limit_text) o.fail(fmt::format("check \"{}\" has no limit", row.check));
   if (row.margin && !check.margin) o.fail(fmt::format("check \"{}\" has no margin", row.check));
 }
 

@@ -94,7 +94,7 @@ struct Row {
   std::vector<Variant> variants;
   Draw draw;
   Reference reference;
-  std::optional<double> limit;  ///< of the statistic, instead of its own
+  std::optional<double> limit;   ///< of the statistic, instead of its own
   std::optional<double> margin;  ///< share of a mean that merging may be off by, instead of its own
   int tiles = 4;                 ///< per side of the image
   int most_batches = 4096;       ///< images of a series that grows until a deviation is seen

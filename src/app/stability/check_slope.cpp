@@ -131,8 +131,8 @@ Measurement measure_slope(const Cell& cell) {
     Measurement m;
     m.value = fit.slope, m.error = fit.error;
     m.holds = m.value <= cell.limit;
-    m.power = limit_power(cell.limit, cell.coarser * (cell.limit - kIdealSlope), fit.error,
-                          batches - 1);
+    m.power =
+        limit_power(cell.limit, cell.coarser * (cell.limit - kIdealSlope), fit.error, batches - 1);
     require_finite(steps.series.back(), m);
     return m;
   });
@@ -155,9 +155,8 @@ Measurement measure_slope_debiasing(const Cell& cell) {
     const Fit plain = fit_slope(steps.series, noisy, truth, false);
     // The images and the noisy reference both make the difference uncertain.
     const int few_images = int(few.pictures.size());
-    const double of_images = jackknife_error(batches, [&](int b) {
-      return debiased.without[size_t(b)] - good.without[size_t(b)];
-    });
+    const double of_images = jackknife_error(
+        batches, [&](int b) { return debiased.without[size_t(b)] - good.without[size_t(b)]; });
     const double of_reference = jackknife_error(few_images, [&](int g) {
       const Truth fewer = truth_of(few.without(g, few_images));
       return fit_slope(steps.series, fewer, truth, true).slope;

@@ -11,12 +11,14 @@ namespace {
 
 constexpr const char* kOfMean = "deviation of that mean, as a share of it";
 constexpr const char* kOfValue = "value that would have been found beyond the limit";
-constexpr const char* kExact = "exact: the same program always gives the same number, and any beyond "
-                               "the limit fails";
+constexpr const char* kExact =
+    "exact: the same program always gives the same number, and any beyond "
+    "the limit fails";
 
 constexpr Check kChecks[] = {
     {"tiles", Unit::percent,
-     "root mean square deviation of the means of tiles (4x4 unless the row says otherwise), without "
+     "root mean square deviation of the means of tiles (4x4 unless the row says otherwise), "
+     "without "
      "what noise adds to it; holds if Welch's test finds no tile that differs and the mean z^2 of "
      "the tiles is below the limit",
      "deviation of any one tile, as a share of its mean, or of a quarter of the image's if that is "
@@ -25,12 +27,12 @@ constexpr Check kChecks[] = {
     {"pixels", Unit::percent,
      "root mean square deviation of the pixels, without what noise adds to it; holds if no pixel "
      "differs",
-     "deviation of any one pixel, as a share of its mean, or of a quarter of the image's if that is "
+     "deviation of any one pixel, as a share of its mean, or of a quarter of the image's if that "
+     "is "
      "more",
      nullptr, 0, 0.05, true, measure_pixels},
-    {"energy", Unit::percent,
-     "deviation of the mean of the image; holds if it is not significant", kOfMean, nullptr, 0,
-     0.005, true, measure_energy},
+    {"energy", Unit::percent, "deviation of the mean of the image; holds if it is not significant",
+     kOfMean, nullptr, 0, 0.005, true, measure_energy},
     {"region", Unit::percent, "mean of one part of the image, relative to the mean of another",
      kOfValue, "below {}", 1e-4, std::nullopt, false, measure_region},
     {"paired", Unit::percent,
@@ -133,8 +135,8 @@ Series render_subject(const Cell& cell, const Variant& variant, int batches) {
 
 void require_finite(const Series& series, Measurement& m) {
   const RenderCounters counters = series.counters();
-  const double dropped = double(counters.nonfinite_samples) /
-                         double(std::max<uint64_t>(1, counters.camera_paths));
+  const double dropped =
+      double(counters.nonfinite_samples) / double(std::max<uint64_t>(1, counters.camera_paths));
   const long bad_pixels = series.bad_pixels();
   if (bad_pixels == 0 && dropped <= 1e-6) return;
   m.holds = false;

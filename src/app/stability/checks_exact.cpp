@@ -107,8 +107,8 @@ namespace {
 Image stopped_image(const SeriesPlan& plan, int batch, Experiment& e, RenderCounters& counters) {
   Film film(e.layout, e.integrator->channels());
   e.integrator->prepare(film);
-  // Every question counts, so that most stops come in the midst of a pass; on one thread they always
-  // come at the same place.
+  // Every question counts, so that most stops come in the midst of a pass; on one thread they
+  // always come at the same place.
   const double share = double(to_unit_float(mix32(uint32_t(batch))));
   const int questions = 1 + int(share * plan.spp * double(film.tiles().size()));
   std::atomic<int> asked = 0;

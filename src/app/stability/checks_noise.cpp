@@ -187,7 +187,8 @@ Measurement measure_jump(const Cell& cell) {
           return std::max(r, 1 / r);
         };
         const int groups = jackknife_groups(s.pictures.size());
-        const double value = ratio(s, before), error = jackknife_error(groups, [&](int g) {
+        const double value = ratio(s, before),
+                     error = jackknife_error(groups, [&](int g) {
                        return ratio(s.without(g, groups), before.without(g, groups));
                      });
         m.power = weaker(m.power, limit_power(cell.limit, cell.coarser * cell.limit,
@@ -210,8 +211,8 @@ Measurement measure_efficiency(const Cell& cell) {
     const Series b = render_reference(cell.laboratory, cell.row, cell.method, v,
                                       cell.row.reference.method == "self" ? batches : 0);
     // Of one image each: the series may differ in their number.
-    const double rays = a.rays() / double(a.pictures.size()) /
-                        (b.rays() / double(b.pictures.size()));
+    const double rays =
+        a.rays() / double(a.pictures.size()) / (b.rays() / double(b.pictures.size()));
     const auto error_ratio = [](const Series& x, const Series& y) {
       return relative_error(x, y) / relative_variance(y);
     };

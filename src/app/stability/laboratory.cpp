@@ -225,8 +225,7 @@ Series render_reference(Laboratory& laboratory, const Row& row, const std::strin
       continue;
     }
     for (size_t b = 0; b < s.pictures.size(); ++b) {
-      for (size_t i = 0; i < s.pixels(); ++i)
-        total.pictures[b].grey[i] += s.pictures[b].grey[i];
+      for (size_t i = 0; i < s.pixels(); ++i) total.pictures[b].grey[i] += s.pictures[b].grey[i];
       total.pictures[b].bad_pixels += s.pictures[b].bad_pixels;
     }
   }

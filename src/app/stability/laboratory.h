@@ -91,8 +91,8 @@ SeriesPlan subject_plan(const Row& row, const std::string& method, const Variant
 /// What it is compared with, if that is not a value. The same seeds as the subject's if the
 /// reference is the method itself.
 SeriesPlan reference_plan(const Row& row, const std::string& method, const Variant& variant);
-/// The series of the reference, with so many images if `batches` is not 0; sums are added up image by
-/// image.
+/// The series of the reference, with so many images if `batches` is not 0; sums are added up image
+/// by image.
 Series render_reference(Laboratory& laboratory, const Row& row, const std::string& method,
                         const Variant& variant, int batches = 0);
 

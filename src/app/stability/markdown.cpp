@@ -143,11 +143,13 @@ std::string explanation(const Catalogue& catalogue) {
       "they hold if they differ by no more than a margin; so does `auto` where the method that it "
       "takes merges.\n\n"
       "**Notices** is the smallest deviation that the measurement would have noticed with a "
-      "probability of {:g} %. “Holds” counts only if that is no more than a bound: {:g} % of a tile "
+      "probability of {:g} %. “Holds” counts only if that is no more than a bound: {:g} % of a "
+      "tile "
       "or pixel, {:g} % of the mean of an image, or twice the margin if that is more; for other "
       "checks, values as far beyond the limit as the limit is from what is right (for “at least”: "
       "half the limit). Images are added until the bound is met (at most {} unless the row says "
-      "otherwise). What still does not meet it is not resolved, and the table fails. Known failures "
+      "otherwise). What still does not meet it is not resolved, and the table fails. Known "
+      "failures "
       "have no bound. `--fast` renders fewer images and has bounds {:g} times as coarse.\n\n"
       "| check | what the number is | what is noticed |\n|---|---|---|\n",
       100 * kTableLevel, catalogue.measured_cells(), 100 * kPowerShare, 100 * kTileResolution,

@@ -44,8 +44,8 @@ std::string describe_limit(const Row& row) {
   // That of the tiles is a number, whatever the unit of what is measured.
   const Unit unit = row.check == "tiles" ? Unit::number : check.unit;
   if (check.limit_text)
-    text = "limit: " +
-           fmt::format(fmt::runtime(check.limit_text), format_number(unit, limit_of(row)));
+    text =
+        "limit: " + fmt::format(fmt::runtime(check.limit_text), format_number(unit, limit_of(row)));
   if (check.margin)
     text += fmt::format("{}methods that merge may be off by {}", text.empty() ? "" : "; ",
                         format_number(Unit::percent, margin_of(row)));
@@ -67,9 +67,9 @@ CellResult judge(const Catalogue& catalogue, const Row& row, const std::string& 
   if (expected.verdict == Expected::not_applicable) return result;
   const auto start = std::chrono::steady_clock::now();
   const double level = sidak(kTableLevel, catalogue.measured_cells());
-  result.measured = find_check(row.check).measure({row, method, laboratory, level, limit_of(row),
-                                                   margin_of(row), coarser,
-                                                   expected.verdict == Expected::fails});
+  result.measured =
+      find_check(row.check).measure({row, method, laboratory, level, limit_of(row), margin_of(row),
+                                     coarser, expected.verdict == Expected::fails});
   result.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   const Measurement& m = result.measured;
   if (expected.verdict == Expected::holds) {

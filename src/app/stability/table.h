@@ -14,7 +14,7 @@ enum class Outcome {
   fails_as_known,
   not_applicable,
   not_resolved,  ///< nothing is found, but too great a deviation would not have been found either
-  unexpected,  ///< fails where it should hold, holds where it should fail, or out of bounds
+  unexpected,    ///< fails where it should hold, holds where it should fail, or out of bounds
 };
 
 /// A cell that has been judged.
