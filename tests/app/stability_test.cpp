@@ -37,6 +37,7 @@ struct Cabinet : Workplace {
             {"scene", "ball"},
             {"spp", 8},
             {"batches", 8},
+            {"margin", 0.02},
             {"fast", true},
             {"reference", {{"value", 1}}},
             {"methods", {{"*", "holds"}}}};
@@ -216,7 +217,7 @@ TEST_SUITE("program") {
     CHECK(c.stability({"-q", "--markdown", "a.md"}).code == 0);
     const std::string page = read_file(c.path("a.md"));
     CHECK(contains(
-        page, "Check `tiles`; limit: a mean z² of 3.4; methods that merge may be off by 5.00 %."));
+        page, "Check `tiles`; limit: a mean z² of 3.4; methods that merge may be off by 2.00 %."));
     CHECK(contains(page, "Check `bits`; limit: below 1."));
     CHECK(contains(page, "Check `noise`; limit: below 50.0 %."));
     CHECK(contains(page, "| exact | holds |"));

@@ -155,9 +155,11 @@ void Laboratory::extend(Series& series, const SeriesPlan& plan,
                         const std::function<Image(Experiment&, int, RenderCounters&)>& one) {
   const size_t there = series.pictures.size();
   if (there >= size_t(plan.batches)) return;
-  // Images are small, so each is made by one thread.
+  // Images are small, so each is made by one thread. The last bits of an image depend on which one
+  // the integrator has made before, so that is the same for any number of threads.
+  constexpr size_t kStrips = 8;
   std::vector<std::pair<Image, RenderCounters>> made(size_t(plan.batches) - there);
-  const size_t strips = std::min(size_t(threads_), made.size());
+  const size_t strips = std::min(kStrips, made.size());
   std::vector<Experiment> experiments;
   for (size_t t = 0; t < strips; ++t) experiments.push_back(prepare(plan));
   parallel_for(strips, threads_, [&](size_t t) {
