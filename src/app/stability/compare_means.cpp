@@ -37,10 +37,9 @@ std::vector<MeanEstimate> reference_means(const Cell& cell, const Variant& v, co
   grow_images(plan.batches, std::max(plan.batches, cell.row.most_batches), [&](int batches) {
     reference = render_reference(cell.laboratory, cell.row, cell.method, v, batches);
     estimates = estimate_each(means(reference));
-    return compare(estimates, std::vector<MeanEstimate>(estimates.size(), {mean_of(estimates)}),
-                   rule)
-               .power.noise /
-           kReferenceNoise;
+    std::vector<MeanEstimate> exact = estimates;
+    for (MeanEstimate& e : exact) e = {e.mean, 0, 0};
+    return compare(estimates, exact, rule).power.noise / kReferenceNoise;
   });
   if (reference.width != like.width || reference.height != like.height)
     throw CatalogueError(cell.row.name + ": the reference has another size");
