@@ -4,6 +4,7 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <filesystem>
+#include <fstream>
 
 #include "app/arguments.h"
 #include "app/commands.h"
@@ -94,10 +95,30 @@ void print_cell(const Row& row, const CellResult& c) {
     if (c.measured.error > 0) value += " ± " + format_value(row, c.measured.error);
     // The sign is one column of two bytes.
     const size_t width = 20 + (c.measured.error > 0);
-    fmt::print("{} {:>{}} {}{}\n", line, value, width, describe(row, c),
+    fmt::print("{} {:>{}} {}; notices {}{}\n", line, value, width, describe(row, c),
+               describe_power(row, c.measured.power),
                c.measured.detail.empty() ? "" : "; " + c.measured.detail);
   }
   std::fflush(stdout);
+}
+
+/// The page that is to be brought up to date, if only a part of the table is measured.
+std::string earlier_page(const StabilityOptions& o) {
+  if (o.markdown.empty() || (o.cases.empty() && o.methods.empty() && !o.fast)) return "";
+  std::ifstream file(o.markdown);
+  std::string text{std::istreambuf_iterator<char>(file), {}};
+  if (text.empty() && !o.methods.empty())
+    throw UsageError(fmt::format(
+        "--markdown writes the columns of all methods, and {} is not there to take those "
+        "of the others from: leave --methods away",
+        o.markdown));
+  return text;
+}
+
+/// The command that makes the whole page again.
+std::string whole_command(const StabilityOptions& o) {
+  return fmt::format("duet stability{}{} --markdown {}", o.fast ? " --fast" : "",
+                     o.folder.empty() ? "" : " --catalogue " + o.folder, o.markdown);
 }
 
 void write_text(const std::string& path, const std::string& text) {
@@ -111,8 +132,7 @@ int run_stability(const StabilityOptions& o) {
   for (const std::string& path : {o.markdown, o.json})
     if (const std::string why = path.empty() ? "" : prepare_file(path); !why.empty())
       throw UsageError(fmt::format("cannot write {}: {}", path, why));
-  if (!o.markdown.empty() && methods.size() < kMethods.size())
-    throw UsageError("--markdown writes the columns of all methods: leave --methods away");
+  const std::string earlier = earlier_page(o);
   if (o.list) {
     print_list(rows);
     return kSuccess;
@@ -133,7 +153,8 @@ int run_stability(const StabilityOptions& o) {
       log::info("[{}/{}] {}: {}", results.size(), rows.size(), row->name, row->title);
       Laboratory laboratory(threads, [] { return interrupt_exit_code() != 0; });
       for (const std::string& method : methods) {
-        result.cells.push_back(judge(catalogue, *row, method, laboratory));
+        result.cells.push_back(
+            judge(catalogue, *row, method, laboratory, o.fast ? kFastFactor : 1));
         seconds += result.cells.back().seconds;
         print_cell(*row, result.cells.back());
       }
@@ -142,17 +163,19 @@ int run_stability(const StabilityOptions& o) {
     log::warning("interrupted: the table is not complete, and no file is written");
     return interrupt_exit_code();
   }
-  if (!o.markdown.empty()) write_text(o.markdown, markdown(catalogue, results, command_line));
+  if (!o.markdown.empty())
+    write_text(o.markdown, markdown(catalogue, results, whole_command(o), earlier));
   if (!o.json.empty()) write_text(o.json, json(results));
-  int cells = 0, unexpected = 0;
-  for (const RowResult& r : results)
-    for (const CellResult& c : r.cells) {
-      cells += c.outcome != Outcome::not_applicable;
-      unexpected += c.outcome == Outcome::unexpected;
-    }
-  fmt::print("{} of {} cells as expected\n", cells - unexpected, cells);
+  const int unexpected = count(results, Outcome::unexpected);
+  const int unresolved = count(results, Outcome::not_resolved);
+  const int expected = count(results, Outcome::holds) + count(results, Outcome::fails_as_known);
+  fmt::print("{} of {} cells as expected", expected, expected + unexpected + unresolved);
+  fmt::print("{}\n", unresolved > 0 ? fmt::format(", {} not resolved", unresolved) : "");
+  if (o.fast)
+    fmt::print("the bounds of what is noticed are {:g} times as coarse as in the whole run\n",
+               kFastFactor);
   log::info("measured in {:.0f} s", seconds);
-  return unexpected == 0 ? kSuccess : kSceneFailed;
+  return unexpected + unresolved == 0 ? kSuccess : kSceneFailed;
 }
 
 }  // namespace
@@ -165,7 +188,10 @@ void add_stability_command(CLI::App& app, int& exit_code) {
   c->add_flag("--fast", o->fast, "Only those that together take less than a minute");
   c->add_option("--methods", o->methods, "Only these, such as path,bdpt");
   c->add_flag("--list", o->list, "Name the rows and run nothing");
-  c->add_option("--markdown", o->markdown, "Also write the table as docs/stability.md has it");
+  c->add_option(
+      "--markdown", o->markdown,
+      "Also write the table as docs/stability.md has it; if only some rows or methods are "
+      "run, the others of a page that is there stay");
   c->add_option("--json", o->json, "Also write it for programs");
   c->add_option("--catalogue", o->folder,
                 "Folder with another catalogue.json and the scenes that it names")
@@ -174,6 +200,9 @@ void add_stability_command(CLI::App& app, int& exit_code) {
   c->add_flag("-q,--quiet", o->quiet, "No progress on standard error");
   c->footer(
       "Every method is expected to hold, to fail as known, or not to apply (docs/stability.md).\n"
+      "Every cell states the smallest deviation that it would have noticed; one that would miss "
+      "too\n"
+      "much is not resolved, and counts as a failure.\n"
       "Exit codes: 0 all as expected; 1 something is not; 2 wrong usage; 130/143 interrupted.\n"
       "Examples:\n"
       "  duet stability --fast\n"

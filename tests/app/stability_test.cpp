@@ -35,9 +35,9 @@ struct Cabinet : Workplace {
             {"title", "A white ball is seen"},
             {"check", "energy"},
             {"scene", "ball"},
-            {"limit", 0.05},
             {"spp", 8},
             {"batches", 8},
+            {"margin", 0.02},
             {"fast", true},
             {"reference", {{"value", 1}}},
             {"methods", {{"*", "holds"}}}};
@@ -125,6 +125,131 @@ TEST_SUITE("program") {
     CHECK(!contains(c.stability({"--fast", "--list"}).out, "later"));
   }
 
+  TEST_CASE("stability: what a measurement is too noisy to see does not hold") {
+    const Cabinet c;
+    json row = Cabinet::row();
+    row["spp"] = 1, row["batches"] = 4, row["most_batches"] = 4;
+    const Outcome noisy = c.judge(row);
+    CHECK(noisy.code == 1);
+    CHECK(contains(noisy.out, "NOT RESOLVED"));
+    CHECK(contains(noisy.out, "0 of 2 cells as expected, 2 not resolved"));
+    CHECK(contains(noisy.out, "(bound 1.00 %)"));
+    CHECK(contains(noisy.out, "4 images"));
+
+    // More images, until it is seen; then as many as that takes, and no more.
+    row["most_batches"] = 4096;
+    c.catalogue(json::array({row}));
+    const Outcome enough = c.stability({"--methods", "path,bdpt", "--json", "a.json"});
+    CHECK(enough.code == 0);
+    for (const json& cell : json::parse(read_file(c.path("a.json")))[0]["cells"]) {
+      CHECK(cell["resolved"] == true);
+      CHECK(cell["notices"].get<double>() > 0.003);
+      CHECK(cell["notices"].get<double>() <= 0.01);
+      CHECK(cell["has_to_notice"] == doctest::Approx(0.01));
+    }
+
+    // The short run has coarser bounds, and says so.
+    row["most_batches"] = 64;
+    c.catalogue(json::array({row}));
+    const Outcome fast = c.stability({"--methods", "path,bdpt", "--fast"});
+    CHECK(fast.code == 0);
+    CHECK(contains(fast.out, "(bound 5.00 %)"));
+    CHECK(contains(fast.out, "5 times as coarse"));
+
+    // A failure that is seen needs no power.
+    row["define"] = {{"albedo", 0.2}}, row["most_batches"] = 4;
+    row["methods"] = {{"*", {{"fails", {-0.9, -0.01}}, {"why", "absorbs most"}}}};
+    CHECK(c.judge(row).code == 0);
+  }
+
+  TEST_CASE("stability: only what merges may be off by the margin") {
+    const Cabinet c;
+    for (const char* folder : {"room", "parts"})
+      std::filesystem::create_directory_symlink(
+          std::string(DUET_SOURCE_DIR "/scenes/stability/") + folder, c.path(folder));
+    // Against the same images of a light that is stronger by 3 %: without noise.
+    json row = Cabinet::row();
+    row["scene"] = "room/point.xml", row["define"] = {{"intensity", 1}};
+    row["parameters"] = {{"*", {{"max_depth", 4}}}};
+    row["spp"] = 4, row["margin"] = 0.05;
+    row["reference"] = {{"method", "self"}, {"define", {{"intensity", 1.03}}}};
+    const auto run = [&](const char* method) {
+      c.catalogue(json::array({row}));
+      return c.stability({"--methods", method});
+    };
+    row["methods"] = {{"*", "holds"}, {"auto", "holds"}};
+    CHECK(run("vcm").code == 0);
+    CHECK(run("bdpt").code == 1);
+    const Outcome unbiased = run("auto");
+    CHECK(unbiased.code == 1);
+    CHECK(!contains(unbiased.out, "takes vcm"));
+    // Light of a point in a mirror's reflection is found by merging alone.
+    row["define"] = {{"intensity", 1}, {"right", "mirror"}, {"ball", "mirror"}, {"ball2", "glass"}};
+    const Outcome merged = run("auto");
+    CHECK(merged.code == 0);
+    CHECK(contains(merged.out, "takes vcm"));
+    // Twice the margin is too much for all.
+    row["reference"]["define"]["intensity"] = 1.12;
+    CHECK(run("auto").code == 1);
+  }
+
+  TEST_CASE("stability: images that stop adaptively") {
+    const Cabinet c;
+    json row = Cabinet::row();
+    row["check"] = "noise", row["limit"] = 0.25, row["define"] = {{"albedo", 0.5}};
+    row.erase("reference");
+    row["spp"] = 1, row["batches"] = 32;
+    CHECK(c.judge(row).code == 1);
+    // --target-error counts samples by the error, not by `spp`.
+    row["target_error"] = 0.02;
+    const Outcome stopped = c.judge(row);
+    CHECK(stopped.code == 0);
+    CHECK(contains(stopped.out, "2 of 2 cells as expected"));
+  }
+
+  TEST_CASE("stability: limits and what is noticed are printed in their own units") {
+    const Cabinet c;
+    json tiles = Cabinet::row(), bits = Cabinet::row(), noise = Cabinet::row();
+    tiles["check"] = "tiles", tiles["tiles"] = 2;
+    bits["name"] = "bits", bits["check"] = "bits", bits["batches"] = 1;
+    noise["name"] = "noise", noise["check"] = "noise", noise["limit"] = 0.5;
+    c.catalogue(json::array({tiles, bits, noise}));
+    CHECK(c.stability({"-q", "--markdown", "a.md"}).code == 0);
+    const std::string page = read_file(c.path("a.md"));
+    CHECK(contains(
+        page, "Check `tiles`; limit: a mean z² of 3.4; methods that merge may be off by 2.00 %."));
+    CHECK(contains(page, "Check `bits`; limit: below 1."));
+    CHECK(contains(page, "Check `noise`; limit: below 50.0 %."));
+    CHECK(contains(page, "| exact | holds |"));
+    CHECK(contains(page, "(bound 5.00 %) | holds |"));
+    CHECK(contains(page, "(bound 100.0 %) | holds |"));
+  }
+
+  TEST_CASE("stability: a part of the page is brought up to date") {
+    const Cabinet c;
+    json second = Cabinet::row();
+    second["name"] = "second", second["title"] = "Another ball";
+    c.catalogue(json::array({Cabinet::row(), second}));
+    CHECK(c.stability({"-q", "--markdown", "a.md"}).code == 0);
+    const std::string whole = read_file(c.path("a.md"));
+    // The same again is the same page.
+    CHECK(c.stability({"-q", "second", "--methods", "vcm,auto", "--markdown", "a.md"}).code == 0);
+    CHECK(read_file(c.path("a.md")) == whole);
+    // A cell that has changed, and everything else as it was.
+    second["methods"] = {{"*", "holds"}, {"bdpt", {{"not applicable", "said so"}}}};
+    second["title"] = "A ball of another title";
+    c.catalogue(json::array({Cabinet::row(), second}));
+    CHECK(c.stability({"-q", "second", "--methods", "bdpt", "--markdown", "a.md"}).code == 0);
+    const std::string page = read_file(c.path("a.md"));
+    CHECK(contains(page, "| bdpt | – | – | not applicable | said so |"));
+    CHECK(contains(page, "A ball of another title"));
+    const auto section = [](const std::string& text, const std::string& from) {
+      return text.substr(text.find(from), text.find("### second") - text.find(from));
+    };
+    CHECK(section(page, "### ball") == section(whole, "### ball"));
+    CHECK(page.find("| path |", page.find("### second")) != std::string::npos);
+  }
+
   TEST_CASE("stability: what there is not") {
     const Cabinet c;
     c.catalogue(json::array({Cabinet::row()}));
@@ -132,7 +257,7 @@ TEST_SUITE("program") {
         {{"bal"}, "did you mean \"ball\"?"},
         {{"7"}, "--list"},
         {{"--methods", "path,bdtp"}, "did you mean \"bdpt\"?"},
-        {{"--methods", "path", "--markdown", "a.md"}, "--methods"},
+        {{"--methods", "path", "--markdown", "a.md"}, "a.md is not there"},
         {{"--json", "/dev/null/a.json"}, "/dev/null"},
         {{"-t", "0"}, "--threads"},
     };
@@ -180,6 +305,9 @@ TEST_SUITE("program") {
     refused("methods", json{{"*", {{"fails", {1, 0}}, {"why", "?"}}}}, "\"fails\" needs");
     refused("methods", json{{"*", {{"fails", {0, 1}}}}}, "\"why\" is missing");
     refused("reference", json::object(), "needs a reference");
+    refused("limit", 0.05, "check \"energy\" has no limit");
+    refused("tiles", 0, "\"tiles\"");
+    refused("target_error", "little", "\"target_error\" has the wrong type");
     refused("region", {0, 0, 2, 1}, "\"region\" needs");
     refused("define", json{{"albdo", 1}}, "has no parameter $albdo");
     refused("parameters", json{{"*", {{"depth", 1}}}}, "no parameter \"depth\"");

@@ -1,5 +1,6 @@
 // Every method against Mitsuba's references, by tiles of independent images.
 #include <algorithm>
+#include <cmath>
 #include <string_view>
 
 #include "references/reference_tiles.h"
@@ -9,7 +10,10 @@ using namespace duet::test;
 
 namespace {
 
-constexpr int kBatches = 16, kSpp = 2;
+/// Images until their mean is as certain as kMostError says; a test that cannot be is no test.
+constexpr int kBatches = 16, kMostBatches = 512, kSpp = 2;
+/// Standard error of the mean of the images, relative to the reference.
+constexpr double kMostError = 0.006;
 
 TileBatches render(const ReferenceCase& c, const std::string& name) {
   IntegratorOverride method{name, {}, {}};
@@ -17,8 +21,17 @@ TileBatches render(const ReferenceCase& c, const std::string& name) {
   if (c.reference == "hide-emitters") method.parameters.emplace_back("max_depth", "2");
   const PreparedScene scene(c.scene, c.defines, method);
   TileBatches batches;
-  for (int b = 0; b < kBatches; ++b)
+  // Half as many again as the first estimate of what it takes: it is an estimate.
+  const auto needed = [&] {
+    const double error = batches.total().error() / batches.total().mean();
+    return double(kBatches) * std::pow(error / kMostError, 2) * 1.5;
+  };
+  int count = kBatches;
+  for (int b = 0; b < count; ++b) {
     batches.add(scene.render(kSpp, 2, scene.layout.crop, uint64_t(b)));
+    if (b == kBatches - 1)
+      count = int(std::clamp(needed(), double(kBatches), double(kMostBatches)));
+  }
   return batches;
 }
 
@@ -78,6 +91,7 @@ TEST_SUITE("references") {
         const ReferenceComparison r = compare_tiles(render(c, name), reference);
         CAPTURE(c.reference);
         CAPTURE(r.ratio);
+        CHECK(r.ratio_error < kMostError);
         CHECK(r.least_p > level);
         CHECK(r.mean_z2 < 2.2);
         total += r.mean_z2, ++count;
@@ -97,6 +111,7 @@ TEST_SUITE("references") {
         const ReferenceComparison r = compare_tiles(render(c, name), reference);
         CAPTURE(name);
         CAPTURE(c.reference);
+        CHECK(r.ratio_error < kMostError);
         CHECK(std::abs(r.ratio - 1) < bias + 3.5 * r.ratio_error);
       }
     }

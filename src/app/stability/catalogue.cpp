@@ -226,9 +226,11 @@ void check_statistic(const Object& o, const Row& row) {
     o.fail(fmt::format("there is no check \"{}\"{}; there are {}", row.check,
                        did_you_mean(row.check, known), fmt::join(known, ", ")));
   const bool has_value = row.reference.value || row.variants[0].value;
-  if (checks()[size_t(at - known.begin())].needs_reference && row.reference.method.empty() &&
-      !has_value)
+  const Check& check = checks()[size_t(at - known.begin())];
+  if (check.needs_reference && row.reference.method.empty() && !has_value)
     o.fail(fmt::format("check \"{}\" needs a reference", row.check));
+  if (row.limit && !check.limit_text) o.fail(fmt::format("check \"{}\" has no limit", row.check));
+  if (row.margin && !check.margin) o.fail(fmt::format("check \"{}\" has no margin", row.check));
 }
 
 Row read_row(const Json& j, const std::string& folder, size_t index) {
@@ -259,7 +261,10 @@ Row read_row(const Json& j, const std::string& folder, size_t index) {
   row.draw = read_draw(o, o.find("draw"));
   row.reference = read_reference(o, o.find("reference"), folder);
   row.limit = o.number("limit");
-  row.margin = o.get<double>("margin", row.margin);
+  row.margin = o.number("margin");
+  row.tiles = o.count("tiles", row.tiles, 1);
+  row.most_batches = o.count("most_batches", row.most_batches, 1);
+  row.target_error = o.number("target_error");
   row.region = read_region(o, "region");
   row.over = read_region(o, "over");
   read_methods(o, row);
@@ -271,7 +276,7 @@ Row read_row(const Json& j, const std::string& folder, size_t index) {
 }  // namespace
 
 bool merges(const std::string& method) {
-  return method == "ppm" || method == "bpm" || method == "vcm" || method == kChoice;
+  return method == "ppm" || method == "bpm" || method == "vcm";
 }
 
 int Catalogue::measured_cells() const {

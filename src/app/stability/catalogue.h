@@ -24,8 +24,7 @@ inline constexpr std::array<const char*, 8> kMethods{"path", "ptracer", "bdpt", 
                                                      "ppm",  "bpm",     "vcm",  "auto"};
 /// It runs one of the others, so it is looked at only in rows that name it.
 inline constexpr std::string_view kChoice = "auto";
-/// Whether a method merges or may do so, and so is biased however many samples it takes of one
-/// radius.
+/// Whether a method merges, and so is biased however many samples it takes of one radius.
 bool merges(const std::string& method);
 
 /// Names and values: of a scene's $parameters or of a method's.
@@ -95,8 +94,12 @@ struct Row {
   std::vector<Variant> variants;
   Draw draw;
   Reference reference;
-  std::optional<double> limit;  ///< of the statistic, instead of its own
-  double margin = 0.05;         ///< share of a mean that methods which merge may be off by
+  std::optional<double> limit;   ///< of the statistic, instead of its own
+  std::optional<double> margin;  ///< share of a mean that merging may be off by, instead of its own
+  int tiles = 4;                 ///< per side of the image
+  int most_batches = 4096;       ///< images of a series that grows until a deviation is seen
+  /// Images end when their error is estimated to be this; `spp` does not count.
+  std::optional<double> target_error;
   Region region{0, 0, 1, 1}, over{0, 0, 1, 1};
   std::map<std::string, Expectation> methods;
 };

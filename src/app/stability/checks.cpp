@@ -9,70 +9,74 @@ namespace duet::stability {
 
 namespace {
 
+constexpr const char* kOfMean = "deviation of that mean, as a share of it";
+constexpr const char* kOfValue = "value that would have been found beyond the limit";
+constexpr const char* kExact =
+    "exact: the same program always gives the same number, and any beyond "
+    "the limit fails";
+
 constexpr Check kChecks[] = {
-    {"tiles", Unit::percent, 2.2,
-     "root mean square deviation of the means of 8x8 tiles, without what noise adds to it; holds "
-     "if Welch's test finds no tile that differs and the mean z^2 of the tiles is below {}",
-     true, measure_tiles},
-    {"pixels", Unit::percent, 0.02,
+    {"tiles", Unit::percent,
+     "root mean square deviation of the means of tiles (4x4 unless the row says otherwise), "
+     "without "
+     "what noise adds to it; holds if Welch's test finds no tile that differs and the mean z^2 of "
+     "the tiles is below the limit",
+     "deviation of any one tile, as a share of its mean, or of a quarter of the image's if that is "
+     "more",
+     "a mean z² of {}", 3.4, 0.05, true, measure_tiles},
+    {"pixels", Unit::percent,
      "root mean square deviation of the pixels, without what noise adds to it; holds if no pixel "
-     "differs and the standard error of pixels is below {}",
-     true, measure_pixels},
-    {"energy", Unit::percent, 0.005,
-     "deviation of the mean of the image; holds if it is not significant and its standard error "
-     "is below {}",
-     true, measure_energy},
-    {"region", Unit::percent, 1e-4,
-     "mean of one part of the image, relative to the mean of another; holds if below {}", false,
-     measure_region},
-    {"paired", Unit::percent, 1e-3,
-     "root mean square difference of images that were made with the same random numbers; holds "
-     "if below {}",
-     true, measure_paired},
-    {"shrinking", Unit::number, 1,
-     "order of the bias in the radius, from radii that halve from variant to variant; holds if at "
-     "least {}",
-     true, measure_shrinking},
-    {"fireflies", Unit::percent, 0.05,
+     "differs",
+     "deviation of any one pixel, as a share of its mean, or of a quarter of the image's if that "
+     "is "
+     "more",
+     nullptr, 0, 0.05, true, measure_pixels},
+    {"energy", Unit::percent, "deviation of the mean of the image; holds if it is not significant",
+     kOfMean, nullptr, 0, 0.005, true, measure_energy},
+    {"region", Unit::percent, "mean of one part of the image, relative to the mean of another",
+     kOfValue, "below {}", 1e-4, std::nullopt, false, measure_region},
+    {"paired", Unit::percent,
+     "root mean square difference of images that were made with the same random numbers", kExact,
+     "below {}", 1e-3, std::nullopt, true, measure_paired},
+    {"shrinking", Unit::number,
+     "order of the bias in the radius, from radii that halve from variant to variant", kOfValue,
+     "at least {}", 1, std::nullopt, true, measure_shrinking},
+    {"fireflies", Unit::percent,
      "share of the light that is in the brightest thousandth of the pixels of images with one "
-     "sample each; holds if below {}",
-     false, measure_fireflies},
-    {"spike", Unit::number, 50,
-     "brightest pixel over the median of its neighbours; holds if below {}", false, measure_spike},
-    {"noise", Unit::percent, 0.1,
-     "relative root mean square noise of one image, without the worst thousandth of the pixels; "
-     "holds if below {}",
-     false, measure_noise},
-    {"jump", Unit::number, 3,
-     "greatest ratio of the variances of two variants that follow each other; holds if below {}",
-     false, measure_jump},
-    {"efficiency", Unit::number, 1,
-     "1 / (relative mean square error x rays), over that of the reference; holds if at least {}",
-     true, measure_efficiency},
-    {"variance", Unit::number, 1.3,
+     "sample each",
+     kOfValue, "below {}", 0.05, std::nullopt, false, measure_fireflies},
+    {"spike", Unit::number, "brightest pixel of all images over the median of its neighbours",
+     kExact, "below {}", 50, std::nullopt, false, measure_spike},
+    {"noise", Unit::percent,
+     "relative root mean square noise of one image, without the worst thousandth of the pixels",
+     kOfValue, "below {}", 0.1, std::nullopt, false, measure_noise},
+    {"jump", Unit::number, "greatest ratio of the variances of two variants that follow each other",
+     kOfValue, "below {}", 3, std::nullopt, false, measure_jump},
+    {"efficiency", Unit::number,
+     "1 / (relative mean square error x rays), over that of the reference", kOfValue, "at least {}",
+     1, std::nullopt, true, measure_efficiency},
+    {"variance", Unit::number,
      "variance of an image with N times the samples, times N, over that of one with the row's "
-     "samples; holds if below {}",
-     false, measure_variance},
-    {"slope", Unit::number, -0.45,
+     "samples",
+     kOfValue, "below {}", 1.3, std::nullopt, false, measure_variance},
+    {"slope", Unit::number,
      "slope of the error over the number of samples, both on log scales, without what the noise of "
-     "the reference adds; holds if at most {}",
-     true, measure_slope},
-    {"slope-debiasing", Unit::number, 0.06,
-     "by how much that slope changes with a noisy reference; holds if below {}", true,
-     measure_slope_debiasing},
-    {"bits", Unit::count, 0.5, "pixels that differ between 1, 2 and 7 threads; holds if none does",
-     false, measure_bits},
-    {"finite", Unit::count, 0.5,
-     "pixels that are not finite or negative; holds if there is none, and at most a millionth of "
-     "the samples was dropped",
-     false, measure_finite},
-    {"crowding", Unit::number, 4096,
-     "photons merged per query, in the most crowded variant; holds if below {}", false,
-     measure_crowding},
-    {"stops", Unit::percent, 0.01,
+     "the reference adds",
+     kOfValue, "at most {}", -0.45, std::nullopt, true, measure_slope},
+    {"slope-debiasing", Unit::number, "by how much that slope changes with a noisy reference",
+     kOfValue, "below {}", 0.06, std::nullopt, true, measure_slope_debiasing},
+    {"bits", Unit::count, "pixels that differ between 1, 2 and 7 threads",
+     "exact: one pixel of one bit fails", "below {}", 1, std::nullopt, false, measure_bits},
+    {"finite", Unit::count,
+     "pixels that are not finite or negative; fails, too, if more than a millionth of the samples "
+     "was dropped",
+     "exact: one pixel fails", "below {}", 1, std::nullopt, false, measure_finite},
+    {"crowding", Unit::number, "photons merged per query, in the most crowded variant", kExact,
+     "below {}", 4096, std::nullopt, false, measure_crowding},
+    {"stops", Unit::percent,
      "deviation of the mean of images that were stopped after a random number of tiles; holds if "
-     "it is not significant and its standard error is below {}",
-     true, measure_stops},
+     "it is not significant",
+     kOfMean, nullptr, 0, 0.01, true, measure_stops},
 };
 
 }  // namespace
@@ -89,33 +93,62 @@ const Check& find_check(const std::string& name) {
 Measurement worst_variant(const Cell& cell,
                           const std::function<Measurement(const Variant&)>& measure) {
   Measurement worst;
+  Power weakest;
   bool first = true, all_hold = true;
   for (const Variant& v : cell.row.variants) {
     Measurement m = measure(v);
     if (!v.label.empty()) m.detail = v.label + (m.detail.empty() ? "" : ", " + m.detail);
     all_hold &= m.holds;
+    weakest = first ? m.power : weaker(weakest, m.power);
     const bool worse =
         m.holds != worst.holds ? !m.holds : !(std::abs(m.value) <= std::abs(worst.value));
     if (first || worse) worst = std::move(m);
     first = false;
   }
   worst.holds = all_hold;
+  worst.power = weakest;
   return worst;
 }
 
+Measurement measure_resolved(const Cell& cell, const std::function<Measurement(int)>& measure) {
+  Measurement m;
+  grow_images(cell.row.batches, cell.row.most_batches, [&](int batches) {
+    cell.laboratory.check_cancelled();
+    m = measure(batches);
+    return cell.known_to_fail && !m.holds ? 0 : m.power.noise;
+  });
+  return m;
+}
+
+Measurement worst_resolved_variant(const Cell& cell,
+                                   const std::function<Measurement(const Variant&, int)>& measure) {
+  return worst_variant(cell, [&](const Variant& v) {
+    return measure_resolved(cell, [&](int batches) { return measure(v, batches); });
+  });
+}
+
+Series render_subject(const Cell& cell, const Variant& variant, int batches) {
+  SeriesPlan plan = subject_plan(cell.row, cell.method, variant);
+  plan.batches = batches;
+  return cell.laboratory.render(plan);
+}
+
 void require_finite(const Series& series, Measurement& m) {
-  const double dropped = double(series.counters.nonfinite_samples) /
-                         double(std::max<uint64_t>(1, series.counters.camera_paths));
-  if (series.bad_pixels == 0 && dropped <= 1e-6) return;
+  const RenderCounters counters = series.counters();
+  const double dropped =
+      double(counters.nonfinite_samples) / double(std::max<uint64_t>(1, counters.camera_paths));
+  const long bad_pixels = series.bad_pixels();
+  if (bad_pixels == 0 && dropped <= 1e-6) return;
   m.holds = false;
   m.detail += fmt::format("{}{} bad pixels, {:.2g} of the samples dropped",
-                          m.detail.empty() ? "" : ", ", series.bad_pixels, dropped);
+                          m.detail.empty() ? "" : ", ", bad_pixels, dropped);
 }
 
 std::vector<std::vector<double>> tile_means(const Series& series, int grid_x, int grid_y) {
   const size_t tiles = size_t(grid_x) * size_t(grid_y);
   std::vector<std::vector<double>> all;
-  for (const std::vector<float>& image : series.images) {
+  for (const Picture& picture : series.pictures) {
+    const std::vector<float>& image = picture.grey;
     std::vector<double> sums(tiles), counts(tiles);
     for (int y = 0; y < series.height; ++y)
       for (int x = 0; x < series.width; ++x) {
@@ -136,7 +169,8 @@ std::vector<double> region_means(const Series& series, const Region& region) {
   const int x1 = std::max(x0 + 1, edge(region[2], series.width));
   const int y1 = std::max(y0 + 1, edge(region[3], series.height));
   std::vector<double> means;
-  for (const std::vector<float>& image : series.images) {
+  for (const Picture& picture : series.pictures) {
+    const std::vector<float>& image = picture.grey;
     double sum = 0;
     for (int y = y0; y < y1; ++y)
       for (int x = x0; x < x1; ++x)
@@ -148,10 +182,15 @@ std::vector<double> region_means(const Series& series, const Region& region) {
 
 std::vector<double> mean_image(const Series& series) {
   std::vector<double> mean(series.pixels());
-  for (const std::vector<float>& image : series.images)
-    for (size_t i = 0; i < mean.size(); ++i) mean[i] += double(image[i]);
-  for (double& m : mean) m /= double(series.images.size());
+  for (const Picture& picture : series.pictures)
+    for (size_t i = 0; i < mean.size(); ++i) mean[i] += double(picture.grey[i]);
+  for (double& m : mean) m /= double(series.pictures.size());
   return mean;
+}
+
+int jackknife_groups(size_t images) {
+  constexpr size_t kGroups = 32;
+  return int(std::min(images, kGroups));
 }
 
 }  // namespace duet::stability

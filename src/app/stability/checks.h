@@ -7,6 +7,7 @@
 
 #include "app/stability/catalogue.h"
 #include "app/stability/laboratory.h"
+#include "app/stability/power.h"
 #include "math/statistics.h"
 
 namespace duet::stability {
@@ -18,6 +19,7 @@ struct Measurement {
   double value = 0;
   double error = 0;  ///< standard error of the value, where there is one
   bool holds = true;
+  Power power;
   std::string detail;  ///< for people: further figures
 };
 
@@ -26,8 +28,12 @@ struct Cell {
   const Row& row;
   const std::string& method;
   Laboratory& laboratory;
-  double level;  ///< of significance, for this cell alone
-  double limit;  ///< of the statistic
+  double level;   ///< of significance, for this cell alone
+  double limit;   ///< of the statistic
+  double margin;  ///< share of a mean that merging may be off by
+  /// By how much coarser than in the whole run the bounds of the power are.
+  double coarser = 1;
+  bool known_to_fail = false;
 };
 
 enum class Unit { percent, number, count };
@@ -35,8 +41,13 @@ enum class Unit { percent, number, count };
 struct Check {
   const char* name;
   Unit unit;
-  double limit;         ///< unless the row has one of its own
-  const char* summary;  ///< what the value is and when it holds; "{}" stands for the limit
+  const char* summary;  ///< what the value is
+  const char* power;    ///< what the deviation is that would have been noticed
+  /// How the limit reads, with "{}" for the number; null if there is none.
+  const char* limit_text;
+  double limit;  ///< unless the row has one of its own
+  /// For comparisons of means: by how much those of methods that merge may be off.
+  std::optional<double> margin;
   bool needs_reference;
   Measurement (*measure)(const Cell& cell);
 };
@@ -70,8 +81,17 @@ Measurement measure_stops(const Cell& cell);
 
 // What checks share.
 /// Measures every variant of the row: the result is that of the worst one, and holds if all hold.
+/// Its power is that of the weakest.
 Measurement worst_variant(const Cell& cell,
                           const std::function<Measurement(const Variant&)>& measure);
+/// Measures with growing numbers of images, until what has to be noticed would be. A failure that
+/// is known needs no more than it takes to see it.
+Measurement measure_resolved(const Cell& cell, const std::function<Measurement(int)>& measure);
+/// Both: of every variant as many images as it takes.
+Measurement worst_resolved_variant(const Cell& cell,
+                                   const std::function<Measurement(const Variant&, int)>& measure);
+/// The series of the method under test, with so many images.
+Series render_subject(const Cell& cell, const Variant& variant, int batches);
 /// Pixels that are not finite or negative, and more than a millionth of dropped samples, fail
 /// whatever is measured.
 void require_finite(const Series& series, Measurement& m);
@@ -83,5 +103,7 @@ std::vector<double> region_means(const Series& series, const Region& region);
 Measurement compare_energy(const Cell& cell, const Series& subject, const Variant& variant);
 /// The mean of all images, pixel by pixel.
 std::vector<double> mean_image(const Series& series);
+/// Groups of images that jackknives leave out in turn.
+int jackknife_groups(size_t images);
 
 }  // namespace duet::stability

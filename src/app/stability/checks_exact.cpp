@@ -10,6 +10,14 @@
 
 namespace duet::stability {
 
+namespace {
+
+Power exact_power(const Cell& cell) {
+  return {cell.limit, cell.limit, 0};
+}
+
+}  // namespace
+
 Measurement measure_bits(const Cell& cell) {
   return worst_variant(cell, [&](const Variant& v) {
     const SeriesPlan plan = subject_plan(cell.row, cell.method, v);
@@ -31,6 +39,7 @@ Measurement measure_bits(const Cell& cell) {
       }
     }
     m.holds = m.value < cell.limit;
+    m.power = exact_power(cell);
     return m;
   });
 }
@@ -61,14 +70,15 @@ std::vector<Variant> drawn_variants(const Row& row) {
 Measurement measure_finite(const Cell& cell) {
   Row row = cell.row;
   for (Variant& v : drawn_variants(cell.row)) row.variants.push_back(std::move(v));
-  const Cell drawn{row, cell.method, cell.laboratory, cell.level, cell.limit};
+  const Cell drawn{row, cell.method, cell.laboratory, cell.level, cell.limit, cell.margin};
   long pixels = 0;
   Measurement worst = worst_variant(drawn, [&](const Variant& v) {
-    const Series& s = cell.laboratory.render(subject_plan(row, cell.method, v));
-    pixels += long(s.pixels() * s.images.size());
+    const Series s = cell.laboratory.render(subject_plan(row, cell.method, v));
+    pixels += long(s.pixels() * s.pictures.size());
     Measurement m;
-    m.value = double(s.bad_pixels);
+    m.value = double(s.bad_pixels());
     m.holds = m.value < cell.limit;
+    m.power = exact_power(cell);
     require_finite(s, m);
     return m;
   });
@@ -79,44 +89,54 @@ Measurement measure_finite(const Cell& cell) {
 
 Measurement measure_crowding(const Cell& cell) {
   return worst_variant(cell, [&](const Variant& v) {
-    const Series& s = cell.laboratory.render(subject_plan(cell.row, cell.method, v));
+    const Series s = cell.laboratory.render(subject_plan(cell.row, cell.method, v));
+    const RenderCounters counters = s.counters();
     Measurement m;
-    m.value = double(s.counters.merges) / double(std::max<uint64_t>(1, s.counters.merge_queries));
+    m.value = double(counters.merges) / double(std::max<uint64_t>(1, counters.merge_queries));
     m.holds = m.value < cell.limit;
+    m.power = exact_power(cell);
     require_finite(s, m);
     return m;
   });
 }
 
+namespace {
+
+/// An image that was stopped after a random number of tiles, but not before every pixel had a
+/// sample.
+Image stopped_image(const SeriesPlan& plan, int batch, Experiment& e, RenderCounters& counters) {
+  Film film(e.layout, e.integrator->channels());
+  e.integrator->prepare(film);
+  // Every question counts, so that most stops come in the midst of a pass; on one thread they
+  // always come at the same place.
+  const double share = double(to_unit_float(mix32(uint32_t(batch))));
+  const int questions = 1 + int(share * plan.spp * double(film.tiles().size()));
+  std::atomic<int> asked = 0;
+  PassControl whole, stopped;
+  stopped.cancelled = [&] { return ++asked > questions; };
+  for (int sample = 0; sample < plan.spp && asked <= questions; ++sample) {
+    const SampleRange range{SampleSequence::sobol, plan.batch_seed(batch), 0, uint32_t(sample), 1};
+    e.integrator->render_pass(e.scene, film, range, sample == 0 ? whole : stopped, counters);
+  }
+  Image image = film.develop();
+  e.integrator->finish(image, 1);
+  return image;
+}
+
+}  // namespace
+
 Measurement measure_stops(const Cell& cell) {
   return worst_variant(cell, [&](const Variant& v) {
-    const SeriesPlan plan = subject_plan(cell.row, cell.method, v);
-    Experiment e = cell.laboratory.prepare(plan);
     Series series;
-    for (int b = 0; b < plan.batches; ++b) {
-      cell.laboratory.check_cancelled();
-      Film film(e.layout, e.integrator->channels());
-      e.integrator->prepare(film);
-      // Every question counts, so that the stop comes in the midst of a pass; on one thread it
-      // always comes at the same place.
-      const double share = double(to_unit_float(mix32(uint32_t(b))));
-      const int questions = 1 + int(share * plan.spp * double(film.tiles().size()));
-      std::atomic<int> asked = 0;
-      PassControl control;
-      control.cancelled = [&] { return ++asked > questions; };
-      const SampleRange range{SampleSequence::sobol, plan.batch_seed(b), 0, 0, uint32_t(plan.spp)};
-      // A whole pass first: every pixel is to have a sample.
-      PassControl whole;
-      whole.threads = cell.laboratory.threads();
-      SampleRange first = range, rest = range;
-      first.count = 1, rest.first = 1;
-      e.integrator->render_pass(e.scene, film, first, whole, series.counters);
-      e.integrator->render_pass(e.scene, film, rest, control, series.counters);
-      Image image = film.develop();
-      e.integrator->finish(image, 1);
-      series.add(image);
-    }
-    return compare_energy(cell, series, v);
+    return measure_resolved(cell, [&](int batches) {
+      SeriesPlan plan = subject_plan(cell.row, cell.method, v);
+      plan.batches = batches;
+      cell.laboratory.extend(series, plan, [&](Experiment& e, int batch, RenderCounters& counters) {
+        cell.laboratory.check_cancelled();
+        return stopped_image(plan, batch, e, counters);
+      });
+      return compare_energy(cell, series, v);
+    });
   });
 }
 

@@ -12,8 +12,14 @@ double limit_of(const Row& row) {
   return row.limit.value_or(find_check(row.check).limit);
 }
 
-std::string format_value(const Row& row, double value) {
-  switch (find_check(row.check).unit) {
+double margin_of(const Row& row) {
+  return row.margin.value_or(find_check(row.check).margin.value_or(0));
+}
+
+namespace {
+
+std::string format_number(Unit unit, double value) {
+  switch (unit) {
     case Unit::percent:
       return std::abs(value) < 1e-3 && value != 0 ? fmt::format("{:.1g} %", 100 * value)
              : std::abs(value) < 0.0995           ? fmt::format("{:.2f} %", 100 * value)
@@ -26,8 +32,34 @@ std::string format_value(const Row& row, double value) {
   return "";
 }
 
+}  // namespace
+
+std::string format_value(const Row& row, double value) {
+  return format_number(find_check(row.check).unit, value);
+}
+
+std::string describe_limit(const Row& row) {
+  const Check& check = find_check(row.check);
+  std::string text;
+  // That of the tiles is a number, whatever the unit of what is measured.
+  const Unit unit = row.check == "tiles" ? Unit::number : check.unit;
+  if (check.limit_text)
+    text =
+        "limit: " + fmt::format(fmt::runtime(check.limit_text), format_number(unit, limit_of(row)));
+  if (check.margin)
+    text += fmt::format("{}methods that merge may be off by {}", text.empty() ? "" : "; ",
+                        format_number(Unit::percent, margin_of(row)));
+  return text;
+}
+
+std::string describe_power(const Row& row, const Power& power) {
+  if (power.noise == 0 && power.noticed == power.required) return "exact";
+  return fmt::format("{} (bound {})", format_value(row, power.noticed),
+                     format_value(row, power.required));
+}
+
 CellResult judge(const Catalogue& catalogue, const Row& row, const std::string& method,
-                 Laboratory& laboratory) {
+                 Laboratory& laboratory, double coarser) {
   const Expectation& expected = row.methods.at(method);
   CellResult result;
   result.method = method;
@@ -35,11 +67,15 @@ CellResult judge(const Catalogue& catalogue, const Row& row, const std::string& 
   if (expected.verdict == Expected::not_applicable) return result;
   const auto start = std::chrono::steady_clock::now();
   const double level = sidak(kTableLevel, catalogue.measured_cells());
-  result.measured = find_check(row.check).measure({row, method, laboratory, level, limit_of(row)});
+  result.measured =
+      find_check(row.check).measure({row, method, laboratory, level, limit_of(row), margin_of(row),
+                                     coarser, expected.verdict == Expected::fails});
   result.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   const Measurement& m = result.measured;
   if (expected.verdict == Expected::holds) {
-    result.outcome = m.holds ? Outcome::holds : Outcome::unexpected;
+    result.outcome = !m.holds              ? Outcome::unexpected
+                     : !m.power.resolved() ? Outcome::not_resolved
+                                           : Outcome::holds;
     if (!m.holds) result.why = "fails, but is expected to hold";
     return result;
   }
@@ -54,11 +90,11 @@ CellResult judge(const Catalogue& catalogue, const Row& row, const std::string& 
   return result;
 }
 
-bool all_as_expected(const std::vector<RowResult>& results) {
+int count(const std::vector<RowResult>& results, Outcome outcome) {
+  int n = 0;
   for (const RowResult& r : results)
-    for (const CellResult& c : r.cells)
-      if (c.outcome == Outcome::unexpected) return false;
-  return true;
+    for (const CellResult& c : r.cells) n += c.outcome == outcome;
+  return n;
 }
 
 std::string describe(const Row& row, const CellResult& cell) {
@@ -72,6 +108,8 @@ std::string describe(const Row& row, const CellResult& cell) {
     }
     case Outcome::not_applicable:
       return "not applicable";
+    case Outcome::not_resolved:
+      return "NOT RESOLVED: a greater deviation than the bound might go unnoticed";
     case Outcome::unexpected:
       return "NOT AS EXPECTED: " + cell.why;
   }
@@ -89,15 +127,20 @@ std::string json(const std::vector<RowResult>& results) {
       continue;
     }
     row["check"] = r.row->check;
-    row["limit"] = limit_of(*r.row);
+    if (find_check(r.row->check).limit_text) row["limit"] = limit_of(*r.row);
+    if (find_check(r.row->check).margin) row["margin"] = margin_of(*r.row);
     for (const CellResult& c : r.cells) {
       Json cell{{"method", c.method}, {"outcome", describe(*r.row, c)}};
-      cell["as_expected"] = c.outcome != Outcome::unexpected;
+      cell["as_expected"] = c.outcome != Outcome::unexpected && c.outcome != Outcome::not_resolved;
       if (!c.why.empty()) cell["why"] = c.why;
       if (c.outcome != Outcome::not_applicable) {
         cell["value"] = c.measured.value;
         cell["error"] = c.measured.error;
         cell["holds"] = c.measured.holds;
+        cell["resolved"] = c.measured.power.resolved();
+        cell["notices"] = c.measured.power.noticed;
+        cell["has_to_notice"] = c.measured.power.required;
+        cell["noise"] = c.measured.power.noise;
         cell["detail"] = c.measured.detail;
         cell["seconds"] = c.seconds;
       }
