@@ -49,12 +49,12 @@ PartlyMerged merge_where_it_pays(const PredictedMethod& without, const Predicted
         mixed.missing += p.missing;
         mixed.merged += p.merged;
         mixed.variance += p.variance;
+        mixed.blur += p.blur;
         mixed.error += p.error;
         mixed.parts.push_back(p);
       }
     result.share = double(std::count(parts.begin(), parts.end(), 1)) / kParts;
     result.parts = std::move(parts);
-    mixed.sharp = with.sharp;  // at most
     mixed.cost = without.cost + result.share * (with.cost - without.cost);
     // To take the smaller of two noisy figures in every part promises too much.
     mixed.error = std::max(mixed.error, std::min(with.error, without.error));

@@ -24,6 +24,7 @@ struct MethodCandidate {
 /// What one part of the image adds to the figures of PredictedMethod, as far as they are sums.
 struct PredictedPart {
   double missing = 0, merged = 0, variance = 0, error = 0;
+  double blur = 0;         ///< is among the error; of so few walks it may come out below zero
   double least_error = 0;  ///< what the error of the whole is bounded by from below
 };
 
@@ -31,8 +32,8 @@ struct PredictedPart {
 struct PredictedMethod {
   double missing = 0;   ///< share of the light that it cannot find
   double merged = 0;    ///< share of the light with smooth scattering that it finds by merging
-  double sharp = 0;     ///< share of the light that it merges where scattering is nearly specular
   double variance = 0;  ///< of one sample per pixel, relative to the square of the image
+  double blur = 0;      ///< mean squared relative error that merging adds, however many images
   double error = 0;     ///< mean squared relative error of the image
   double cost = 0;      ///< of one sample of one pixel
   std::vector<PredictedPart> parts;  ///< of MergeMask's grid, before variance is bounded from below
