@@ -6,10 +6,33 @@
 
 namespace duet {
 
+namespace {
+
+/// Cosine between the normals of two surfaces below which they are not one.
+constexpr float kOneSurface = 0.5f;
+
+}  // namespace
+
+bool lacks_photons(const Scene& scene, const PathVertex& eye, float radius, const Point2f& u,
+                   RenderCounters& counters) {
+  const Surface& s = eye.surface;
+  const Vector3f up = Vector3f(s.ng) * (dot(s.ng, eye.wo) < 0 ? -1.0f : 1.0f);
+  const Frame frame(s.ng);
+  const float distance = radius * std::sqrt(u.x), angle = 2 * kPi * u.y;
+  const float height = radius * std::sqrt(1 - u.x);
+  const Point3f beside =
+      eye.position() + frame.to_world({distance * std::cos(angle), distance * std::sin(angle), 0});
+  const Point3f above = beside + up * height;
+  counters.shadow_rays += 2;
+  if (scene.accel->occluded(spawn_ray_to(s, above))) return true;
+  return !scene.accel->occluded({above, up * (-2 * height), 1});
+}
+
 float merge_blur(const Scene& scene, const PathVertex& eye, const Point3f& photon,
                  const PhotonArrival& arrival, const PhotonShift& shift, RenderCounters& counters) {
   const Point3f& x = eye.position();
   if (shift.edge < shift.scale) {
+    if (std::abs(dot(arrival.normal, eye.surface.ng)) < kOneSurface) return 1;
     ++counters.shadow_rays;
     if (scene.accel->occluded(spawn_ray_to(eye.surface, arrival.from))) return 1;
   }

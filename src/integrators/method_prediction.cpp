@@ -89,7 +89,7 @@ class Prediction {
     add_walks();
     PredictedMethod p;
     const double walks = double(record_.walks());
-    double squares = 0, products = 0, lost = 0;
+    double squares = 0, products = 0, lost = 0, blur_variances = 0;
     // Blur goes with the radius or, where light changes smoothly, with its square.
     const double shrinkage =
         candidate_.merges > 0 ? candidate_.merges / candidate_.light_paths : 0.0;
@@ -99,15 +99,16 @@ class Prediction {
           tile_walks_[t] > 0 ? tile.trimmed * tile.trimmed / tile_walks_[t] / walks : 0.0;
       const double variance = (tile.squares + tile.products) / walks;
       const double blur = tile.blur / walks * shrinkage;
+      const double blur_variance = tile.blur_squares * std::pow(shrinkage / walks, 2);
       p.parts.push_back({all_ > 0 ? tile.missing / all_ : 0,
                          may_merge_ > 0 ? tile.merged / may_merge_ : 0, variance,
-                         variance / spp_ + bias + blur, blur,
+                         variance / spp_ + bias + blur, blur, blur_variance,
                          kLeastVariance * tile.squares / walks / spp_ + bias});
       p.missing += p.parts.back().missing, p.merged += p.parts.back().merged;
-      p.blur += blur;
+      p.blur += blur, blur_variances += blur_variance;
       squares += tile.squares, products += tile.products, lost += bias;
     }
-    p.blur = std::max(0.0, p.blur);
+    p.blur = cautious_blur(p.blur, blur_variances);
     p.variance = std::max(squares + products, kLeastVariance * squares) / walks;
     p.error = p.variance / spp_ + lost + p.blur;
     p.cost = cost();
@@ -182,7 +183,8 @@ class Prediction {
         products += means[k] * means[k] - s.join_squares - rate * rate * s.merge_squares;
       }
       products -= 2 * means[0] * means[1];
-      tile.blur += 2 * blurs[0] * blurs[1];
+      const double blur = 2 * blurs[0] * blurs[1];
+      tile.blur += blur, tile.blur_squares += blur * blur;
     }
   }
 
@@ -262,7 +264,8 @@ class Prediction {
     double squares = 0, products = 0;  ///< of contributions
     double trimmed = 0, missing = 0;   ///< light left out as too rare, and that cannot be found
     double merged = 0;                 ///< light that merging finds
-    double blur = 0;                   ///< products of what two walks have too much
+    /// Products of what two walks have too much, and their squares.
+    double blur = 0, blur_squares = 0;
   };
   std::vector<Tile> tiles_;
   std::vector<double> tile_walks_;

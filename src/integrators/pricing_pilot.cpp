@@ -15,7 +15,8 @@ namespace duet {
 
 namespace {
 
-constexpr uint64_t kEyeSeed = 0x7072696365ull, kLightSeed = 0x6c69676874ull, kEdgeSeed = 0x65646765ull;
+constexpr uint64_t kEyeSeed = 0x7072696365ull, kLightSeed = 0x6c69676874ull,
+                   kEdgeSeed = 0x65646765ull, kGapSeed = 0x676170ull;
 /// Longer paths add next to nothing to what the pilot is asked.
 constexpr int kLongest = FamilyWeights::kMostVertices / 2;
 constexpr size_t kWalksPerBlock = 64;
@@ -46,6 +47,7 @@ class PricingPilot {
     // with a larger radius the share of pairs is the one that is meant.
     const double thinned = double(walks_) / pixels;
     query_radius_ = float(radius * std::sqrt(2 * PricingRecord::kMergeShare / thinned));
+    first_radius_ = float(radius);
     shift_scale_ = float(std::min(1.0, radius / double(query_radius_)));
   }
 
@@ -239,6 +241,11 @@ class PricingPilot {
     const PhotonShift shift{shift_scale_, to_unit_float(uint32_t(mix64(kEdgeSeed + at.cell)))};
     ++out.merge_counters.merge_queries;
     out.first_counters.merge_queries += at.first;
+    const uint64_t random =
+        mix64(hash_combine(kGapSeed ^ plan_.seed, index * kLongest + size_t(v.depth)));
+    const Point2f beside{to_unit_float(uint32_t(random)), to_unit_float(uint32_t(random >> 32))};
+    const float missing =
+        lacks_photons(scene_, v, first_radius_, beside, out.merge_counters) ? 1.0f : 0.0f;
     grid_.query(v.position(), grid_.locate(v.position()), [&](uint32_t i, float) {
       const LightVertex& photon = light_.vertices[i];
       if (int(photon.depth) + v.depth > max_depth_ || (light_.owner[i] ^ index) & 1) return;
@@ -249,7 +256,8 @@ class PricingPilot {
       out.first_counters.merges += at.first;
       add(out.eye, join.value * join.weight, weights.shares(),
           at.first ? Technique::first_merge : Technique::later_merge, at.cell,
-          merge_blur(scene_, v, photon.position, light_.arrivals[i], shift, out.merge_counters));
+          merge_blur(scene_, v, photon.position, light_.arrivals[i], shift, out.merge_counters) -
+              missing);
     });
   }
 
@@ -260,6 +268,7 @@ class PricingPilot {
   WalkOptions options_;
   TechniqueSet set_;
   float threshold_ = 0, query_radius_ = 0;
+  float first_radius_ = 0;
   float shift_scale_ = 1;  ///< of distances to photons
   PilotLightWalks light_;
   VertexGrid grid_;

@@ -24,8 +24,8 @@ struct PricedContribution {
   float value, square;  ///< means over the colours
   FamilyShares shares;  ///< in the density of all techniques
   Technique technique;
-  /// Of a merge: the share of it that is blur (merge_blur.h), with the radius of the first
-  /// iteration.
+  /// Of a merge: the share of it that is blur, less that of photons that are missing
+  /// (merge_blur.h), with the radius of the first iteration.
   float blur;
   uint16_t cell;  ///< where in the image: row by row of the pilot's pixels
 };
