@@ -22,6 +22,8 @@ constexpr double kPilotShare = 0.04, kPilotWalkCost = 14;
 constexpr int kFewestPixels = 16, kMostPixels = 64;  ///< per side
 /// How much better than path tracing a method has to be.
 constexpr double kHysteresis = 1.15;
+/// And one that merges than all that do not: those gain more from Sobol' points, and are unbiased.
+constexpr double kMergingHysteresis = 1.5;
 /// Probability that another method is so much better above which the choice is not sure.
 constexpr double kDoubt = 0.1;
 /// Share of the image above which merging in a part of it is merging in all of it.
@@ -180,11 +182,12 @@ Eligible eligible(const MethodPrices& prices, const MethodRules& rules) {
   return result;
 }
 
-/// The candidate with which least is to be lost, and path tracing unless it loses more.
+/// The candidate with which least is to be lost; one that does not merge, and path tracing, unless
+/// they lose more.
 size_t least_loss(const MethodPrices& prices, const std::vector<uint8_t>& may,
                   const MethodRisk& risk) {
   const std::vector<MethodCandidate>& c = prices.candidates;
-  size_t best = c.size();
+  size_t best = c.size(), unbiased = c.size();
   for (size_t i = 0; i < c.size(); ++i) {
     const PredictedMethod& p = prices.predictions[i];
     log::detail(
@@ -192,8 +195,14 @@ size_t least_loss(const MethodPrices& prices, const std::vector<uint8_t>& may,
         "cost {:.3g}, price {:.3g}, loss {:.3g}",
         c[i].name, p.missing, p.merged, p.variance, p.blur, p.error, p.cost, p.error * p.cost,
         risk.loss(i));
-    if (may[i] && (best == c.size() || risk.loss(i) < risk.loss(best))) best = i;
+    const auto improves = [&](size_t on) {
+      return may[i] && (on == c.size() || risk.loss(i) < risk.loss(on));
+    };
+    if (improves(best)) best = i;
+    if (c[i].merges == 0 && improves(unbiased)) unbiased = i;
   }
+  if (unbiased < c.size() && !(risk.loss(unbiased) > kMergingHysteresis * risk.loss(best)))
+    best = unbiased;
   return may[0] && !(risk.loss(0) > kHysteresis * risk.loss(best)) ? 0 : best;
 }
 
