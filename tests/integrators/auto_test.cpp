@@ -175,6 +175,30 @@ TEST_CASE("photons are merged on a body in rough glass") {
   }
 }
 
+TEST_CASE("methods that merge have to promise half as much again, and no rule overrules more") {
+  const auto taken = [](double path, double bdpt, double vcm) {
+    MethodPrices prices;
+    const std::pair<const char*, double> methods[] = {{"path", path}, {"bdpt", bdpt}, {"vcm", vcm}};
+    for (const auto& [name, error] : methods) {
+      MethodCandidate c;
+      c.name = name;
+      c.light_paths = prices.candidates.empty() ? 0 : 1;
+      c.merges = c.name == "vcm" ? 0.5 : 0;
+      prices.candidates.push_back(c);
+      PredictedMethod p;
+      p.variance = p.error = error, p.cost = 1;
+      prices.predictions.push_back(p);
+    }
+    const std::string reason = take(prices, {.may_merge = true}).reason;
+    return reason.substr(0, reason.find(':'));
+  };
+  CHECK(taken(1, 2, 3) == "path");
+  CHECK(taken(1.1, 1, 0.9) == "path");
+  CHECK(taken(1.2, 1, 0.7) == "bdpt");
+  CHECK(taken(1.2, 1, 0.6) == "vcm");
+  CHECK(taken(1, 1, 0.01) == "vcm");
+}
+
 TEST_CASE("the number of samples decides whether blur is worth it") {
   const TransportScene s("thesis-modified", 64);
   const auto chosen = [&](const RenderOutlook& outlook) {
