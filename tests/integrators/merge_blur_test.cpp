@@ -107,7 +107,7 @@ TEST_CASE("photons are missing in corners and beyond edges, by the share of the 
   // Of a disk at half its radius from a straight line.
   const double beyond = (kPi / 3 - std::sqrt(3) / 4) / kPi;
   CHECK(missing(0) == 0);
-  CHECK(missing(1.95f) == doctest::Approx(beyond).epsilon(0.03));  // the wall
-  CHECK(missing(3.95f) == doctest::Approx(beyond).epsilon(0.03));  // the end of the floor
+  CHECK(missing(1.95f) == doctest::Approx(beyond).epsilon(0.01));  // the wall
+  CHECK(missing(3.95f) == doctest::Approx(beyond).epsilon(0.01));  // the end of the floor
   CHECK(missing(3.999f) == doctest::Approx(0.5).epsilon(0.03));
 }

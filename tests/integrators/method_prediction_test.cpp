@@ -134,10 +134,10 @@ TEST_CASE("noise goes with the number of samples, blur stays") {
   const PredictedMethod few = predict(record, merging(true), 64);
   const PredictedMethod many = predict(record, merging(true), 1 << 24);
   REQUIRE(few.blur > 0);
-  CHECK(few.error == doctest::Approx(few.variance / 64 + few.blur).epsilon(0.05));
-  CHECK(many.error == doctest::Approx(many.blur).epsilon(0.01));
+  CHECK(few.error / (few.variance / 64 + few.blur) == doctest::Approx(1).epsilon(0.025));
+  CHECK(many.error / many.blur == doctest::Approx(1).epsilon(0.01));
   // With half the squared radius it has half the squared error.
   MethodCandidate shrunk = merging(true);
   shrunk.merges = 0.5;
-  CHECK(predict(record, shrunk, 64).blur == doctest::Approx(few.blur / 2).epsilon(0.2));
+  CHECK(predict(record, shrunk, 64).blur / few.blur == doctest::Approx(0.5).epsilon(0.1));
 }
