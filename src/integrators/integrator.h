@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -49,11 +50,14 @@ struct PassControl {
 void for_each_tile(Film& film, const PassControl& control, RenderCounters& counters,
                    const std::function<void(FilmTile&, RenderCounters&)>& work);
 
-/// What is known of a render before its first pass.
+/// What is known of a render before its first pass. The first limit that is reached ends it.
 struct RenderOutlook {
   Point2i film;  ///< size of the whole image
-  int spp = 64;  ///< samples that a pixel will probably get
+  int spp = 64;  ///< samples that a pixel gets at most; 0 for any number
   int threads = 1;
+  std::optional<double> seconds = {};       ///< RenderBudget::seconds
+  std::optional<double> target_error = {};  ///< RenderBudget::target_error
+  int batches = 1;  ///< independent images of which it is the mean, each with its share of samples
 };
 
 /// What a method that chooses another has chosen, and why.

@@ -38,6 +38,7 @@ PartlyMerged merge_where_it_pays(const PredictedMethod& without, const Predicted
     // Turning a part off makes the error larger and the cost smaller.
     const double cheaper = (with.cost - without.cost) / kParts / result.prediction.cost;
     PredictedMethod mixed;
+    double blur_variance = 0;
     std::vector<uint8_t> parts;
     for (int y = 0; y < kSide; ++y)
       for (int x = 0; x < kSide; ++x) {
@@ -49,13 +50,16 @@ PartlyMerged merge_where_it_pays(const PredictedMethod& without, const Predicted
         mixed.missing += p.missing;
         mixed.merged += p.merged;
         mixed.variance += p.variance;
+        mixed.blur += p.blur, blur_variance += p.blur_variance;
         mixed.error += p.error;
         mixed.parts.push_back(p);
       }
     result.share = double(std::count(parts.begin(), parts.end(), 1)) / kParts;
     result.parts = std::move(parts);
-    mixed.sharp = with.sharp;  // at most
     mixed.cost = without.cost + result.share * (with.cost - without.cost);
+    const double blur = cautious_blur(mixed.blur, blur_variance);
+    mixed.error += blur - mixed.blur;
+    mixed.blur = blur;
     // To take the smaller of two noisy figures in every part promises too much.
     mixed.error = std::max(mixed.error, std::min(with.error, without.error));
     result.prediction = std::move(mixed);

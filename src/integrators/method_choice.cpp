@@ -10,6 +10,7 @@
 #include "integrators/merge_parts.h"
 #include "integrators/method_risk.h"
 #include "integrators/method_rules.h"
+#include "integrators/sample_budget.h"
 
 namespace duet {
 
@@ -19,21 +20,14 @@ namespace {
 /// samples of path tracing.
 constexpr double kPilotShare = 0.04, kPilotWalkCost = 14;
 constexpr int kFewestPixels = 16, kMostPixels = 64;  ///< per side
-/// How much better than path tracing a method has to be, and `ppm` than all others.
+/// How much better than path tracing a method has to be.
 constexpr double kHysteresis = 1.15;
+/// And one that merges than all that do not: those gain more from Sobol' points, and are unbiased.
+constexpr double kMergingHysteresis = 1.5;
 /// Probability that another method is so much better above which the choice is not sure.
 constexpr double kDoubt = 0.1;
 /// Share of the image above which merging in a part of it is merging in all of it.
 constexpr double kNearlyAll = 0.95;
-/// Share of the light above which `ppm`, which merges all of it, may take the place of a method
-/// that merges this much and finds the rest without a blur.
-constexpr double kMuch = 1 / 3.0;
-/// In images of fewer pixels the radius, of a pixel or two, is much of what they show.
-constexpr int kFewestPixelsToBlur = 64 * 64;
-/// Share of the light that may be merged where scattering is nearly specular: within the radius
-/// light from such a surface is by far not the same everywhere, and the blur makes highlights
-/// brighter than they are.
-constexpr double kMostSharp = 1e-3;
 /// Share of the light that may be missed.
 constexpr double kNegligible = 1e-4;
 /// Between the sphere of all surfaces and that of the visible ones: beyond, walks from lights that
@@ -42,6 +36,13 @@ constexpr double kFarRatio = 30;
 
 /// Why walks from lights do not come into question.
 constexpr const char* kOneWay = "light cannot be followed through tubes from its source";
+
+/// What a method is taken for before anything is known of it: for the length of the pilot.
+PredictedMethod unknown_method() {
+  PredictedMethod p;
+  p.variance = p.cost = 1;
+  return p;
+}
 
 /// Mean over the iterations of the first merging area over theirs: the radius shrinks.
 double mean_shrinkage(double alpha, int iterations) {
@@ -65,9 +66,8 @@ BidirectionalIntegratorDescription bidirectional(const PathLimits& o, Bidirectio
 }
 
 std::vector<MethodCandidate> candidates(const MethodRules& rules, const PathLimits& o,
-                                        const RenderOutlook& outlook) {
+                                        int iterations) {
   using enum BidirectionalMethod;
-  const int spp = outlook.spp;
   std::vector<MethodCandidate> list;
   list.push_back({PathIntegratorDescription{o}, "path"});
   const auto add = [&](BidirectionalMethod method, double light, int connections, double merges) {
@@ -81,12 +81,11 @@ std::vector<MethodCandidate> candidates(const MethodRules& rules, const PathLimi
   if (!rules.may_merge) return list;
   for (const double light : {1 / 4.0, 1.0})
     for (const int connections : {-1, 0})
-      add(vcm, light, connections, light / mean_shrinkage(0.75, spp));
-  if (outlook.film.x * outlook.film.y < kFewestPixelsToBlur) return list;
+      add(vcm, light, connections, light / mean_shrinkage(0.75, iterations));
   list.push_back({.method = bidirectional(o, ppm, 1, -1),
                   .name = "ppm light_paths=1",
                   .light_paths = 1,
-                  .merges = 1 / mean_shrinkage(2.0 / 3, spp),
+                  .merges = 1 / mean_shrinkage(2.0 / 3, iterations),
                   .photons_only = true});
   return list;
 }
@@ -126,6 +125,25 @@ void add_partly_merged(MethodPrices& prices) {
     }
 }
 
+/// For a number of samples, which those of the batches add up to.
+MethodPrices predict_all(const PricingRecord& record, const Scene& scene, const PathLimits& o,
+                         int spp, int batches) {
+  MethodPrices prices;
+  prices.candidates = candidates(method_rules(scene.features), o, std::max(1, spp / batches));
+  prices.walks = record.walks();
+  prices.spp = spp;
+  for (const MethodCandidate& c : prices.candidates)
+    prices.predictions.push_back(predict(record, c, spp));
+  return prices;
+}
+
+const PredictedMethod& cheapest(const MethodPrices& prices) {
+  return *std::min_element(prices.predictions.begin(), prices.predictions.end(),
+                           [](const PredictedMethod& a, const PredictedMethod& b) {
+                             return a.error * a.cost < b.error * b.cost;
+                           });
+}
+
 MethodChoice without_pilot(const PathLimits& o, const std::string& why) {
   return {PathIntegratorDescription{o}, "path: " + why, ""};
 }
@@ -155,38 +173,36 @@ Eligible eligible(const MethodPrices& prices, const MethodRules& rules) {
     return p[i].missing <= least_missing + kNegligible &&
            !(rules.needs_light_walks && c[i].light_paths == 0);
   };
-  bool sharp_only = true;
-  for (size_t i = 0; i < c.size(); ++i) sharp_only &= !(finds_all(i) && p[i].sharp <= kMostSharp);
   Eligible result;
   for (size_t i = 0; i < c.size(); ++i) {
-    const bool may = finds_all(i) && (sharp_only || p[i].sharp <= kMostSharp);
+    const bool may = finds_all(i);
     result.candidates.push_back(may);
     result.unbiased |= may && c[i].merges == 0;
   }
   return result;
 }
 
-/// The candidate with which least is to be lost, and path tracing unless it loses more.
+/// The candidate with which least is to be lost; one that does not merge, and path tracing, unless
+/// they lose more.
 size_t least_loss(const MethodPrices& prices, const std::vector<uint8_t>& may,
                   const MethodRisk& risk) {
   const std::vector<MethodCandidate>& c = prices.candidates;
-  size_t best = c.size(), photons = c.size();
+  size_t best = c.size(), unbiased = c.size();
   for (size_t i = 0; i < c.size(); ++i) {
     const PredictedMethod& p = prices.predictions[i];
     log::detail(
-        "auto: {:36} misses {:.2e}, merges {:.3f}, sharp {:.2e}, variance {:.3g}, error² {:.3g}, "
+        "auto: {:36} misses {:.2e}, merges {:.3f}, variance {:.3g}, blur² {:.3g}, error² {:.3g}, "
         "cost {:.3g}, price {:.3g}, loss {:.3g}",
-        c[i].name, p.missing, p.merged, p.sharp, p.variance, p.error, p.cost, p.error * p.cost,
+        c[i].name, p.missing, p.merged, p.variance, p.blur, p.error, p.cost, p.error * p.cost,
         risk.loss(i));
-    if (!may[i]) continue;
-    if (c[i].photons_only)
-      photons = i;
-    else if (best == c.size() || risk.loss(i) < risk.loss(best))
-      best = i;
+    const auto improves = [&](size_t on) {
+      return may[i] && (on == c.size() || risk.loss(i) < risk.loss(on));
+    };
+    if (improves(best)) best = i;
+    if (c[i].merges == 0 && improves(unbiased)) unbiased = i;
   }
-  if (photons < c.size() && prices.predictions[best].merged > kMuch &&
-      kHysteresis * risk.loss(photons) < risk.loss(best))
-    best = photons;
+  if (unbiased < c.size() && !(risk.loss(unbiased) > kMergingHysteresis * risk.loss(best)))
+    best = unbiased;
   return may[0] && !(risk.loss(0) > kHysteresis * risk.loss(best)) ? 0 : best;
 }
 
@@ -194,21 +210,21 @@ size_t least_loss(const MethodPrices& prices, const std::vector<uint8_t>& may,
 
 MethodPrices price_methods(const Scene& scene, const AutoIntegratorDescription& options,
                            const RenderOutlook& outlook, const PilotChoice& pilot) {
+  const int guess = expected_samples(outlook, unknown_method());
   PricingPlan plan{options, outlook.film};
   plan.threads = outlook.threads;
   plan.seed = pilot.seed;
   plan.pixels_per_side = pilot.pixels_per_side;
   if (plan.pixels_per_side == 0) {
-    const double samples = double(outlook.film.x) * outlook.film.y * outlook.spp;
+    const double samples = double(outlook.film.x) * outlook.film.y * guess;
     const double pixels = kPilotShare * samples / (2 * kPilotWalkCost);
     plan.pixels_per_side = std::clamp(int(std::sqrt(pixels)), kFewestPixels, kMostPixels);
   }
   const PricingRecord record = run_pricing_pilot(scene, plan);
-  MethodPrices prices;
-  prices.candidates = candidates(method_rules(scene.features), options, outlook);
-  prices.walks = record.walks();
-  for (const MethodCandidate& c : prices.candidates)
-    prices.predictions.push_back(predict(record, c, outlook.spp));
+  MethodPrices prices = predict_all(record, scene, options, guess, outlook.batches);
+  if (outlook.seconds || outlook.target_error)
+    prices = predict_all(record, scene, options, expected_samples(outlook, cheapest(prices)),
+                         outlook.batches);
   add_partly_merged(prices);
   return prices;
 }

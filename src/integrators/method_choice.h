@@ -27,6 +27,7 @@ struct MethodPrices {
   std::vector<MethodCandidate> candidates;  ///< path tracing first
   std::vector<PredictedMethod> predictions;
   size_t walks = 0;  ///< eye walks of the pilot
+  int spp = 0;       ///< samples per pixel that the render is expected to have
 };
 /// A pilot other than the usual one.
 struct PilotChoice {

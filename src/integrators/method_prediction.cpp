@@ -1,11 +1,11 @@
 #include "integrators/method_prediction.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <numeric>
 
 #include "integrators/method_costs.h"
+#include "integrators/square_histogram.h"
 #include "transport/merge_mask.h"
 
 namespace duet {
@@ -19,36 +19,6 @@ constexpr double kDarkShare = 0.1;
 
 /// Of the squares of contributions: a pilot cannot tell a smaller variance from none at all.
 constexpr double kLeastVariance = 0.05;
-
-/// Squared contributions by their size, in half octaves.
-class SquareHistogram {
- public:
-  void add(double square, double rate) {
-    Bin& b = bins_[index(square)];
-    b.squares += square * rate, b.rate += rate;
-  }
-  /// The square above which contributions are so rare that all of them together happen `rate`
-  /// times.
-  double limit(double rate) const {
-    double sum = 0;
-    for (int i = kBins - 1; i >= 0; --i) {
-      sum += bins_[size_t(i)].rate;
-      if (sum > rate) return std::exp2(0.5 * (i + 1) - kOffset);
-    }
-    return std::exp2(-kOffset);
-  }
-
- private:
-  static constexpr int kBins = 400, kOffset = 100;
-  static size_t index(double square) {
-    const double i = 2 * (std::log2(std::max(square, 1e-30)) + kOffset);
-    return size_t(std::clamp(i, 0.0, double(kBins - 1)));
-  }
-  struct Bin {
-    double squares = 0, rate = 0;
-  };
-  std::array<Bin, kBins> bins_{};
-};
 
 /// The density of a candidate's techniques for a path over that of the pilot's.
 double relative_density(const FamilyShares& s, const MethodCandidate& c) {
@@ -98,6 +68,7 @@ std::vector<double> normalization(const PricingRecord& r) {
 /// What one eye walk adds up to under a candidate.
 struct WalkSums {
   double joins = 0, join_squares = 0, merges = 0, merge_squares = 0;
+  double blur = 0;  ///< what is too much of the merges
 };
 
 class Prediction {
@@ -118,21 +89,28 @@ class Prediction {
     add_walks();
     PredictedMethod p;
     const double walks = double(record_.walks());
-    double squares = 0, products = 0, lost = 0;
+    double squares = 0, products = 0, lost = 0, blur_variances = 0;
+    // Blur goes with the radius or, where light changes smoothly, with its square.
+    const double shrinkage =
+        candidate_.merges > 0 ? candidate_.merges / candidate_.light_paths : 0.0;
     for (size_t t = 0; t < tiles_.size(); ++t) {
       const Tile& tile = tiles_[t];
       const double bias =
           tile_walks_[t] > 0 ? tile.trimmed * tile.trimmed / tile_walks_[t] / walks : 0.0;
       const double variance = (tile.squares + tile.products) / walks;
-      p.parts.push_back(
-          {all_ > 0 ? tile.missing / all_ : 0, may_merge_ > 0 ? tile.merged / may_merge_ : 0,
-           variance, variance / spp_ + bias, kLeastVariance * tile.squares / walks / spp_ + bias});
+      const double blur = tile.blur / walks * shrinkage;
+      const double blur_variance = tile.blur_squares * std::pow(shrinkage / walks, 2);
+      p.parts.push_back({all_ > 0 ? tile.missing / all_ : 0,
+                         may_merge_ > 0 ? tile.merged / may_merge_ : 0, variance,
+                         variance / spp_ + bias + blur, blur, blur_variance,
+                         kLeastVariance * tile.squares / walks / spp_ + bias});
       p.missing += p.parts.back().missing, p.merged += p.parts.back().merged;
+      p.blur += blur, blur_variances += blur_variance;
       squares += tile.squares, products += tile.products, lost += bias;
     }
-    if (all_ > 0) p.sharp = sharp_ / all_;
+    p.blur = cautious_blur(p.blur, blur_variances);
     p.variance = std::max(squares + products, kLeastVariance * squares) / walks;
-    p.error = p.variance / spp_ + lost;
+    p.error = p.variance / spp_ + lost + p.blur;
     p.cost = cost();
     return p;
   }
@@ -169,9 +147,7 @@ class Prediction {
         }
         if (v.shares.merges > 0) may_merge_ += value;
         const float merges = candidate_.photons_only ? v.shares.first_merge : v.shares.merges;
-        const double merged = value * candidate_.merges * double(merges) / density;
-        tile.merged += merged;
-        if (v.sharp) sharp_ += merged;
+        tile.merged += value * candidate_.merges * double(merges) / density;
         const double square = double(v.square) * norms_[v.cell];
         if (square / (density * density) > limit_)
           tile.trimmed += value * std::sqrt(norms_[v.cell]);
@@ -197,14 +173,18 @@ class Prediction {
     const double rate = candidate_.merges / PricingRecord::kMergeShare;
     for (size_t w = 0; w + 1 < record_.walks(); w += 2) {
       // Walks of the same cell follow each other, cell after cell.
-      double& products = tiles_[tile_of(w / 2, record_.side)].products;
-      double means[2];
+      Tile& tile = tiles_[tile_of(w / 2, record_.side)];
+      double& products = tile.products;
+      double means[2], blurs[2];
       for (size_t k = 0; k < 2; ++k) {
         const WalkSums s = walk(w + k);
         means[k] = s.joins + rate * s.merges;
+        blurs[k] = rate * s.blur;
         products += means[k] * means[k] - s.join_squares - rate * rate * s.merge_squares;
       }
       products -= 2 * means[0] * means[1];
+      const double blur = 2 * blurs[0] * blurs[1];
+      tile.blur += blur, tile.blur_squares += blur * blur;
     }
   }
 
@@ -218,6 +198,7 @@ class Prediction {
       const double square = scaled * scaled;
       if (square > limit_) continue;
       const bool merged = is_merge(v);
+      s.blur += scaled * double(v.blur);
       (merged ? s.merges : s.joins) += scaled;
       (merged ? s.merge_squares : s.join_squares) += square;
     }
@@ -283,12 +264,13 @@ class Prediction {
     double squares = 0, products = 0;  ///< of contributions
     double trimmed = 0, missing = 0;   ///< light left out as too rare, and that cannot be found
     double merged = 0;                 ///< light that merging finds
+    /// Products of what two walks have too much, and their squares.
+    double blur = 0, blur_squares = 0;
   };
   std::vector<Tile> tiles_;
   std::vector<double> tile_walks_;
   double limit_ = 0;
   double all_ = 0, may_merge_ = 0;  ///< light, and that of it which could be merged
-  double sharp_ = 0;                ///< light that is merged where scattering is nearly specular
 };
 
 }  // namespace

@@ -3,6 +3,8 @@
 // Rendering Algorithms", SIGGRAPH 2022, for what one method's samples tell of another's variance.
 #pragma once
 
+#include <algorithm>
+#include <cmath>
 #include <string>
 
 #include "integrators/pricing_pilot.h"
@@ -24,6 +26,8 @@ struct MethodCandidate {
 /// What one part of the image adds to the figures of PredictedMethod, as far as they are sums.
 struct PredictedPart {
   double missing = 0, merged = 0, variance = 0, error = 0;
+  double blur = 0;  ///< is among the error; of so few walks it may come out below zero
+  double blur_variance = 0;
   double least_error = 0;  ///< what the error of the whole is bounded by from below
 };
 
@@ -31,12 +35,18 @@ struct PredictedPart {
 struct PredictedMethod {
   double missing = 0;   ///< share of the light that it cannot find
   double merged = 0;    ///< share of the light with smooth scattering that it finds by merging
-  double sharp = 0;     ///< share of the light that it merges where scattering is nearly specular
   double variance = 0;  ///< of one sample per pixel, relative to the square of the image
+  double blur = 0;      ///< mean squared relative error that merging adds: cautious_blur()
   double error = 0;     ///< mean squared relative error of the image
   double cost = 0;      ///< of one sample of one pixel
   std::vector<PredictedPart> parts;  ///< of MergeMask's grid, before variance is bounded from below
 };
+
+/// A sum of estimates of blur and one standard error: what a pilot cannot tell from no blur at all
+/// is not to be had for nothing.
+inline double cautious_blur(double sum, double variance) {
+  return std::max(0.0, sum + std::sqrt(variance));
+}
 
 PredictedMethod predict(const PricingRecord& record, const MethodCandidate& candidate, int spp);
 

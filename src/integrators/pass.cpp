@@ -37,12 +37,14 @@ class Renderer {
         pass_length_(request.pass_seconds) {
     RenderOutlook outlook;
     outlook.film = layout.full;
-    outlook.spp = request.budget.spp.value_or(outlook.spp);
+    outlook.spp = request.budget.spp.value_or(0);
     outlook.threads = request.threads;
+    outlook.seconds = request.budget.seconds;
+    outlook.target_error = request.budget.target_error;
+    outlook.batches = request.budget.target_error ? kErrorBatches : 1;
     integrator.begin(scene, outlook);
-    const int films = request.budget.target_error ? kErrorBatches : 1;
-    films_.reserve(size_t(films));
-    for (int i = 0; i < films; ++i)
+    films_.reserve(size_t(outlook.batches));
+    for (int i = 0; i < outlook.batches; ++i)
       integrator.prepare(films_.emplace_back(layout, integrator.channels()));
     prepared_ = seconds();
   }

@@ -5,6 +5,7 @@
 
 #include "base/parallel.h"
 #include "integrators/camera_integrator.h"
+#include "integrators/merge_blur.h"
 #include "integrators/next_event.h"
 #include "integrators/pilot.h"
 #include "transport/light_walk.h"
@@ -14,36 +15,11 @@ namespace duet {
 
 namespace {
 
-constexpr uint64_t kEyeSeed = 0x7072696365ull, kLightSeed = 0x6c69676874ull;
+constexpr uint64_t kEyeSeed = 0x7072696365ull, kLightSeed = 0x6c69676874ull,
+                   kEdgeSeed = 0x65646765ull, kGapSeed = 0x676170ull;
 /// Longer paths add next to nothing to what the pilot is asked.
 constexpr int kLongest = FamilyWeights::kMostVertices / 2;
 constexpr size_t kWalksPerBlock = 64;
-
-/// The vertices of some light walks, and the densities of all their vertices.
-struct LightWalks {
-  std::vector<LightVertex> vertices;
-  std::vector<uint32_t> owner;  ///< the walk of each vertex
-  std::vector<uint32_t> vertex_ends, trail_ends;
-  Trail trails;
-
-  std::span<const TrailVertex> trail(size_t walk) const {
-    const uint32_t first = walk == 0 ? 0 : trail_ends[walk - 1];
-    return {trails.data() + first, trail_ends[walk] - first};
-  }
-  std::span<const LightVertex> walk(size_t i) const {
-    const uint32_t first = i == 0 ? 0 : vertex_ends[i - 1];
-    return {vertices.data() + first, vertex_ends[i] - first};
-  }
-  void append(const LightWalks& o) {
-    const uint32_t first = uint32_t(vertices.size()), first_trail = uint32_t(trails.size()),
-                   walks = uint32_t(vertex_ends.size());
-    vertices.insert(vertices.end(), o.vertices.begin(), o.vertices.end());
-    trails.insert(trails.end(), o.trails.begin(), o.trails.end());
-    for (const uint32_t w : o.owner) owner.push_back(walks + w);
-    for (const uint32_t e : o.vertex_ends) vertex_ends.push_back(first + e);
-    for (const uint32_t e : o.trail_ends) trail_ends.push_back(first_trail + e);
-  }
-};
 
 class PricingPilot {
  public:
@@ -71,6 +47,8 @@ class PricingPilot {
     // with a larger radius the share of pairs is the one that is meant.
     const double thinned = double(walks_) / pixels;
     query_radius_ = float(radius * std::sqrt(2 * PricingRecord::kMergeShare / thinned));
+    first_radius_ = float(radius);
+    shift_scale_ = float(std::min(1.0, radius / double(query_radius_)));
   }
 
   PricingRecord run() {
@@ -91,13 +69,12 @@ class PricingPilot {
  private:
   struct Block {
     PricingRecord record;
-    LightWalks light;
+    PilotLightWalks light;
   };
   /// What contributions of an eye walk under way have in common.
   struct EyeState {
     uint16_t cell;
-    bool first = true;   ///< Walk::unmerged
-    bool sharp = false;  ///< as in PricedContribution
+    bool first = true;  ///< Walk::unmerged
   };
 
   uint16_t cell(const Point2f& film) const {
@@ -109,13 +86,12 @@ class PricingPilot {
   }
 
   static void add(std::vector<PricedContribution>& to, const Spectrum& v,
-                  const FamilyShares& shares, Technique technique, uint16_t cell,
-                  bool sharp = false) {
+                  const FamilyShares& shares, Technique technique, uint16_t cell, float blur = 0) {
     if (v.is_black() || !is_finite(v)) return;
     const float value = (v.r + v.g + v.b) * (1 / 3.0f);
     const float square = (v.r * v.r + v.g * v.g + v.b * v.b) * (1 / 3.0f);
     if (!std::isfinite(square) || !std::isfinite(shares.unidirectional + shares.merges)) return;
-    to.push_back({value, square, shares, technique, sharp, cell});
+    to.push_back({value, square, shares, technique, blur, cell});
   }
 
   void trace_light() {
@@ -140,11 +116,9 @@ class PricingPilot {
     RenderCounters& counters = block.record.light_counters;
     Trail trail;
     FamilyWeights weights(set_);
-    const uint32_t number = uint32_t(block.light.vertex_ends.size());
     const auto visit = [&](const PathVertex& v, const Hit& hit) {
       if (!v.bsdf.has_smooth()) return;
-      block.light.vertices.emplace_back(v, hit);
-      block.light.owner.push_back(number);
+      block.light.add(v, hit);
       weights.set_light(trail);
       const auto seen =
           join_camera(scene_, weights, v, scene_.camera->has_lens() ? sampler.next_2d() : Point2f{},
@@ -154,9 +128,7 @@ class PricingPilot {
             weights.shares(), Technique::light_image, cell(seen->film));
     };
     trace_light_walk(scene_, set_, options_, max_depth_ - 1, sampler, counters, &trail, visit);
-    block.light.vertex_ends.push_back(uint32_t(block.light.vertices.size()));
-    block.light.trails.insert(block.light.trails.end(), trail.begin(), trail.end());
-    block.light.trail_ends.push_back(uint32_t(block.light.trails.size()));
+    block.light.end_walk(trail);
   }
 
   void trace_eye() {
@@ -216,7 +188,7 @@ class PricingPilot {
       const auto found = [&](const Join& join) {
         const Spectrum v = join.value * join.weight;
         if (depth > 1)
-          add(out.eye, v, weights.shares(), Technique::unidirectional, at.cell, at.sharp);
+          add(out.eye, v, weights.shares(), Technique::unidirectional, at.cell);
         else if (is_finite(v))
           record_.seen[at.cell] += double(v.r + v.g + v.b) / 3;  // no other block has the cell
       };
@@ -243,17 +215,14 @@ class PricingPilot {
         const Join direct =
             join_light(scene_, weights, v, plan_.strict_normals, sampler, none, counters);
         add(out.eye, direct.value * direct.weight, weights.shares(), Technique::unidirectional,
-            at.cell, at.sharp);
+            at.cell);
         connect(index, v, weights, roulette, at, out);
         if (v.merges()) merge(index, v, weights, at, out);
       }
       sampler.start_dimension(dimension + kScatteringDimension);
       bool straight = false;
       if (!scatter<Transport::radiance>(v, set_, options_, sampler, walk, &straight)) return;
-      if (at.first && !walk.unmerged) {
-        at.first = false;
-        at.sharp = walk.forward > PricingRecord::kSharpDensity;
-      }
+      at.first &= walk.unmerged;
       sees_sky |= !straight;
     }
   }
@@ -265,8 +234,7 @@ class PricingPilot {
       if (int(packed.depth) + v.depth + 1 > max_depth_) break;
       const Join join = join_ends(scene_, weights, packed.unpack(scene_), v, plan_.strict_normals,
                                   roulette, out.connection_counters);
-      add(out.eye, join.value * join.weight, weights.shares(), Technique::connection, at.cell,
-          at.sharp);
+      add(out.eye, join.value * join.weight, weights.shares(), Technique::connection, at.cell);
     }
   }
 
@@ -274,8 +242,14 @@ class PricingPilot {
   void merge(size_t index, const PathVertex& v, FamilyWeights& weights, const EyeState& at,
              PricingRecord& out) const {
     const float kernel = 1 / (set_.merge_area * set_.light_paths);
+    const PhotonShift shift{shift_scale_, to_unit_float(uint32_t(mix64(kEdgeSeed + at.cell)))};
     ++out.merge_counters.merge_queries;
     out.first_counters.merge_queries += at.first;
+    const uint64_t random =
+        mix64(hash_combine(kGapSeed ^ plan_.seed, index * kLongest + size_t(v.depth)));
+    const Point2f beside{to_unit_float(uint32_t(random)), to_unit_float(uint32_t(random >> 32))};
+    const float missing =
+        lacks_photons(scene_, v, first_radius_, beside, out.merge_counters) ? 1.0f : 0.0f;
     grid_.query(v.position(), grid_.locate(v.position()), [&](uint32_t i, float) {
       const LightVertex& photon = light_.vertices[i];
       if (int(photon.depth) + v.depth > max_depth_ || (light_.owner[i] ^ index) & 1) return;
@@ -285,7 +259,9 @@ class PricingPilot {
       ++out.merge_counters.merges;
       out.first_counters.merges += at.first;
       add(out.eye, join.value * join.weight, weights.shares(),
-          at.first ? Technique::first_merge : Technique::later_merge, at.cell, at.sharp);
+          at.first ? Technique::first_merge : Technique::later_merge, at.cell,
+          merge_blur(scene_, v, photon.position, light_.arrivals[i], shift, out.merge_counters) -
+              missing);
     });
   }
 
@@ -296,7 +272,9 @@ class PricingPilot {
   WalkOptions options_;
   TechniqueSet set_;
   float threshold_ = 0, query_radius_ = 0;
-  LightWalks light_;
+  float first_radius_ = 0;
+  float shift_scale_ = 1;  ///< of distances to photons
+  PilotLightWalks light_;
   VertexGrid grid_;
   PricingRecord record_;
 };

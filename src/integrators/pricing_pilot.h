@@ -24,9 +24,9 @@ struct PricedContribution {
   float value, square;  ///< means over the colours
   FamilyShares shares;  ///< in the density of all techniques
   Technique technique;
-  /// Of an eye walk whose first scattering by a smooth lobe is nearly as by a mirror or smooth
-  /// glass: methods that merge do so there.
-  bool sharp;
+  /// Of a merge: the share of it that is blur, less that of photons that are missing
+  /// (merge_blur.h), with the radius of the first iteration.
+  float blur;
   uint16_t cell;  ///< where in the image: row by row of the pilot's pixels
 };
 
@@ -41,9 +41,6 @@ struct PricingPlan : PathLimits {
 struct PricingRecord {
   /// Light walks per pixel in the weights.
   static constexpr double kLightPaths = 1;
-  /// Density per solid angle from which on scattering is sharp: a lobe of roughness α = 0.05 has no
-  /// more.
-  static constexpr float kSharpDensity = 32;
   /// Pairs of vertices that are near enough to be merged are looked at with this probability.
   static constexpr double kMergeShare = 0.25;
 

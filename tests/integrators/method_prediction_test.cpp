@@ -78,3 +78,66 @@ TEST_CASE("the variance of merging is foreseen, alone and beside light that the 
   CHECK(photons.missing < 1e-6);
   CHECK(photons.cost < 0.6 * vcm.cost);
 }
+
+// A small lamp makes edges of shadows that photons blur.
+TEST_CASE("the blur of merging is foreseen") {
+  const TransportScene s(camera_xml("0, -3, 1", "0, 0, 1", kSize) +
+                         room_xml(grey("0.5, 0.5, 0.5")) + lamp_xml("0.05", "300") +
+                         sphere_xml("-0.3, 0, 0.5", "0.3", grey("0.5, 0.5, 0.5")));
+  PricingPlan plan;
+  plan.film = {kSize, kSize};
+  plan.pixels_per_side = 64;
+  plan.max_depth = 3;
+  // Of one pilot it is uncertain by half the value here.
+  double foreseen = 0;
+  constexpr int kPilots = 24;
+  for (; plan.seed < kPilots; ++plan.seed)
+    for (const PredictedPart& p :
+         predict(run_pricing_pilot(*s.scene, plan), merging(true), 64).parts)
+      foreseen += p.blur / kPilots;
+  // The error of two means each, whose noise is independent.
+  const size_t pixels = size_t(kSize) * kSize;
+  std::vector<double> errors[2], truth(pixels);
+  for (uint64_t k = 0; k < 2; ++k) {
+    const Image a = s.render("ppm", {{"alpha", "1"}, {"max_depth", "3"}}, 128, k).image;
+    const Image b = s.render("path", {{"max_depth", "3"}}, 128, k).image;
+    for (size_t i = 0; i < pixels; ++i) {
+      const size_t at = i * a.channels.size();
+      errors[k].push_back(double(a.data[at]) - double(b.data[at]));
+      truth[i] += double(b.data[at]) / 2;
+    }
+  }
+  std::vector<double> tiles(16 * 16);
+  const auto tile = [](size_t i) { return i / kSize / 4 * 16 + i % kSize / 4; };
+  double mean = 0, measured = 0;
+  for (size_t i = 0; i < pixels; ++i) {
+    mean += truth[i] / double(pixels);
+    tiles[tile(i)] += truth[i] / 16;
+  }
+  for (size_t i = 0; i < pixels; ++i) {
+    const double v = std::max(truth[i], tiles[tile(i)]);
+    measured += errors[0][i] * errors[1][i] / (v * v + 0.1 * mean * mean) / double(pixels);
+  }
+  CAPTURE(foreseen);
+  CAPTURE(measured);
+  CHECK(measured > 1e-4);
+  CHECK(std::abs(std::log(foreseen / measured)) < std::log(2));
+}
+
+TEST_CASE("noise goes with the number of samples, blur stays") {
+  const TransportScene s("thesis-modified", kSize);
+  PricingPlan plan;
+  plan.film = {kSize, kSize};
+  plan.pixels_per_side = 64;
+  plan.max_depth = 8;
+  const PricingRecord record = run_pricing_pilot(*s.scene, plan);
+  const PredictedMethod few = predict(record, merging(true), 64);
+  const PredictedMethod many = predict(record, merging(true), 1 << 24);
+  REQUIRE(few.blur > 0);
+  CHECK(few.error / (few.variance / 64 + few.blur) == doctest::Approx(1).epsilon(0.025));
+  CHECK(many.error / many.blur == doctest::Approx(1).epsilon(0.01));
+  // With half the squared radius it has half the squared error.
+  MethodCandidate shrunk = merging(true);
+  shrunk.merges = 0.5;
+  CHECK(predict(record, shrunk, 64).blur / few.blur == doctest::Approx(0.5).epsilon(0.1));
+}
