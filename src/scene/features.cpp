@@ -24,15 +24,6 @@ bool is_used(const FloatInput& input) {
   return !constant || *constant != 0;
 }
 
-/// Whether a roughness is known to be small; `square` if α is its square.
-bool is_sharp(const FloatInput& roughness, bool square = false) {
-  const double* constant = std::get_if<double>(&roughness);
-  return constant && (square ? *constant * *constant : *constant) < kNearlySpecular;
-}
-bool is_sharp(const std::optional<Roughness>& r) {
-  return r && (is_sharp(r->alpha_u) || is_sharp(r->alpha_v));
-}
-
 class Survey {
  public:
   explicit Survey(const SceneDescription& scene) : scene_(scene) {
@@ -65,27 +56,22 @@ class Survey {
   void operator()(const DiffuseMaterial&) { ++features_.diffuse; }
   void operator()(const ConductorMaterial& m) {
     ++(m.roughness ? features_.rough_reflection : features_.mirrors);
-    features_.nearly_specular += is_sharp(m.roughness);
   }
   void operator()(const DielectricMaterial& m) {
     ++(m.roughness ? features_.rough_refraction : features_.smooth_glass);
-    features_.nearly_specular += is_sharp(m.roughness);
   }
   void operator()(const ThinDielectricMaterial&) { ++features_.smooth_glass; }
   void operator()(const PlasticMaterial& m) {
     ++features_.diffuse;
     ++(m.roughness ? features_.rough_reflection : features_.mirrors);
-    features_.nearly_specular += is_sharp(m.roughness);
   }
   void operator()(const PrincipledMaterial& m) {
     ++features_.diffuse, ++features_.rough_reflection;
     features_.rough_refraction += is_used(m.spec_trans);
-    features_.nearly_specular += is_sharp(m.roughness, true);
   }
   void operator()(const PrincipledThinMaterial& m) {
     ++features_.diffuse, ++features_.rough_reflection;
     features_.rough_refraction += is_used(m.spec_trans);
-    features_.nearly_specular += is_sharp(m.roughness, true);
   }
   void operator()(const PhongMaterial&) { ++features_.diffuse, ++features_.rough_reflection; }
   void operator()(const WardMaterial&) { ++features_.diffuse, ++features_.rough_reflection; }
@@ -93,14 +79,12 @@ class Survey {
   void operator()(const DiffuseTransmitterMaterial&) { ++features_.diffuse; }
   void operator()(const HairMaterial&) { ++features_.rough_reflection; }
   void operator()(const MeasuredMaterial&) { ++features_.rough_reflection; }
-  void operator()(const PolarizedPlasticMaterial& m) {
+  void operator()(const PolarizedPlasticMaterial&) {
     ++features_.diffuse, ++features_.rough_reflection;
-    features_.nearly_specular += is_sharp(m.interface);
   }
   void operator()(const FilterMaterial&) { ++features_.masks; }
   void operator()(const CoatingMaterial& m) {
     ++(m.roughness ? features_.rough_reflection : features_.mirrors);
-    features_.nearly_specular += is_sharp(m.roughness);
     add(m.nested);
   }
   void operator()(const ThinLayerMaterial&) { ++features_.diffuse, ++features_.masks; }

@@ -197,7 +197,7 @@ TEST_SUITE("program") {
     const Cabinet c;
     json row = Cabinet::row();
     row["check"] = "noise", row["limit"] = 0.25, row["define"] = {{"albedo", 0.5}};
-    row.erase("reference");
+    row.erase("reference"), row.erase("margin");
     row["spp"] = 1, row["batches"] = 32;
     CHECK(c.judge(row).code == 1);
     // --target-error counts samples by the error, not by `spp`.
@@ -213,6 +213,7 @@ TEST_SUITE("program") {
     tiles["check"] = "tiles", tiles["tiles"] = 2;
     bits["name"] = "bits", bits["check"] = "bits", bits["batches"] = 1;
     noise["name"] = "noise", noise["check"] = "noise", noise["limit"] = 0.5;
+    bits.erase("margin"), noise.erase("margin");
     c.catalogue(json::array({tiles, bits, noise}));
     CHECK(c.stability({"-q", "--markdown", "a.md"}).code == 0);
     const std::string page = read_file(c.path("a.md"));
