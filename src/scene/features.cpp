@@ -4,7 +4,6 @@
 
 #include <set>
 
-#include "materials/microfacet_kind.h"
 #include "scene/description.h"
 
 namespace duet {
