@@ -13,7 +13,6 @@ namespace duet {
 
 namespace {
 
-constexpr int kSide = MergeMask::kSide;
 /// Groups are the parts at the same place of a square of this side.
 constexpr int kLattice = 4;
 constexpr size_t kGroups = size_t(kLattice * kLattice);
@@ -27,7 +26,7 @@ struct GroupSums {
 std::array<GroupSums, kGroups> group_sums(const PredictedMethod& p) {
   std::array<GroupSums, kGroups> sums{};
   for (size_t i = 0; i < p.parts.size(); ++i) {
-    const size_t x = i % kSide % kLattice, y = i / kSide % kLattice;
+    const size_t x = i % MergeMask::kSide % kLattice, y = i / MergeMask::kSide % kLattice;
     GroupSums& s = sums[y * kLattice + x];
     s.error += p.parts[i].error, s.least += p.parts[i].least_error;
   }

@@ -25,7 +25,7 @@ constexpr int kBlackSamples = 256;
 constexpr int kShortPilot = 4, kLongPilot = 32;
 /// Between these two, samples yet to come, as a multiple of those that there are, for which it is
 /// not worth waiting.
-constexpr double kPilotShare = 8;
+constexpr double kFewRemaining = 8;
 
 class Renderer {
  public:
@@ -167,7 +167,7 @@ class Renderer {
   /// Whether batches of this length tell the noise of tiles as well as need be.
   bool knows_tiles(int length, double target) const {
     if (!integrator_.tiles_may_differ() || !relative_rmse_ || length < kShortPilot) return false;
-    return length >= kLongPilot || std::pow(*relative_rmse_ / target, 2) < kPilotShare;
+    return length >= kLongPilot || std::pow(*relative_rmse_ / target, 2) < kFewRemaining;
   }
 
   /// By how much to lengthen the batches: towards the length that should meet the target, but at

@@ -194,9 +194,9 @@ std::optional<LightSample> Sky::sample_direct(const Point3f&, const Point2f& u) 
   bool hits_sun = u.x < sun_share_;
   if (hits_sun) {
     w = disk_frame_.to_world(
-        square_to_cone({std::min(u.x / sun_share_, 0x1.fffffep-1f), u.y}, one_minus_cos_sun_));
+        square_to_cone({std::min(u.x / sun_share_, kBelowOne), u.y}, one_minus_cos_sun_));
   } else {
-    const float v = std::min((u.x - sun_share_) / (1 - sun_share_), 0x1.fffffep-1f);
+    const float v = std::min((u.x - sun_share_) / (1 - sun_share_), kBelowOne);
     const auto pick = cells_.sample(v, u);
     const float row = float(pick.index / kColumns) + pick.remapped;
     const float z = lowest_ + (1 - lowest_) * row / kRows;

@@ -1,10 +1,10 @@
 #include "materials/bsdf.h"
 
+#include "math/warp.h"
+
 namespace duet {
 
 namespace {
-
-constexpr float kBelowOne = 0x1.fffffep-1f;
 
 Transport opposite(Transport t) {
   return t == Transport::radiance ? Transport::importance : Transport::radiance;

@@ -8,8 +8,6 @@ namespace duet {
 
 namespace {
 
-constexpr float kBelowOne = 0x1.fffffep-1f;
-
 /// exp(−x) I₀(x) for x ≥ 0, with an error below 3e-7. Source: Abramowitz & Stegun, "Handbook of
 /// Mathematical Functions", 9.8.1 and 9.8.2.
 float scaled_bessel_i0(float x) {

@@ -71,7 +71,7 @@ Microfacet::Core Microfacet::beckmann_core(float d, const Vector3f& o, const Vec
 
 Vector3f Microfacet::sample_all(const Point2f& u) const {
   const Point2f p = square_to_disk(u);
-  const float r2 = std::min(p.x * p.x + p.y * p.y, 0x1.fffffep-1f);
+  const float r2 = std::min(p.x * p.x + p.y * p.y, kBelowOne);
   // Slopes of unit roughness at the distance that belongs to the quantile r².
   const float tan2_over_r2 = ggx_ ? 1 / (1 - r2) : (r2 > 1e-6f ? -std::log1p(-r2) / r2 : 1.0f);
   const float scale = std::sqrt(tan2_over_r2);

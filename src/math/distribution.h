@@ -9,6 +9,7 @@
 
 #include "math/hash.h"
 #include "math/vector.h"
+#include "math/warp.h"
 
 namespace duet {
 
@@ -63,7 +64,7 @@ class DiscreteDistribution {
   Pick pick(const std::vector<Real>& cdf, Real u) const {
     const uint32_t i = find_interval(cdf.data(), guide_.data(), uint32_t(guide_.size()), u);
     const Real p = cdf[i + 1] - cdf[i];
-    return {i, float(p), std::min(float((u - cdf[i]) / p), 0x1.fffffep-1f)};
+    return {i, float(p), std::min(float((u - cdf[i]) / p), kBelowOne)};
   }
   /// The 24 bits of u, and 29 more.
   static double fine_variate(float u, const Point2f& others) {
@@ -85,7 +86,7 @@ inline float sample_linear(float u, float a, float b) {
   if (!(sum > 0)) return u;
   // Stable for a → b: the root of (b − a) x² / 2 + a x = u (a + b) / 2.
   const float root = safe_sqrt(a * a + u * (b * b - a * a));
-  return std::min(u * sum / (a + root), 0x1.fffffep-1f);
+  return std::min(u * sum / (a + root), kBelowOne);
 }
 
 /// A density on the unit square that is bilinear within the cells of a grid of node values: width ×
@@ -126,7 +127,7 @@ class BilinearDistribution {
     const uint32_t n = uint32_t(width_) - 1;
     const float* cdf = &conditional_[size_t(row.index) * uint32_t(width_)];
     const uint32_t i = find_interval(cdf, &guides_[size_t(row.index) * n], n, u.x);
-    const float ux = std::min((u.x - cdf[i]) / (cdf[i + 1] - cdf[i]), 0x1.fffffep-1f);
+    const float ux = std::min((u.x - cdf[i]) / (cdf[i + 1] - cdf[i]), kBelowOne);
     const int x = int(i), y = int(row.index);
     const float f00 = node(x, y), f10 = node(x + 1, y), f01 = node(x, y + 1),
                 f11 = node(x + 1, y + 1);

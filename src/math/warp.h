@@ -5,6 +5,9 @@
 
 namespace duet {
 
+/// The largest number below 1: what is left of a random number after a choice stays in [0, 1).
+constexpr float kBelowOne = 0x1.fffffep-1f;
+
 /// Uniform on the unit disk; keeps neighbouring points together.
 /// Source: Shirley & Chiu, "A Low Distortion Map Between Disk and Square", 1997.
 [[gnu::always_inline]] inline Point2f square_to_disk(const Point2f& u) {

@@ -100,7 +100,7 @@ PhaseSample BlendedPhase::sample(const Point3f& p, const Vector3f& wo, float u,
   const float w = std::clamp(weight_(p), 0.0f, 1.0f);
   const bool second = u < w;
   const float rest = second ? u / w : (u - w) / (1 - w);
-  PhaseSample s = (second ? second_ : first_).sample(p, wo, std::min(rest, 0x1.fffffep-1f), v);
+  PhaseSample s = (second ? second_ : first_).sample(p, wo, std::min(rest, kBelowOne), v);
   if (!(s.pdf.value > 0)) return s;
   const PdfW other = (second ? first_ : second_).eval(p, wo, s.wi);
   s.pdf.value =

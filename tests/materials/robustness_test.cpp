@@ -10,7 +10,6 @@ using nlohmann::json;
 
 namespace {
 
-constexpr float kBelowOne = 0x1.fffffep-1f;
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
 
 /// Directions from the normal to the horizon, above and below.
