@@ -112,8 +112,21 @@ ColorVolume SceneReader::color_volume(Properties& p, std::string_view name) {
   const auto color = color_of(p, name, *property, meaning);
   if (!color) return preset;
   if (const Spectrum* constant = std::get_if<Spectrum>(&*color)) return *constant;
-  p.error(name, "the parameter \"{}\" of {} cannot be a texture", name, describe(p.node()));
-  return preset;
+  const auto value = value_for_volume(p, name, std::get<TextureId>(*color));
+  return value ? value->color : preset;
+}
+
+std::optional<TextureValue> SceneReader::value_for_volume(Properties& p, std::string_view name,
+                                                          TextureId texture) {
+  Diagnostics diagnostics;
+  const auto value = texture_at_origin(description_, texture, diagnostics);
+  for (const Diagnostic& d : diagnostics.all()) report_.error(d.where, "{}", d.message);
+  if (value)
+    report_.warning(p.where(name),
+                    "{} asks for a volume as \"{}\": the value of the texture at the texture "
+                    "coordinates (0, 0) holds everywhere",
+                    describe(p.node()), name);
+  return value;
 }
 
 FloatVolume SceneReader::float_volume(Properties& p, std::string_view name) {

@@ -9,6 +9,7 @@
 #include "mitsuba/material_library.h"
 #include "mitsuba/mitsuba.h"
 #include "mitsuba/properties.h"
+#include "scene/texture_value.h"
 
 namespace duet {
 
@@ -90,6 +91,9 @@ class SceneReader {
   /// The colour of a property, or the texture it names; nothing after an error.
   std::optional<ColorInput> color_of(Properties& p, std::string_view name, const Property& property,
                                      ColorMeaning meaning);
+  /// What a texture is where a volume is asked for, with a warning; nothing after an error.
+  std::optional<TextureValue> value_for_volume(Properties& p, std::string_view name,
+                                               TextureId texture);
   /// RGB from the file, if it is one that the parameter can have. `limited` colours are errors
   /// above 1 in Mitsuba 3.
   Spectrum checked(Properties& p, std::string_view name, const Triple& rgb, ColorMeaning meaning,

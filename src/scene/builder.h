@@ -9,6 +9,7 @@
 
 #include "media/phase_functions.h"
 #include "scene/build.h"
+#include "scene/texture_value.h"
 #include "textures/bitmap.h"
 #include "textures/shape_texture.h"
 
@@ -29,6 +30,8 @@ class SceneBuilder {
   /// Null if there were errors.
   std::unique_ptr<Scene> build();
   const Diagnostics& diagnostics() const { return diagnostics_; }
+  /// Instead of building: texture_value.h.
+  std::optional<TextureValue> texture_at_origin(TextureId id);
 
   // place.cpp: once the scene is built, to move what is in it. Shapes and instances are numbered as
   // in the scene, lights as in the description; the transforms can be inverted.
