@@ -66,7 +66,8 @@ struct MethodDecision {
   std::string reason;  ///< one line
 };
 
-/// A method of light transport.
+/// A method of light transport, for any number of images of one scene and one size of film. An
+/// image does not depend on those that were rendered before it.
 class Integrator {
  public:
   virtual ~Integrator() = default;

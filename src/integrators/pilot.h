@@ -19,7 +19,7 @@ struct Pilot {
   float roulette_threshold() const { return float(0.1 * brightness); }
 };
 
-/// `plan` is that of a whole iteration. The result depends on its seed alone.
+/// `plan` is that of a whole iteration. The result does not depend on its seed.
 Pilot run_pilot(const Scene& scene, Point2i film, LightPassPlan plan);
 
 }  // namespace duet

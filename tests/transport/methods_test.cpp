@@ -51,6 +51,17 @@ TEST_CASE("images of bidirectional methods do not depend on the number of thread
   }
 }
 
+TEST_CASE("images of bidirectional methods do not depend on what was rendered before") {
+  const TransportScene scene = glass_room();
+  for (const char* name : kMethods) {
+    CAPTURE(name);
+    const auto integrator = scene.method(name, {{"max_depth", "6"}});
+    scene.render(*integrator, scene.layout, 3, 6);
+    CHECK(scene.render(*integrator, scene.layout, 3, 5).image.data ==
+          scene.render(name, {{"max_depth", "6"}}, 3, 5, 1).image.data);
+  }
+}
+
 TEST_CASE("a crop window of a bidirectional method is cut out of the full image, splats and all") {
   const TransportScene scene = glass_room();
   const PixelBounds crop{5, 9, 17, 20};
