@@ -1,6 +1,6 @@
-// Wavefront OBJ, by tinyobjloader's callbacks: they give indices as the file has them, while its
-// other interface splits quadrilaterals by their shorter diagonal, which Mitsuba does not, and
-// forgets the names of materials without a library.
+// Wavefront OBJ. Groups and materials come by tinyobjloader's callbacks (its other interface splits
+// quadrilaterals by their shorter diagonal, which Mitsuba does not, and forgets the names of
+// materials without a library), the data of meshes by ObjLines.
 #include <istream>
 
 #include "base/numbering.h"
@@ -35,30 +35,29 @@ struct RawPart {
   }
 };
 
-/// Receives what tinyobjloader finds.
-class ObjBuilder {
+/// Makes meshes of what a file says.
+class ObjBuilder final : public ObjSink {
  public:
-  ObjBuilder(const ObjLines& lines, bool divide) : lines_(lines), divide_(divide), parts_(1) {}
+  ObjBuilder(const ObjPlace& place, bool divide) : place_(place), divide_(divide), parts_(1) {}
 
-  void add_position(float x, float y, float z) {
-    if (!is_finite(Point3f(x, y, z))) lines_.fail(lines_.line(), "the position is not finite");
-    positions_.push_back({x, y, z});
+  void add_position(const Point3f& p) override {
+    if (!is_finite(p)) place_.fail(place_.line, "the position is not finite");
+    positions_.push_back(p);
   }
-  void add_normal(float x, float y, float z) { normals_.push_back({x, y, z}); }
-  void add_uv(float u, float v) {
-    if (!std::isfinite(u) || !std::isfinite(v))
-      lines_.fail(lines_.line(), "the texture coordinates are not finite");
-    uvs_.push_back({u, v});
+  void add_normal(const Normal3f& n) override { normals_.push_back(n); }
+  void add_uv(const Point2f& uv) override {
+    if (!std::isfinite(uv.x) || !std::isfinite(uv.y))
+      place_.fail(place_.line, "the texture coordinates are not finite");
+    uvs_.push_back(uv);
   }
 
   /// A face of fewer than three corners has no surface.
-  void add_face(const tinyobj::index_t* corners, int count) {
+  void add_face(std::span<const ObjCorner> corners) override {
     RawPart& part = parts_.back();
     uint32_t first = 0, last = 0;
-    for (int i = 0; i < count; ++i) {
-      const uint32_t v =
-          part.vertex({resolve(0, corners[i].vertex_index), resolve(1, corners[i].texcoord_index),
-                       resolve(2, corners[i].normal_index)});
+    for (size_t i = 0; i < corners.size(); ++i) {
+      const ObjCorner& c = corners[i];
+      const uint32_t v = vertex(part, {resolve(0, c[0]), resolve(1, c[1]), resolve(2, c[2])});
       if (i == 0) first = v;
       if (i >= 2) part.triangles.push_back({first, last, v});
       last = v;
@@ -77,18 +76,18 @@ class ObjBuilder {
     parts_.back().material = name.substr(begin, std::max(end, begin) - begin);
   }
 
-  ObjFile finish(const ByteReader& in, const MeshOptions& options) {
+  ObjFile finish(const ByteReader& in, const MeshOptions& options, const std::string& library) {
     const size_t counts[3] = {positions_.size(), uvs_.size(), normals_.size()};
     for (int kind = 0; kind < 3; ++kind)
       if (furthest_[kind].index >= 0 && size_t(furthest_[kind].index) >= counts[kind])
-        lines_.fail(furthest_[kind].line, "{} {} does not exist; there are {}", kKinds[kind],
+        place_.fail(furthest_[kind].line, "{} {} does not exist; there are {}", kKinds[kind],
                     furthest_[kind].index + 1, counts[kind]);
     if (parts_.size() > 1 && parts_.back().triangles.empty()) parts_.pop_back();
     if (parts_.back().triangles.empty())
       throw ReadError(fmt::format("{}: has no faces; is it an OBJ file?", in.name()));
 
     ObjFile result;
-    result.library = lines_.library();
+    result.library = library;
     for (RawPart& raw : parts_) {
       ObjPart& part = result.parts.emplace_back();
       part.material = std::move(raw.material);
@@ -101,23 +100,34 @@ class ObjBuilder {
   }
 
  private:
+  /// The number of a vertex in a part. Most positions belong to one vertex, which is found without
+  /// a search.
+  uint32_t vertex(RawPart& part, const Corner& c) {
+    const size_t position = size_t(c[0]);
+    if (latest_.size() < positions_.size()) latest_.resize(positions_.size());
+    if (position >= latest_.size()) return part.vertex(c);
+    uint32_t& n = latest_[position];
+    if (n >= part.vertices.size() || part.vertices[n] != c) n = part.vertex(c);
+    return n;
+  }
+
   /// From the file's index, which counts from 1, or back from the last element if it is negative.
   int resolve(int kind, int index) {
     const size_t counts[3] = {positions_.size(), uvs_.size(), normals_.size()};
     const int count = int(counts[kind]);
     if (index < 0) {
       if (-index > count)
-        lines_.fail(lines_.line(), "{} {} does not exist; there are {} so far", kKinds[kind], index,
+        place_.fail(place_.line, "{} {} does not exist; there are {} so far", kKinds[kind], index,
                     count);
       return count + index;
     }
     if (index == 0) {
-      if (kind == 0) lines_.fail(lines_.line(), "position 0 does not exist; they count from 1");
+      if (kind == 0) place_.fail(place_.line, "position 0 does not exist; they count from 1");
       return -1;
     }
     // What a face uses may follow it.
     if (index > count && index - 1 > furthest_[kind].index)
-      furthest_[kind] = {index - 1, lines_.line()};
+      furthest_[kind] = {index - 1, place_.line};
     return index - 1;
   }
 
@@ -150,11 +160,12 @@ class ObjBuilder {
     int index = -1, line = 0;
   };
 
-  const ObjLines& lines_;
+  const ObjPlace& place_;
   bool divide_;
   std::vector<RawPart> parts_;
   std::vector<Point3f> positions_;
   std::vector<Point2f> uvs_;
+  std::vector<uint32_t> latest_;  ///< by position: the vertex that it was last part of
   std::vector<Normal3f> normals_;
   Furthest furthest_[3];
 };
@@ -166,25 +177,16 @@ ObjBuilder& builder(void* user) {
 }  // namespace
 
 ObjFile parse_obj(ByteReader& in, const MeshOptions& options, bool divide) {
-  ObjLines lines(in);
-  ObjBuilder result(lines, divide);
+  ObjPlace place{in.name()};
+  ObjBuilder result(place, divide);
+  ObjLines lines(in, place, result);
   tinyobj::callback_t callbacks;
-  callbacks.vertex_cb = [](void* user, float x, float y, float z, float) {
-    builder(user).add_position(x, y, z);
-  };
-  callbacks.normal_cb = [](void* user, float x, float y, float z) {
-    builder(user).add_normal(x, y, z);
-  };
-  callbacks.texcoord_cb = [](void* user, float u, float v, float) { builder(user).add_uv(u, v); };
-  callbacks.index_cb = [](void* user, tinyobj::index_t* corners, int count) {
-    builder(user).add_face(corners, count);
-  };
   callbacks.usemtl_cb = [](void* user, const char* name, int) { builder(user).use_material(name); };
   callbacks.group_cb = [](void* user, const char**, int) { builder(user).begin_group(); };
   std::istream stream(&lines);
   stream.exceptions(std::ios::badbit);
   tinyobj::LoadObjWithCallback(stream, callbacks, &result);
-  return result.finish(in, options);
+  return result.finish(in, options, lines.library());
 }
 
 }  // namespace duet

@@ -74,6 +74,7 @@ TEST_CASE("OBJ: line ends, continued lines, comments, a byte order mark, colours
             "mtllib a\\b.mtl\nusemtl x\\\ns off\no thing\ng a b\nl 1 2\nf 1 2 3\n") == plain);
   CHECK(obj(kSquare + "f 1/ 2/ 3/\n") == plain);
   CHECK(obj(kSquare + "f 1/0/0 2// 3\n") == plain);
+  CHECK(obj(kSquare + "f 1/0/0/ 2/// 3\n") == plain);
 }
 
 TEST_CASE("OBJ: missing normals are computed, zero ones stay for the renderer to replace") {
@@ -132,12 +133,14 @@ TEST_CASE("OBJ: parts by group and material, as Mitsuba 0.x divides a file") {
 
 TEST_CASE("OBJ: numbers are what strtof makes of them") {
   std::string text;
-  const char* const numbers[] = {"0.1",    "-3.14159274", "1e-7",           "123456789.123",
-                                 "5e-39",  "16777217",    "0.000061035156", "0.30000001192",
-                                 "-2.5E+3"};
+  const char* const numbers[] = {
+      "0.1",      "-3.14159274",    "1e-7",          "123456789.123", "5e-39",
+      "16777217", "0.000061035156", "0.30000001192", "-2.5E+3",       "+.5",
+      "7.",       "1e-60",          "-1e-42"};
   for (const char* n : numbers) text += std::string("v ") + n + " 0 0\n";
-  const TriangleMesh mesh = obj(text + "f 1 2 3 4 5 6 7 8 9\n");
-  for (size_t i = 0; i < 9; ++i) CHECK(mesh.positions[i].x == std::strtof(numbers[i], nullptr));
+  const TriangleMesh mesh = obj(text + "f 1 2 3 4 5 6 7 8 9 10 11 12 13\n");
+  for (size_t i = 0; i < std::size(numbers); ++i)
+    CHECK(mesh.positions[i].x == std::strtof(numbers[i], nullptr));
 }
 
 TEST_CASE("OBJ: reading a file gives what reading its text gives") {
