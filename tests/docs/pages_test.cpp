@@ -90,6 +90,20 @@ TEST_CASE("the reading order leads into every room") {
   }
 }
 
+TEST_CASE("the files of the notation have the identifiers and the types") {
+  int rows = 0;
+  for (const std::string& row : matches(page("notation.md"), "\\n(\\| [^\\n]*` \\| `[^\\n]*)")) {
+    const std::vector<std::string> cells = matches(row, "\\| ([^|]*[^| ])?(?= \\|)");
+    REQUIRE(cells.size() >= 4);
+    INFO(row);
+    const std::string text = read_file((kRoot / matches(cells[3], "`(.*)`").at(0)).string());
+    for (const std::string& name : matches(cells[1] + cells[2], "`([^`]*)`"))
+      CHECK(!matches(text, "(\\b" + name + "\\b)").empty());
+    ++rows;
+  }
+  CHECK(rows > 25);
+}
+
 TEST_CASE("the tables of references have every scene and what the provenance of each image says") {
   const std::string text = page("references.md");
   for (const fs::path& scene : entries(kRoot / "scenes")) {
