@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Fails if an #include goes against the arrows of the house:
+# Fails if an #include goes against the dependencies of the modules:
 #   app -> {integrators, parsers}; integrators -> transport -> scene
 #       -> {materials, lights, media, cameras} -> textures -> {geometry, image} -> math -> base
 #   parsers -> scene/description.h, scene/texture_value.h (of a description), geometry/mesh.h,

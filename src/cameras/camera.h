@@ -1,4 +1,4 @@
-// The doorway to cameras.
+// Camera interface.
 #pragma once
 
 #include <optional>

@@ -21,7 +21,7 @@ enum class ShapeKind : uint8_t {
   curves,    ///< see curves.h: in world space
 };
 
-/// What the materials and lights on a surface ask of a hit. What nobody asks for is not computed.
+/// What the materials and lights on a surface ask of a hit. What is not needed is not computed.
 struct SurfaceNeeds {
   bool uv = false;        ///< texture coordinates
   bool tangents = false;  ///< dp/du and dp/dv, and a shading frame aligned with them

@@ -61,7 +61,7 @@ class FilmTile {
   std::vector<double> data_;
 };
 
-/// Light that arrives at a film position without having been looked for there.
+/// Contribution of a light sub-path at a film position.
 struct Splat {
   Point2f position;
   Spectrum value;

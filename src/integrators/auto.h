@@ -1,4 +1,4 @@
-// The method that chooses a method: no more than a scene needs, and no less.
+// Automatic choice of integrator.
 #pragma once
 
 #include <memory>

@@ -8,7 +8,7 @@ namespace {
 
 /// Photons in the cells around a vertex from which on only some of them are merged: all light on
 /// one spot must not make the time grow with the square of the photons.
-constexpr size_t kCrowd = 4096;
+constexpr size_t kMostMergedPhotons = 4096;
 /// Keeps the random numbers of shadow rays through media apart from others.
 constexpr uint64_t kShadowStream = 0x736861646f77ull;
 
@@ -259,7 +259,7 @@ void BidirectionalIntegrator::find_photons(const Vertex& v, Eye<Vertex>& eye) co
   eye.photons.clear();
   eye.photon_share = 1;
   grid_.sample(
-      v.position(), eye.around, kCrowd, [&] { return eye.draw(); },
+      v.position(), eye.around, kMostMergedPhotons, [&] { return eye.draw(); },
       [&](uint32_t index, float, size_t share) {
         __builtin_prefetch(&photons[index]);
         eye.photons.push_back(index);

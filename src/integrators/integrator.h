@@ -1,4 +1,4 @@
-// The doorway to integrators: how a method of light transport fills a film.
+// Integrator interface: how a method of light transport fills a film.
 #pragma once
 
 #include <cstdint>

@@ -7,8 +7,8 @@
 namespace duet {
 
 /// Unidirectional path tracing with media: light is found by light samples, whose shadow rays pass
-/// media and surfaces that let light straight through, and by what scattering samples. Colour
-/// channels that get on differently are weighed against one another (SpectralWeights). What passes
+/// media and surfaces that let light straight through, and by what scattering samples. Chromatic
+/// extinction is handled by spectral MIS (SpectralWeights). What passes
 /// straight through a surface does not lengthen the path.
 /// Source: Miller, Georgiev & Jarosz 2019.
 class VolumePathIntegrator final : public CameraIntegrator {

@@ -1,4 +1,4 @@
-// The doorway to lights: how much they send where, and how to choose a direction towards them.
+// Light interface: how much they send where, and how to choose a direction towards them.
 #pragma once
 
 #include <cstdint>

@@ -1,4 +1,4 @@
-// The doorway to materials: a Material is attached to surfaces, a Bsdf is what it becomes at a hit.
+// Material interface: a Material is attached to surfaces, a Bsdf is what it becomes at a hit.
 #pragma once
 
 #include "geometry/surface.h"

@@ -47,8 +47,8 @@ inline std::optional<ModelSample> sample_from(const ModelEval& e, const Vector3f
 ///   bool needs_choice()                          whether sample() looks at u
 ///
 /// eval and sample must agree: over many samples, mean(weight · g(wi)) = ∫ f |cos| g dwi plus the
-/// delta terms. The density of the reverse direction is had by exchanging wo and wi and taking the
-/// other transport; a delta lobe is picked with the same probability from either end.
+/// delta terms. The density of the reverse direction is obtained by swapping wo and wi and
+/// taking the other transport; a delta lobe is picked with the same probability from either end.
 ///
 /// A model that may have nearly specular lobes also provides
 ///

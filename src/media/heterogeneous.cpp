@@ -7,8 +7,8 @@ namespace {
 /// Rounding may put a value a little above its majorant, never far.
 constexpr float kMajorantSlack = 1.0001f;
 
-/// Shadow rays that carry less than this go on with some probability only.
-constexpr float kFaint = 0.1f;
+/// Transmittance below which shadow rays go on by Russian roulette.
+constexpr float kRouletteTransmittance = 0.1f;
 
 }  // namespace
 
@@ -81,12 +81,12 @@ void HeterogeneousMedium::transmit(const Ray& ray, RandomStream& random, Spectra
     w.value *= density;
     w.walk *= density;
     const float most = w.value.max();
-    if (!(most < kFaint)) return true;
-    if (!(random.next() * kFaint < most)) {
+    if (!(most < kRouletteTransmittance)) return true;
+    if (!(random.next() * kRouletteTransmittance < most)) {
       w.value = Spectrum();
       return false;
     }
-    w.value *= kFaint / most;
+    w.value *= kRouletteTransmittance / most;
     return true;
   });
 }

@@ -1,4 +1,4 @@
-// The doorway to media: how far light gets in them and where it is scattered.
+// Medium interface: how far light gets in them and where it is scattered.
 #pragma once
 
 #include <optional>
@@ -11,7 +11,7 @@
 
 namespace duet {
 
-/// Scatters and absorbs light, and does not shine. Rays have unit directions.
+/// A non-emissive medium. Rays have unit directions.
 class Medium {
  public:
   explicit Medium(const PhaseFunction& phase) : phase_(phase) {}

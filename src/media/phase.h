@@ -1,4 +1,4 @@
-// The doorway to phase functions: how a medium distributes what it scatters over directions.
+// Phase function interface: how a medium distributes what it scatters over directions.
 #pragma once
 
 #include "math/frame.h"
