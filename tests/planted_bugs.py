@@ -15,7 +15,7 @@ MUTATIONS = [
     ("probability of the light dropped from emission", "src/transport/light_walk.h",
      "e->weight * (1 / pick.probability)", "e->weight", MEAN),
     ("probability of the light dropped from light samples", "src/transport/join.h",
-     "sample->weight * (1 / pick.probability)", "sample->weight", MEAN),
+     "sample->weight * (1 / probability)", "sample->weight", MEAN),
     ("T off by one", "src/transport/window_weights.h",
      "if (t <= eye + 1 && s <= light + 1)", "if (t <= eye && s <= light + 1)", WEIGHTS),
     ("S off by one", "src/transport/window_weights.h",

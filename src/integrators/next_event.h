@@ -3,7 +3,7 @@
 #pragma once
 
 #include "integrators/integrator.h"
-#include "lights/area.h"
+#include "transport/light_choice.h"
 #include "transport/shadow_walk.h"
 
 namespace duet {
@@ -29,25 +29,17 @@ template <class B>
 inline Spectrum sample_light(const Scene& scene, const Surface& s, const B& bsdf,
                              bool strict_normals, const SampleShares& shares, Sampler& sampler,
                              RenderCounters& counters) {
-  const Point2f u = sampler.next_2d();
-  const LightPicker::Pick pick =
-      scene.picker.size() == 1 ? LightPicker::Pick{0, 1} : scene.picker.pick(sampler.next_1d(), u);
-  const Light& chosen = *scene.lights[pick.light];
-  // The common kind is called directly, so that the compiler can look into it.
-  const auto light = chosen.kind() == LightKind::area
-                         ? static_cast<const AreaLight&>(chosen).sample_direct(s.position, u)
-                         : chosen.sample_direct(s.position, u);
+  const auto [light, probability] = choose_light(scene, s.position, sampler);
   if (!light || (strict_normals && sides_differ(s, light->wi))) return {};
   const BsdfEval f = bsdf.eval(light->wi, Transport::radiance);
   if (f.value.is_black()) return {};
   const Ray shadow = light->finite ? spawn_ray_to(s, light->target) : spawn_ray(s, light->wi);
   ++counters.shadow_rays;
   if (scene.accel->occluded(shadow)) return {};
-  const float weight = light->delta
-                           ? 1.0f
-                           : power_heuristic(light->pdf.value * pick.probability * shares.light,
-                                             f.pdf.value * shares.bsdf);
-  return f.value * light->weight * (weight / pick.probability);
+  const float weight = light->delta ? 1.0f
+                                    : power_heuristic(light->pdf.value * probability * shares.light,
+                                                      f.pdf.value * shares.bsdf);
+  return f.value * light->weight * (weight / probability);
 }
 
 /// Emission of the surface that a ray with direction `w` from `from` has met at distance `t`,
@@ -60,8 +52,7 @@ inline Spectrum weighted_emission(const Scene& scene, const Surface& s, const Po
   if (!light) return {};
   const Spectrum emitted = light->emitted(s, -w);
   if (!bsdf_pdf || emitted.is_black()) return emitted;
-  const float pdf =
-      light->pdf_direct(from, s, w, t * t).value * scene.picker.probability(s.shape->light);
+  const float pdf = choice_density(scene, *light, from, s, w, t * t);
   return emitted * power_heuristic(bsdf_pdf->value * shares.bsdf, pdf * shares.light);
 }
 
@@ -71,8 +62,7 @@ inline Spectrum weighted_environment(const Scene& scene, const Vector3f& w,
   if (!scene.environment) return {};
   const Spectrum emitted = scene.environment->emitted(w);
   if (!bsdf_pdf) return emitted;
-  const float pdf =
-      scene.environment->pdf_direct(w).value * scene.picker.probability(scene.environment_index);
+  const float pdf = choice_density(scene, w);
   return emitted * power_heuristic(bsdf_pdf->value * shares.bsdf, pdf * shares.light);
 }
 

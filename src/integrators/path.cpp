@@ -2,6 +2,7 @@
 
 #include "integrators/next_event.h"
 #include "materials/plain_diffuse.h"
+#include "transport/roulette.h"
 
 namespace duet {
 
@@ -74,8 +75,8 @@ inline bool PathIntegrator::scatter(const Scene& scene, const Surface& s, const 
   path.eta *= sample->eta;
   if (depth >= options_.rr_depth) {
     // Where light is refracted into a denser medium its radiance grows without carrying more.
-    const float survival = std::min(importance * path.eta * path.eta, 0.95f);
-    if (!(sampler.next_1d() < survival)) return false;
+    const float survival = russian_roulette(importance * path.eta * path.eta, sampler);
+    if (survival == 0) return false;
     path.throughput *= 1 / survival;
   }
   if (sample->delta)

@@ -4,6 +4,7 @@
 
 #include "integrators/next_event.h"
 #include "materials/plain_diffuse.h"
+#include "transport/roulette.h"
 
 namespace duet {
 
@@ -38,19 +39,6 @@ struct VolumePathIntegrator::Path {
 };
 
 namespace {
-
-/// A light chosen and seen from a point, with the probability of its choice.
-struct ChosenLight {
-  std::optional<LightSample> sample;
-  float probability;
-};
-
-inline ChosenLight choose_light(const Scene& scene, const Point3f& from, Sampler& sampler) {
-  const Point2f u = sampler.next_2d();
-  const LightPicker::Pick pick =
-      scene.picker.size() == 1 ? LightPicker::Pick{0, 1} : scene.picker.pick(sampler.next_1d(), u);
-  return {scene.lights[pick.light]->sample_direct(from, u), pick.probability};
-}
 
 /// Adds what a light sends along `ray`, of which `value` goes on towards the eye. `pdf` is the
 /// density with which scattering would have sent the path to the light.
@@ -105,10 +93,7 @@ Spectrum VolumePathIntegrator::radiance(const Scene& scene, const CameraPath& st
     if (!found) {
       if (!scene.environment || hides_lights(path.depth)) break;
       const Vector3f& w = path.ray.direction;
-      path.add(scene.environment->emitted(w),
-               path.competes ? scene.environment->pdf_direct(w).value *
-                                   scene.picker.probability(scene.environment_index)
-                             : 0);
+      path.add(scene.environment->emitted(w), path.competes ? choice_density(scene, w) : 0);
       path.alpha = 1;
       break;
     }
@@ -120,8 +105,7 @@ Spectrum VolumePathIntegrator::radiance(const Scene& scene, const CameraPath& st
       const Vector3f way = s.position - path.from;
       if (!emitted.is_black())
         path.add(emitted, path.competes
-                              ? light->pdf_direct(path.from, s, w, length_squared(way)).value *
-                                    scene.picker.probability(s.shape->light)
+                              ? choice_density(scene, *light, path.from, s, w, length_squared(way))
                               : 0);
     }
     const Material& material = *scene.materials[s.shape->material];
@@ -209,8 +193,8 @@ bool VolumePathIntegrator::survives(Path& path) const {
   if (!(importance > 0)) return false;
   if (path.depth < options_.rr_depth) return true;
   // Where light is refracted into a denser medium its radiance grows without carrying more.
-  const float survival = std::min(importance * path.eta * path.eta, 0.95f);
-  if (!(path.sampler.next_1d() < survival)) return false;
+  const float survival = russian_roulette(importance * path.eta * path.eta, path.sampler);
+  if (survival == 0) return false;
   path.weights.value *= 1 / survival;
   return true;
 }

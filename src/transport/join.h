@@ -14,6 +14,7 @@
 #pragma once
 
 #include "math/hash.h"
+#include "transport/light_choice.h"
 #include "transport/light_vertex.h"
 #include "transport/media_vertex.h"
 
@@ -68,9 +69,9 @@ inline Join join_hit(const Scene& scene, const Weights& weights, const Walk& wal
   if (!light) return {};
   const Spectrum emitted = light->emitted(s, -walk.ray.direction);
   if (emitted.is_black()) return {};
-  const float pick = scene.picker.probability(s.shape->light);
-  const float direct = light->pdf_direct(walk.from, s, walk.ray.direction, d2).value * pick;
-  const float emission = light->emission_density(s, -walk.ray.direction) * pick;
+  const float direct = choice_density(scene, *light, walk.from, s, walk.ray.direction, d2);
+  const float emission =
+      light->emission_density(s, -walk.ray.direction) * scene.picker.probability(s.shape->light);
   return {walk.throughput * emitted, weights.hit(walk, direct / transmittance, emission)};
 }
 
@@ -81,9 +82,9 @@ inline Join join_escape(const Scene& scene, const Weights& weights, const Walk& 
   const Vector3f& w = walk.ray.direction;
   const Spectrum emitted = scene.environment->emitted(w);
   if (emitted.is_black()) return {};
-  const float pick = scene.picker.probability(scene.environment_index);
-  const float direct = scene.environment->pdf_direct(w).value * pick;
-  const float emission = scene.environment->emission_density(w) * pick;
+  const float direct = choice_density(scene, w);
+  const float emission =
+      scene.environment->emission_density(w) * scene.picker.probability(scene.environment_index);
   return {walk.throughput * emitted, weights.hit(walk, direct / transmittance, emission)};
 }
 
@@ -92,11 +93,7 @@ template <class Weights, class Vertex>
 inline Join join_light(const Scene& scene, const Weights& weights, const Vertex& eye,
                        bool strict_normals, Sampler& sampler, JoinRoulette& roulette,
                        RenderCounters& counters, [[maybe_unused]] RandomStream* random = nullptr) {
-  const Point2f u = sampler.next_2d();
-  const LightPicker::Pick pick =
-      scene.picker.size() == 1 ? LightPicker::Pick{0, 1} : scene.picker.pick(sampler.next_1d(), u);
-  const Light& light = *scene.lights[pick.light];
-  const auto sample = light.sample_direct(eye.position(), u);
+  const auto [sample, probability] = choose_light(scene, eye.position(), sampler);
   if (!sample || (strict_normals && eye.has_two_sides(sample->wi))) return {};
   const BsdfEval f = eye.eval(sample->wi, Transport::radiance);
   if (f.value.is_black()) return {};
@@ -107,8 +104,8 @@ inline Join join_light(const Scene& scene, const Weights& weights, const Vertex&
   JoinEnd eye_end{sample->emission * eye.cosine(sample->wi) / direct,
                   eye.reverse_pdf(sample->wi, Transport::radiance)};
   eye_end.merges = eye.merges(f.pdf.value, eye_end.beyond);
-  Join join{eye.throughput * f.value * sample->weight * (1 / pick.probability),
-            weights.light_sample(eye, direct * pick.probability, hit, eye_end)};
+  Join join{eye.throughput * f.value * sample->weight * (1 / probability),
+            weights.light_sample(eye, direct * probability, hit, eye_end)};
   const float kept = roulette.keep(join.value * join.weight);
   if (kept == 0) return {};
   join.value *= kept;
@@ -120,8 +117,7 @@ inline Join join_light(const Scene& scene, const Weights& weights, const Vertex&
     if (!passage) return {};
     join.value *= passage->value;
     eye_end.arrival *= passage->nominal;
-    join.weight =
-        weights.light_sample(eye, direct * pick.probability, hit * passage->nominal, eye_end);
+    join.weight = weights.light_sample(eye, direct * probability, hit * passage->nominal, eye_end);
   } else {
     const Ray shadow = sample->finite ? spawn_ray_to(eye.surface, sample->target)
                                       : spawn_ray(eye.surface, sample->wi);

@@ -5,6 +5,7 @@
 #include "math/sampler.h"
 #include "transport/counters.h"
 #include "transport/path_vertex.h"
+#include "transport/roulette.h"
 #include "transport/trail.h"
 
 namespace duet {
@@ -61,8 +62,8 @@ inline void record_departure(Walk& walk, float reverse, bool specular, bool merg
 inline bool survives(int depth, const WalkOptions& options, Sampler& sampler, Walk& walk) {
   if (depth < options.rr_depth) return true;
   // Relative to what the walk began with: the same for dim and for bright lights.
-  const float survival = std::min(walk.carried, 0.95f);
-  if (!(sampler.next_1d() < survival)) return false;
+  const float survival = russian_roulette(walk.carried, sampler);
+  if (survival == 0) return false;
   walk.throughput *= 1 / survival;
   walk.carried /= survival;
   return true;

@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "image/tile_test.h"
 #include "support/statistics.h"
 #include "support/transport_scene.h"
 #include "support/volume_files.h"
@@ -271,6 +272,26 @@ TEST_CASE("hidden lights stay hidden behind surfaces that light passes straight"
     render(scene, 4, {}, method).check(1, 1, 1);
     render(scene, 4, hidden, method).check(0, 0, 0);
   }
+}
+
+TEST_CASE("volpath without media has the means of path") {
+  const TransportScene scene(
+      camera_xml("0, -3, 1", "0, 0, 1", 16) + room_xml(grey("0.6")) + lamp_xml("0.4", "5") +
+      "<emitter type='constant'><rgb name='radiance' value='0.3'/></emitter>" +
+      sphere_xml("-0.4, 0, 0.6", "0.4", "<bsdf type='dielectric'/>") +
+      sphere_xml("0.5, 0, 0.5", "0.35", "<bsdf type='mask'><bsdf type='plastic'/></bsdf>"));
+  // No limit of depth: what passes a mask counts as a segment of `path` only, as in Mitsuba.
+  TileBatches path, volpath;
+  for (uint64_t seed = 0; seed < 64; ++seed) {
+    path.add(scene.render("path", {}, 64, seed).image);
+    volpath.add(scene.render("volpath", {}, 64, 1000 + seed).image);
+  }
+  const TileComparison difference = compare_tiles(path, volpath);
+  INFO("mean " << difference.ratio << " ± " << difference.ratio_error << ", tiles within "
+               << difference.visible_bias);
+  CHECK(difference.equal());
+  CHECK(difference.ratio_error < 0.0015);
+  CHECK(difference.visible_bias < 0.06);
 }
 
 TEST_CASE("methods that cannot render media say so, and path does as in Mitsuba") {
