@@ -1,17 +1,18 @@
 #!/usr/bin/env bash
 # Fails if an #include goes against the dependencies of the modules:
-#   app -> {integrators, parsers}; integrators -> transport -> scene
+#   app -> evaluate -> {integrators, parsers}; integrators -> transport -> scene
 #       -> {materials, lights, media, cameras} -> textures -> {geometry, image} -> math -> base
 #   parsers -> scene/description.h, scene/texture_value.h (of a description), geometry/mesh.h,
 #              geometry/curves.h, materials/measured_table.h, media/volume_grid.h, math, base and
 #              parsers
 # A room may include itself and every room further right; rooms in braces do not see each other.
+# What evaluate finds out it returns: it prints nothing and parses no arguments.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 
 find src parsers -name '*.h' -o -name '*.cpp' | sort | xargs awk '
   BEGIN {
-    n = split("app:9 parsers:8 integrators:8 transport:7 scene:6 materials:5 lights:5 media:5 " \
+    n = split("app:10 evaluate:9 parsers:8 integrators:8 transport:7 scene:6 materials:5 lights:5 media:5 " \
               "cameras:5 textures:4 geometry:3 image:3 math:2 base:1", entries, " ")
     for (i = 1; i <= n; ++i) { split(entries[i], e, ":"); level[e[1]] = e[2] }
   }
@@ -40,5 +41,9 @@ find src parsers -name '*.h' -o -name '*.cpp' | sort | xargs awk '
   }
   /^#include <(OpenEXR|Imf|OpenImageIO)/ && FILENAME !~ /^src\/image\// {
     print FILENAME ":" FNR ": only src/image may include image libraries"; bad = 1
+  }
+  room == "evaluate" && (/^#include (<CLI|<iostream>|"base\/log\.h")/ ||
+                         /fmt::print|std::(cout|cerr|printf|fprintf|puts|fputs)/) {
+    print FILENAME ":" FNR ": evaluate must not print or parse arguments"; bad = 1
   }
   END { exit bad }'

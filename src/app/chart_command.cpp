@@ -6,17 +6,17 @@
 #include <filesystem>
 
 #include "app/chart_options.h"
-#include "app/chart_page.h"
-#include "app/chart_scene.h"
-#include "app/chart_svg.h"
 #include "app/commands.h"
-#include "app/progress.h"
-#include "app/render_scene.h"
+#include "app/output.h"
+#include "app/placeholders.h"
 #include "app/scene_operand.h"
 #include "app/signals.h"
-#include "app/web_page.h"
+#include "base/atomic_file.h"
 #include "base/log.h"
 #include "base/percent.h"
+#include "evaluate/chart/page.h"
+#include "evaluate/chart/svg.h"
+#include "evaluate/compare/linear_image.h"
 
 namespace duet {
 
@@ -38,8 +38,8 @@ class ChartCommand {
     make_directory(o_.directory);
     for (size_t i = 0; i < names.size() && interrupt_exit_code() == 0; ++i) measure(i, names[i]);
     if (several() && !scenes_.empty()) {
-      write_text(in(o_.directory, "summary.csv"), summary_csv(scenes_));
-      write_text(in(o_.directory, "index.html"), chart_index(scenes_));
+      write_file_atomically(in(o_.directory, "summary.csv"), summary_csv(scenes_));
+      write_file_atomically(in(o_.directory, "index.html"), chart_index(scenes_, command_line));
       log::info("{}", in(o_.directory, "index.html"));
     }
     if (const int code = interrupt_exit_code()) return code;
@@ -66,13 +66,16 @@ class ChartCommand {
     const std::string directory = several() ? in(o_.directory, name) : o_.directory;
     try {
       make_directory(directory);
-      ChartScene scene = measure_scene(o_, index, name, directory);
+      ChartScene scene = measure_chart(plan(index, name, directory), messages());
       if (scene.lines.empty()) return;  // interrupted
       write(scene, directory);
       for (const ChartLine& line : scene.lines) failed_ += line.failure.empty() ? 0 : 1;
       scenes_.push_back(std::move(scene));
       return;
     } catch (const UsageError& e) {
+      log::error("{}: {}", file, e.what());
+      ++misused_;
+    } catch (const ChartMethodError& e) {
       log::error("{}: {}", file, e.what());
       ++misused_;
     } catch (const SceneFailure& e) {
@@ -83,11 +86,82 @@ class ChartCommand {
     ++failed_;
   }
 
+  ChartMessages messages() const {
+    return {[](const std::string& text) { log::info("{}", text); },
+            [](const std::string& text) { log::warning("{}", text); },
+            [this](const Diagnostics& diagnostics) { report(diagnostics, o_.read.strict); }};
+  }
+
+  ChartPlan plan(size_t index, const std::string& name, const std::string& directory) const {
+    ChartPlan p;
+    p.name = name;
+    p.file = o_.read.scenes[index];
+    p.description = load_scene(p.file, o_.read).description;
+    if (const size_t n = p.description.sensors.size(); o_.sensor >= n)
+      throw UsageError(fmt::format("-s {}: there {} sensor{}", o_.sensor,
+                                   n == 1 ? "is 1" : fmt::format("are {}", n), n == 1 ? "" : "s"));
+    p.sensor = o_.sensor;
+    p.size = o_.size;
+    p.methods = o_.methods;
+    for (const auto& [external, command] : o_.external)
+      p.external.push_back({external, command, filled_in(command)});
+    if (!o_.references.empty())
+      p.reference = reference(index);
+    else if (!o_.reference_integrator.empty())
+      p.reference_method = reference_method();
+    p.directory = directory;
+    p.command_line = command_line;
+    p.seconds = o_.seconds;
+    p.seed = o_.seed;
+    p.threads = o_.threads;
+    p.cancel = &interrupt_flag();
+    return p;
+  }
+
+  static ExternalCommand filled_in(const std::string& command) {
+    return [command](const ExternalRun& run) {
+      return fill_in("--external", command,
+                     {{"spp", fmt::to_string(run.spp)},
+                      {"out", run.output},
+                      {"scene", run.scene},
+                      {"seed", fmt::to_string(run.seed)},
+                      {"width", fmt::to_string(run.width)},
+                      {"height", fmt::to_string(run.height)}});
+    };
+  }
+
+  ChartReference reference(size_t index) const {
+    try {
+      return read_reference(path_of("--reference", o_.references, index),
+                            o_.variances.empty() ? "" : path_of("--variance", o_.variances, index),
+                            o_.reference_spp);
+    } catch (const UnknownSamples& e) {
+      throw UsageError(fmt::format(
+          "--variance also needs --reference-spp: the header of {} does not say how many samples "
+          "it has",
+          e.path()));
+    }
+  }
+
+  ChartMethod reference_method() const {
+    const std::vector<ChartMethod> methods = parse_methods(o_.reference_integrator);
+    if (methods.size() != 1) throw UsageError("--reference-integrator: one method is needed");
+    return methods[0];
+  }
+
+  /// A path that belongs to a scene; one for all has placeholders.
+  std::string path_of(const char* option, const std::vector<std::string>& given,
+                      size_t index) const {
+    const OutputNames names = output_names(o_.read.scenes[index]);
+    return fill_in(option, given.size() == 1 ? given[0] : given[index],
+                   {{"scene", names.scene}, {"folder", names.folder}});
+  }
+
   void write(const ChartScene& scene, const std::string& directory) const {
-    write_text(in(directory, "chart.csv"), chart_csv(scene));
-    write_text(in(directory, "chart.svg"), chart_svg(scene, ChartAxis::cpu_seconds));
-    write_text(in(directory, "chart-spp.svg"), chart_svg(scene, ChartAxis::spp));
-    write_text(in(directory, "index.html"), chart_page(scene));
+    write_file_atomically(in(directory, "chart.csv"), chart_csv(scene));
+    write_file_atomically(in(directory, "chart.svg"), chart_svg(scene, ChartAxis::cpu_seconds));
+    write_file_atomically(in(directory, "chart-spp.svg"), chart_svg(scene, ChartAxis::spp));
+    write_file_atomically(in(directory, "index.html"), chart_page(scene, command_line));
     for (const ChartLine& line : scene.lines) summarize(scene, line);
     log::info("{}: {}", scene.name, in(directory, "index.html"));
   }

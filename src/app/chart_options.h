@@ -7,19 +7,13 @@
 #include <vector>
 
 #include "app/scene_file.h"
-#include "integrators/make_integrator.h"
+#include "evaluate/chart/measure.h"
 
 namespace CLI {
 class App;
 }
 
 namespace duet {
-
-/// A method to compare: its name on the chart, and what it is.
-struct ChartMethod {
-  std::string name;
-  IntegratorOverride integrator;
-};
 
 /// "path,vcm:radius=0.01,alpha=0.7": methods with commas between them, each with its parameters
 /// after a colon; a part with "=" and without ":" belongs to the method before it. Throws

@@ -3,11 +3,12 @@
 #include <nlohmann/json.hpp>
 
 #include "app/commands.h"
+#include "app/output.h"
 #include "app/scene_file.h"
-#include "app/scene_json.h"
 #include "app/scene_operand.h"
-#include "app/scene_summary.h"
 #include "base/log.h"
+#include "evaluate/report/scene_json.h"
+#include "evaluate/report/scene_summary.h"
 #include "integrators/make_integrator.h"
 #include "mitsuba/writer.h"
 
@@ -51,7 +52,7 @@ int info(InfoOptions o) {
       LoadedScene scene = load_scene(file, o.read);
       use_method(scene.description, o.method);
       if (o.json)
-        all.push_back(scene_json(file, scene));
+        all.push_back(scene_json(file, output_names(file).scene, scene));
       else if (o.xml)
         print_xml(file, scene, o.read.strict);
       else

@@ -13,10 +13,10 @@
 #include "app/arguments.h"
 #include "app/commands.h"
 #include "app/help.h"
-#include "app/provenance.h"
 #include "app/standard_streams.h"
 #include "base/diagnostics.h"
 #include "base/log.h"
+#include "evaluate/report/provenance.h"
 
 namespace duet {
 

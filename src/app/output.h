@@ -5,8 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "image/image_io.h"
-#include "scene/description.h"
+#include "scene/film_image.h"
 
 namespace duet {
 
@@ -42,28 +41,6 @@ bool make_directories(const std::filesystem::path& directory, std::error_code& e
 /// Makes the directories in which a file is to be created or replaced. Empty, or why it could not
 /// be.
 std::string prepare_file(const std::string& path);
-
-/// The image with its colours (R, G, B, A) in the channels that the film asks for; further layers
-/// are kept. An image without colours stays as it is.
-Image in_pixel_format(const Image& image, PixelFormat format);
-
-/// How display formats show radiance.
-struct DisplayOptions {
-  double exposure = 0;  ///< stops, on top of what the scene's film says
-  std::optional<ToneMapping> tone_mapping;
-  TextFields fields = {};  ///< what the file says about the image
-};
-
-/// Bytes for a display, channels interleaved.
-struct DisplayImage {
-  int channels = 3;  ///< grey, grey and alpha, colours, colours and alpha
-  std::vector<uint8_t> bytes;
-};
-
-/// Display values of the colours of an image with channels R, G, B, A first; alpha, which is
-/// multiplied into these colours, is divided out.
-DisplayImage to_display(const Image& image, const DisplayOptions& options, bool grey,
-                        bool with_alpha);
 
 /// Writes the image (channels R, G, B, A first, if it has colours) in the format of the path's
 /// extension, into directories that are made if they are missing. If that fails the image is saved

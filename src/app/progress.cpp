@@ -12,6 +12,7 @@
 #include "app/terminal.h"
 #include "base/log.h"
 #include "base/percent.h"
+#include "base/seconds_text.h"
 
 namespace duet {
 
@@ -52,13 +53,6 @@ double fraction_of(const RenderProgress& p) {
 
 }  // namespace
 
-std::string format_seconds(double s) {
-  if (s < 60) return fmt::format("{:.1f} s", s);
-  const long t = long(s + 0.5);
-  if (t < 3600) return fmt::format("{} min {} s", t / 60, t % 60);
-  return fmt::format("{} h {} min", t / 3600, t % 3600 / 60);
-}
-
 ProgressDisplay::ProgressDisplay(ProgressStyle style, std::string scene, const Batch& batch)
     : style_(style), scene_(std::move(scene)), batch_(batch) {
   if (style_ == ProgressStyle::automatic)
@@ -73,15 +67,15 @@ ProgressDisplay::~ProgressDisplay() {
 std::string ProgressDisplay::time_left(const RenderProgress& p) const {
   if (!(p.fraction > 0.001)) return "";
   const double left = p.seconds * (1 / fraction_of(p) - 1);
-  std::string text = format_seconds(left) + " left";
+  std::string text = seconds_text(left) + " left";
   if (batch_.is_several())
-    text += fmt::format(" (all: {})", format_seconds(batch_.seconds_left(left)));
+    text += fmt::format(" (all: {})", seconds_text(batch_.seconds_left(left)));
   return text;
 }
 
 std::string ProgressDisplay::bar(const RenderProgress& p) const {
   const size_t width = terminal_width(STDERR_FILENO) - 1;
-  const std::string spp = samples(p), seconds = format_seconds(p.seconds);
+  const std::string spp = samples(p), seconds = seconds_text(p.seconds);
   const std::string left = time_left(p);
   // What is wanted least goes first where there is no room.
   const std::string shorter[] = {listed({spp, seconds, rate(p), error(p), left}),
@@ -109,7 +103,7 @@ void ProgressDisplay::show(const RenderProgress& p) {
   if (style_ == ProgressStyle::plain && p.seconds - last_line_ >= kSecondsBetweenLines) {
     last_line_ = p.seconds;
     log::info("{}{}: {:.0f} %, {}", batch_.label(), scene_, 100 * fraction_of(p),
-              listed({samples(p), format_seconds(p.seconds), rate(p), error(p), time_left(p)}));
+              listed({samples(p), seconds_text(p.seconds), rate(p), error(p), time_left(p)}));
   }
   if (style_ != ProgressStyle::bar || log::level() == log::Level::quiet) return;
   std::fprintf(stderr, "\r\x1b[K%s", bar(p).c_str());

@@ -36,7 +36,4 @@ class ProgressDisplay {
   double last_line_ = 0;
 };
 
-/// "1.2 s", "3 min 20 s", "2 h 5 min".
-std::string format_seconds(double seconds);
-
 }  // namespace duet

@@ -8,8 +8,8 @@
 #include "app/render_scene.h"
 #include "app/scene_operand.h"
 #include "app/signals.h"
-#include "app/statistics.h"
 #include "base/log.h"
+#include "evaluate/report/statistics.h"
 
 namespace duet {
 

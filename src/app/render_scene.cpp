@@ -4,17 +4,17 @@
 #include <chrono>
 
 #include "app/commands.h"
-#include "app/film_layout.h"
-#include "app/memory_estimate.h"
-#include "app/render_report.h"
 #include "app/scene_images.h"
 #include "app/scene_operand.h"
 #include "app/signals.h"
 #include "app/standard_output.h"
 #include "base/log.h"
 #include "base/memory_limit.h"
+#include "evaluate/report/memory_estimate.h"
+#include "evaluate/report/render_report.h"
 #include "scene/build.h"
 #include "scene/features.h"
+#include "scene/film_layout.h"
 
 namespace duet {
 
@@ -81,7 +81,11 @@ class SceneRenderer {
       throw UsageError(fmt::format("-s {}: {} has {} sensor{}", options_.sensor, file_, sensors,
                                    sensors == 1 ? "" : "s"));
     SensorDescription& sensor = description_.sensors[options_.sensor];
-    layout_ = film_layout(sensor.film, options_.size, options_.crop);
+    try {
+      layout_ = film_layout(sensor.film, options_.size, options_.crop);
+    } catch (const std::out_of_range& e) {
+      throw UsageError(fmt::format("--crop: {}", e.what()));
+    }
     try {
       apply_override(description_.integrator, options_.integrator);
       integrator_ = make_integrator(description_.integrator, options_.techniques);
@@ -101,6 +105,7 @@ class SceneRenderer {
     make_request(sensor.sampler);
     planned_spp_ = request_.budget.spp.value_or(sensor.sampler.sample_count);
 
+    record_.command_line = command_line;
     record_.scene_file = file_;
     Fingerprint scene;
     file_ == kStandardInput ? scene.add(standard_input()) : scene.add_file(file_);

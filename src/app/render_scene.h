@@ -5,7 +5,7 @@
 
 #include "app/batch.h"
 #include "app/render_options.h"
-#include "app/statistics.h"
+#include "evaluate/report/statistics.h"
 
 namespace duet {
 

@@ -3,11 +3,9 @@
 
 #include <stdexcept>
 #include <string>
-#include <utility>
 #include <vector>
 
-#include "app/input_files.h"
-#include "scene/description.h"
+#include "evaluate/report/loaded_scene.h"
 
 namespace CLI {
 class App;
@@ -31,15 +29,6 @@ void add_read_options(CLI::App& command, ReadOptions& options);
 /// Throws UsageError for defines that are not NAME=VALUE or that no scene has a use for. Scenes
 /// that cannot be read may have a use for any.
 void check_defines(const ReadOptions& options);
-
-struct LoadedScene {
-  SceneDescription description;
-  std::string version;  ///< of the file's format
-  /// The scene's `$name` parameters and the values they got.
-  std::vector<std::pair<std::string, std::string>> parameters;
-  InputFiles files;
-  std::vector<Diagnostic> warnings;
-};
 
 /// The scene cannot be used as asked.
 class SceneFailure : public std::runtime_error {

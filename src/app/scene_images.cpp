@@ -4,10 +4,10 @@
 #include <filesystem>
 #include <stdexcept>
 
-#include "app/partial_image.h"
-#include "app/provenance.h"
 #include "app/standard_output.h"
 #include "base/log.h"
+#include "evaluate/report/partial_image.h"
+#include "evaluate/report/provenance.h"
 
 namespace duet {
 

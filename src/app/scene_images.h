@@ -5,10 +5,10 @@
 #include <string>
 #include <vector>
 
-#include "app/fingerprint.h"
-#include "app/header.h"
 #include "app/output.h"
 #include "app/render_options.h"
+#include "evaluate/report/fingerprint.h"
+#include "evaluate/report/header.h"
 
 namespace duet {
 

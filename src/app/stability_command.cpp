@@ -10,11 +10,11 @@
 #include "app/commands.h"
 #include "app/output.h"
 #include "app/signals.h"
-#include "app/stability/table.h"
 #include "base/atomic_file.h"
 #include "base/diagnostics.h"
 #include "base/log.h"
 #include "base/parallel.h"
+#include "evaluate/stability/table.h"
 
 namespace duet {
 
@@ -85,23 +85,6 @@ void print_list(const std::vector<const Row*>& rows) {
                row->title);
 }
 
-void print_cell(const Row& row, const CellResult& c) {
-  std::string line = fmt::format(
-      "{:>3} {:22} {:8}", row.number > 0 ? fmt::to_string(row.number) : "", row.name, c.method);
-  if (c.outcome == Outcome::not_applicable) {
-    fmt::print("{} {:>20} {}\n", line, "", describe(row, c));
-  } else {
-    std::string value = format_value(row, c.measured.value);
-    if (c.measured.error > 0) value += " ± " + format_value(row, c.measured.error);
-    // The sign is one column of two bytes.
-    const size_t width = 20 + (c.measured.error > 0);
-    fmt::print("{} {:>{}} {}; notices {}{}\n", line, value, width, describe(row, c),
-               describe_power(row, c.measured.power),
-               c.measured.detail.empty() ? "" : "; " + c.measured.detail);
-  }
-  std::fflush(stdout);
-}
-
 /// The page that is to be brought up to date, if only a part of the table is measured.
 std::string earlier_page(const StabilityOptions& o) {
   if (o.markdown.empty() || (o.cases.empty() && o.methods.empty() && !o.fast)) return "";
@@ -119,10 +102,6 @@ std::string earlier_page(const StabilityOptions& o) {
 std::string whole_command(const StabilityOptions& o) {
   return fmt::format("duet stability{}{} --markdown {}", o.fast ? " --fast" : "",
                      o.folder.empty() ? "" : " --catalogue " + o.folder, o.markdown);
-}
-
-void write_text(const std::string& path, const std::string& text) {
-  write_file_atomically(path, {reinterpret_cast<const uint8_t*>(text.data()), text.size()});
 }
 
 int run_stability(const StabilityOptions& o) {
@@ -156,7 +135,8 @@ int run_stability(const StabilityOptions& o) {
         result.cells.push_back(
             judge(catalogue, *row, method, laboratory, o.fast ? kFastFactor : 1));
         seconds += result.cells.back().seconds;
-        print_cell(*row, result.cells.back());
+        fmt::print("{}\n", result_line(*row, result.cells.back()));
+        std::fflush(stdout);
       }
     }
   } catch (const Laboratory::Cancelled&) {
@@ -164,8 +144,8 @@ int run_stability(const StabilityOptions& o) {
     return interrupt_exit_code();
   }
   if (!o.markdown.empty())
-    write_text(o.markdown, markdown(catalogue, results, whole_command(o), earlier));
-  if (!o.json.empty()) write_text(o.json, json(results));
+    write_file_atomically(o.markdown, markdown(catalogue, results, whole_command(o), earlier));
+  if (!o.json.empty()) write_file_atomically(o.json, json(results));
   const int unexpected = count(results, Outcome::unexpected);
   const int unresolved = count(results, Outcome::not_resolved);
   const int expected = count(results, Outcome::holds) + count(results, Outcome::fails_as_known);

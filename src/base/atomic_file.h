@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <span>
 #include <string>
+#include <string_view>
 
 namespace duet {
 
@@ -12,5 +13,7 @@ namespace duet {
 /// removed then, and an existing file stays as it was. What exists and is no regular file (a
 /// device, a directory) is not replaced.
 void write_file_atomically(const std::string& path, std::span<const uint8_t> bytes);
+/// The same with a text.
+void write_file_atomically(const std::string& path, std::string_view text);
 
 }  // namespace duet

@@ -3,16 +3,15 @@
 #include <sys/stat.h>
 
 #include <algorithm>
-#include <cctype>
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
-#include <filesystem>
 #include <memory>
 #include <stdexcept>
 #include <string_view>
 
 #include "base/atomic_file.h"
+#include "base/file_names.h"
 #include "image/codecs.h"
 #include "image/exr_io.h"
 
@@ -35,12 +34,6 @@ std::vector<uint8_t> read_bytes(const std::string& path) {
   } catch (const std::bad_alloc&) {
     throw ReadError(path + ": is too large for the memory");
   }
-}
-
-std::string extension_of(const std::string& path) {
-  std::string e = std::filesystem::path(path).extension().string();
-  std::transform(e.begin(), e.end(), e.begin(), [](unsigned char c) { return std::tolower(c); });
-  return e;
 }
 
 /// The kind of file by its first bytes, as codec_module.h names it; null if unknown.

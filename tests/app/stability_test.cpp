@@ -297,25 +297,7 @@ TEST_SUITE("program") {
       CHECK(contains(o.err, named));
     };
     refused("limmit", 1, "unknown key \"limmit\" (did you mean \"limit\"?)");
-    refused("check", "energi", "did you mean \"energy\"?");
-    refused("scene", "bal", "there is no scene");
-    refused("spp", "many", "\"spp\" has the wrong type");
-    refused("spp", 0, "\"spp\"");
-    refused("methods", json{{"path", "holds"}}, "nothing is expected of \"ptracer\"");
-    refused("methods", json{{"*", "holds"}, {"paht", "holds"}}, "did you mean \"path\"?");
-    refused("methods", json{{"*", {{"fails", {1, 0}}, {"why", "?"}}}}, "\"fails\" needs");
-    refused("methods", json{{"*", {{"fails", {0, 1}}}}}, "\"why\" is missing");
-    refused("reference", json::object(), "needs a reference");
-    refused("limit", 0.05, "check \"energy\" has no limit");
-    refused("tiles", 0, "\"tiles\"");
-    refused("target_error", "little", "\"target_error\" has the wrong type");
-    refused("region", {0, 0, 2, 1}, "\"region\" needs");
     refused("define", json{{"albdo", 1}}, "has no parameter $albdo");
     refused("parameters", json{{"*", {{"depth", 1}}}}, "no parameter \"depth\"");
-    refused("number", "x", "\"number\" has the wrong type");
-    c.catalogue(json::array({Cabinet::row(), Cabinet::row()}));
-    CHECK(contains(c.stability({}).err, "two rows are called \"ball\""));
-    c.write("catalogue.json", "[{");
-    CHECK(contains(c.stability({}).err, "catalogue.json"));
   }
 }

@@ -45,7 +45,7 @@ std::string with_commas(int number) {
   return digits;
 }
 
-/// Folders with sources, as "src/app/stability".
+/// Folders with sources, as "src/evaluate/stability".
 void add_rooms(const fs::path& folder, std::set<std::string>& rooms) {
   for (const fs::path& path : entries(folder)) {
     if (fs::is_directory(path)) add_rooms(path, rooms);

@@ -1,0 +1,11 @@
+// Names of files.
+#pragma once
+
+#include <string>
+
+namespace duet {
+
+/// The extension of a path in lower case, with its dot: ".exr" of "folder/image.EXR", or "".
+std::string extension_of(const std::string& path);
+
+}  // namespace duet

@@ -1,0 +1,39 @@
+#include "evaluate/compare/linear_image.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "image/colours.h"
+#include "image/image_io.h"
+#include "math/spectrum.h"
+
+namespace duet {
+
+LinearImage load_linear(const std::string& path) {
+  ImageFile file = read_image(path);
+  LinearImage linear;
+  linear.image = std::move(file.image);
+  linear.display_encoded = file.display_encoded;
+  for (const auto& [name, value] : file.header)
+    if (name == "spp") linear.spp = value;
+  linear.header = std::move(file.header);
+  if (!file.display_encoded) return linear;
+  std::vector<float>& data = linear.image.data;
+  if (!file.bytes.empty()) {
+    data.resize(file.bytes.size());
+    for (size_t i = 0; i < file.bytes.size(); ++i) data[i] = float(file.bytes[i]) / 255;
+  }
+  for (float& v : data) v = srgb_to_linear(v);
+  return linear;
+}
+
+void check_finite(const Image& image, const std::string& path) {
+  const Colours colours(image);
+  for (size_t i = 0; i < colours.pixels(); ++i)
+    for (int c = 0; c < 3; ++c)
+      if (!std::isfinite(colours(i, c)))
+        throw std::runtime_error(fmt::format("{} has values that are not finite", path));
+}
+
+}  // namespace duet

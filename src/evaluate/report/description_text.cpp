@@ -1,0 +1,265 @@
+#include "evaluate/report/description_text.h"
+
+#include <filesystem>
+
+#include "evaluate/report/overloaded.h"
+
+namespace duet {
+
+namespace {
+
+std::string text(const Spectrum& s) {
+  if (s.r == s.g && s.g == s.b) return fmt::format("{:g}", s.r);
+  return fmt::format("{:.4g} {:.4g} {:.4g}", s.r, s.g, s.b);
+}
+
+std::string file_name(const std::string& path) {
+  return std::filesystem::path(path).filename().string();
+}
+
+/// Where the origin of a transform lies.
+std::string place(const Matrix4& m) {
+  return fmt::format("at ({:.4g}, {:.4g}, {:.4g})", m[0][3], m[1][3], m[2][3]);
+}
+
+/// Where a transform's +z axis points.
+std::string direction(const Matrix4& m) {
+  return fmt::format("towards ({:.4g}, {:.4g}, {:.4g})", m[0][2], m[1][2], m[2][2]);
+}
+
+std::string filter_text(const FilterDescription& f) {
+  switch (f.kind) {
+    case FilterKind::box:
+      return fmt::format("box filter of radius {:g}", f.radius);
+    case FilterKind::tent:
+      return fmt::format("tent filter of radius {:g}", f.radius);
+    case FilterKind::gaussian:
+      return fmt::format("gaussian filter of deviation {:g}", f.stddev);
+    case FilterKind::mitchell:
+      return fmt::format("mitchell filter, B {:.3g}, C {:.3g}", f.b, f.c);
+    case FilterKind::catmullrom:
+      return "catmullrom filter";
+    case FilterKind::lanczos:
+      return fmt::format("lanczos filter of {} lobes", f.lobes);
+  }
+  return "";
+}
+
+}  // namespace
+
+std::string DescriptionText::name(MaterialId id) const {
+  const std::string& label = scene_.materials[size_t(id)].label.text;
+  return label.empty() ? fmt::format("#{}", size_t(id)) : label;
+}
+
+std::string DescriptionText::name(MediumId id) const {
+  const std::string& label = scene_.media[size_t(id)].label.text;
+  return label.empty() ? fmt::format("medium #{}", size_t(id)) : label;
+}
+
+std::string DescriptionText::input(const ColorVolume& input) const {
+  if (const auto* constant = std::get_if<Spectrum>(&input)) return text(*constant);
+  const VolumeDescription& v = scene_.volumes[size_t(std::get<VolumeId>(input))];
+  const auto& n = v.grid->size;
+  return fmt::format("{} ({}x{}x{})", v.file.empty() ? "grid" : file_name(v.file), n[0], n[1],
+                     n[2]);
+}
+
+std::string DescriptionText::phase(PhaseId id) const {
+  return std::visit(
+      Overloaded{
+          [](const IsotropicPhase&) { return std::string("isotropic"); },
+          [](const HenyeyGreensteinPhase& f) { return fmt::format("hg, g {:.4g}", f.g); },
+          [](const RayleighPhase&) { return std::string("rayleigh"); },
+          [](const TabulatedPhase& f) {
+            return fmt::format("tabphase of {} values", f.values.size());
+          },
+          [](const SggxPhase&) { return std::string("sggx"); },
+          [this](const BlendPhase& f) {
+            return fmt::format("blendphase [{}; {}]", phase(f.first), phase(f.second));
+          },
+      },
+      scene_.phases[size_t(id)].model);
+}
+
+std::string DescriptionText::medium(const MediumDescription& m) const {
+  return fmt::format("sigma_t {}, scale {:g}, albedo {}, phase {}", input(m.sigma_t), m.scale,
+                     input(m.albedo), phase(m.phase));
+}
+
+std::string DescriptionText::texture_name(TextureId id) const {
+  const TextureDescription& t = scene_.textures[size_t(id)];
+  if (!t.label.text.empty()) return t.label.text;
+  if (const auto* bitmap = std::get_if<BitmapTexture>(&t.model)) return file_name(bitmap->file);
+  return fmt::format("texture #{}", size_t(id));
+}
+
+std::string DescriptionText::input(const ColorInput& input) const {
+  if (const auto* id = std::get_if<TextureId>(&input)) return texture_name(*id);
+  return text(std::get<Spectrum>(input));
+}
+
+std::string DescriptionText::input(const FloatInput& input) const {
+  if (const auto* id = std::get_if<TextureId>(&input)) return texture_name(*id);
+  return fmt::format("{:.4g}", std::get<double>(input));
+}
+
+std::string DescriptionText::texture(const TextureDescription& t) const {
+  const std::string label = t.label.text.empty() ? "" : t.label.text + ": ";
+  return label +
+         std::visit(
+             Overloaded{
+                 [](const BitmapTexture& m) {
+                   return fmt::format("bitmap {}{}", m.file, m.raw ? ", raw" : "");
+                 },
+                 [&](const CheckerboardTexture& m) {
+                   return fmt::format("checkerboard {} and {}", input(m.color0), input(m.color1));
+                 },
+                 [](const MeshAttributeTexture& m) {
+                   return fmt::format("mesh_attribute {}", m.attribute);
+                 },
+                 [&](const GridLinesTexture& m) {
+                   return fmt::format("gridtexture {} and {}", input(m.color0), input(m.color1));
+                 },
+                 [](const WireframeTexture& m) {
+                   return fmt::format("wireframe {} and {}", text(m.interior), text(m.edge));
+                 },
+                 [](const CurvatureTexture& m) {
+                   return fmt::format("{} curvature times {:.4g}",
+                                      m.shown == CurvatureKind::mean ? "mean" : "gaussian",
+                                      m.scale);
+                 },
+                 [&](const ScaledTextureDescription& m) {
+                   return fmt::format("{} times {}", text(m.scale), texture_name(m.inner));
+                 },
+                 [&](const VolumeTextureDescription& m) {
+                   return "volume " + input(ColorVolume(m.volume));
+                 },
+             },
+             t.model);
+}
+
+std::string DescriptionText::shape_kind(const ShapeDescription& s) const {
+  return std::visit(
+      Overloaded{
+          [](const MeshShape& m) {
+            return m.source.plugin.empty() ? std::string("mesh") : m.source.plugin;
+          },
+          [](const RectangleShape&) { return std::string("rectangle"); },
+          [](const CubeShape&) { return std::string("cube"); },
+          [](const SphereShape&) { return std::string("sphere"); },
+          [](const DiskShape&) { return std::string("disk"); },
+          [](const CylinderShape&) { return std::string("cylinder"); },
+          [](const SdfGridShape& m) { return "sdfgrid " + m.file; },
+          [](const CurvesShape& m) {
+            return fmt::format(
+                "{} ({}, {} segments)",
+                m.curves->kind == CurveKind::bspline ? "bsplinecurve" : "linearcurve",
+                file_name(m.file), m.curves->segments.size());
+          },
+          [this](const HeightFieldShape& m) { return "heightfield of " + texture_name(m.heights); },
+          [](const InstanceShape&) { return std::string("instance"); },
+      },
+      s.geometry);
+}
+
+std::string DescriptionText::shape(const ShapeDescription& s) const {
+  std::string t = shape_kind(s);
+  if (!s.label.text.empty()) t += " " + s.label.text;
+  if (const auto* instance = std::get_if<InstanceShape>(&s.geometry)) {
+    const std::string& group = scene_.groups[instance->group].label.text;
+    return t + " of " + (group.empty() ? fmt::format("group #{}", instance->group) : group) +
+           (s.motion.empty() ? "" : ", moves");
+  }
+  if (const auto* m = std::get_if<MeshShape>(&s.geometry)) {
+    if (!m->source.file.empty()) t += fmt::format(" ({})", file_name(m->source.file));
+    t += fmt::format(", {} triangles", m->mesh->triangles.size());
+  }
+  t += ", bsdf " + name(s.material);
+  if (s.interior) t += ", inside " + name(*s.interior);
+  if (s.exterior) t += ", outside " + name(*s.exterior);
+  if (s.emission) t += ", emits " + input(s.emission->radiance);
+  if (!s.motion.empty()) t += ", moves";
+  return t;
+}
+
+std::string DescriptionText::area_light(const ShapeDescription& s) const {
+  return fmt::format("{} on {}{}: {}", s.emission->directional ? "directionalarea" : "area",
+                     shape_kind(s), s.label.text.empty() ? "" : " " + s.label.text,
+                     input(s.emission->radiance));
+}
+
+std::string DescriptionText::light(const LightDescription& l) const {
+  const double time = scene_.sensors.empty() ? 0 : scene_.sensors[0].shutter[0];
+  const Matrix4 m = l.motion.at(time) * l.to_world;
+  const std::string t = std::visit(
+      Overloaded{
+          [&](const PointLight& p) {
+            return fmt::format("point {}: {}", place(m), text(p.intensity));
+          },
+          [&](const SpotLight& p) {
+            return fmt::format("spot {} {}, {:g} degrees: {}{}", place(m), direction(m),
+                               p.cutoff_angle, text(p.intensity),
+                               p.texture ? " with " + texture_name(*p.texture) : "");
+          },
+          [&](const ProjectorLight& p) {
+            return fmt::format("projector {} {}: {}, scale {:g}", place(m), direction(m),
+                               input(p.irradiance), p.scale);
+          },
+          [&](const DirectionalLight& p) {
+            return fmt::format("directional {}: {}", direction(m), text(p.irradiance));
+          },
+          [&](const ConstantLight& p) { return "constant: " + text(p.radiance); },
+          [&](const EnvironmentMapLight& p) {
+            return fmt::format("envmap: {}, scale {:g}", p.file, p.scale);
+          },
+          [&](const SkyLight& p) {
+            return fmt::format("sky of turbidity {:g}, scale {:g}, sun {:g}{}", p.turbidity,
+                               p.sky_scale, p.sun_scale,
+                               p.disk ? ", whose irradiance is " + text(p.disk->irradiance) : "");
+          },
+          [&](const CollimatedLight& p) {
+            return fmt::format("collimated {} {}: {}", place(m), direction(m), text(p.power));
+          },
+      },
+      l.model);
+  return t + (l.motion.empty() ? "" : ", moves");
+}
+
+std::string DescriptionText::sensor(const SensorDescription& s) const {
+  constexpr const char* axes[] = {"x", "y", "diagonal", "smaller", "larger"};
+  const Matrix4 m = s.motion.at(s.shutter[0]) * s.to_world;
+  std::string t = fmt::format("{} {} {}", sensor_name(s.kind), place(m), direction(m));
+  if (s.kind == SensorKind::batch) t = fmt::format("batch of {} sensors", s.parts.size());
+  if (s.kind == SensorKind::irradiancemeter)
+    t = "irradiancemeter on " + shape_kind(scene_.shapes[s.shape]);
+  if (has_fov(s.kind)) t += fmt::format(", fov {:.4g} along {}", s.fov, axes[size_t(s.fov_axis)]);
+  if (s.kind == SensorKind::thinlens || s.kind == SensorKind::telecentric)
+    t += fmt::format(", aperture radius {:g}, focus at {:g}", s.aperture_radius, s.focus_distance);
+  if (s.kind == SensorKind::perspective_rdist)
+    t += fmt::format(", distortion {:g} and {:g}", s.distortion[0], s.distortion[1]);
+  if (s.target_point)
+    t += fmt::format(", target ({:.4g}, {:.4g}, {:.4g})", (*s.target_point)[0],
+                     (*s.target_point)[1], (*s.target_point)[2]);
+  for (const ShapeDescription& shape : s.target_shape) t += ", target " + shape_kind(shape);
+  if (s.medium) t += ", in " + name(*s.medium);
+  if (!s.motion.empty()) t += ", moves";
+  if (s.shutter != std::array<double, 2>{})
+    t += fmt::format(", shutter from {:g} to {:g}", s.shutter[0], s.shutter[1]);
+  return t;
+}
+
+std::string DescriptionText::film(const FilmDescription& f) const {
+  constexpr const char* formats[] = {"luminance", "luminance and alpha", "rgb", "rgba", "xyz",
+                                     "xyza"};
+  std::string t = fmt::format("{}x{}", f.width, f.height);
+  if (f.crop)
+    t += fmt::format(", window {},{},{},{}", f.crop->x, f.crop->y, f.crop->width, f.crop->height);
+  t += fmt::format(", {}, {} {}", filter_text(f.filter), formats[size_t(f.pixel_format)],
+                   f.component_format == ComponentFormat::half ? "half" : "float");
+  if (f.tone_mapping)
+    t += f.tone_mapping->reinhard ? ", Reinhard's tone mapping" : ", tone mapping";
+  return t;
+}
+
+}  // namespace duet

@@ -1,0 +1,36 @@
+#include "evaluate/report/scene_parts.h"
+
+#include <set>
+
+#include "evaluate/report/description_text.h"
+
+namespace duet {
+
+SceneParts scene_parts(const SceneDescription& scene) {
+  const DescriptionText text(scene);
+  SceneParts parts;
+  std::set<MaterialId> materials;
+  std::set<MediumId> media;
+  const auto use = [&](std::optional<MediumId> id) {
+    if (id) media.insert(*id);
+  };
+  const auto visit = [&](const ShapeDescription& s) {
+    if (!std::holds_alternative<InstanceShape>(s.geometry)) materials.insert(s.material);
+    use(s.interior), use(s.exterior);
+    if (s.emission) parts.lights.push_back(text.area_light(s));
+  };
+  for (const ShapeDescription& s : scene.shapes) {
+    visit(s);
+    ++parts.shape_kinds[text.shape_kind(s)];
+  }
+  for (const ShapeGroupDescription& g : scene.groups)
+    for (const ShapeDescription& s : g.shapes) visit(s);
+  for (const SensorDescription& s : scene.sensors) use(s.medium);
+  for (const LightDescription& l : scene.lights) parts.lights.push_back(text.light(l));
+  for (const MaterialId id : materials) parts.bsdfs.push_back({text.name(id), text.material(id)});
+  for (const MediumId id : media)
+    parts.media.push_back({text.name(id), text.medium(scene.media[size_t(id)])});
+  return parts;
+}
+
+}  // namespace duet

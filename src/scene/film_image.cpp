@@ -1,0 +1,108 @@
+#include "scene/film_image.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "math/spectrum.h"
+
+namespace duet {
+
+namespace {
+
+/// Reinhard et al., "Photographic Tone Reproduction for Digital Images", 2002, eqs. 1 to 4, applied
+/// to luminance: `key` is the middle grey; `burn` from 0 to 1 lowers the luminance that becomes
+/// white by the square of 1 − burn, as Mitsuba 0.6 does.
+class Reinhard {
+ public:
+  Reinhard(const Image& image, double key, double burn) {
+    double log_sum = 0, brightest = 0;
+    const size_t n = size_t(image.width) * image.height;
+    for (size_t i = 0; i < n; ++i) {
+      const double y = std::max(0.0, double(luminance(&image.data[i * image.channels.size()])));
+      log_sum += std::log(1e-3 + y);
+      brightest = std::max(brightest, y);
+    }
+    scale_ = key / std::exp(log_sum / double(n));
+    const double white = brightest * scale_ * std::pow(std::clamp(1 - burn, 1e-8, 1.0), 2);
+    inverse_white2_ = white > 0 ? 1 / (white * white) : 0;
+  }
+  double factor(const float* rgb) const {
+    const double y = std::max(0.0, double(luminance(rgb))) * scale_;
+    return scale_ * (1 + y * inverse_white2_) / (1 + y);
+  }
+
+ private:
+  static float luminance(const float* rgb) { return Spectrum(rgb[0], rgb[1], rgb[2]).luminance(); }
+  double scale_, inverse_white2_;
+};
+
+}  // namespace
+
+bool has_alpha(PixelFormat f) {
+  return f == PixelFormat::rgba || f == PixelFormat::xyza || f == PixelFormat::luminance_alpha;
+}
+
+bool is_grey(PixelFormat f) {
+  return f == PixelFormat::luminance || f == PixelFormat::luminance_alpha;
+}
+
+DisplayImage to_display(const Image& image, const DisplayOptions& options, bool grey,
+                        bool with_alpha) {
+  const ToneMapping tone = options.tone_mapping.value_or(ToneMapping{});
+  const size_t n = size_t(image.width) * image.height, stride = image.channels.size();
+  const double scale = std::exp2(options.exposure + (tone.reinhard ? 0 : tone.exposure));
+  std::optional<Reinhard> reinhard;
+  if (tone.reinhard) reinhard.emplace(image, tone.key, tone.burn);
+  const auto byte = [](double v) { return uint8_t(std::lround(255 * std::clamp(v, 0.0, 1.0))); };
+  const auto encode = [&](double v) {
+    if (!(v > 0)) return uint8_t(0);
+    v = std::min(v, 1.0);
+    return byte(tone.gamma > 0 ? std::pow(v, 1 / tone.gamma) : linear_to_srgb(float(v)));
+  };
+  DisplayImage out;
+  out.channels = (grey ? 1 : 3) + with_alpha;
+  out.bytes.reserve(n * size_t(out.channels));
+  for (size_t i = 0; i < n; ++i) {
+    const float* p = &image.data[i * stride];
+    double s = scale * (reinhard ? reinhard->factor(p) : 1.0);
+    if (with_alpha && p[3] > 0) s /= p[3];
+    if (grey)
+      out.bytes.push_back(encode(Spectrum(p[0], p[1], p[2]).luminance() * s));
+    else
+      for (int c = 0; c < 3; ++c) out.bytes.push_back(encode(p[c] * s));
+    if (with_alpha) out.bytes.push_back(byte(p[3]));
+  }
+  return out;
+}
+
+Image in_pixel_format(const Image& image, PixelFormat format) {
+  if (image.channels[0] != "R") return image;
+  const bool with_alpha = has_alpha(format);
+  std::vector<std::string> names{"R", "G", "B"};
+  if (is_grey(format)) names = {"Y"};
+  if (format == PixelFormat::xyz || format == PixelFormat::xyza) names = {"X", "Y", "Z"};
+  const size_t colours = names.size();
+  if (with_alpha) names.push_back("A");
+  names.insert(names.end(), image.channels.begin() + 4, image.channels.end());
+  Image out(image.width, image.height, names);
+  const size_t from_stride = image.channels.size(), to_stride = names.size();
+  for (size_t i = 0; i < size_t(image.width) * image.height; ++i) {
+    const float* p = &image.data[i * from_stride];
+    float* q = &out.data[i * to_stride];
+    const Spectrum rgb(p[0], p[1], p[2]);
+    if (colours == 1) {
+      *q++ = rgb.luminance();
+    } else if (names[0] == "X") {
+      *q++ = 0.412453f * rgb.r + 0.357580f * rgb.g + 0.180423f * rgb.b;
+      *q++ = rgb.luminance();
+      *q++ = 0.019334f * rgb.r + 0.119193f * rgb.g + 0.950227f * rgb.b;
+    } else {
+      for (int c = 0; c < 3; ++c) *q++ = rgb[c];
+    }
+    if (with_alpha) *q++ = p[3];
+    std::copy(p + 4, p + from_stride, q);
+  }
+  return out;
+}
+
+}  // namespace duet

@@ -1,0 +1,40 @@
+// An image in the form in which its film asks for it: pixel formats of files, and what a display
+// shows.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "image/image_io.h"
+#include "scene/description.h"
+
+namespace duet {
+
+/// Whether files of this format have alpha, and whether they have luminance instead of colours.
+bool has_alpha(PixelFormat format);
+bool is_grey(PixelFormat format);
+
+/// The image with its colours (R, G, B, A) in the channels that the film asks for; further layers
+/// are kept. An image without colours stays as it is.
+Image in_pixel_format(const Image& image, PixelFormat format);
+
+/// How display formats show radiance.
+struct DisplayOptions {
+  double exposure = 0;  ///< stops, on top of what the scene's film says
+  std::optional<ToneMapping> tone_mapping;
+  TextFields fields = {};  ///< what the file says about the image
+};
+
+/// Bytes for a display, channels interleaved.
+struct DisplayImage {
+  int channels = 3;  ///< grey, grey and alpha, colours, colours and alpha
+  std::vector<uint8_t> bytes;
+};
+
+/// Display values of the colours of an image with channels R, G, B, A first; alpha, which is
+/// multiplied into these colours, is divided out.
+DisplayImage to_display(const Image& image, const DisplayOptions& options, bool grey,
+                        bool with_alpha);
+
+}  // namespace duet
