@@ -228,6 +228,7 @@ class Prediction {
     WorkPerSample w;
     w.eye_rays = double(record_.eye_counters.closest_rays) / walks;
     w.light_samples = double(record_.eye_counters.shadow_rays) / walks;
+    w.medium_steps = double(record_.eye_counters.medium_steps) / walks;
     if (c.light_paths == 0) return path_cost(w);
     w.light_rays = c.light_paths * double(record_.light_counters.closest_rays) / walks;
     if (c.connections || c.merges > 0)
@@ -239,10 +240,12 @@ class Prediction {
       return bidirectional_cost(w);
     }
     w.camera_rays = c.light_paths * double(record_.light_counters.shadow_rays) / walks;
+    w.medium_steps += c.light_paths * double(record_.light_counters.medium_steps) / walks;
     if (c.connections) {
       const ConnectionCounters& n = record_.connection_counters.connections;
       w.connections = double(n.attempted()) / walks;
       w.connection_rays = double(record_.connection_counters.shadow_rays) / walks;
+      w.medium_steps += double(record_.connection_counters.medium_steps) / walks;
     }
     if (c.merges > 0) add_merges(record_.merge_counters, w);
     return bidirectional_cost(w);
