@@ -143,7 +143,7 @@ MethodPrices predict_all(const PricingRecord& record, const Scene& scene, const 
   prices.walks = record.walks();
   prices.spp = spp;
   for (const MethodCandidate& c : prices.candidates)
-    prices.predictions.push_back(predict(record, c, spp));
+    prices.predictions.push_back(predict(record, c, spp, batches));
   return prices;
 }
 
