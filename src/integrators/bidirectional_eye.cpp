@@ -130,7 +130,7 @@ void BidirectionalIntegrator::walk(const Weights& weights, Trail* trail, Eye<Ver
         Ray segment = walk.ray;
         if (found) segment.tmax = hit.t;
         eye.sampler.start_dimension(dimension + kDistanceDimension);
-        const float t = walk.cross(segment, eye.sampler.next_1d());
+        const float t = walk.cross(segment, eye.sampler.next_1d(), eye.counters);
         if (t < INFINITY) {
           alpha = 1;
           const Point3f p = walk.ray.origin + walk.ray.direction * t;

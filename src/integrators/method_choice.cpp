@@ -34,9 +34,6 @@ constexpr double kNegligible = 1e-4;
 /// are far away miss what the image shows.
 constexpr double kFarRatio = 30;
 
-/// Why walks from lights do not come into question.
-constexpr const char* kOneWay = "light cannot be followed through tubes from its source";
-
 /// What a method is taken for before anything is known of it: for the length of the pilot.
 PredictedMethod unknown_method() {
   PredictedMethod p;
@@ -65,11 +62,21 @@ BidirectionalIntegratorDescription bidirectional(const PathLimits& o, Bidirectio
   return d;
 }
 
-std::vector<MethodCandidate> candidates(const MethodRules& rules, const PathLimits& o,
-                                        int iterations) {
+/// The method whose walks all start at the camera.
+MethodCandidate from_camera(const MethodRules& rules, const PathLimits& o) {
+  if (rules.has_media) return {VolumePathIntegratorDescription{o}, "volpath"};
+  return {PathIntegratorDescription{o}, "path"};
+}
+
+SceneLimits limits_of(const Scene& scene) {
+  return {!scene.media.empty(), scene.features.one_way_surfaces > 0, scene.camera->connectible()};
+}
+
+/// All methods that the scene leaves.
+std::vector<MethodCandidate> candidates(const Scene& scene, const PathLimits& o, int iterations) {
   using enum BidirectionalMethod;
-  std::vector<MethodCandidate> list;
-  list.push_back({PathIntegratorDescription{o}, "path"});
+  const MethodRules rules = method_rules(scene.features);
+  std::vector<MethodCandidate> list{from_camera(rules, o)};
   const auto add = [&](BidirectionalMethod method, double light, int connections, double merges) {
     list.push_back({bidirectional(o, method, light, connections),
                     fmt::format("{} light_paths={:g}{}", method == vcm ? "vcm" : "bdpt", light,
@@ -87,6 +94,9 @@ std::vector<MethodCandidate> candidates(const MethodRules& rules, const PathLimi
                   .light_paths = 1,
                   .merges = 1 / mean_shrinkage(2.0 / 3, iterations),
                   .photons_only = true});
+  std::erase_if(list, [&](const MethodCandidate& c) {
+    return find_obstacle(limits_of(scene), c.method) != Obstacle::none;
+  });
   return list;
 }
 
@@ -129,11 +139,11 @@ void add_partly_merged(MethodPrices& prices) {
 MethodPrices predict_all(const PricingRecord& record, const Scene& scene, const PathLimits& o,
                          int spp, int batches) {
   MethodPrices prices;
-  prices.candidates = candidates(method_rules(scene.features), o, std::max(1, spp / batches));
+  prices.candidates = candidates(scene, o, std::max(1, spp / batches));
   prices.walks = record.walks();
   prices.spp = spp;
   for (const MethodCandidate& c : prices.candidates)
-    prices.predictions.push_back(predict(record, c, spp));
+    prices.predictions.push_back(predict(record, c, spp, batches));
   return prices;
 }
 
@@ -144,18 +154,10 @@ const PredictedMethod& cheapest(const MethodPrices& prices) {
                            });
 }
 
-MethodChoice without_pilot(const PathLimits& o, const std::string& why) {
-  return {PathIntegratorDescription{o}, "path: " + why, ""};
-}
-
-MethodChoice through_media(const MethodRules& rules, const PathLimits& o,
-                           const SceneLimits& limits) {
-  if (rules.wants_volpath())
-    return {VolumePathIntegratorDescription{o}, "volpath: " + describe(rules), ""};
-  const auto bdpt = bidirectional(o, BidirectionalMethod::bdpt, 0.25, -1);
-  if (find_obstacle(limits, bdpt) == Obstacle::one_way_surfaces)
-    return {VolumePathIntegratorDescription{o}, std::string("volpath: ") + kOneWay, ""};
-  return {bdpt, "bdpt: " + describe(rules), ""};
+/// The choice where nothing is tried; `why` is one line.
+MethodChoice without_pilot(const MethodRules& rules, const PathLimits& o, const std::string& why) {
+  const MethodCandidate c = from_camera(rules, o);
+  return {c.method, c.name + ": " + why, ""};
 }
 
 /// Which of the candidates may be taken.
@@ -233,20 +235,22 @@ MethodChoice take(const MethodPrices& prices, const MethodRules& rules) {
   const Eligible may = eligible(prices, rules);
   const MethodRisk risk(prices.predictions, may.candidates);
   const size_t best = least_loss(prices, may.candidates, risk);
-  const MethodCandidate& c = prices.candidates[best];
+  const MethodCandidate &c = prices.candidates[best], &from_camera = prices.candidates[0];
   const PredictedMethod &p = prices.predictions[best], &path = prices.predictions[0];
   MethodChoice choice;
   choice.method = c.method;
   choice.reason = c.name + ": ";
   if (!may.candidates[0])
-    choice.reason += path.missing > kNegligible
-                         ? fmt::format("path would miss {} of the light", percent(path.missing))
-                         : "path cannot find all light";
+    choice.reason +=
+        path.missing > kNegligible
+            ? fmt::format("{} would miss {} of the light", from_camera.name, percent(path.missing))
+            : from_camera.name + " cannot find all light";
   else if (best == 0)
     choice.reason += "no other method promises more than 1.15 times its efficiency";
   else
-    choice.reason += fmt::format("{} times the efficiency of path",
-                                 ratio(path.error * path.cost / p.error / p.cost));
+    choice.reason +=
+        fmt::format("{} times the efficiency of {}",
+                    ratio(path.error * path.cost / p.error / p.cost), from_camera.name);
   choice.reason += fmt::format(", by a pilot of {} eye walks", prices.walks);
   if (risk.doubt(best, kHysteresis) > kDoubt)
     choice.reason += fmt::format(
@@ -265,19 +269,17 @@ MethodChoice take(const MethodPrices& prices, const MethodRules& rules) {
 MethodChoice choose_method(const Scene& scene, const AutoIntegratorDescription& options,
                            const RenderOutlook& outlook) {
   const MethodRules rules = method_rules(scene.features);
-  const SceneLimits limits{rules.has_media, scene.features.one_way_surfaces > 0,
-                           scene.camera->connectible()};
-  if (rules.has_media) return through_media(rules, options, limits);
-  if (!rules.has_lights) return without_pilot(options, "the scene has no lights");
-  if (find_obstacle(limits, bidirectional(options, BidirectionalMethod::bdpt, 1, -1)) ==
+  const auto no_pilot = [&](const char* why) { return without_pilot(rules, options, why); };
+  if (!rules.has_lights) return no_pilot("the scene has no lights");
+  if (find_obstacle(limits_of(scene), bidirectional(options, BidirectionalMethod::bdpt, 1, -1)) ==
       Obstacle::one_way_surfaces)
-    return without_pilot(options, kOneWay);
+    return no_pilot("light cannot be followed through tubes from its source");
   if (options.max_depth >= 0 && options.max_depth < 2)
-    return without_pilot(options, "paths of one segment are seen directly");
+    return no_pilot("paths of one segment are seen directly");
   if (!scene.camera->connectible())
-    return without_pilot(options, "the sensor cannot be joined with walks from lights");
+    return no_pilot("the sensor cannot be joined with walks from lights");
   if (rules.far_lights_only && !rules.needs_light_walks && shows_little(scene, outlook.film))
-    return without_pilot(options, "walks from lights so far away would miss what the image shows");
+    return no_pilot("walks from lights so far away would miss what the image shows");
 
   return take(price_methods(scene, options, outlook), rules);
 }

@@ -24,7 +24,7 @@ MethodChoice choose_method(const Scene& scene, const AutoIntegratorDescription& 
 
 /// The prediction for every candidate that the scene leaves.
 struct MethodPrices {
-  std::vector<MethodCandidate> candidates;  ///< path tracing first
+  std::vector<MethodCandidate> candidates;  ///< path tracing, or that through media, first
   std::vector<PredictedMethod> predictions;
   size_t walks = 0;  ///< eye walks of the pilot
   int spp = 0;       ///< samples per pixel that the render is expected to have

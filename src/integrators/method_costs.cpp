@@ -2,15 +2,16 @@
 
 namespace duet {
 
-// In proportion to the CPU times that bench/auto_costs.py measures, within about a third.
+// In proportion to the CPU times that bench/auto_costs.py measures, within about a quarter.
 double path_cost(const WorkPerSample& w) {
-  return 0.15 + 0.20 * w.eye_rays + 0.10 * w.light_samples;
+  return 0.05 + 0.18 * w.eye_rays + 0.13 * w.light_samples + 0.05 * w.medium_steps;
 }
 
 double bidirectional_cost(const WorkPerSample& w) {
-  return 0.15 + 0.30 * w.eye_rays + 0.15 * w.light_samples + 0.30 * w.light_rays +
-         0.15 * w.camera_rays + 0.12 * w.connections + 0.10 * w.connection_rays +
-         0.15 * w.merge_queries + 0.08 * w.merges + 0.05 * w.stored_vertices;
+  return 0.05 + 0.22 * w.eye_rays + 0.25 * w.light_samples + 0.19 * w.light_rays +
+         0.08 * w.camera_rays + 0.05 * w.connections + 0.08 * w.connection_rays +
+         0.20 * w.merge_queries + 0.05 * w.merges + 0.10 * w.stored_vertices +
+         0.05 * w.medium_steps;
 }
 
 }  // namespace duet

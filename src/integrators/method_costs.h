@@ -10,6 +10,7 @@ struct WorkPerSample {
   double connections = 0, connection_rays = 0;  ///< tried, and those that needed a shadow ray
   double merge_queries = 0, merges = 0;
   double stored_vertices = 0;  ///< light vertices that are kept
+  double medium_steps = 0;     ///< RenderCounters::medium_steps
 };
 
 /// In units of about a microsecond on the machine of docs/performance.md; only ratios matter.

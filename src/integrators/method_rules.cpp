@@ -37,19 +37,14 @@ Obstacle find_obstacle(const SceneLimits& scene,
 
 std::string describe(const MethodRules& rules) {
   if (!rules.has_lights) return "no lights";
-  if (rules.has_media)
-    return rules.wants_volpath()
-               ? rules.needs_light_walks
-                     ? "path tracing through media (a grid makes connections expensive, although "
-                       "light walks would find more)"
-                     : "path tracing through media (light walks are not needed)"
-               : "media are rendered from both ends (lights that no ray finds, specular surfaces)";
   std::string text = rules.needs_light_walks
                          ? "light walks are needed (lights that no ray finds, specular surfaces)"
                          : "light walks are not needed";
   text += rules.may_merge ? ", merging may be (specular or glossy surfaces)"
                           : ", nor is merging (no specular or glossy surfaces)";
   if (rules.far_lights_only) text += "; all lights are far away";
+  if (rules.has_media)
+    text += rules.has_heterogeneous_media ? "; media with grids" : "; media without grids";
   return text;
 }
 

@@ -18,16 +18,9 @@ struct MethodRules {
   bool may_merge = false;
   /// All lights are infinitely far away: light walks may miss what the image shows.
   bool far_lights_only = false;
-  /// There are participating media. The pilot knows none, so that these rules decide alone.
-  bool has_media = false;
-  /// And some whose transmittance has to be estimated for every connection.
-  bool has_heterogeneous_media = false;
+  bool has_media = false;                ///< there are participating media
+  bool has_heterogeneous_media = false;  ///< some whose transmittance has to be estimated
 
-  /// Whether `volpath` is to render the media, or `bdpt`, which finds what only light walks can
-  /// make.
-  bool wants_volpath() const {
-    return has_media && (!needs_light_walks || has_heterogeneous_media);
-  }
   bool operator==(const MethodRules&) const = default;
 };
 

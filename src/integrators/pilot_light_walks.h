@@ -9,10 +9,13 @@
 
 namespace duet {
 
-/// How a photon arrived at the surface on which it lies.
+/// How a light walk arrived at a vertex.
 struct PhotonArrival {
-  Point3f from;     ///< the vertex before, or the point on the light
-  Normal3f normal;  ///< geometric, unit
+  /// The vertex before, the point on the light, or where the last surface was passed straight.
+  Point3f from;
+  Normal3f normal;  ///< of the surface: geometric, unit; in a medium none
+  /// What the walk's trail had for the vertex, which it loses where a walk goes straight on.
+  TrailVertex densities;
 };
 
 /// The vertices of some light walks, walk after walk.
@@ -27,14 +30,15 @@ struct PilotLightWalks {
     const uint32_t first = walk == 0 ? 0 : trail_ends[walk - 1];
     return {trails.data() + first, trail_ends[walk] - first};
   }
-  std::span<const LightVertex> walk(size_t i) const {
-    const uint32_t first = i == 0 ? 0 : vertex_ends[i - 1];
-    return {vertices.data() + first, vertex_ends[i] - first};
-  }
-  /// A vertex of the walk that is under way.
-  void add(const PathVertex& v, const Hit& hit) {
+  /// Vertices of the walk are numbers first_vertex() to vertex_ends[walk] − 1.
+  size_t first_vertex(size_t walk) const { return walk == 0 ? 0 : vertex_ends[walk - 1]; }
+  /// A vertex of the walk that is under way, and has this trail.
+  template <class Vertex>
+  void add(const Vertex& v, const Hit& hit, const Trail& trail) {
     vertices.emplace_back(v, hit);
-    arrivals.push_back({v.position() + v.wo * hit.t, v.surface.ng});
+    PhotonArrival a{v.position(), {}, trail.back()};
+    if (v.surface.shape) a.from = v.position() + v.wo * hit.t, a.normal = v.surface.ng;
+    arrivals.push_back(a);
     owner.push_back(uint32_t(vertex_ends.size()));
   }
   /// Ends the walk that is under way.

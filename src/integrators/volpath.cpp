@@ -82,7 +82,9 @@ Spectrum VolumePathIntegrator::radiance(const Scene& scene, const CameraPath& st
       Ray segment = path.ray;
       if (found) segment.tmax = hit.t;
       sampler.start_dimension(dimension + kDistanceDimension);
+      const RandomStream before = path.random;
       const float t = path.medium->walk(segment, sampler.next_1d(), path.random, path.weights);
+      counters.medium_steps += 1 + path.random.drawn_since(before);
       if (t < INFINITY) {
         path.alpha = 1;
         if (!scatter_in_medium(scene, path.ray.origin + path.ray.direction * t, dimension, path))

@@ -19,6 +19,9 @@ struct ConnectionCounters {
 
 struct RenderCounters {
   uint64_t closest_rays = 0, shadow_rays = 0;
+  /// Stretches of rays through media, and the random numbers that were drawn for them: of those
+  /// that are looked up in grids every step takes one or two.
+  uint64_t medium_steps = 0;
   uint64_t camera_paths = 0, light_paths = 0;
   uint64_t path_vertices = 0;  ///< of camera paths
   uint64_t nonfinite_samples = 0;
@@ -29,6 +32,7 @@ struct RenderCounters {
   void add(const RenderCounters& o) {
     closest_rays += o.closest_rays;
     shadow_rays += o.shadow_rays;
+    medium_steps += o.medium_steps;
     camera_paths += o.camera_paths;
     light_paths += o.light_paths;
     path_vertices += o.path_vertices;

@@ -20,15 +20,15 @@ FamilyWeights::Path& FamilyWeights::start(int count) const {
 }
 
 void FamilyWeights::take_light(Path& path, int m, const JoinEnd& end) const {
+  const TrailVertex& last = arrival_ ? *arrival_ : light_[size_t(m)];
+  const double beyond = double(end.beyond) * double(last.back);
   path.direct = double(light_[0].back);
-  path.emitted = double(light_[1].forward);
-  if (!light_[0].specular) path.found = m == 1 ? double(end.beyond) : double(light_[0].reverse);
+  path.emitted = double(m == 1 ? last.forward : light_[1].forward);
+  if (!light_[0].specular) path.found = m == 1 ? beyond : double(light_[0].reverse);
   for (int i = 1; i <= m; ++i) {
-    const TrailVertex& v = light_[size_t(i)];
+    const TrailVertex& v = i == m ? last : light_[size_t(i)];
     path.light[size_t(i)] = double(v.forward);
-    path.eye[size_t(i)] = i == m       ? double(end.arrival)
-                          : i == m - 1 ? double(end.beyond) * double(light_[size_t(m)].back)
-                                       : double(v.reverse);
+    path.eye[size_t(i)] = i == m ? double(end.arrival) : i == m - 1 ? beyond : double(v.reverse);
     path.specular[size_t(i)] = i < m && v.specular;
     path.merges[size_t(i)] = i < m ? v.merges : end.merges;
   }

@@ -142,7 +142,7 @@ int trace_light_walk(const Scene& scene, const TechniqueSet& set, const WalkOpti
         Ray segment = walk.ray;
         if (found) segment.tmax = hit.t;
         sampler.start_dimension(dimension + kLightVertexDimensions);
-        const float t = walk.cross(segment, sampler.next_1d());
+        const float t = walk.cross(segment, sampler.next_1d(), counters);
         if (t < INFINITY) {
           const Point3f p = walk.ray.origin + walk.ray.direction * t;
           const float d2 = depth == 1 ? 1.0f : length_squared(p - walk.from);

@@ -86,11 +86,13 @@ struct MediaWalk : Walk {
 
   /// Goes along the ray up to ray.tmax. Returns the distance to where light is scattered, or
   /// INFINITY. `u` is a random number.
-  float cross(const Ray& segment, float u) {
+  float cross(const Ray& segment, float u, RenderCounters& counters) {
     if (!medium) return INFINITY;
     SpectralWeights w;
     w.value = throughput, w.walk = channels, w.channel = channel;
+    const RandomStream start = random;
     const float t = medium->walk(segment, u, random, w);
+    counters.medium_steps += 1 + random.drawn_since(start);
     const float scale = 1 / w.walk.mean(), before = throughput.max();
     throughput = w.value * scale, channels = w.walk * scale;
     carried *= throughput.max() / before;

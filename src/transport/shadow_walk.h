@@ -49,7 +49,9 @@ inline bool walk_shadow(const Scene& scene, Ray ray, const Medium* medium, Rando
     if (medium) {
       Ray segment = ray;
       if (found) segment.tmax = hit.t;
+      const RandomStream before = random;
       medium->transmit(segment, random, w);
+      counters.medium_steps += 1 + random.drawn_since(before);
       if (w.value.is_black()) return false;
       if (nominal) *nominal *= medium->nominal_transmittance(segment);
     }

@@ -176,6 +176,7 @@ TEST_SUITE("program") {
       CAPTURE(key);
       CHECK(j.contains(key));
     }
+    CHECK(j["medium_steps"] == 0);
     CHECK(j["scene"] == "tiny.xml");
     CHECK(j["spp"] == 4);
     CHECK(j["seed"] == 5);

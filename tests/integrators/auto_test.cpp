@@ -70,34 +70,46 @@ TEST_CASE("rules from what a scene contains") {
   CHECK(method_rules(sky).needs_light_walks);
   SceneFeatures fog = f;
   fog.media = 1;
-  CHECK(method_rules(fog).has_media);
-  CHECK(!method_rules(fog).wants_volpath());
+  CHECK(method_rules(fog) ==
+        MethodRules{.needs_light_walks = true, .may_merge = true, .has_media = true});
   fog.heterogeneous_media = 1;
-  CHECK(method_rules(fog).wants_volpath());
+  CHECK(method_rules(fog).has_heterogeneous_media);
   sky.media = 1;  // masks stop light samples no longer
   CHECK(!method_rules(sky).needs_light_walks);
-  CHECK(method_rules(sky).wants_volpath());
   for (const SceneFeatures& any : {f, sky, fog}) CHECK(!describe(method_rules(any)).empty());
 }
 
-TEST_CASE("media are rendered by volpath unless only light walks find some of the light") {
-  const std::string fog =
-      "<medium type='homogeneous' id='fog'><float name='sigma_t' value='0.5'/></medium>"
-      "<shape type='cube'><transform name='to_world'><scale value='4'/></transform>"
-      "<bsdf type='null'/><ref id='fog' name='interior'/></shape>";
-  const std::string camera = camera_xml("0, -9, 1", "0, 0, 1", 8);
-  const std::string ball = sphere_xml("0, 0, 0.5", "0.4", "<bsdf type='dielectric'/>");
-  const std::string point =
-      "<emitter type='point'><point name='position' value='0, 0, 1.6'/></emitter>";
-  const RenderOutlook outlook{{8, 8}, 4, 1};
-  const auto chosen = [&](const std::string& lights) {
-    const TransportScene s(camera + fog + ball + lights);
-    const MethodChoice c = choose_method(*s.scene, {}, outlook);
-    CHECK(c.bias.empty());
-    return c.reason.substr(0, c.reason.find(':'));
-  };
-  CHECK(chosen(lamp_xml("0.4", "8")) == "volpath");
-  CHECK(chosen(point) == "bdpt");
+namespace {
+
+/// A room full of fog.
+const std::string kFog =
+    "<medium type='homogeneous' id='fog'><float name='sigma_t' value='0.2'/></medium>"
+    "<shape type='cube'><transform name='to_world'><scale value='4'/></transform>"
+    "<bsdf type='null'/><ref id='fog' name='interior'/></shape>";
+
+}  // namespace
+
+TEST_CASE("in fog an open lamp is left to path tracing, and one behind a screen is not") {
+  const std::string screen =
+      "<shape type='rectangle'><transform name='to_world'><scale value='0.9'/>"
+      "<translate z='1.7'/></transform>" +
+      grey("0.5, 0.5, 0.5") + "</shape>";
+  const Choice open = choose(TransportScene(kCamera + kWalls + kFog + lamp_xml("0.5", "5")));
+  CAPTURE(open.reason);
+  CHECK(open.name == "volpath");
+  CHECK(open.bias.empty());
+  const Choice hidden =
+      choose(TransportScene(kCamera + kWalls + kFog + screen + lamp_xml("0.1", "100")));
+  CAPTURE(hidden.reason);
+  CHECK(hidden.name == "bdpt");
+  CHECK(hidden.bias.empty());
+}
+
+TEST_CASE("light walks are taken where path tracing through media loses light") {
+  const Choice c = choose(TransportScene(kCamera + kWalls + kFog + kPoint + kGlassBall));
+  CAPTURE(c.reason);
+  CHECK(c.reason.find("volpath would miss") != std::string::npos);
+  CHECK(c.light_paths > 0);
 }
 
 TEST_CASE("without specular surfaces nothing is merged") {
@@ -117,6 +129,8 @@ TEST_CASE("under an open sky paths start at the camera") {
 
 TEST_CASE("nothing is tried where there is nothing to choose") {
   CHECK(choose(TransportScene(kCamera + kWalls)).reason == "path: the scene has no lights");
+  CHECK(choose(TransportScene(kCamera + kWalls + kFog)).reason ==
+        "volpath: the scene has no lights");
   const TransportScene lit(kCamera + kWalls + kPoint);
   CHECK(choose(lit, 1).reason == "path: paths of one segment are seen directly");
   const std::string ground =
@@ -243,6 +257,12 @@ TEST_CASE("photons alone are enough where much light is merged anyway") {
   CAPTURE(lamp.reason);
   CHECK(lamp.name == "ppm");
   CHECK(!lamp.bias.empty());
+}
+
+TEST_CASE("the choice does not depend on threads where there are media") {
+  const TransportScene s(kCamera + kWalls + kFog + lamp_xml("0.3", "10"));
+  const Choice one = choose(s, 8, 1);
+  for (const int threads : {2, 7}) CHECK(choose(s, 8, threads).reason == one.reason);
 }
 
 TEST_CASE("the choice does not depend on threads or windows") {

@@ -14,8 +14,7 @@ constexpr int kSize = 64, kImages = 24;
 
 /// Variance of one sample per pixel, relative to about what predictions are relative to.
 double measured_variance(const TransportScene& s, const std::string& method,
-                         TransportScene::Parameters parameters) {
-  parameters.emplace_back("alpha", "1");
+                         const TransportScene::Parameters& parameters) {
   const size_t pixels = size_t(kSize) * kSize;
   std::vector<double> sums(pixels), squares(pixels);
   for (uint64_t seed = 0; seed < kImages; ++seed) {
@@ -62,9 +61,9 @@ TEST_CASE("the variance of merging is foreseen, alone and beside light that the 
   const PricingRecord record = run_pricing_pilot(*s.scene, plan);
   const PredictedMethod photons = predict(record, merging(true), 1);
   const PredictedMethod vcm = predict(record, merging(false), 1);
-  const double measured_photons = measured_variance(s, "ppm", {});
+  const double measured_photons = measured_variance(s, "ppm", {{"alpha", "1"}});
   const double measured_vcm =
-      measured_variance(s, "vcm", {{"light_paths", "1"}, {"connections", "0"}});
+      measured_variance(s, "vcm", {{"alpha", "1"}, {"light_paths", "1"}, {"connections", "0"}});
   CAPTURE(photons.variance);
   CAPTURE(vcm.variance);
   CAPTURE(measured_photons);
@@ -140,4 +139,68 @@ TEST_CASE("noise goes with the number of samples, blur stays") {
   MethodCandidate shrunk = merging(true);
   shrunk.merges = 0.5;
   CHECK(predict(record, shrunk, 64).blur / few.blur == doctest::Approx(0.5).epsilon(0.1));
+}
+
+// A lamp above a screen, in fog: light samples reach next to nothing that is seen.
+TEST_CASE("the variance of methods in fog is foreseen") {
+  const TransportScene s(
+      camera_xml("0, -3, 1", "0, 0, 1", kSize) + room_xml(grey("0.7, 0.7, 0.7")) +
+      "<medium type='homogeneous' id='fog'><rgb name='sigma_t' value='0.3, 0.2, 0.1'/></medium>"
+      "<shape type='cube'><transform name='to_world'><scale value='4'/></transform>"
+      "<bsdf type='null'/><ref id='fog' name='interior'/></shape>"
+      "<shape type='rectangle'><transform name='to_world'><scale value='0.8'/>"
+      "<translate z='1.7'/></transform>" +
+      grey("0.5, 0.5, 0.5") + "</shape>" + lamp_xml("0.2", "60"));
+  PricingPlan plan;
+  plan.film = {kSize, kSize};
+  plan.pixels_per_side = 64;
+  plan.max_depth = 8;
+  const PricingRecord record = run_pricing_pilot(*s.scene, plan);
+  const MethodCandidate volpath{.method = {}, .name = ""};
+  MethodCandidate bdpt = volpath;
+  bdpt.light_paths = 1, bdpt.connections = true;
+  MethodCandidate unconnected = bdpt;
+  unconnected.connections = false;
+  const auto check = [&](const MethodCandidate& candidate, const std::string& method,
+                         TransportScene::Parameters parameters) {
+    parameters.emplace_back("max_depth", "8");
+    const double measured = measured_variance(s, method, parameters);
+    const double foreseen = predict(record, candidate, 1).variance;
+    CAPTURE(method);
+    CAPTURE(measured);
+    CAPTURE(foreseen);
+    CHECK(std::abs(std::log(foreseen / measured)) < std::log(1.4));
+  };
+  check(volpath, "volpath", {});
+  check(bdpt, "bdpt", {{"light_paths", "1"}});
+  check(unconnected, "bdpt", {{"light_paths", "1"}, {"connections", "0"}});
+}
+
+TEST_CASE("the work of methods in grids is foreseen") {
+  const TransportScene s("media-heterogeneous", kSize);
+  PricingPlan plan;
+  plan.film = {kSize, kSize};
+  plan.pixels_per_side = 64;
+  plan.max_depth = 8;
+  const PricingRecord record = run_pricing_pilot(*s.scene, plan);
+  const auto steps = [&](const std::string& method, TransportScene::Parameters parameters) {
+    parameters.emplace_back("max_depth", "8");
+    const RenderCounters c = s.render(method, parameters, 2, 1).counters;
+    return double(c.medium_steps) / double(c.camera_paths);
+  };
+  const double walks = double(record.walks());
+  const double eye = double(record.eye_counters.medium_steps) / walks,
+               light = double(record.light_counters.medium_steps) / walks,
+               joins = double(record.connection_counters.medium_steps) / walks;
+  CHECK(eye > 3);
+  CHECK(joins > 3);
+  CHECK(eye == doctest::Approx(steps("volpath", {})).epsilon(0.15));
+  CHECK(eye + light ==
+        doctest::Approx(steps("bdpt", {{"light_paths", "1"}, {"connections", "0"}})).epsilon(0.15));
+  CHECK(eye + light + joins ==
+        doctest::Approx(steps("bdpt", {{"light_paths", "1"}})).epsilon(0.25));
+  const MethodCandidate volpath{.method = {}, .name = ""};
+  MethodCandidate bdpt = volpath;
+  bdpt.light_paths = 1, bdpt.connections = true;
+  CHECK(predict(record, bdpt, 1).cost > predict(record, volpath, 1).cost + 0.04 * (light + joins));
 }

@@ -37,6 +37,25 @@ std::vector<std::string> scenes() {
           camera + room_xml("<bsdf type='plastic'/>") + lamp + glass};
 }
 
+/// Fog, with a pane that light partly passes straight in it, and photons on the walls.
+std::vector<std::string> foggy_scenes() {
+  const std::string pane =
+      "<shape type='rectangle'><transform name='to_world'><rotate x='1' angle='80'/>"
+      "<scale value='0.5'/><translate y='-0.4' z='0.8'/></transform><bsdf type='mask'><float "
+      "name='opacity' value='0.4'/>" +
+      grey("0.6, 0.5, 0.4") + "</bsdf></shape>";
+  std::vector<std::string> foggy;
+  for (const std::string sigma : {"0.4", "0.9, 0.3, 0.1"}) {
+    const std::string fog = "<medium type='homogeneous' id='fog'><rgb name='sigma_t' value='" +
+                            sigma +
+                            "'/><rgb name='albedo' value='0.9'/></medium><shape type='cube'>"
+                            "<transform name='to_world'><scale value='4'/></transform>"
+                            "<bsdf type='null'/><ref id='fog' name='interior'/></shape>";
+    for (const std::string& content : scenes()) foggy.push_back(content + fog + pane);
+  }
+  return foggy;
+}
+
 /// The weight of a join, and the shares of families if they are known. Techniques: `u` path
 /// tracing, `c` seen from the camera, `v` connection, `f` merge where FamilyShares::first_merge is,
 /// `m` later merge.
@@ -51,9 +70,11 @@ struct Growing {
   const Trail* light;
   const Trail* eye;
   mutable FamilyWeights weights;
+  /// Of the light vertex at hand.
+  mutable const TrailVertex* arrival = nullptr;
 
   FamilyWeights& update() const {
-    weights.set_light(*light);
+    weights.set_light(*light, arrival);
     weights.set_eye(*eye);
     return weights;
   }
@@ -80,81 +101,167 @@ FamilyShares shares_of(const Growing& w) {
 FamilyShares shares_of(const BalanceWeights&) {
   return {};
 }
+void set_arrival(const Growing& w, const TrailVertex* arrival) {
+  w.arrival = arrival;
+}
+void set_arrival(const BalanceWeights&, const TrailVertex*) {}
 
 /// All joins of a light walk and an eye walk that are the same for every kind of weights.
-template <class Weights>
-std::vector<Observation> observe(const Scene& scene, const TechniqueSet& set, uint32_t index,
-                                 const Weights& weights, Trail& light_trail, Trail& eye_trail) {
-  std::vector<Observation> all;
-  const auto note = [&](char technique, const Join& join) {
-    if (!join.value.is_black()) all.push_back({technique, join.weight, shares_of(weights)});
-  };
-  RenderCounters counters;
-  JoinRoulette roulette(0, 0);
-  std::vector<PathVertex> light;
-  std::vector<LightVertex> packed;
-  Sampler light_sampler(SampleSequence::independent, 1, 0, index);
-  light_sampler.start_sample(0);
-  trace_light_walk(scene, set, {1000, false}, kDepth, light_sampler, counters, &light_trail,
-                   [&](const PathVertex& v, const Hit& hit) {
-                     if (!v.bsdf.has_smooth()) return;
-                     light.push_back(v), packed.emplace_back(v, hit);
-                     const auto seen =
-                         join_camera(scene, weights, v, {}, false, roulette, counters);
-                     if (seen) note('c', seen->join);
-                   });
-  Sampler sampler(SampleSequence::independent, 2, 0, index);
-  sampler.start_sample(0);
-  const Ray camera_ray =
-      scene.camera->sample_ray({32 * sampler.next_1d(), 32 * sampler.next_1d()}, {});
-  eye_trail.assign(1, TrailVertex{1, 0, 1, false});
-  Walk walk;
-  walk.ray = camera_ray;
-  walk.from = camera_ray.origin;
-  walk.throughput = Spectrum(1);
-  walk.trail = &eye_trail;
-  char merge = 'f';
-  for (int depth = 1; depth <= kDepth; ++depth) {
-    Hit hit;
-    if (!scene.accel->closest_hit(walk.ray, hit)) {
-      if (scene.environment) note('u', join_escape(scene, weights, walk));
-      break;
-    }
-    const Surface s = scene.surface(walk.ray, hit);
-    const float d2 = hit.t * hit.t, cosine = std::abs(dot(s.ng, walk.ray.direction));
-    if (s.shape->light != kNone) note('u', join_hit(scene, weights, walk, s, d2));
-    if (!(cosine > 0)) break;
-    const Partials partials =
-        depth == 1 ? first_eye_partials(scene, camera_ray, s.position, d2, cosine, set, walk)
-                   : arrive(walk.partials, d2, cosine, set.walk_connections());
-    record_arrival(walk, d2, cosine);
-    const PathVertex v(scene, s, -walk.ray.direction, walk.throughput, partials, depth);
-    if (v.bsdf.has_smooth()) {
-      Sampler same = sampler;
-      note('u', join_light(scene, weights, v, false, same, roulette, counters));
-      for (const PathVertex& l : light)
-        note('v', join_ends(scene, weights, l, v, false, roulette, counters));
-      // How far the two vertices are apart does not matter to the weight.
-      if (v.merges())
-        for (const LightVertex& l : packed)
-          if (l.merges) note(merge, join_merge(weights, l, v, 1, false));
-    }
-    sampler.start_dimension(8 * uint32_t(depth));
-    if (!scatter<Transport::radiance>(v, set, {1000, false}, sampler, walk)) break;
-    if (!walk.unmerged) merge = 'm';
+template <class Vertex, class Weights>
+class Observer {
+ public:
+  Observer(const Scene& scene, const TechniqueSet& set, uint32_t index, const Weights& weights,
+           Trail& light_trail, Trail& eye_trail)
+      : scene_(scene),
+        set_(set),
+        index_(index),
+        weights_(weights),
+        light_trail_(light_trail),
+        eye_trail_(eye_trail),
+        random_(index) {}
+
+  std::vector<Observation> run() {
+    trace_light();
+    trace_eye();
+    return std::move(all_);
   }
-  return all;
-}
+
+ private:
+  void note(char technique, const Join& join) {
+    if (!join.value.is_black()) all_.push_back({technique, join.weight, shares_of(weights_)});
+  }
+
+  void trace_light() {
+    Sampler sampler(SampleSequence::independent, 1, 0, index_);
+    sampler.start_sample(0);
+    trace_light_walk<Vertex>(
+        scene_, set_, {1000, false}, kDepth, sampler, counters_, &light_trail_,
+        [&](const Vertex& v, const Hit& hit) {
+          if (!v.is_smooth()) return;
+          light_.push_back(v), packed_.emplace_back(v, hit);
+          arrivals_.push_back(light_trail_.back());
+          const auto seen =
+              join_camera(scene_, weights_, v, {}, false, roulette_, counters_, &random_);
+          if (seen) note('c', seen->join);
+        },
+        index_);
+  }
+
+  WalkOf<Vertex> new_walk() const {
+    if constexpr (Vertex::kMedia)
+      return MediaWalk(scene_, Walk(), scene_.camera_medium, ~uint64_t(index_));
+    else
+      return Walk();
+  }
+
+  void trace_eye() {
+    Sampler sampler(SampleSequence::independent, 2, 0, index_);
+    sampler.start_sample(0);
+    const Ray camera_ray =
+        scene_.camera->sample_ray({32 * sampler.next_1d(), 32 * sampler.next_1d()}, {});
+    eye_trail_.assign(1, TrailVertex{1, 0, 1, false});
+    WalkOf<Vertex> walk = new_walk();
+    walk.ray = camera_ray;
+    walk.from = camera_ray.origin;
+    walk.throughput = Spectrum(1);
+    walk.trail = &eye_trail_;
+    int depth = 1;
+    const auto arrive_at = [&](const Point3f& p, float d2, float cosine, float transmittance) {
+      const Partials partials =
+          depth == 1
+              ? first_eye_partials(scene_, camera_ray, p, d2, cosine, set_, walk, transmittance)
+              : arrive(walk.partials, d2 / transmittance, cosine, set_.walk_connections());
+      record_arrival(walk, d2 / transmittance, cosine);
+      return partials;
+    };
+    uint32_t dimension = 0;
+    const auto pass = [&](const Vertex& v) {
+      join(v, sampler);
+      sampler.start_dimension(dimension += 8);
+      bool straight = false;
+      if (!scatter<Transport::radiance>(v, set_, {1000, false}, sampler, walk, &straight))
+        return false;
+      if (!walk.unmerged) merge_ = 'm';
+      return (Vertex::kMedia && straight) || ++depth <= kDepth;
+    };
+    for (;;) {
+      Hit hit;
+      const bool found = scene_.accel->closest_hit(walk.ray, hit);
+      float transmittance = 1;
+      if constexpr (Vertex::kMedia) {
+        Ray segment = walk.ray;
+        if (found) segment.tmax = hit.t;
+        const float t = walk.cross(segment, sampler.next_1d(), counters_);
+        transmittance = walk.counted_transmittance();
+        if (t < INFINITY) {
+          const Point3f p = walk.ray.origin + walk.ray.direction * t;
+          const float extinction = walk.medium->nominal_extinction(p);
+          const Partials partials =
+              arrive_at(p, length_squared(p - walk.from), extinction, transmittance);
+          if (!pass(Vertex(*walk.medium, extinction, p, -walk.ray.direction, walk.throughput,
+                           partials, depth)))
+            return;
+          continue;
+        }
+      }
+      if (!found) {
+        if (scene_.environment) note('u', join_escape(scene_, weights_, walk, transmittance));
+        return;
+      }
+      const Surface s = scene_.surface(walk.ray, hit);
+      const float d2 = length_squared(s.position - walk.from);
+      const float cosine = std::abs(dot(s.ng, walk.ray.direction));
+      if (s.shape->light != kNone)
+        note('u', join_hit(scene_, weights_, walk, s, d2, transmittance));
+      if (!(cosine > 0)) return;
+      const Partials partials = arrive_at(s.position, d2, cosine, transmittance);
+      if constexpr (Vertex::kMedia) {
+        if (!pass(Vertex(scene_, s, -walk.ray.direction, walk.throughput, partials, depth,
+                         walk.medium)))
+          return;
+      } else if (!pass(Vertex(scene_, s, -walk.ray.direction, walk.throughput, partials, depth))) {
+        return;
+      }
+    }
+  }
+
+  void join(const Vertex& v, const Sampler& sampler) {
+    if (!v.is_smooth()) return;
+    Sampler same = sampler;
+    note('u', join_light(scene_, weights_, v, false, same, roulette_, counters_, &random_));
+    for (size_t i = 0; i < light_.size(); ++i) {
+      set_arrival(weights_, &arrivals_[i]);
+      note('v', join_ends(scene_, weights_, light_[i], v, false, roulette_, counters_, &random_));
+      // How far the two vertices are apart does not matter to the weight.
+      if (v.merges() && packed_[i].merges)
+        note(merge_, join_merge(weights_, packed_[i], v, 1, false));
+    }
+    set_arrival(weights_, nullptr);
+  }
+
+  const Scene& scene_;
+  const TechniqueSet& set_;
+  uint32_t index_;
+  const Weights& weights_;
+  Trail &light_trail_, &eye_trail_;
+  RandomStream random_;
+  RenderCounters counters_;
+  JoinRoulette roulette_{0, 0};
+  std::vector<Vertex> light_;
+  std::vector<LightVertex> packed_;
+  std::vector<TrailVertex> arrivals_;
+  char merge_ = 'f';
+  std::vector<Observation> all_;
+};
 
 bool agree(double a, double b) {
   return std::abs(a - b) < 1e-3 * std::max(a, b) + 1e-5;
 }
 
-}  // namespace
-
-TEST_CASE("weights by families of techniques are those of VCM, and so are the shares") {
+template <class Vertex>
+void compare_weights(const std::vector<std::string>& contents) {
   int compared = 0, differ = 0, shares_differ = 0, merges = 0, first_merges = 0;
-  for (const std::string& content : scenes()) {
+  for (const std::string& content : contents) {
     const TransportScene s(content);
     TechniqueSet all;
     all.hits = all.light_samples = all.camera_joins = all.connections = all.merges = true;
@@ -167,11 +274,12 @@ TEST_CASE("weights by families of techniques are those of VCM, and so are the sh
     for (uint32_t i = 0; i < 1500; ++i) {
       Trail light, eye;
       const auto with = [&](const TechniqueSet& set) {
-        return observe(*s.scene, set, i, BalanceWeights(set), light, eye);
+        const BalanceWeights sums(set);
+        return Observer<Vertex, BalanceWeights>(*s.scene, set, i, sums, light, eye).run();
       };
       const auto a = with(all), b = with(no_merges), c = with(no_light_image);
-      const auto families =
-          observe(*s.scene, all, i, Growing{&light, &eye, FamilyWeights(all)}, light, eye);
+      const Growing growing{&light, &eye, FamilyWeights(all)};
+      const auto families = Observer<Vertex, Growing>(*s.scene, all, i, growing, light, eye).run();
       REQUIRE(families.size() == a.size());
       for (size_t k = 0; k < a.size(); ++k) {
         const FamilyShares& f = families[k].shares;
@@ -201,4 +309,14 @@ TEST_CASE("weights by families of techniques are those of VCM, and so are the sh
   // Chains of grazing vertices differ by the rounding of single precision.
   CHECK(differ < 2e-3 * compared);
   CHECK(shares_differ < 2e-3 * compared);
+}
+
+}  // namespace
+
+TEST_CASE("weights by families of techniques are those of VCM, and so are the shares") {
+  compare_weights<PathVertex>(scenes());
+}
+
+TEST_CASE("weights by families of techniques are those of VCM where there are media") {
+  compare_weights<MediaVertex>(foggy_scenes());
 }

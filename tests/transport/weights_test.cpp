@@ -353,7 +353,7 @@ void Checker<Vertex>::eye_walk(Weights weights, const Ray& camera_ray, int max_d
     if constexpr (Vertex::kMedia) {
       Ray segment = walk.ray;
       if (found) segment.tmax = hit.t;
-      const float t = walk.cross(segment, sampler.next_1d());
+      const float t = walk.cross(segment, sampler.next_1d(), counters_);
       transmittance = walk.transmittance;
       if (t < INFINITY) {
         const Point3f p = walk.ray.origin + walk.ray.direction * t;

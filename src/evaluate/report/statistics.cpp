@@ -41,6 +41,7 @@ void StatisticsFile::add(const RenderRecord& record, const RenderResult& result,
                   {"write", seconds.write}};
   j["memory_peak_bytes"] = uint64_t(memory_peak());
   j["rays"] = {{"closest", c.closest_rays}, {"shadow", c.shadow_rays}};
+  j["medium_steps"] = c.medium_steps;
   j["paths"] = {{"camera", c.camera_paths}, {"light", c.light_paths}};
   j["mean_path_length"] =
       c.camera_paths > 0 ? double(c.path_vertices) / double(c.camera_paths) : 0.0;

@@ -1,0 +1,46 @@
+#include "integrators/method_work.h"
+
+#include "integrators/method_costs.h"
+
+namespace duet {
+
+namespace {
+
+void add_merges(const PricingRecord& record, const MethodCandidate& c,
+                const RenderCounters& counters, WorkPerSample& w) {
+  const double walks = double(record.walks());
+  w.merge_queries = double(counters.merge_queries) / walks;
+  w.merges = c.light_paths * double(counters.merges) / (walks * PricingRecord::kMergeShare);
+}
+
+}  // namespace
+
+double predicted_cost(const PricingRecord& record, const MethodCandidate& c) {
+  const double walks = double(record.walks());
+  WorkPerSample w;
+  w.eye_rays = double(record.eye_counters.closest_rays) / walks;
+  w.light_samples = double(record.eye_counters.shadow_rays) / walks;
+  w.medium_steps = double(record.eye_counters.medium_steps) / walks;
+  if (c.light_paths == 0) return path_cost(w);
+  w.light_rays = c.light_paths * double(record.light_counters.closest_rays) / walks;
+  if (c.connections || c.merges > 0)
+    w.stored_vertices = c.light_paths * record.light_vertices / walks;
+  if (c.photons_only) {
+    w.eye_rays = double(record.first_counters.closest_rays) / walks;
+    w.light_samples = 0;
+    add_merges(record, c, record.first_counters, w);
+    return bidirectional_cost(w);
+  }
+  w.camera_rays = c.light_paths * double(record.light_counters.shadow_rays) / walks;
+  w.medium_steps += c.light_paths * double(record.light_counters.medium_steps) / walks;
+  if (c.connections) {
+    const ConnectionCounters& n = record.connection_counters.connections;
+    w.connections = double(n.attempted()) / walks;
+    w.connection_rays = double(record.connection_counters.shadow_rays) / walks;
+    w.medium_steps += double(record.connection_counters.medium_steps) / walks;
+  }
+  if (c.merges > 0) add_merges(record, c, record.merge_counters, w);
+  return bidirectional_cost(w);
+}
+
+}  // namespace duet

@@ -1,0 +1,264 @@
+#include "integrators/pilot_eye_walk.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "integrators/camera_integrator.h"
+#include "integrators/merge_blur.h"
+
+namespace duet {
+
+namespace {
+
+constexpr uint64_t kEdgeSeed = 0x65646765ull, kGapSeed = 0x676170ull, kWayStream = 0x776179ull,
+                   kPilotShadowStream = 0x7368646full;
+/// Keeps the gaps that the vertices of a walk look for apart.
+constexpr size_t kMostVerticesOfWalk = FamilyWeights::kMostVertices / 2;
+
+template <class Vertex>
+WalkOf<Vertex> new_pilot_walk(const Scene& scene, [[maybe_unused]] uint64_t seed) {
+  if constexpr (Vertex::kMedia)
+    return MediaWalk(scene, Walk(), scene.camera_medium, seed);
+  else
+    return Walk();
+}
+
+template <class Vertex>
+class PilotEyeWalk {
+ public:
+  PilotEyeWalk(const PilotSetup& pilot, size_t index, PricingRecord& out, double& seen)
+      : pilot_(pilot),
+        scene_(pilot.scene),
+        index_(index),
+        key_(hash_combine(pilot.eye_seed, index)),
+        cell_(uint16_t(index / 2)),
+        out_(out),
+        seen_(seen),
+        sampler_(SampleSequence::independent, pilot.eye_seed, 0, index),
+        trail_{{1, 0, 1, false}},
+        walk_(new_pilot_walk<Vertex>(scene_, key_ ^ kWayStream)),
+        weights_(pilot.set),
+        roulette_(pilot.threshold, key_),
+        shadows_(key_ ^ kPilotShadowStream),
+        sees_lights_(!pilot.plan.hide_emitters) {}
+
+  void trace() {
+    start();
+    for (;;) {
+      weights_.set_eye(trail_);
+      Hit hit;
+      ++counters().closest_rays;
+      out_.first_counters.closest_rays += first_;
+      const bool found = scene_.accel->closest_hit(walk_.ray, hit);
+      float transmittance = 1;
+      if constexpr (Vertex::kMedia) {
+        if (float t = cross_medium(found, hit); t < INFINITY) {
+          if (!scatter_between(t)) return;
+          continue;
+        }
+        transmittance = walk_.counted_transmittance();
+      }
+      if (!found) {
+        if (scene_.environment && sees_lights_)
+          add_found(join_escape(scene_, weights_, walk_, transmittance), transmittance);
+        return;
+      }
+      if (!meet_surface(hit, transmittance)) return;
+    }
+  }
+
+ private:
+  RenderCounters& counters() { return out_.eye_counters; }
+
+  void start() {
+    sampler_.start_sample(0);
+    const Point2f u = sampler_.next_2d();
+    const Point2f corner = pixel(), film{corner.x + u.x, corner.y + u.y};
+    sampler_.start_dimension(kLensDimension);
+    const Point2f lens = scene_.camera->has_lens() ? sampler_.next_2d() : Point2f{};
+    camera_ray_ = scene_.camera->sample_ray(film, lens);
+    ++counters().camera_paths;
+    walk_.ray =
+        pilot_.plan.hide_emitters ? behind_emitters(scene_, camera_ray_, counters()) : camera_ray_;
+    walk_.from = walk_.ray.origin;
+    walk_.throughput = Spectrum(1);
+    walk_.trail = &trail_;
+  }
+
+  /// Where the walk's pixel lies: one in each cell of a grid, the same for two walks in succession.
+  Point2f pixel() const {
+    const size_t side = size_t(pilot_.plan.pixels_per_side);
+    const uint64_t random = mix64(hash_combine(pilot_.eye_seed, cell_));
+    const auto place = [&](size_t at, uint64_t bits, int size) {
+      const double x = (double(at) + double(to_unit_float(uint32_t(bits)))) / double(side) * size;
+      return std::min(float(std::floor(x)), float(size - 1));
+    };
+    return {place(cell_ % side, random, pilot_.plan.film.x),
+            place(cell_ / side, random >> 32, pilot_.plan.film.y)};
+  }
+
+  /// The distance to where the medium that the ray is in scatters it, or INFINITY.
+  float cross_medium(bool found, const Hit& hit) {
+    if (!walk_.medium) return INFINITY;
+    Ray segment = walk_.ray;
+    if (found) segment.tmax = hit.t;
+    sampler_.start_dimension(dimension_ + kDistanceDimension);
+    return walk_.cross(segment, sampler_.next_1d(), counters());
+  }
+
+  /// In a medium; whether the walk goes on.
+  bool scatter_between(float t) {
+    sees_lights_ = true;
+    const Point3f p = walk_.ray.origin + walk_.ray.direction * t;
+    const float d2 = length_squared(p - walk_.from);
+    const float extinction = walk_.medium->nominal_extinction(p);
+    if (depth_ == pilot_.max_depth || !(d2 > 0 && extinction > 0)) return false;
+    ++counters().path_vertices;
+    arrive_at(p, d2, extinction, walk_.counted_transmittance());
+    return leave_vertex(Vertex(*walk_.medium, extinction, p, -walk_.ray.direction, walk_.throughput,
+                               Partials{}, depth_));
+  }
+
+  bool meet_surface(const Hit& hit, float transmittance) {
+    ++counters().path_vertices;
+    const Surface s = scene_.surface(walk_.ray, hit);
+    // The way since the last vertex may have led through surfaces that light passes straight.
+    const float d2 = Vertex::kMedia ? length_squared(s.position - walk_.from) : hit.t * hit.t;
+    const float cosine = std::abs(dot(s.ng, walk_.ray.direction));
+    if (s.shape->light != kNone && (!Vertex::kMedia || sees_lights_))
+      add_found(join_hit(scene_, weights_, walk_, s, d2, transmittance), transmittance);
+    const bool is_last =
+        depth_ == pilot_.max_depth &&
+        !(Vertex::kMedia && scene_.materials[s.shape->material]->passes_straight());
+    if (is_last || !(cosine > 0)) return false;
+    arrive_at(s.position, d2, cosine, transmittance);
+    if constexpr (Vertex::kMedia)
+      return leave_vertex(Vertex(scene_, s, -walk_.ray.direction, walk_.throughput, Partials{},
+                                 depth_, walk_.medium));
+    else
+      return leave_vertex(
+          Vertex(scene_, s, -walk_.ray.direction, walk_.throughput, Partials{}, depth_));
+  }
+
+  void arrive_at(const Point3f& p, float d2, float cosine, float transmittance) {
+    if (depth_ == 1)
+      first_eye_partials(scene_, camera_ray_, p, d2, cosine, pilot_.set, walk_, transmittance);
+    record_arrival(walk_, d2 / transmittance, cosine);
+  }
+
+  /// Light at the end of the walk.
+  void add_found(const Join& join, float transmittance) {
+    const Spectrum v = join.value * join.weight;
+    if (depth_ > 1 || transmittance < 1)
+      add_contribution(out_.eye, v, weights_.shares(), Technique::unidirectional, cell_);
+    else if (is_finite(v))
+      seen_ += double(v.r + v.g + v.b) / 3;
+  }
+
+  /// Joins a vertex with all that there is, and scatters; whether the walk goes on.
+  bool leave_vertex(const Vertex& v) {
+    weights_.set_eye(trail_);
+    if (v.is_smooth() && depth_ < pilot_.max_depth) {
+      sampler_.start_dimension(dimension_);
+      JoinRoulette none(0, 0);  // path tracing has none
+      const Join direct = join_light(scene_, weights_, v, pilot_.plan.strict_normals, sampler_,
+                                     none, counters(), &shadows_);
+      add_contribution(out_.eye, direct.value * direct.weight, weights_.shares(),
+                       Technique::unidirectional, cell_);
+      connect(v);
+      if (v.merges()) merge(v);
+    }
+    sampler_.start_dimension(dimension_ + kScatteringDimension);
+    dimension_ += kDimensionsPerVertex;
+    bool straight = false;
+    if (!scatter<Transport::radiance>(v, pilot_.set, pilot_.options, sampler_, walk_, &straight))
+      return false;
+    first_ &= walk_.unmerged;
+    sees_lights_ |= !straight;
+    return (Vertex::kMedia && straight) || ++depth_ <= pilot_.max_depth;
+  }
+
+  void connect(const Vertex& v) {
+    const std::span<const TrailVertex> trail = pilot_.light.trail(index_);
+    const size_t first = pilot_.light.first_vertex(index_);
+    for (size_t i = first; i < pilot_.light.vertex_ends[index_]; ++i) {
+      const LightVertex& packed = pilot_.light.vertices[i];
+      if (int(packed.depth) + v.depth + 1 > pilot_.max_depth) break;
+      weights_.set_light(trail, &pilot_.light.arrivals[i].densities);
+      const Join join =
+          join_ends(scene_, weights_, packed.template unpack<Vertex>(scene_), v,
+                    pilot_.plan.strict_normals, roulette_, out_.connection_counters, &shadows_);
+      add_contribution(out_.eye, join.value * join.weight, weights_.shares(), Technique::connection,
+                       cell_);
+    }
+  }
+
+  /// The two walks of a pixel meet different photons, so that they are independent.
+  void merge(const Vertex& v) {
+    const float kernel = 1 / (pilot_.set.merge_area * pilot_.set.light_paths);
+    const PhotonShift shift{pilot_.shift_scale, to_unit_float(uint32_t(mix64(kEdgeSeed + cell_)))};
+    RenderCounters& counters = out_.merge_counters;
+    ++counters.merge_queries;
+    out_.first_counters.merge_queries += first_;
+    const uint64_t random = mix64(
+        hash_combine(kGapSeed ^ pilot_.plan.seed, index_ * kMostVerticesOfWalk + size_t(v.depth)));
+    const Point2f beside{to_unit_float(uint32_t(random)), to_unit_float(uint32_t(random >> 32))};
+    const float missing =
+        lacks_photons(scene_, v, pilot_.first_radius, beside, counters) ? 1.0f : 0.0f;
+    const PilotLightWalks& light = pilot_.light;
+    pilot_.grid.query(v.position(), pilot_.grid.locate(v.position()), [&](uint32_t i, float) {
+      const LightVertex& photon = light.vertices[i];
+      if (int(photon.depth) + v.depth > pilot_.max_depth || (light.owner[i] ^ index_) & 1) return;
+      weights_.set_light(light.trail(light.owner[i]), &light.arrivals[i].densities);
+      const Join join = join_merge(weights_, photon, v, kernel, pilot_.plan.strict_normals);
+      if (join.value.is_black()) return;
+      ++counters.merges;
+      out_.first_counters.merges += first_;
+      add_contribution(
+          out_.eye, join.value * join.weight, weights_.shares(),
+          first_ ? Technique::first_merge : Technique::later_merge, cell_,
+          merge_blur(scene_, v, photon.position, light.arrivals[i], shift, counters) - missing);
+    });
+  }
+
+  const PilotSetup& pilot_;
+  const Scene& scene_;
+  size_t index_;
+  uint64_t key_;
+  uint16_t cell_;
+  PricingRecord& out_;
+  double& seen_;
+  Sampler sampler_;
+  Ray camera_ray_;
+  Trail trail_;
+  WalkOf<Vertex> walk_;
+  FamilyWeights weights_;
+  JoinRoulette roulette_;
+  RandomStream shadows_;  ///< for shadow rays through media
+  int depth_ = 1;
+  uint32_t dimension_ = kFirstVertexDimension;
+  bool first_ = true;  ///< Walk::unmerged
+  /// Lights are not to be seen before light has been scattered if emitters are hidden.
+  bool sees_lights_;
+};
+
+}  // namespace
+
+void add_contribution(std::vector<PricedContribution>& to, const Spectrum& v,
+                      const FamilyShares& shares, Technique technique, uint16_t cell, float blur) {
+  if (v.is_black() || !is_finite(v)) return;
+  const float value = (v.r + v.g + v.b) * (1 / 3.0f);
+  const float square = (v.r * v.r + v.g * v.g + v.b * v.b) * (1 / 3.0f);
+  if (!std::isfinite(square) || !std::isfinite(shares.unidirectional + shares.merges)) return;
+  to.push_back({value, square, shares, technique, blur, cell});
+}
+
+template <class Vertex>
+void trace_pilot_eye_walk(const PilotSetup& pilot, size_t index, PricingRecord& out, double& seen) {
+  PilotEyeWalk<Vertex>(pilot, index, out, seen).trace();
+}
+
+template void trace_pilot_eye_walk<PathVertex>(const PilotSetup&, size_t, PricingRecord&, double&);
+template void trace_pilot_eye_walk<MediaVertex>(const PilotSetup&, size_t, PricingRecord&, double&);
+
+}  // namespace duet
