@@ -230,8 +230,8 @@ ModelEval MeasuredBrdf::eval(const Vector3f& wo_any, const Vector3f& wi_any) con
   const Vector3f wo = mirror(wo_any), wi = mirror(wi_any);
   const Vector3f m = normalize(wo + wi);
   const float theta = elevation(wo), phi = std::atan2(wo.y, wo.x);
-  Point2f u_m(theta_to_unit(elevation(m)),
-              phi_to_unit(std::atan2(m.y, m.x) - (isotropic_ ? phi : 0.0f)));
+  Point2f u_m{theta_to_unit(elevation(m)),
+              phi_to_unit(std::atan2(m.y, m.x) - (isotropic_ ? phi : 0.0f))};
   u_m.y -= std::floor(u_m.y);
   const WarpGrid::Mix mix = vndf_.mix(phi, theta);
   float vndf;
