@@ -20,8 +20,8 @@ namespace {
 /// samples of path tracing.
 constexpr double kPilotShare = 0.04, kPilotWalkCost = 14;
 constexpr int kFewestPixels = 16, kMostPixels = 64;  ///< per side
-/// How much better than path tracing a method has to be.
-constexpr double kHysteresis = 1.15;
+/// How much better than path tracing a method has to be: that gains more from Sobol' points.
+constexpr double kHysteresis = 1.2;
 /// And one that merges than all that do not: those gain more from Sobol' points, and are unbiased.
 constexpr double kMergingHysteresis = 1.5;
 /// Probability that another method is so much better above which the choice is not sure.
@@ -143,7 +143,7 @@ MethodPrices predict_all(const PricingRecord& record, const Scene& scene, const 
   prices.walks = record.walks();
   prices.spp = spp;
   for (const MethodCandidate& c : prices.candidates)
-    prices.predictions.push_back(predict(record, c, spp, batches));
+    prices.predictions.push_back(predict(record, c, spp));
   return prices;
 }
 
@@ -246,7 +246,8 @@ MethodChoice take(const MethodPrices& prices, const MethodRules& rules) {
             ? fmt::format("{} would miss {} of the light", from_camera.name, percent(path.missing))
             : from_camera.name + " cannot find all light";
   else if (best == 0)
-    choice.reason += "no other method promises more than 1.15 times its efficiency";
+    choice.reason +=
+        fmt::format("no other method promises more than {} times its efficiency", kHysteresis);
   else
     choice.reason +=
         fmt::format("{} times the efficiency of {}",

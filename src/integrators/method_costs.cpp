@@ -2,7 +2,7 @@
 
 namespace duet {
 
-// In proportion to the CPU times that bench/auto_costs.py measures, within about a quarter.
+// In proportion to the CPU times that bench/auto_costs.py measures, mostly within a quarter.
 double path_cost(const WorkPerSample& w) {
   return 0.05 + 0.18 * w.eye_rays + 0.13 * w.light_samples + 0.05 * w.medium_steps;
 }

@@ -17,10 +17,6 @@ constexpr double kTrimmedPixels = 0.001;
 /// Of the square of the image's mean, in what errors are relative to.
 constexpr double kDarkShare = 0.1;
 
-/// The error² of what eye walks find falls with this much more than the first power of the number
-/// of samples, which are Sobol' points in every pixel.
-constexpr double kSobolGain = 0.08;
-
 /// Of the squares of contributions: a pilot cannot tell a smaller variance from none at all.
 constexpr double kLeastVariance = 0.05;
 
@@ -40,15 +36,6 @@ bool is_merge(const PricedContribution& v) {
 /// How many times the pilot's sample stands for one of an iteration.
 double copies(const PricedContribution& v) {
   return is_merge(v) ? 1 / PricingRecord::kMergeShare : 1.0;
-}
-
-/// The share that photons and light seen from the camera have in a candidate's density. Light
-/// walks are spread over the whole image, so that those that meet one pixel are as good as random.
-double scattered_share(const FamilyShares& s, const MethodCandidate& c, double density) {
-  if (c.photons_only) return s.merges > 0 ? 1 : 0;
-  return (c.light_paths / PricingRecord::kLightPaths * double(s.light_image) +
-          c.merges * double(s.merges)) /
-         density;
 }
 
 /// Cells of the pilot's image belong to this number squared of tiles.
@@ -86,11 +73,10 @@ struct WalkSums {
 
 class Prediction {
  public:
-  Prediction(const PricingRecord& record, const MethodCandidate& candidate, int spp, int batches)
+  Prediction(const PricingRecord& record, const MethodCandidate& candidate, int spp)
       : record_(record),
         candidate_(candidate),
         spp_(spp),
-        gain_(std::pow(std::max(1.0, double(spp) / batches), kSobolGain)),
         norms_(normalization(record)),
         tiles_(kTilesPerSide * kTilesPerSide),
         tile_walks_(tiles_.size()) {
@@ -103,7 +89,7 @@ class Prediction {
     add_walks();
     PredictedMethod p;
     const double walks = double(record_.walks());
-    double squares = 0, products = 0, noise = 0, lost = 0, blur_variances = 0;
+    double squares = 0, products = 0, lost = 0, blur_variances = 0;
     // Blur goes with the radius or, where light changes smoothly, with its square.
     const double shrinkage =
         candidate_.merges > 0 ? candidate_.merges / candidate_.light_paths : 0.0;
@@ -111,39 +97,25 @@ class Prediction {
       const Tile& tile = tiles_[t];
       const double bias =
           tile_walks_[t] > 0 ? tile.trimmed * tile.trimmed / tile_walks_[t] / walks : 0.0;
-      const double even = tile.squares - tile.scattered_squares + tile.even_products;
-      const double variance = (tile.squares + tile.even_products + tile.products) / walks;
-      const double part_noise = variance - even / walks * (1 - 1 / gain_);
+      const double variance = (tile.squares + tile.products) / walks;
       const double blur = tile.blur / walks * shrinkage;
       const double blur_variance = tile.blur_squares * std::pow(shrinkage / walks, 2);
       p.parts.push_back({all_ > 0 ? tile.missing / all_ : 0,
                          may_merge_ > 0 ? tile.merged / may_merge_ : 0, variance,
-                         part_noise / spp_ + bias + blur, blur, blur_variance,
+                         variance / spp_ + bias + blur, blur, blur_variance,
                          kLeastVariance * tile.squares / walks / spp_ + bias});
       p.missing += p.parts.back().missing, p.merged += p.parts.back().merged;
       p.blur += blur, blur_variances += blur_variance;
-      squares += tile.squares, products += tile.even_products + tile.products;
-      noise += part_noise, lost += bias;
+      squares += tile.squares, products += tile.products, lost += bias;
     }
     p.blur = cautious_blur(p.blur, blur_variances);
     p.variance = std::max(squares + products, kLeastVariance * squares) / walks;
-    p.error = std::max(noise, kLeastVariance * squares / walks) / spp_ + lost + p.blur;
+    p.error = p.variance / spp_ + lost + p.blur;
     p.cost = predicted_cost(record_, candidate_);
     return p;
   }
 
  private:
-  struct Tile {
-    double squares = 0;            ///< of contributions
-    double scattered_squares = 0;  ///< of them, what techniques that start at the light add
-    /// Products of what walks find without merging, and all others.
-    double even_products = 0, products = 0;
-    double trimmed = 0, missing = 0;  ///< light left out as too rare, and that cannot be found
-    double merged = 0;                ///< light that merging finds
-    /// Products of what two walks have too much, and their squares.
-    double blur = 0, blur_squares = 0;
-  };
-
   void find_limit() {
     SquareHistogram spectrum;
     for_each([&](const PricedContribution& v, double density) {
@@ -180,14 +152,8 @@ class Prediction {
         if (square / (density * density) > limit_)
           tile.trimmed += value * std::sqrt(norms_[v.cell]);
         else
-          add_square(tile, copies(v) * square / density, v.shares, density);
+          tile.squares += copies(v) * square / density * (1 + 2 * seen_twice(v.shares, density));
       }
-  }
-
-  void add_square(Tile& tile, double square, const FamilyShares& s, double density) const {
-    const double twice = 2 * seen_twice(s, density);
-    tile.squares += square * (1 + twice);
-    tile.scattered_squares += square * (scattered_share(s, candidate_, density) + twice);
   }
 
   /// Where a light vertex both is seen from the camera and merged with what the same pixel sees,
@@ -208,20 +174,15 @@ class Prediction {
     for (size_t w = 0; w + 1 < record_.walks(); w += 2) {
       // Walks of the same cell follow each other, cell after cell.
       Tile& tile = tiles_[tile_of(w / 2, record_.side)];
-      double joins[2], means[2], blurs[2];
+      double& products = tile.products;
+      double means[2], blurs[2];
       for (size_t k = 0; k < 2; ++k) {
         const WalkSums s = walk(w + k);
-        joins[k] = s.joins;
         means[k] = s.joins + rate * s.merges;
         blurs[k] = rate * s.blur;
-        const double even = joins[k] * joins[k] - s.join_squares;
-        tile.even_products += even;
-        tile.products +=
-            means[k] * means[k] - s.join_squares - rate * rate * s.merge_squares - even;
+        products += means[k] * means[k] - s.join_squares - rate * rate * s.merge_squares;
       }
-      const double even_means = 2 * joins[0] * joins[1];
-      tile.even_products -= even_means;
-      tile.products -= 2 * means[0] * means[1] - even_means;
+      products -= 2 * means[0] * means[1];
       const double blur = 2 * blurs[0] * blurs[1];
       tile.blur += blur, tile.blur_squares += blur * blur;
     }
@@ -264,8 +225,15 @@ class Prediction {
   static constexpr double kLeast = 1e-12;
   const PricingRecord& record_;
   const MethodCandidate& candidate_;
-  double spp_, gain_;
+  double spp_;
   std::vector<double> norms_;
+  struct Tile {
+    double squares = 0, products = 0;  ///< of contributions
+    double trimmed = 0, missing = 0;   ///< light left out as too rare, and that cannot be found
+    double merged = 0;                 ///< light that merging finds
+    /// Products of what two walks have too much, and their squares.
+    double blur = 0, blur_squares = 0;
+  };
   std::vector<Tile> tiles_;
   std::vector<double> tile_walks_;
   double limit_ = 0;
@@ -274,9 +242,8 @@ class Prediction {
 
 }  // namespace
 
-PredictedMethod predict(const PricingRecord& record, const MethodCandidate& candidate, int spp,
-                        int batches) {
-  return Prediction(record, candidate, spp, batches).run();
+PredictedMethod predict(const PricingRecord& record, const MethodCandidate& candidate, int spp) {
+  return Prediction(record, candidate, spp).run();
 }
 
 }  // namespace duet

@@ -48,8 +48,6 @@ inline double cautious_blur(double sum, double variance) {
   return std::max(0.0, sum + std::sqrt(variance));
 }
 
-/// `spp` samples per pixel are in as many independent images as there are `batches`.
-PredictedMethod predict(const PricingRecord& record, const MethodCandidate& candidate, int spp,
-                        int batches = 1);
+PredictedMethod predict(const PricingRecord& record, const MethodCandidate& candidate, int spp);
 
 }  // namespace duet

@@ -225,9 +225,9 @@ TEST_CASE("methods that merge have to promise half as much again, and no rule ov
     return reason.substr(0, reason.find(':'));
   };
   CHECK(taken(1, 2, 3) == "path");
-  CHECK(taken(1.1, 1, 0.9) == "path");
-  CHECK(taken(1.2, 1, 0.7) == "bdpt");
-  CHECK(taken(1.2, 1, 0.6) == "vcm");
+  CHECK(taken(1.15, 1, 0.9) == "path");
+  CHECK(taken(1.25, 1, 0.7) == "bdpt");
+  CHECK(taken(1.25, 1, 0.6) == "vcm");
   CHECK(taken(1, 1, 0.01) == "vcm");
 }
 
