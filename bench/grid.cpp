@@ -150,7 +150,7 @@ void measure(const std::vector<Vertex>& vertices, const std::vector<Point3f> (&q
   const float radius = float(std::sqrt(wanted * kArea / (double(kPi) * double(vertices.size()))));
   const uint32_t count = uint32_t(vertices.size());
   const auto position = [&](uint32_t i) { return vertices[i].position; };
-  const int all = hardware_threads();
+  const int all = HardwareThreads().count();
   VertexGrid grid;
   PlainGrid plain;
   Smallest builds[3], times[2][2];
@@ -188,7 +188,7 @@ int main(int argc, char** argv) {
   }
   fmt::print("{:>38}{:>22}{:>22}\n", "ms to build", "ns in image order", "ns in random order");
   fmt::print("{:>8}{:>10}{:>10}{:>7} thr.{:>10}{:>10}{:>12}{:>10}\n", "found", "plain", "grid",
-             hardware_threads(), "plain", "grid", "plain", "grid");
+             HardwareThreads().count(), "plain", "grid", "plain", "grid");
   const std::vector<Point3f> queries[2] = {make_queries(false), make_queries(true)};
   for (const double wanted : {3.0, 10.0, 40.0}) measure(vertices, queries, wanted);
 }

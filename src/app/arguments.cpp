@@ -55,6 +55,18 @@ std::vector<int> parse_integers(const std::string& option, const std::string& te
   return values;
 }
 
+Point2i parse_size(const std::string& option, const std::string& text, int least) {
+  const auto v = parse_integers(option, text, 'x', 2, "WxH");
+  if (v[0] < least || v[1] < least || v[0] > kMaxImageSide || v[1] > kMaxImageSide)
+    throw UsageError(fmt::format("{0}: {1} is not a size from {2}x{2} to {3}x{3}", option, text,
+                                 least, kMaxImageSide));
+  return {v[0], v[1]};
+}
+
+double parse_seconds(const std::string& option, const std::string& text) {
+  return parse_amount(option, text, {{"", 1}, {"s", 1}, {"m", 60}, {"h", 3600}}, 1e-3, kMaxSeconds);
+}
+
 std::pair<std::string, std::string> parse_assignment(const std::string& option,
                                                      const std::string& text) {
   const size_t equals = text.find('=');

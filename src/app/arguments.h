@@ -6,7 +6,14 @@
 #include <utility>
 #include <vector>
 
+#include "math/vector.h"
+
 namespace duet {
+
+/// Guards against slips of the pen.
+inline constexpr int kMaxImageSide = 65536;
+inline constexpr int kMaxThreads = 1024;
+inline constexpr double kMaxSeconds = 366 * 24 * 3600.0;
 
 /// Units and what a number with them is multiplied by; "" is a number without a unit.
 using Units = std::vector<std::pair<std::string, double>>;
@@ -22,6 +29,12 @@ uint64_t parse_whole(const std::string& option, const std::string& text, uint64_
 /// Exactly `count` whole numbers between separators. `form` shows the user what is expected.
 std::vector<int> parse_integers(const std::string& option, const std::string& text, char separator,
                                 size_t count, const char* form);
+
+/// The size of an image as WxH, neither side shorter than `least`.
+Point2i parse_size(const std::string& option, const std::string& text, int least);
+
+/// A duration in seconds: 90, 90s, 10m, 2h.
+double parse_seconds(const std::string& option, const std::string& text);
 
 /// NAME=VALUE.
 std::pair<std::string, std::string> parse_assignment(const std::string& option,

@@ -9,10 +9,10 @@
 #include "app/commands.h"
 #include "app/output.h"
 #include "app/placeholders.h"
+#include "app/program.h"
 #include "app/scene_operand.h"
 #include "app/signals.h"
 #include "base/atomic_file.h"
-#include "base/log.h"
 #include "base/percent.h"
 #include "evaluate/chart/page.h"
 #include "evaluate/chart/svg.h"
@@ -27,20 +27,22 @@ namespace {
 /// The charts of one call, one scene after the other.
 class ChartCommand {
  public:
-  explicit ChartCommand(ChartOptions options) : o_(std::move(options)) {}
+  ChartCommand(ChartOptions options, Program& program)
+      : o_(std::move(options)), program_(program), log_(program.log) {}
 
   int run() {
-    log::set_level(o_.quiet ? log::Level::quiet : log::Level::normal);
-    read_standard_input(o_.read.scenes);
-    check_defines(o_.read);
+    log_.set_level(o_.quiet ? Log::Level::quiet : Log::Level::normal);
+    program_.standard_input = read_standard_input(o_.read.scenes);
+    check_defines(o_.read, program_);
     install_signal_handlers();
     const std::vector<std::string> names = chart_names(o_.read.scenes);
     make_directory(o_.directory);
     for (size_t i = 0; i < names.size() && interrupt_exit_code() == 0; ++i) measure(i, names[i]);
     if (several() && !scenes_.empty()) {
       write_file_atomically(in(o_.directory, "summary.csv"), summary_csv(scenes_));
-      write_file_atomically(in(o_.directory, "index.html"), chart_index(scenes_, command_line));
-      log::info("{}", in(o_.directory, "index.html"));
+      write_file_atomically(in(o_.directory, "index.html"),
+                            chart_index(scenes_, program_.command_line));
+      log_.info("{}", in(o_.directory, "index.html"));
     }
     if (const int code = interrupt_exit_code()) return code;
     if (misused_ == names.size()) return kWrongUsage;
@@ -73,30 +75,30 @@ class ChartCommand {
       scenes_.push_back(std::move(scene));
       return;
     } catch (const UsageError& e) {
-      log::error("{}: {}", file, e.what());
+      log_.error("{}: {}", file, e.what());
       ++misused_;
     } catch (const ChartMethodError& e) {
-      log::error("{}: {}", file, e.what());
+      log_.error("{}: {}", file, e.what());
       ++misused_;
     } catch (const SceneFailure& e) {
-      if (!e.is_printed()) log::error("{}: {}", file, e.what());
+      if (!e.is_printed()) log_.error("{}: {}", file, e.what());
     } catch (const std::exception& e) {
-      log::error("{}: {}", file, e.what());
+      log_.error("{}: {}", file, e.what());
     }
     ++failed_;
   }
 
   ChartMessages messages() const {
-    return {[](const std::string& text) { log::info("{}", text); },
-            [](const std::string& text) { log::warning("{}", text); },
-            [this](const Diagnostics& diagnostics) { report(diagnostics, o_.read.strict); }};
+    return {[this](const std::string& text) { log_.info("{}", text); },
+            [this](const std::string& text) { log_.warning("{}", text); },
+            [this](const Diagnostics& diagnostics) { report(diagnostics, o_.read.strict, log_); }};
   }
 
   ChartPlan plan(size_t index, const std::string& name, const std::string& directory) const {
     ChartPlan p;
     p.name = name;
     p.file = o_.read.scenes[index];
-    p.description = load_scene(p.file, o_.read).description;
+    p.description = load_scene(p.file, o_.read, program_).description;
     if (const size_t n = p.description.sensors.size(); o_.sensor >= n)
       throw UsageError(fmt::format("-s {}: there {} sensor{}", o_.sensor,
                                    n == 1 ? "is 1" : fmt::format("are {}", n), n == 1 ? "" : "s"));
@@ -110,7 +112,7 @@ class ChartCommand {
     else if (!o_.reference_integrator.empty())
       p.reference_method = reference_method();
     p.directory = directory;
-    p.command_line = command_line;
+    p.command_line = program_.command_line;
     p.seconds = o_.seconds;
     p.seed = o_.seed;
     p.threads = o_.threads;
@@ -161,18 +163,18 @@ class ChartCommand {
     write_file_atomically(in(directory, "chart.csv"), chart_csv(scene));
     write_file_atomically(in(directory, "chart.svg"), chart_svg(scene, ChartAxis::cpu_seconds));
     write_file_atomically(in(directory, "chart-spp.svg"), chart_svg(scene, ChartAxis::spp));
-    write_file_atomically(in(directory, "index.html"), chart_page(scene, command_line));
+    write_file_atomically(in(directory, "index.html"), chart_page(scene, program_.command_line));
     for (const ChartLine& line : scene.lines) summarize(scene, line);
-    log::info("{}: {}", scene.name, in(directory, "index.html"));
+    log_.info("{}: {}", scene.name, in(directory, "index.html"));
   }
 
-  static void summarize(const ChartScene& scene, const ChartLine& line) {
-    if (line.points.empty()) return log::info("{}: {}: no image", scene.name, line.name);
+  void summarize(const ChartScene& scene, const ChartLine& line) const {
+    if (line.points.empty()) return log_.info("{}: {}: no image", scene.name, line.name);
     const ChartPoint& p = line.points.back();
     const auto e = efficiency(line);
     const std::string slope =
         line.by_time.slope ? fmt::format(", slope {:.2f}", line.by_time.slope->slope) : "";
-    log::info(
+    log_.info(
         "{}: {}: {} spp in {:.3g} CPU s, {}", scene.name, line.name, p.spp, p.cpu_seconds,
         e ? fmt::format("root of the trimmed relMSE {}, {:.2f} of the best efficiency{}",
                         percent(std::sqrt(p.trimmed)), e->value / best_efficiency(scene), slope)
@@ -180,13 +182,15 @@ class ChartCommand {
   }
 
   ChartOptions o_;
+  Program& program_;
+  Log& log_;
   std::vector<ChartScene> scenes_;
   size_t failed_ = 0, misused_ = 0;
 };
 
 }  // namespace
 
-void add_chart_command(CLI::App& app, int& exit_code) {
+void add_chart_command(CLI::App& app, Program& program) {
   CLI::App* c = app.add_subcommand("chart", "Chart error against time for several methods");
   const auto parser = std::make_shared<ChartOptionParser>(*c);
   c->footer(
@@ -202,7 +206,9 @@ void add_chart_command(CLI::App& app, int& exit_code) {
       "  duet chart room.xml --external 'mitsuba=mitsuba {scene} -D spp={spp} -o {out}'\n"
       "Exit codes: 0; 1 a scene or an external renderer failed; 2 wrong usage; 130 or 143 "
       "interrupted, files written with what there was.");
-  c->callback([parser, &exit_code] { exit_code = ChartCommand(parser->finish()).run(); });
+  c->callback([parser, &program] {
+    program.exit_code = ChartCommand(parser->finish(program.threads()), program).run();
+  });
 }
 
 }  // namespace duet

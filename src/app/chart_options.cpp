@@ -11,15 +11,10 @@
 #include "app/commands.h"
 #include "app/output.h"
 #include "app/scene_operand.h"
-#include "base/parallel.h"
 
 namespace duet {
 
 namespace {
-
-constexpr double kMaxSeconds = 366 * 24 * 3600.0;
-constexpr int kMaxThreads = 1024;
-constexpr int kMaxImageSide = 65536;
 
 /// One value stands for all scenes if it has placeholders or if there is one scene.
 void check_count(const char* option, const std::vector<std::string>& given, size_t scenes) {
@@ -121,7 +116,7 @@ ChartOptionParser::ChartOptionParser(CLI::App& c) {
   c.add_flag("-q,--quiet", o.quiet, "Errors and warnings only");
 }
 
-ChartOptions ChartOptionParser::finish() {
+ChartOptions ChartOptionParser::finish(int threads) {
   ChartOptions& o = options_;
   if (methods_.empty() && external_.empty()) methods_ = {"path,bdpt,vcm"};
   for (const std::string& text : methods_)
@@ -140,24 +135,15 @@ ChartOptions ChartOptionParser::finish() {
       throw UsageError(fmt::format("--external {}: a scene from standard input is no file", text));
   }
   check_names(o);
-  if (!time_.empty())
-    o.seconds = parse_amount("--time", time_, {{"", 1}, {"s", 1}, {"m", 60}, {"h", 3600}}, 1e-3,
-                             kMaxSeconds);
+  if (!time_.empty()) o.seconds = parse_seconds("--time", time_);
   if (!reference_spp_.empty())
     o.reference_spp = parse_amount("--reference-spp", reference_spp_, {{"", 1}}, 1e-3, 1e15);
-  if (!size_.empty()) {
-    const auto v = parse_integers("--size", size_, 'x', 2, "WxH");
-    if (v[0] < 8 || v[1] < 8 || v[0] > kMaxImageSide || v[1] > kMaxImageSide)
-      throw UsageError(fmt::format("--size: {} is not a size from 8x8 to {}x{}", size_,
-                                   kMaxImageSide, kMaxImageSide));
-    o.size = Point2i{v[0], v[1]};
-  }
+  if (!size_.empty()) o.size = parse_size("--size", size_, 8);
   if (!sensor_.empty())
     o.sensor = parse_whole("--sensor", sensor_, 0, std::numeric_limits<uint32_t>::max());
   if (!seed_.empty())
     o.seed = parse_whole("--seed", seed_, 0, std::numeric_limits<uint64_t>::max());
-  o.threads = threads_.empty() ? hardware_threads()
-                               : int(parse_whole("--threads", threads_, 1, kMaxThreads));
+  o.threads = threads_.empty() ? threads : int(parse_whole("--threads", threads_, 1, kMaxThreads));
   check_count("--reference", o.references, o.read.scenes.size());
   check_count("--variance", o.variances, o.read.scenes.size());
   if (!o.variances.empty() && o.references.empty())

@@ -42,7 +42,8 @@ struct ChartOptions {
 class ChartOptionParser {
  public:
   explicit ChartOptionParser(CLI::App& command);
-  ChartOptions finish();
+  /// `threads` are those of a call that says nothing about them.
+  ChartOptions finish(int threads);
 
  private:
   ChartOptions options_;

@@ -2,8 +2,6 @@
 #pragma once
 
 #include <stdexcept>
-#include <string>
-#include <vector>
 
 // CLI11 is large: only files that add options include it.
 namespace CLI {
@@ -27,15 +25,15 @@ class UsageError : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// The command line as it was typed, for the header of images.
-extern std::string command_line;
+struct Program;
 
-/// Each adds a subcommand to `app`; when it is used, its callback stores the exit code.
-void add_render_command(CLI::App& app, int& exit_code);
-void add_info_command(CLI::App& app, int& exit_code);
-void add_compare_command(CLI::App& app, int& exit_code);
-void add_chart_command(CLI::App& app, int& exit_code);
-void add_plugins_command(CLI::App& app, int& exit_code);
-void add_stability_command(CLI::App& app, int& exit_code);
+/// Each adds a subcommand to `app`; when it is used, its callback stores the exit code in
+/// `program`.
+void add_render_command(CLI::App& app, Program& program);
+void add_info_command(CLI::App& app, Program& program);
+void add_compare_command(CLI::App& app, Program& program);
+void add_chart_command(CLI::App& app, Program& program);
+void add_plugins_command(CLI::App& app, Program& program);
+void add_stability_command(CLI::App& app, Program& program);
 
 }  // namespace duet

@@ -8,8 +8,8 @@
 
 #include "app/commands.h"
 #include "app/compare_options.h"
+#include "app/program.h"
 #include "base/atomic_file.h"
-#include "base/log.h"
 #include "evaluate/compare/json.h"
 #include "evaluate/compare/text.h"
 
@@ -27,25 +27,25 @@ void print(const CompareOptions& o, const std::vector<Comparison>& all) {
 }
 
 /// What is said about a comparison as soon as it has been made.
-void warn(const CompareOptions& o, const std::string& path, const Comparison& c) {
-  if (!c.only_in.empty()) log::warning("{}: {}", c.name, absence(o.settings, c));
-  if (!c.warning.empty()) log::warning("{}: {}", path, c.warning);
+void warn(const CompareOptions& o, const std::string& path, const Comparison& c, Log& log) {
+  if (!c.only_in.empty()) log.warning("{}: {}", c.name, absence(o.settings, c));
+  if (!c.warning.empty()) log.warning("{}: {}", path, c.warning);
 }
 
-std::vector<Comparison> compare_all(const CompareOptions& o) {
+std::vector<Comparison> compare_all(const CompareOptions& o, Log& log) {
   const CompareSettings& settings = o.settings;
   if (o.directories)
     return compare_directories(settings, [&](const Comparison& c) {
-      warn(o, (std::filesystem::path(settings.image) / c.name).string(), c);
+      warn(o, (std::filesystem::path(settings.image) / c.name).string(), c, log);
     });
   std::vector<std::string> images, references;
   if (o.batches) {
-    images = set_of_images(settings.image, "image");
-    references = set_of_images(settings.reference, "reference");
+    images = set_of_images(settings.image, "image", log);
+    references = set_of_images(settings.reference, "reference", log);
   }
   std::vector<Comparison> one;
   one.push_back(o.batches ? compare_sets(settings, images, references) : compare_pair(settings));
-  warn(o, settings.image, one[0]);
+  warn(o, settings.image, one[0], log);
   return one;
 }
 
@@ -60,24 +60,25 @@ int exit_code_of(const CompareSettings& settings, const std::vector<Comparison>&
   return kSuccess;
 }
 
-int compare(const CompareOptions& o) {
+int compare(const CompareOptions& o, Program& program) {
   std::vector<Comparison> all;
   try {
-    all = compare_all(o);
+    all = compare_all(o, program.log);
   } catch (const UnknownSamples& e) {
     throw UsageError(fmt::format(
         "--variance also needs {}: the header of {} does not say how many samples it has",
         e.of() == UnknownSamples::Of::image ? "--spp" : "--reference-spp", e.path()));
   }
   print(o, all);
-  if (!o.html.empty()) write_file_atomically(o.html, compare_page(o.settings, all, command_line));
+  if (!o.html.empty())
+    write_file_atomically(o.html, compare_page(o.settings, all, program.command_line));
   if (!o.junit.empty()) write_file_atomically(o.junit, junit_report(o.settings, all));
   return exit_code_of(o.settings, all);
 }
 
 }  // namespace
 
-void add_compare_command(CLI::App& app, int& exit_code) {
+void add_compare_command(CLI::App& app, Program& program) {
   CLI::App* c = app.add_subcommand("compare", "Compare images with references");
   const auto parser = std::make_shared<CompareOptionParser>(*c);
   c->footer(
@@ -95,7 +96,9 @@ void add_compare_command(CLI::App& app, int& exit_code) {
       "  duet compare renders/ references/ --html report.html --junit report.xml --require "
       "'trimmed<0.01'\n"
       "  duet compare --batches 'a-*.exr' 'b-*.exr' --require 'relrmse<0.05'");
-  c->callback([parser, &exit_code] { exit_code = compare(parser->finish()); });
+  c->callback([parser, &program] {
+    program.exit_code = compare(parser->finish(program.threads()), program);
+  });
 }
 
 }  // namespace duet

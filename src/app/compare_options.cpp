@@ -13,7 +13,6 @@
 #include "app/output.h"
 #include "base/diagnostics.h"
 #include "base/log.h"
-#include "base/parallel.h"
 
 namespace duet {
 
@@ -70,7 +69,7 @@ Requirement parse_requirement(const std::string& text) {
   return r;
 }
 
-std::vector<std::string> set_of_images(const std::string& operand, const char* what) {
+std::vector<std::string> set_of_images(const std::string& operand, const char* what, Log& log) {
   std::error_code ignored;
   std::vector<std::string> files;
   if (fs::is_directory(operand, ignored)) {
@@ -91,7 +90,7 @@ std::vector<std::string> set_of_images(const std::string& operand, const char* w
                     "'a-*.exr', a directory, or names with commas between them",
                     operand, files.empty() ? "no image" : files[0] + " alone"));
   if (files.size() < kFewImagesOfSet)
-    log::warning(
+    log.warning(
         "--batches: {} images of the {} say little about its variance; {} or more are better",
         files.size(), what, 2 * kFewImagesOfSet);
   return files;
@@ -175,7 +174,7 @@ void CompareOptionParser::check() const {
   check_files();
 }
 
-CompareOptions CompareOptionParser::finish() {
+CompareOptions CompareOptionParser::finish(int threads) {
   CompareOptions& o = options_;
   CompareSettings& s = o.settings;
   o.directories =
@@ -191,7 +190,7 @@ CompareOptions CompareOptionParser::finish() {
     s.reference_spp = samples("--reference-spp", reference_spp_);
   }
   s.for_page = !o.html.empty();
-  s.threads = hardware_threads();
+  s.threads = threads;
   return std::move(options_);
 }
 

@@ -12,6 +12,8 @@ class App;
 
 namespace duet {
 
+class Log;
+
 struct CompareOptions {
   CompareSettings settings;
   std::string html, junit;
@@ -25,7 +27,7 @@ struct CompareOptions {
 class CompareOptionParser {
  public:
   explicit CompareOptionParser(CLI::App& command);
-  CompareOptions finish();
+  CompareOptions finish(int threads);
 
  private:
   void add_outputs(CLI::App& command);
@@ -44,6 +46,6 @@ Requirement parse_requirement(const std::string& text);
 /// The files that an operand of --batches means: a pattern with * or ?, a directory, or names with
 /// commas between them. Throws UsageError if they are not two at least, and warns of few; `what`
 /// says whose they are.
-std::vector<std::string> set_of_images(const std::string& operand, const char* what);
+std::vector<std::string> set_of_images(const std::string& operand, const char* what, Log& log);
 
 }  // namespace duet

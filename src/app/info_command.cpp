@@ -4,9 +4,9 @@
 
 #include "app/commands.h"
 #include "app/output.h"
+#include "app/program.h"
 #include "app/scene_file.h"
 #include "app/scene_operand.h"
-#include "base/log.h"
 #include "evaluate/report/scene_json.h"
 #include "evaluate/report/scene_summary.h"
 #include "integrators/make_integrator.h"
@@ -31,34 +31,35 @@ void use_method(SceneDescription& description, const std::string& method) {
   }
 }
 
-void print_xml(const std::string& file, const LoadedScene& scene, bool strict) {
+void print_xml(const std::string& file, const LoadedScene& scene, bool strict, Log& log) {
   const MitsubaXml xml = write_mitsuba_xml(scene.description);
-  for (const std::string& loss : xml.losses) log::warning("{}: {}", file, loss);
+  for (const std::string& loss : xml.losses) log.warning("{}: {}", file, loss);
   fmt::print("{}", xml.text);
   if (strict && !xml.losses.empty()) throw SceneFailure(xml.losses[0], true);
 }
 
-int info(InfoOptions o) {
-  if (o.all) log::set_level(log::Level::verbose);
+int info(InfoOptions o, Program& program) {
+  Log& log = program.log;
+  if (o.all) log.set_level(Log::Level::verbose);
   if (!o.method.empty()) o.read.methods = {o.method};
   if (o.xml && o.read.scenes.size() > 1)
     throw UsageError("--xml writes one scene; several were given");
-  read_standard_input(o.read.scenes);
-  check_defines(o.read);
+  program.standard_input = read_standard_input(o.read.scenes);
+  check_defines(o.read, program);
   bool failed = false;
   nlohmann::ordered_json all = nlohmann::ordered_json::array();
   for (const std::string& file : o.read.scenes) {
     try {
-      LoadedScene scene = load_scene(file, o.read);
+      LoadedScene scene = load_scene(file, o.read, program);
       use_method(scene.description, o.method);
       if (o.json)
         all.push_back(scene_json(file, output_names(file).scene, scene));
       else if (o.xml)
-        print_xml(file, scene, o.read.strict);
+        print_xml(file, scene, o.read.strict, log);
       else
         fmt::print("{}", scene_summary(scene, o.all));
     } catch (const SceneFailure& e) {
-      if (!e.is_printed()) log::error("{}: {}", file, e.what());
+      if (!e.is_printed()) log.error("{}: {}", file, e.what());
       if (o.json) all.push_back({{"file", file}, {"error", e.what()}});
       failed = true;
     }
@@ -69,7 +70,7 @@ int info(InfoOptions o) {
 
 }  // namespace
 
-void add_info_command(CLI::App& app, int& exit_code) {
+void add_info_command(CLI::App& app, Program& program) {
   CLI::App* c = app.add_subcommand("info", "Say what scenes contain and how they are modelled");
   const auto o = std::make_shared<InfoOptions>();
   add_read_options(*c, o->read);
@@ -90,7 +91,7 @@ void add_info_command(CLI::App& app, int& exit_code) {
       "  duet info scenes/*/scene.xml\n"
       "  duet info cornell.xml --json | jq .sensors[0].spp\n"
       "  duet info old.xml -D spp=16 --xml > new.xml");
-  c->callback([o, &exit_code] { exit_code = info(*o); });
+  c->callback([o, &program] { program.exit_code = info(*o, program); });
 }
 
 }  // namespace duet

@@ -13,14 +13,12 @@
 #include "app/arguments.h"
 #include "app/commands.h"
 #include "app/help.h"
+#include "app/program.h"
 #include "app/standard_streams.h"
 #include "base/diagnostics.h"
-#include "base/log.h"
 #include "evaluate/report/provenance.h"
 
 namespace duet {
-
-std::string command_line;
 
 namespace {
 
@@ -61,15 +59,15 @@ std::vector<std::string> in_full(std::vector<std::string> arguments, const CLI::
 }
 
 /// Results that did not arrive are a failure.
-int after_output(int exit_code) {
+int after_output(Program& program, int exit_code) {
   std::cout.flush();
   if (std::cout.good() && std::fflush(stdout) == 0 && !std::ferror(stdout)) return exit_code;
-  log::error("cannot write to standard output");
+  program.log.error("cannot write to standard output");
   return exit_code == kSuccess ? int(kSceneFailed) : exit_code;
 }
 
-int run(std::vector<std::string> arguments) {
-  command_line = "duet " + shell_quoted(host_free(arguments));
+int run(std::vector<std::string> arguments, Program& program) {
+  program.command_line = "duet " + shell_quoted(host_free(arguments));
   CLI::App app{
       "Duet renders the Mitsuba scenes you already have and says how accurate the images are.",
       "duet"};
@@ -79,13 +77,12 @@ int run(std::vector<std::string> arguments) {
       "duet SCENE... is short for duet render SCENE...\n"
       "duet help COMMAND, or duet COMMAND --help, has its options and examples.");
   app.formatter(std::make_shared<HelpFormatter>());
-  int exit_code = kSuccess;
-  add_render_command(app, exit_code);
-  add_info_command(app, exit_code);
-  add_compare_command(app, exit_code);
-  add_chart_command(app, exit_code);
-  add_plugins_command(app, exit_code);
-  add_stability_command(app, exit_code);
+  add_render_command(app, program);
+  add_info_command(app, program);
+  add_compare_command(app, program);
+  add_chart_command(app, program);
+  add_plugins_command(app, program);
+  add_stability_command(app, program);
   try {
     arguments = in_full(std::move(arguments), app);
     const std::string help = arguments.empty() ? "duet --help" : "duet " + arguments[0] + " --help";
@@ -93,20 +90,21 @@ int run(std::vector<std::string> arguments) {
     try {
       app.parse(arguments);
     } catch (const CLI::ParseError& e) {
-      if (e.get_exit_code() == 0) return after_output(app.exit(e));  // --help and --version
+      if (e.get_exit_code() == 0)
+        return after_output(program, app.exit(e));  // --help and --version
       throw UsageError(fmt::format("{}; see {}", e.what(), help));
     }
   } catch (const UsageError& e) {
-    log::error("{}", e.what());
+    program.log.error("{}", e.what());
     return kWrongUsage;
   } catch (const std::bad_alloc&) {
-    log::error("out of memory");
+    program.log.error("out of memory");
     return kSceneFailed;
   } catch (const std::exception& e) {
-    log::error("{}", e.what());
+    program.log.error("{}", e.what());
     return kSceneFailed;
   }
-  return after_output(exit_code);
+  return after_output(program, program.exit_code);
 }
 
 }  // namespace
@@ -115,7 +113,8 @@ int run(std::vector<std::string> arguments) {
 int main(int argc, char** argv) {
   duet::open_standard_streams();
   try {
-    return duet::run({argv + 1, argv + argc});
+    duet::Program program;
+    return duet::run({argv + 1, argv + argc}, program);
   } catch (...) {
     // What went wrong where even a message fails.
     std::fputs("duet: error: out of memory\n", stderr);

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
-#include <atomic>
 #include <filesystem>
 #include <stdexcept>
 
@@ -113,13 +112,11 @@ void write_image(const std::string& path, const Image& image, PixelFormat format
     std::error_code ignored;
     fs::path folder = fs::temp_directory_path(ignored);
     if (folder.empty()) folder = "/tmp";
+    const std::string stem = is_standard_output(path) ? "stdout" : fs::path(path).stem().string();
+    std::string rescue;
     // Scenes of one call may have the same name.
-    static std::atomic<int> counter = 0;
-    const std::string rescue =
-        (folder / fmt::format("duet-{}-{}-{}.exr",
-                              is_standard_output(path) ? "stdout" : fs::path(path).stem().string(),
-                              getpid(), counter++))
-            .string();
+    for (int number = 0; rescue.empty() || fs::exists(rescue, ignored); ++number)
+      rescue = (folder / fmt::format("duet-{}-{}-{}.exr", stem, getpid(), number)).string();
     std::string outcome;
     try {
       write(rescue);

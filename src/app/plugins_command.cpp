@@ -4,6 +4,7 @@
 #include <string_view>
 
 #include "app/commands.h"
+#include "app/program.h"
 #include "base/diagnostics.h"
 #include "mitsuba/vocabulary.h"
 #include "mitsuba/vocabulary_text.h"
@@ -63,7 +64,7 @@ int list_plugins(const std::string& kind_name, bool markdown) {
 
 }  // namespace
 
-void add_plugins_command(CLI::App& app, int& exit_code) {
+void add_plugins_command(CLI::App& app, Program& program) {
   CLI::App* c = app.add_subcommand("plugins", "List the plugins and parameters of scene files");
   struct Options {
     std::string kind;
@@ -78,7 +79,7 @@ void add_plugins_command(CLI::App& app, int& exit_code) {
       "Examples:\n"
       "  duet plugins bsdf\n"
       "  duet plugins --markdown > docs/compatibility.md");
-  c->callback([o, &exit_code] { exit_code = list_plugins(o->kind, o->markdown); });
+  c->callback([o, &program] { program.exit_code = list_plugins(o->kind, o->markdown); });
 }
 
 }  // namespace duet

@@ -10,7 +10,6 @@
 #include <vector>
 
 #include "app/terminal.h"
-#include "base/log.h"
 #include "base/percent.h"
 #include "base/seconds_text.h"
 
@@ -19,13 +18,6 @@ namespace duet {
 namespace {
 
 constexpr double kSecondsBetweenLines = 5;
-bool bar_is_drawn = false;
-
-void remove_bar() {
-  if (!bar_is_drawn) return;
-  std::fputs("\r\x1b[K", stderr);
-  bar_is_drawn = false;
-}
 
 std::string rate(const RenderProgress& p) {
   return p.seconds > 0 ? fmt::format("{:.2f} Msamples/s", p.samples / p.seconds * 1e-6) : "";
@@ -53,15 +45,23 @@ double fraction_of(const RenderProgress& p) {
 
 }  // namespace
 
-ProgressDisplay::ProgressDisplay(ProgressStyle style, std::string scene, const Batch& batch)
-    : style_(style), scene_(std::move(scene)), batch_(batch) {
+ProgressDisplay::ProgressDisplay(ProgressStyle style, std::string scene, const Batch& batch,
+                                 Log& log)
+    : style_(style), scene_(std::move(scene)), batch_(batch), log_(log) {
   if (style_ == ProgressStyle::automatic)
     style_ = isatty(STDERR_FILENO) ? ProgressStyle::bar : ProgressStyle::plain;
-  log::set_before_write(remove_bar);
+  log_.set_before_write([this] { remove_bar(); });
 }
 
 ProgressDisplay::~ProgressDisplay() {
+  log_.set_before_write(nullptr);
   remove_bar();
+}
+
+void ProgressDisplay::remove_bar() {
+  if (!bar_is_drawn_) return;
+  std::fputs("\r\x1b[K", stderr);
+  bar_is_drawn_ = false;
 }
 
 std::string ProgressDisplay::time_left(const RenderProgress& p) const {
@@ -102,13 +102,13 @@ std::string ProgressDisplay::bar(const RenderProgress& p) const {
 void ProgressDisplay::show(const RenderProgress& p) {
   if (style_ == ProgressStyle::plain && p.seconds - last_line_ >= kSecondsBetweenLines) {
     last_line_ = p.seconds;
-    log::info("{}{}: {:.0f} %, {}", batch_.label(), scene_, 100 * fraction_of(p),
+    log_.info("{}{}: {:.0f} %, {}", batch_.label(), scene_, 100 * fraction_of(p),
               listed({samples(p), seconds_text(p.seconds), rate(p), error(p), time_left(p)}));
   }
-  if (style_ != ProgressStyle::bar || log::level() == log::Level::quiet) return;
+  if (style_ != ProgressStyle::bar || log_.level() == Log::Level::quiet) return;
   std::fprintf(stderr, "\r\x1b[K%s", bar(p).c_str());
   std::fflush(stderr);
-  bar_is_drawn = true;
+  bar_is_drawn_ = true;
 }
 
 }  // namespace duet

@@ -4,6 +4,7 @@
 #include <string>
 
 #include "app/batch.h"
+#include "base/log.h"
 #include "integrators/pass.h"
 
 namespace duet {
@@ -18,8 +19,9 @@ enum class ProgressStyle {
 /// Draws the progress of one render on standard error.
 class ProgressDisplay {
  public:
-  /// `scene` is what the scene is called. The batch must outlive this.
-  ProgressDisplay(ProgressStyle style, std::string scene, const Batch& batch);
+  /// `scene` is what the scene is called. The batch and the log must outlive this; messages that go
+  /// there remove the bar.
+  ProgressDisplay(ProgressStyle style, std::string scene, const Batch& batch, Log& log);
   ~ProgressDisplay();
   ProgressDisplay(const ProgressDisplay&) = delete;
   ProgressDisplay& operator=(const ProgressDisplay&) = delete;
@@ -27,12 +29,15 @@ class ProgressDisplay {
   void show(const RenderProgress& progress);
 
  private:
+  void remove_bar();
   std::string time_left(const RenderProgress& progress) const;
   std::string bar(const RenderProgress& progress) const;
 
   ProgressStyle style_;
   std::string scene_;
   const Batch& batch_;
+  Log& log_;
+  bool bar_is_drawn_ = false;
   double last_line_ = 0;
 };
 

@@ -4,11 +4,11 @@
 
 #include "app/commands.h"
 #include "app/output.h"
+#include "app/program.h"
 #include "app/render_options.h"
 #include "app/render_scene.h"
 #include "app/scene_operand.h"
 #include "app/signals.h"
-#include "base/log.h"
 #include "evaluate/report/statistics.h"
 
 namespace duet {
@@ -18,16 +18,18 @@ namespace {
 /// Renders the scenes of one call, one after the other.
 class RenderCommand {
  public:
-  explicit RenderCommand(RenderOptions options)
+  RenderCommand(RenderOptions options, Program& program)
       : options_(std::move(options)),
+        program_(program),
+        log_(program.log),
         statistics_(options_.stats_file),
         batch_(options_.read.scenes.size()) {}
 
   int run() {
     install_signal_handlers();
     set_up_log();
-    read_standard_input(options_.read.scenes);
-    check_defines(options_.read);
+    program_.standard_input = read_standard_input(options_.read.scenes);
+    check_defines(options_.read, program_);
     for (const std::string& file : options_.read.scenes) {
       if (interrupt_exit_code() != 0) break;
       if (!failures_.empty() && !options_.keep_going) break;
@@ -38,7 +40,7 @@ class RenderCommand {
     }
     const size_t scenes = options_.read.scenes.size();
     const bool has_statistics = write_statistics();
-    if (tried_ < scenes) log::warning("{} of {} scenes were not tried", scenes - tried_, scenes);
+    if (tried_ < scenes) log_.warning("{} of {} scenes were not tried", scenes - tried_, scenes);
     if (batch_.is_several()) list_failures();
     if (const int code = interrupt_exit_code()) return code;
     // What no scene has is asked for by mistake; what some have not is missing there.
@@ -49,14 +51,14 @@ class RenderCommand {
 
  private:
   void set_up_log() const {
-    log::set_level(options_.quiet     ? log::Level::quiet
-                   : options_.verbose ? log::Level::verbose
-                                      : log::Level::normal);
+    log_.set_level(options_.quiet     ? Log::Level::quiet
+                   : options_.verbose ? Log::Level::verbose
+                                      : Log::Level::normal);
     if (options_.log_file.empty()) return;
     std::error_code ignored;  // the file says what is wrong
     make_directories(std::filesystem::path(options_.log_file).parent_path(), ignored);
     try {
-      log::open_file(options_.log_file);
+      log_.open_file(options_.log_file);
     } catch (const std::exception& e) {
       throw UsageError(fmt::format("--log: {}", e.what()));
     }
@@ -69,16 +71,16 @@ class RenderCommand {
       statistics_.write(batch_.is_several());
       return true;
     } catch (const std::exception& e) {
-      log::error("--stats: {}", e.what());
+      log_.error("--stats: {}", e.what());
       return false;
     }
   }
 
   /// Whether the scene was rendered and nothing failed.
   bool render(const std::string& file) {
-    const log::Recording messages;
+    const Log::Recording messages(log_);
     try {
-      const RenderOutcome outcome = render_scene(file, options_, batch_, statistics_);
+      const RenderOutcome outcome = render_scene(file, options_, {batch_, statistics_, program_});
       missed_ += outcome == RenderOutcome::target_missed;
       return outcome != RenderOutcome::not_rendered;
     } catch (const UsageError& e) {
@@ -96,18 +98,20 @@ class RenderCommand {
   }
 
   void fail(const std::string& file, const std::string& reason, bool is_printed = false) {
-    if (!is_printed) log::error("{}: {}", file, reason);
+    if (!is_printed) log_.error("{}: {}", file, reason);
     // Reasons that are places in the file begin with its name.
     failures_.push_back(reason.starts_with(file + ":") ? reason : file + ": " + reason);
   }
 
   void list_failures() const {
     if (failures_.empty()) return;
-    log::error("{} of {} scenes failed:", failures_.size(), options_.read.scenes.size());
-    for (const std::string& failure : failures_) log::write(log::Level::quiet, "  " + failure);
+    log_.error("{} of {} scenes failed:", failures_.size(), options_.read.scenes.size());
+    for (const std::string& failure : failures_) log_.write(Log::Level::quiet, "  " + failure);
   }
 
   RenderOptions options_;
+  Program& program_;
+  Log& log_;
   StatisticsFile statistics_;
   Batch batch_;
   size_t tried_ = 0;
@@ -118,9 +122,9 @@ class RenderCommand {
 
 }  // namespace
 
-void add_render_command(CLI::App& app, int& exit_code) {
+void add_render_command(CLI::App& app, Program& program) {
   CLI::App* c = app.add_subcommand("render", "Render scenes to images");
-  const auto parser = std::make_shared<RenderOptionParser>(*c);
+  const auto parser = std::make_shared<RenderOptionParser>(*c, program);
   c->footer(
       "{scene} is the name of the scene file; that of a scene.xml is the name of its folder.\n"
       "Examples:\n"
@@ -135,7 +139,8 @@ void add_render_command(CLI::App& app, int& exit_code) {
       "4 --target-error was not met and --require-target was given; 129, 130 or 143 interrupted by "
       "SIGHUP, Ctrl-C or SIGTERM: the samples so far are in SCENE.partial.exr, if every pixel has "
       "one. SIGUSR1 writes that file and goes on.");
-  c->callback([parser, &exit_code] { exit_code = RenderCommand(parser->finish()).run(); });
+  c->callback(
+      [parser, &program] { program.exit_code = RenderCommand(parser->finish(), program).run(); });
 }
 
 }  // namespace duet

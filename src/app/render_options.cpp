@@ -8,8 +8,8 @@
 #include "app/arguments.h"
 #include "app/commands.h"
 #include "app/output.h"
+#include "app/program.h"
 #include "app/standard_output.h"
-#include "base/log.h"
 #include "base/parallel.h"
 
 namespace duet {
@@ -17,10 +17,7 @@ namespace duet {
 namespace {
 
 /// Guards against slips of the pen.
-constexpr int kMaxImageSide = 65536;
-constexpr int kMaxThreads = 1024;
 constexpr int kMaxSpp = 1 << 30;
-constexpr double kMaxSeconds = 366 * 24 * 3600.0;
 
 std::string integrator_help() {
   std::string text = "Method instead of the scene's";
@@ -36,7 +33,7 @@ std::string layer_help() {
 
 }  // namespace
 
-RenderOptionParser::RenderOptionParser(CLI::App& c) {
+RenderOptionParser::RenderOptionParser(CLI::App& c, Program& program) : program_(program) {
   add_read_options(c, options_.read);
   add_method_options(c);
   add_image_options(c);
@@ -107,18 +104,16 @@ void RenderOptionParser::add_output_options(CLI::App& c) {
 void RenderOptionParser::finish_numbers() {
   RenderBudget& budget = options_.budget;
   if (!spp_.empty()) budget.spp = int(parse_whole("--spp", spp_, 1, kMaxSpp));
-  if (!time_.empty())
-    budget.seconds = parse_amount("--time", time_, {{"", 1}, {"s", 1}, {"m", 60}, {"h", 3600}},
-                                  1e-3, kMaxSeconds);
+  if (!time_.empty()) budget.seconds = parse_seconds("--time", time_);
   if (!target_.empty())
     budget.target_error = parse_amount("--target-error", target_, {{"", 1}, {"%", 0.01}}, 1e-6, 1);
   options_.exposure = parse_amount("--exposure", exposure_, {{"", 1}}, -100, 100);
-  options_.threads = hardware_threads();
+  options_.threads = program_.threads();
   if (!threads_.empty()) {
     const int wanted = int(parse_whole("--threads", threads_, 1, kMaxThreads));
     options_.threads = startable_threads(wanted);
     if (options_.threads < wanted)
-      log::warning("only {} of {} threads can be started", options_.threads, wanted);
+      program_.log.warning("only {} of {} threads can be started", options_.threads, wanted);
   }
   if (!seed_.empty())
     options_.seed = parse_whole("--seed", seed_, 0, std::numeric_limits<uint64_t>::max());
@@ -127,13 +122,7 @@ void RenderOptionParser::finish_numbers() {
 }
 
 void RenderOptionParser::finish_window() {
-  if (!size_.empty()) {
-    const auto v = parse_integers("--size", size_, 'x', 2, "WxH");
-    if (v[0] < 1 || v[1] < 1 || v[0] > kMaxImageSide || v[1] > kMaxImageSide)
-      throw UsageError(fmt::format("--size: {} is not a size from 1x1 to {}x{}", size_,
-                                   kMaxImageSide, kMaxImageSide));
-    options_.size = Point2i{v[0], v[1]};
-  }
+  if (!size_.empty()) options_.size = parse_size("--size", size_, 1);
   if (!crop_.empty()) {
     const auto v = parse_integers("--crop", crop_, ',', 4, "x,y,w,h");
     if (v[0] < 0 || v[1] < 0 || v[2] < 1 || v[3] < 1 || v[0] > kMaxImageSide ||

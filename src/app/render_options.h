@@ -15,6 +15,8 @@ class App;
 
 namespace duet {
 
+struct Program;
+
 struct RenderOptions {
   ReadOptions read;
   std::vector<std::string> outputs;
@@ -42,7 +44,7 @@ struct RenderOptions {
 /// UsageError for values that make no sense.
 class RenderOptionParser {
  public:
-  explicit RenderOptionParser(CLI::App& command);
+  RenderOptionParser(CLI::App& command, Program& program);
   RenderOptions finish();
 
  private:
@@ -55,6 +57,7 @@ class RenderOptionParser {
   void check_standard_output() const;
   void check_outputs() const;
 
+  Program& program_;
   RenderOptions options_;
   std::string spp_, time_, target_, size_, crop_, exposure_ = "0", threads_, seed_, sensor_,
                                                   progress_ = "auto", techniques_, format_;

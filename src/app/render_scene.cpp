@@ -4,11 +4,11 @@
 #include <chrono>
 
 #include "app/commands.h"
+#include "app/program.h"
 #include "app/scene_images.h"
 #include "app/scene_operand.h"
 #include "app/signals.h"
 #include "app/standard_output.h"
-#include "base/log.h"
 #include "base/memory_limit.h"
 #include "evaluate/report/memory_estimate.h"
 #include "evaluate/report/render_report.h"
@@ -36,15 +36,19 @@ class Stopwatch {
 
 class SceneRenderer {
  public:
-  SceneRenderer(const std::string& file, const RenderOptions& options, const Batch& batch,
-                StatisticsFile& statistics)
-      : file_(file), options_(options), batch_(batch), statistics_(statistics) {}
+  SceneRenderer(const std::string& file, const RenderOptions& options, const RenderCall& call)
+      : file_(file),
+        options_(options),
+        batch_(call.batch),
+        statistics_(call.statistics),
+        program_(call.program),
+        log_(call.program.log) {}
 
   RenderOutcome run() {
     read();
     prepare();
     if (options_.skip_existing && images_->are_finished()) {
-      log::info("{}{}: skipped, {} exists", batch_.label(), file_, images_->planned()[0]);
+      log_.info("{}{}: skipped, {} exists", batch_.label(), file_, images_->planned()[0]);
       return RenderOutcome::not_rendered;
     }
     check_outputs(images_->planned());
@@ -65,13 +69,13 @@ class SceneRenderer {
 
  private:
   void read() {
-    LoadedScene loaded = load_scene(file_, options_.read);
+    LoadedScene loaded = load_scene(file_, options_.read, program_);
     description_ = std::move(loaded.description);
     settings_ = loaded.files.fingerprint();
     for (const auto& [name, value] : loaded.parameters) settings_.add(name), settings_.add(value);
     seconds_.parse = watch_.lap();
-    if (log::level() == log::Level::verbose)
-      log::detail("{}: {}", file_, describe(scene_features(description_)));
+    if (log_.level() == Log::Level::verbose)
+      log_.detail("{}: {}", file_, describe(scene_features(description_)));
   }
 
   /// Everything that can be wrong with the command line for this scene shows here.
@@ -95,7 +99,7 @@ class SceneRenderer {
     Diagnostics diagnostics;
     check_support(description_, description_.integrator, diagnostics);
     check_support(sensor, description_.integrator, diagnostics);
-    report(diagnostics, options_.read.strict);
+    report(diagnostics, options_.read.strict, log_);
     if (const std::string bias = integrator_->bias(); !bias.empty()) warn(bias);
     record_.bias = integrator_->bias();
     view_ = sensor;
@@ -105,10 +109,10 @@ class SceneRenderer {
     make_request(sensor.sampler);
     planned_spp_ = request_.budget.spp.value_or(sensor.sampler.sample_count);
 
-    record_.command_line = command_line;
+    record_.command_line = program_.command_line;
     record_.scene_file = file_;
     Fingerprint scene;
-    file_ == kStandardInput ? scene.add(standard_input()) : scene.add_file(file_);
+    file_ == kStandardInput ? scene.add(program_.standard_input) : scene.add_file(file_);
     record_.scene_hash = scene.text();
     record_.integrator = integrator_name(description_.integrator);
     record_.integrator_parameters = integrator_parameters(description_.integrator);
@@ -120,7 +124,7 @@ class SceneRenderer {
     OutputNames names = output_names(file_);
     names.integrator = record_.integrator;
     names.seed = fmt::to_string(record_.seed);
-    images_.emplace(options_, file_, names, settings_, planned_spp_);
+    images_.emplace(options_, file_, names, settings_, planned_spp_, log_);
   }
 
   /// All that decides the image besides the files and the parameters of the scene.
@@ -160,7 +164,7 @@ class SceneRenderer {
   /// A warning that --strict makes an error.
   void warn(const std::string& text) const {
     if (options_.read.strict) throw SceneFailure(text + " (an error because of --strict)");
-    log::warning("{}: {}", file_, text);
+    log_.warning("{}: {}", file_, text);
   }
 
   /// Finds out before rendering what would be a pity to find out afterwards.
@@ -188,9 +192,9 @@ class SceneRenderer {
     build.layer_needs = integrator_needs(description_.integrator);
     Diagnostics diagnostics;
     scene_ = build_scene(std::move(description_), build, diagnostics);
-    report(diagnostics, options_.read.strict);
+    report(diagnostics, options_.read.strict, log_);
     seconds_.build = watch_.lap();
-    log::detail("{}: read in {:.2f} s, built in {:.2f} s", file_, seconds_.parse, seconds_.build);
+    log_.detail("{}: read in {:.2f} s, built in {:.2f} s", file_, seconds_.parse, seconds_.build);
   }
 
   /// Lets a method that chooses another one do so.
@@ -199,8 +203,9 @@ class SceneRenderer {
     const MethodDecision* decision = integrator_->decision();
     if (!decision) return;
     record_.decision = *decision;
+    for (const std::string& line : decision->candidates) log_.write(Log::Level::verbose, line);
     record_.bias = integrator_->bias();
-    log::info("{}: auto chose {}", file_, decision->reason);
+    log_.info("{}: auto chose {}", file_, decision->reason);
   }
 
   /// Refuses an image for which there is no room before it takes what there is.
@@ -209,7 +214,7 @@ class SceneRenderer {
         estimate_memory(*integrator_, layout_, request_.budget,
                         view_.film.component_format == ComponentFormat::half);
     const MemoryLimit limit = memory_limit();
-    log::detail("{}: {}; the limit is {} ({})", file_, describe(estimate), memory_text(limit.bytes),
+    log_.detail("{}: {}; the limit is {} ({})", file_, describe(estimate), memory_text(limit.bytes),
                 limit.source);
     const std::string why = memory_refusal(estimate, memory_in_use(), limit);
     if (!why.empty()) throw SceneFailure(why);
@@ -217,7 +222,7 @@ class SceneRenderer {
 
   RenderResult render_with_progress() {
     ProgressDisplay display(options_.progress,
-                            batch_.is_several() ? output_names(file_).scene : file_, batch_);
+                            batch_.is_several() ? output_names(file_).scene : file_, batch_, log_);
     request_.progress = [&](const RenderProgress& p) { display.show(p); };
     // Standard output takes one image: the last.
     if (!has_standard_output()) request_.wants_snapshot = take_snapshot_request;
@@ -236,9 +241,9 @@ class SceneRenderer {
     so_far.interrupted = true;
     try {
       for (const std::string& path : write(so_far))
-        log::info("{}: {} spp so far -> {}", file_, so_far.spp, path);
+        log_.info("{}: {} spp so far -> {}", file_, so_far.spp, path);
     } catch (const std::exception& e) {
-      log::warning("{}: {}", file_, e.what());
+      log_.warning("{}: {}", file_, e.what());
     }
   }
 
@@ -251,7 +256,7 @@ class SceneRenderer {
 
   /// After an interrupt that came before every pixel had a sample: no file is replaced.
   RenderOutcome give_up() {
-    log::warning("{}: interrupted before every pixel had a sample; no image is written", file_);
+    log_.warning("{}: interrupted before every pixel had a sample; no image is written", file_);
     statistics_.add_failure(file_, {"interrupted before every pixel had a sample"}, true);
     return RenderOutcome::not_rendered;
   }
@@ -259,7 +264,7 @@ class SceneRenderer {
   void summarize(const RenderResult& r, const std::vector<std::string>& written) const {
     std::string text = batch_.label() + file_ + ": " + describe(record_, r);
     for (const std::string& p : written) text += " -> " + p;
-    log::info("{}", text);
+    log_.info("{}", text);
     if (r.counters.nonfinite_samples > 0)
       warn(fmt::format("{} of {} samples were not finite and count as black",
                        r.counters.nonfinite_samples, r.counters.camera_paths));
@@ -269,7 +274,7 @@ class SceneRenderer {
   RenderOutcome target_outcome(const RenderResult& r) const {
     const std::string missed = target_miss(record_, r);
     if (missed.empty()) return RenderOutcome::rendered;
-    log::warning("{}: {}", file_, missed);
+    log_.warning("{}: {}", file_, missed);
     return RenderOutcome::target_missed;
   }
 
@@ -277,6 +282,8 @@ class SceneRenderer {
   const RenderOptions& options_;
   const Batch& batch_;
   StatisticsFile& statistics_;
+  Program& program_;
+  Log& log_;
   Stopwatch watch_;
   PhaseSeconds seconds_;
   SceneDescription description_;
@@ -294,8 +301,8 @@ class SceneRenderer {
 }  // namespace
 
 RenderOutcome render_scene(const std::string& file, const RenderOptions& options,
-                           const Batch& batch, StatisticsFile& statistics) {
-  return SceneRenderer(file, options, batch, statistics).run();
+                           const RenderCall& call) {
+  return SceneRenderer(file, options, call).run();
 }
 
 }  // namespace duet

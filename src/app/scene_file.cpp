@@ -6,21 +6,21 @@
 
 #include "app/arguments.h"
 #include "app/commands.h"
+#include "app/program.h"
 #include "app/scene_operand.h"
-#include "base/log.h"
 #include "mitsuba/scene_files.h"
 
 namespace duet {
 
 namespace {
 
-MitsubaOptions mitsuba_options(const ReadOptions& options) {
+MitsubaOptions mitsuba_options(const ReadOptions& options, const Program& program) {
   MitsubaOptions mitsuba;
   mitsuba.search_paths = options.search_paths;
   for (const std::string& define : options.defines)
     mitsuba.defines.push_back(parse_assignment("-D", define));
-  mitsuba.files.read = [on_disk = with_disk({}).read](const std::string& path) {
-    return path == kStandardInput ? standard_input() : on_disk(path);
+  mitsuba.files.read = [&program, on_disk = with_disk({}).read](const std::string& path) {
+    return path == kStandardInput ? program.standard_input : on_disk(path);
   };
   mitsuba.replacing_methods = options.methods;
   return mitsuba;
@@ -52,9 +52,9 @@ void add_read_options(CLI::App& c, ReadOptions& o) {
   c.option_defaults()->group("Options");
 }
 
-void check_defines(const ReadOptions& options) {
+void check_defines(const ReadOptions& options, const Program& program) {
   if (options.defines.empty()) return;
-  MitsubaOptions mitsuba = mitsuba_options(options);
+  MitsubaOptions mitsuba = mitsuba_options(options, program);
   // Meshes have no parameters, and reading them twice would take long.
   mitsuba.files.read_mesh = some_mesh;
   mitsuba.files.read_obj_parts = [](const std::string& file, const MeshOptions& o) {
@@ -78,12 +78,12 @@ void check_defines(const ReadOptions& options) {
   }
 }
 
-void report(const Diagnostics& diagnostics, bool strict) {
-  const bool verbose = log::level() == log::Level::verbose;
+void report(const Diagnostics& diagnostics, bool strict, Log& log) {
+  const bool verbose = log.level() == Log::Level::verbose;
   for (const Diagnostic& d : verbose ? diagnostics.all() : diagnostics.summary())
-    log::write(log::Level::quiet, d.to_string());
+    log.write(Log::Level::quiet, d.to_string());
   if (!diagnostics.has_errors() && !(strict && !diagnostics.all().empty())) return;
-  if (!diagnostics.has_errors()) log::error("warnings are errors because of --strict");
+  if (!diagnostics.has_errors()) log.error("warnings are errors because of --strict");
   const auto first =
       std::find_if(diagnostics.all().begin(), diagnostics.all().end(), [&](const Diagnostic& d) {
         return d.severity == Severity::error || !diagnostics.has_errors();
@@ -91,17 +91,17 @@ void report(const Diagnostics& diagnostics, bool strict) {
   throw SceneFailure(fmt::format("{}: {}", first->where.to_string(), first->message), true);
 }
 
-LoadedScene load_scene(const std::string& file, const ReadOptions& options) {
-  if (const std::string why = no_scene_reason(file); !why.empty()) {
-    log::error("cannot read {}: {}", file, why);
+LoadedScene load_scene(const std::string& file, const ReadOptions& options, Program& program) {
+  if (const std::string why = no_scene_reason(file, program.standard_input); !why.empty()) {
+    program.log.error("cannot read {}: {}", file, why);
     throw SceneFailure(why, true);
   }
   Diagnostics diagnostics;
   InputFiles files;
-  MitsubaOptions mitsuba = mitsuba_options(options);
+  MitsubaOptions mitsuba = mitsuba_options(options, program);
   mitsuba.files = files.watch(std::move(mitsuba.files));
   auto scene = read_mitsuba(file, mitsuba, diagnostics);
-  report(diagnostics, options.strict);
+  report(diagnostics, options.strict, program.log);
   return {std::move(scene.value().description), std::move(scene->version),
           std::move(scene->parameters), std::move(files), diagnostics.all()};
 }

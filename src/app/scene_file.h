@@ -13,6 +13,9 @@ class App;
 
 namespace duet {
 
+class Log;
+struct Program;
+
 /// What the command line says about reading scenes.
 struct ReadOptions {
   std::vector<std::string> scenes;   ///< files, or kStandardInput
@@ -28,7 +31,7 @@ void add_read_options(CLI::App& command, ReadOptions& options);
 
 /// Throws UsageError for defines that are not NAME=VALUE or that no scene has a use for. Scenes
 /// that cannot be read may have a use for any.
-void check_defines(const ReadOptions& options);
+void check_defines(const ReadOptions& options, const Program& program);
 
 /// The scene cannot be used as asked.
 class SceneFailure : public std::runtime_error {
@@ -43,9 +46,9 @@ class SceneFailure : public std::runtime_error {
 };
 
 /// Prints the messages. Throws SceneFailure if there is an error among them or, if strict, any.
-void report(const Diagnostics& diagnostics, bool strict);
+void report(const Diagnostics& diagnostics, bool strict, Log& log);
 
 /// Reads one scene file and prints what is wrong with it. Throws SceneFailure if it cannot be used.
-LoadedScene load_scene(const std::string& file, const ReadOptions& options);
+LoadedScene load_scene(const std::string& file, const ReadOptions& options, Program& program);
 
 }  // namespace duet

@@ -5,19 +5,20 @@
 #include <stdexcept>
 
 #include "app/standard_output.h"
-#include "base/log.h"
 #include "evaluate/report/partial_image.h"
 #include "evaluate/report/provenance.h"
 
 namespace duet {
 
 SceneImages::SceneImages(const RenderOptions& options, const std::string& scene,
-                         const OutputNames& names, const Fingerprint& settings, int planned_spp)
+                         const OutputNames& names, const Fingerprint& settings, int planned_spp,
+                         Log& log)
     : options_(options),
       scene_(host_free(scene)),
       names_(names),
       settings_(settings),
-      planned_spp_(planned_spp) {}
+      planned_spp_(planned_spp),
+      log_(log) {}
 
 std::vector<std::string> SceneImages::paths(int spp) const {
   OutputNames names = names_;
@@ -52,7 +53,7 @@ bool SceneImages::are_finished() const {
     if (!std::filesystem::exists(path, ignored)) {
       finished = false;
     } else if (const std::string why = unfinished_reason(path, settings_hash(path)); !why.empty()) {
-      log::info("{} is rendered again: {}", path, why);
+      log_.info("{} is rendered again: {}", path, why);
       finished = false;
     }
   }

@@ -7,6 +7,7 @@
 
 #include "app/output.h"
 #include "app/render_options.h"
+#include "base/log.h"
 #include "evaluate/report/fingerprint.h"
 #include "evaluate/report/header.h"
 
@@ -26,7 +27,7 @@ class SceneImages {
   /// `settings` is the fingerprint of everything that decides the colours of the image;
   /// `planned_spp` are the samples it is to get, as far as that is known.
   SceneImages(const RenderOptions& options, const std::string& scene, const OutputNames& names,
-              const Fingerprint& settings, int planned_spp);
+              const Fingerprint& settings, int planned_spp, Log& log);
 
   /// The files of a finished image with this many samples.
   std::vector<std::string> paths(int spp) const;
@@ -52,6 +53,7 @@ class SceneImages {
   OutputNames names_;
   Fingerprint settings_;
   int planned_spp_;
+  Log& log_;
   std::vector<std::string> partial_;  ///< those that this run has written
 };
 

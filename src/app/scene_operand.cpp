@@ -25,8 +25,6 @@ constexpr size_t kLargestText = size_t(256) << 20;
 /// Of a folder's files, for messages.
 constexpr size_t kMostNames = 10000, kMostShown = 5;
 
-std::string standard_input_text;
-
 bool is_folder(const std::string& path) {
   std::error_code ignored;
   return fs::is_directory(path, ignored);
@@ -78,8 +76,8 @@ std::string scene_file_of(const std::string& operand) {
   return (fs::path(operand) / (usual ? "scene.xml" : names[0])).lexically_normal().string();
 }
 
-std::string no_scene_reason(const std::string& file) {
-  if (file == kStandardInput) return standard_input_text.empty() ? "it is empty" : "";
+std::string no_scene_reason(const std::string& file, const std::string& standard_input) {
+  if (file == kStandardInput) return standard_input.empty() ? "it is empty" : "";
   if (is_folder(file)) return no_scene_in_folder(file);
   const std::string why = unreadable_reason(file);
   std::error_code error;
@@ -87,26 +85,23 @@ std::string no_scene_reason(const std::string& file) {
   return fs::file_size(file, error) == 0 && !error ? "it is empty" : "";
 }
 
-void read_standard_input(const std::vector<std::string>& scene_files) {
+std::string read_standard_input(const std::vector<std::string>& scene_files) {
   const auto count = std::count(scene_files.begin(), scene_files.end(), kStandardInput);
   if (count > 1) throw UsageError("-: standard input holds one scene");
-  if (count == 0) return;
-  standard_input_text.clear();
+  std::string text;
+  if (count == 0) return text;
   char block[1 << 16];
   while (const ssize_t n = read(STDIN_FILENO, block, sizeof block)) {
     if (n < 0 && errno == EINTR) continue;
     if (n < 0)
       throw std::runtime_error(
           fmt::format("cannot read {}: {}", kStandardInput, std::strerror(errno)));
-    standard_input_text.append(block, size_t(n));
-    if (standard_input_text.size() > kLargestText)
+    text.append(block, size_t(n));
+    if (text.size() > kLargestText)
       throw std::runtime_error(fmt::format("cannot read {}: it is larger than {} MB",
                                            kStandardInput, kLargestText >> 20));
   }
-}
-
-const std::string& standard_input() {
-  return standard_input_text;
+  return text;
 }
 
 }  // namespace duet

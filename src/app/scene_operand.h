@@ -14,13 +14,11 @@ inline const std::string kStandardInput = "<stdin>";
 std::string scene_file_of(const std::string& operand);
 
 /// Why there is no scene in that file, with what might have been meant: empty if it can be read.
-std::string no_scene_reason(const std::string& file);
+/// `standard_input` is what was read from there.
+std::string no_scene_reason(const std::string& file, const std::string& standard_input);
 
-/// Reads standard input to its end if a scene comes from there. Throws UsageError if two do, and
+/// Standard input to its end if a scene comes from there, or "". Throws UsageError if two do, and
 /// std::runtime_error if that fails.
-void read_standard_input(const std::vector<std::string>& scene_files);
-
-/// What read_standard_input has read.
-const std::string& standard_input();
+std::string read_standard_input(const std::vector<std::string>& scene_files);
 
 }  // namespace duet

@@ -1,5 +1,8 @@
 // Signals: the first that asks to stop gets the image as it is, the second ends the program at
 // once; SIGUSR1 gets the image as it is and goes on.
+//
+// A handler gets nothing but the number of its signal, so what it sets is global: the only state of
+// the program that is.
 #pragma once
 
 #include <atomic>

@@ -9,11 +9,10 @@
 #include "app/arguments.h"
 #include "app/commands.h"
 #include "app/output.h"
+#include "app/program.h"
 #include "app/signals.h"
 #include "base/atomic_file.h"
 #include "base/diagnostics.h"
-#include "base/log.h"
-#include "base/parallel.h"
 #include "evaluate/stability/table.h"
 
 namespace duet {
@@ -104,7 +103,7 @@ std::string whole_command(const StabilityOptions& o) {
                      o.folder.empty() ? "" : " --catalogue " + o.folder, o.markdown);
 }
 
-int run_stability(const StabilityOptions& o) {
+int run_stability(const StabilityOptions& o, Program& program) {
   const Catalogue catalogue = read_catalogue(catalogue_folder(o.folder));
   const std::vector<const Row*> rows = select_rows(catalogue, o);
   const std::vector<std::string> methods = select_methods(o.methods);
@@ -117,8 +116,8 @@ int run_stability(const StabilityOptions& o) {
     return kSuccess;
   }
   const int threads =
-      o.threads.empty() ? hardware_threads() : int(parse_whole("--threads", o.threads, 1, 4096));
-  if (o.quiet) log::set_level(log::Level::quiet);
+      o.threads.empty() ? program.threads() : int(parse_whole("--threads", o.threads, 1, 4096));
+  if (o.quiet) program.log.set_level(Log::Level::quiet);
   install_signal_handlers();
   std::vector<RowResult> results;
   double seconds = 0;
@@ -129,7 +128,7 @@ int run_stability(const StabilityOptions& o) {
         fmt::print("{:>3} {:22} planned: {}\n", row->number, row->name, row->planned);
         continue;
       }
-      log::info("[{}/{}] {}: {}", results.size(), rows.size(), row->name, row->title);
+      program.log.info("[{}/{}] {}: {}", results.size(), rows.size(), row->name, row->title);
       Laboratory laboratory(threads, [] { return interrupt_exit_code() != 0; });
       for (const std::string& method : methods) {
         result.cells.push_back(
@@ -140,7 +139,7 @@ int run_stability(const StabilityOptions& o) {
       }
     }
   } catch (const Laboratory::Cancelled&) {
-    log::warning("interrupted: the table is not complete, and no file is written");
+    program.log.warning("interrupted: the table is not complete, and no file is written");
     return interrupt_exit_code();
   }
   if (!o.markdown.empty())
@@ -154,13 +153,13 @@ int run_stability(const StabilityOptions& o) {
   if (o.fast)
     fmt::print("the bounds of what is noticed are {:g} times as coarse as in the whole run\n",
                kFastFactor);
-  log::info("measured in {:.0f} s", seconds);
+  program.log.info("measured in {:.0f} s", seconds);
   return unexpected + unresolved == 0 ? kSuccess : kSceneFailed;
 }
 
 }  // namespace
 
-void add_stability_command(CLI::App& app, int& exit_code) {
+void add_stability_command(CLI::App& app, Program& program) {
   CLI::App* c = app.add_subcommand(
       "stability", "Run every method on the scenes where methods fail, and judge what comes out");
   const auto o = std::make_shared<StabilityOptions>();
@@ -188,7 +187,7 @@ void add_stability_command(CLI::App& app, int& exit_code) {
       "  duet stability --fast\n"
       "  duet stability point-light-mirror 27 --methods bdpt,vcm\n"
       "  duet stability --markdown docs/stability.md --json stability.json");
-  c->callback([o, &exit_code] { exit_code = run_stability(*o); });
+  c->callback([o, &program] { program.exit_code = run_stability(*o, program); });
 }
 
 }  // namespace duet

@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
-#include <atomic>
 #include <cerrno>
 #include <cstring>
 #include <filesystem>
@@ -15,6 +14,9 @@ namespace duet {
 namespace fs = std::filesystem;
 
 namespace {
+
+/// Names for a temporary file that are tried.
+constexpr unsigned kMostNames = 10000;
 
 /// Writes all bytes; returns an errno, or 0.
 int write_all(int file, std::span<const uint8_t> bytes) {
@@ -30,7 +32,6 @@ int write_all(int file, std::span<const uint8_t> bytes) {
 }  // namespace
 
 void write_file_atomically(const std::string& path, std::span<const uint8_t> bytes) {
-  static std::atomic<unsigned> counter = 0;
   const auto fail = [&](const std::string& reason) {
     throw std::runtime_error(fmt::format("{} cannot be written: {}", path, reason));
   };
@@ -43,9 +44,14 @@ void write_file_atomically(const std::string& path, std::span<const uint8_t> byt
     target = fs::canonical(target, error);
     if (error) fail(error.message());
   }
-  const std::string temporary = fmt::format("{}.{}-{}.tmp", target.string(), getpid(), counter++);
-  const int file = ::open(temporary.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
-  if (file < 0) fail(std::strerror(errno));
+  // Other threads, and processes of other machines, may write the same file now.
+  std::string temporary;
+  int file = -1;
+  for (unsigned number = 0; file < 0; ++number) {
+    temporary = fmt::format("{}.{}-{}.tmp", target.string(), getpid(), number);
+    file = ::open(temporary.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+    if (file < 0 && (errno != EEXIST || number >= kMostNames)) fail(std::strerror(errno));
+  }
   int result = write_all(file, bytes);
   // Some file systems report a full disk only here.
   if (::close(file) != 0 && result == 0) result = errno;

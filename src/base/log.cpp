@@ -12,27 +12,13 @@
 #include <optional>
 #include <stdexcept>
 
-namespace duet::log {
+namespace duet {
 
 namespace {
 
 struct CloseFile {
   void operator()(std::FILE* f) const { std::fclose(f); }
 };
-
-struct State {
-  std::atomic<Level> level{Level::normal};
-  std::atomic<void (*)()> before_write{nullptr};
-  std::mutex mutex;  ///< of all below
-  std::unique_ptr<std::FILE, CloseFile> file;
-  std::string path;
-  std::optional<std::vector<std::string>> recording;
-};
-
-State& state() {
-  static State s;
-  return s;
-}
 
 /// Whether the whole line arrived where it should.
 bool put(std::FILE* file, std::string_view text) {
@@ -49,7 +35,22 @@ std::string with_time(std::string_view line) {
   return fmt::format("{:%Y-%m-%d %H:%M:%S}.{:03} {}\n", local, milliseconds.count(), line);
 }
 
-void write_to_file(State& s, std::string_view line) {
+}  // namespace
+
+struct Log::State {
+  std::atomic<Level> level{Level::normal};
+  std::mutex mutex;  ///< of all below
+  std::function<void()> before_write;
+  std::unique_ptr<std::FILE, CloseFile> file;
+  std::string path;
+  std::optional<std::vector<std::string>> recording;
+};
+
+Log::Log() : state_(std::make_unique<State>()) {}
+Log::~Log() = default;
+
+void Log::write_to_file(std::string_view line) {
+  State& s = *state_;
   if (put(s.file.get(), with_time(line))) return;
   const std::string reason = std::strerror(errno);
   s.file.reset();
@@ -57,54 +58,53 @@ void write_to_file(State& s, std::string_view line) {
                           s.path, reason));
 }
 
-}  // namespace
+void Log::set_level(Level level) {
+  state_->level = level;
+}
+Log::Level Log::level() const {
+  return state_->level;
+}
+void Log::set_before_write(std::function<void()> hook) {
+  const std::scoped_lock lock(state_->mutex);
+  state_->before_write = std::move(hook);
+}
 
-void set_level(Level level) {
-  state().level = level;
-}
-Level level() {
-  return state().level;
-}
-void set_before_write(void (*hook)()) {
-  state().before_write = hook;
-}
-
-void open_file(const std::string& path) {
-  State& s = state();
+void Log::open_file(const std::string& path) {
+  State& s = *state_;
   const std::scoped_lock lock(s.mutex);
   s.file.reset(std::fopen(path.c_str(), "we"));
   s.path = path;
   if (!s.file) throw std::runtime_error(path + ": " + std::strerror(errno));
 }
 
-void write(Level needed, std::string_view line) noexcept {
+void Log::write(Level needed, std::string_view line) noexcept {
   try {
-    State& s = state();
+    State& s = *state_;
     const std::scoped_lock lock(s.mutex);
     if (needed <= s.level) {
-      if (const auto hook = s.before_write.load()) hook();
+      if (s.before_write) s.before_write();
       put(stderr, std::string(line) + '\n');
     }
     if (s.recording && needed == Level::quiet) s.recording->emplace_back(line);
-    if (s.file) write_to_file(s, line);
+    if (s.file) write_to_file(line);
   } catch (const std::exception&) {
     // There is no memory for the message.
   }
 }
 
-Recording::Recording() {
-  const std::scoped_lock lock(state().mutex);
-  state().recording.emplace();
+Log::Recording::Recording(Log& log) : log_(log) {
+  const std::scoped_lock lock(log_.state_->mutex);
+  log_.state_->recording.emplace();
 }
 
-Recording::~Recording() {
-  const std::scoped_lock lock(state().mutex);
-  state().recording.reset();
+Log::Recording::~Recording() {
+  const std::scoped_lock lock(log_.state_->mutex);
+  log_.state_->recording.reset();
 }
 
-std::vector<std::string> Recording::lines() const {
-  const std::scoped_lock lock(state().mutex);
-  return *state().recording;
+std::vector<std::string> Log::Recording::lines() const {
+  const std::scoped_lock lock(log_.state_->mutex);
+  return *log_.state_->recording;
 }
 
-}  // namespace duet::log
+}  // namespace duet

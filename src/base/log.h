@@ -3,53 +3,72 @@
 
 #include <fmt/format.h>
 
+#include <functional>
+#include <memory>
 #include <string>
 #include <string_view>
 #include <vector>
 
-namespace duet::log {
+namespace duet {
 
-enum class Level { quiet, normal, verbose };
-
-void set_level(Level level);
-Level level();
-/// Messages of every level also go to this file. Throws std::runtime_error if it cannot be opened.
-/// If it cannot be written later on (the disk is full), a warning says so once and the program goes
-/// on without it.
-void open_file(const std::string& path);
-
-/// Writes a line as it is. Errors and warnings are shown at every level. Never throws: a message
-/// that cannot be written is no reason to stop.
-void write(Level needed, std::string_view line) noexcept;
-
-template <class... Args>
-void error(fmt::format_string<Args...> text, Args&&... args) {
-  write(Level::quiet, "duet: error: " + fmt::format(text, std::forward<Args>(args)...));
-}
-template <class... Args>
-void warning(fmt::format_string<Args...> text, Args&&... args) {
-  write(Level::quiet, "duet: warning: " + fmt::format(text, std::forward<Args>(args)...));
-}
-template <class... Args>
-void info(fmt::format_string<Args...> text, Args&&... args) {
-  write(Level::normal, fmt::format(text, std::forward<Args>(args)...));
-}
-template <class... Args>
-void detail(fmt::format_string<Args...> text, Args&&... args) {
-  write(Level::verbose, fmt::format(text, std::forward<Args>(args)...));
-}
-
-/// Keeps the errors and warnings that are written while it exists. One at a time.
-class Recording {
+class Log {
  public:
-  Recording();
-  ~Recording();
-  Recording(const Recording&) = delete;
-  Recording& operator=(const Recording&) = delete;
-  std::vector<std::string> lines() const;
+  enum class Level { quiet, normal, verbose };
+
+  Log();
+  ~Log();
+  Log(const Log&) = delete;
+  Log& operator=(const Log&) = delete;
+
+  void set_level(Level level);
+  Level level() const;
+  /// Messages of every level also go to this file. Throws std::runtime_error if it cannot be
+  /// opened. If it cannot be written later on (the disk is full), a warning says so once and the
+  /// program goes on without it.
+  void open_file(const std::string& path);
+
+  /// Writes a line as it is. Errors and warnings are shown at every level. Never throws: a message
+  /// that cannot be written is no reason to stop.
+  void write(Level needed, std::string_view line) noexcept;
+
+  template <class... Args>
+  void error(fmt::format_string<Args...> text, Args&&... args) {
+    write(Level::quiet, "duet: error: " + fmt::format(text, std::forward<Args>(args)...));
+  }
+  template <class... Args>
+  void warning(fmt::format_string<Args...> text, Args&&... args) {
+    write(Level::quiet, "duet: warning: " + fmt::format(text, std::forward<Args>(args)...));
+  }
+  template <class... Args>
+  void info(fmt::format_string<Args...> text, Args&&... args) {
+    write(Level::normal, fmt::format(text, std::forward<Args>(args)...));
+  }
+  template <class... Args>
+  void detail(fmt::format_string<Args...> text, Args&&... args) {
+    write(Level::verbose, fmt::format(text, std::forward<Args>(args)...));
+  }
+
+  /// Keeps the errors and warnings that are written while it exists. One at a time.
+  class Recording {
+   public:
+    explicit Recording(Log& log);
+    ~Recording();
+    Recording(const Recording&) = delete;
+    Recording& operator=(const Recording&) = delete;
+    std::vector<std::string> lines() const;
+
+   private:
+    Log& log_;
+  };
+
+  /// Called when something is about to be written to standard error: whoever draws a progress bar
+  /// there removes it first. Null for nothing.
+  void set_before_write(std::function<void()> hook);
+
+ private:
+  struct State;
+  void write_to_file(std::string_view line);
+  std::unique_ptr<State> state_;
 };
 
-/// Something is about to be written; whoever draws a progress bar removes it first.
-void set_before_write(void (*hook)());
-
-}  // namespace duet::log
+}  // namespace duet

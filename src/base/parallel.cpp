@@ -64,17 +64,18 @@ int startable_threads(int threads) {
   return int(started.size()) + 1;
 }
 
-int hardware_threads() {
-  static const int threads = [] {
-    const int processors = std::max(1, tbb::this_task_arena::max_concurrency());
-    const int startable = startable_threads(processors);
-    // TBB ends the program if it cannot start a thread, which it may try at any time: whenever a
-    // limit, such as Embree's, goes away. This one stays to the end.
-    if (startable < processors) new tbb::global_control(kParallelism, size_t(startable));
-    return startable;
-  }();
-  return threads;
+struct HardwareThreads::Limit {
+  explicit Limit(int threads) : control(kParallelism, size_t(threads)) {}
+  tbb::global_control control;
+};
+
+HardwareThreads::HardwareThreads() {
+  const int processors = std::max(1, tbb::this_task_arena::max_concurrency());
+  count_ = startable_threads(processors);
+  // Such a limit holds when another one, such as Embree's, goes away.
+  if (count_ < processors) limit_ = std::make_unique<Limit>(count_);
 }
+HardwareThreads::~HardwareThreads() = default;
 
 void parallel_for(size_t count, int threads, const std::function<void(size_t)>& work) {
   // Without this TBB starts no more threads than the machine has processors. The least of all such

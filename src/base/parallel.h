@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <functional>
+#include <memory>
 
 namespace duet {
 
@@ -10,8 +11,23 @@ namespace duet {
 /// limit on processes or memory may be in the way. At least 1.
 int startable_threads(int threads);
 
-/// Number of threads the machine runs at once and lets this process have, at least 1.
-int hardware_threads();
+/// Finds out how many threads the machine runs at once and lets this process have, and keeps TBB to
+/// so many while it exists: TBB ends the program if it cannot start a thread, which it may try at
+/// any time. One for the whole of a program is enough.
+class HardwareThreads {
+ public:
+  HardwareThreads();
+  ~HardwareThreads();
+  HardwareThreads(const HardwareThreads&) = delete;
+  HardwareThreads& operator=(const HardwareThreads&) = delete;
+  /// At least 1.
+  int count() const { return count_; }
+
+ private:
+  struct Limit;
+  int count_;
+  std::unique_ptr<Limit> limit_;  ///< null if the machine's processors are the limit
+};
 
 /// Calls `work(i)` for every i in [0, count), each once, on up to `threads` threads; returns when
 /// all are done. Denormal numbers are flushed to zero in all of them. An exception thrown by `work`

@@ -67,8 +67,10 @@ int intersect_analytic(const Shape& shape, uint32_t part, const Ray& ray, double
       break;
     }
     case ShapeKind::sdf_grid:
-      return intersect_cell(*shape.sdf, shape.sdf->cells[part], {o.x, o.y, o.z}, {d.x, d.y, d.z},
-                            tnear, tfar, t[0]);
+      if (const auto s = intersect_cell(*shape.sdf, shape.sdf->cells[part], {o.x, o.y, o.z},
+                                        {d.x, d.y, d.z}, tnear, tfar))
+        t[n++] = *s;
+      break;
     case ShapeKind::mesh:
     case ShapeKind::curves:
       break;
@@ -216,44 +218,72 @@ double surface_area(const Shape& shape) {
   return sum / (kSteps * kSteps) * local_area(shape.kind);
 }
 
+namespace {
+
+/// A point of a signed distance field, near p.
+Surface make_sdf_surface(const Shape& shape, uint32_t primitive, const Local& p) {
+  const SdfPoint at = surface_point(*shape.sdf, shape.sdf->cells[primitive], {p.x, p.y, p.z});
+  Surface s;
+  s.shape = &shape;
+  s.primitive = primitive;
+  s.position = shape.to_world(at.position);
+  s.ng = world_normal(shape, at.geometric);
+  s.offset = rounding_offset(shape, s.position);
+  const Normal3f ns = world_normal(shape, at.shading);
+  if (dot(s.ng, ns) < 0) s.ng = -s.ng;
+  s.uv = {0, 0};
+  s.shading = Frame(ns);
+  s.dp_du = s.shading.s, s.dp_dv = s.shading.t;
+  return s;
+}
+
+/// A point near a unit shape back onto it, which removes the rounding error of its distance, and
+/// the normal there.
+Normal3f snap_to_shape(ShapeKind kind, Local& p) {
+  switch (kind) {
+    case ShapeKind::sphere: {
+      const double l = 1 / std::sqrt(p.x * p.x + p.y * p.y + p.z * p.z);
+      p.x *= l, p.y *= l, p.z *= l;
+      return {float(p.x), float(p.y), float(p.z)};
+    }
+    case ShapeKind::cylinder: {
+      const double l = 1 / std::sqrt(p.x * p.x + p.y * p.y);
+      p.x *= l, p.y *= l;
+      return {float(p.x), float(p.y), 0};
+    }
+    default:
+      p.z = 0;
+      return {0, 0, 1};
+  }
+}
+
+/// The derivatives of the position by u and v, on the unit shape.
+std::pair<Vector3f, Vector3f> derivatives(ShapeKind kind, const Point3f& p) {
+  const float r = std::sqrt(p.x * p.x + p.y * p.y);
+  const float cos_phi = r > 0 ? p.x / r : 1.0f, sin_phi = r > 0 ? p.y / r : 0.0f;
+  const Vector3f tangent(-2 * kPi * p.y, 2 * kPi * p.x, 0);
+  switch (kind) {
+    case ShapeKind::sphere:
+      return {tangent, Vector3f(p.z * cos_phi, p.z * sin_phi, -r) * kPi};
+    case ShapeKind::disk:
+      return {Vector3f(cos_phi, sin_phi, 0), r > 0 ? tangent : Vector3f(0, 1, 0)};
+    default:
+      return {tangent, Vector3f(0, 0, 1)};
+  }
+}
+
+}  // namespace
+
 Surface make_analytic_surface(const Shape& shape, const Ray& ray, const Hit& hit) {
   const Local o = to_local(shape.to_local, ray.origin);
   const Local d = to_local(shape.to_local, ray.direction);
-  double x = o.x + hit.t * d.x, y = o.y + hit.t * d.y, z = o.z + hit.t * d.z;
+  Local at{o.x + hit.t * d.x, o.y + hit.t * d.y, o.z + hit.t * d.z};
+  if (shape.kind == ShapeKind::sdf_grid) return make_sdf_surface(shape, hit.primitive, at);
   Surface s;
   s.shape = &shape;
   s.primitive = hit.primitive;
-  if (shape.kind == ShapeKind::sdf_grid) {
-    const SdfPoint p = surface_point(*shape.sdf, shape.sdf->cells[hit.primitive], {x, y, z});
-    s.position = shape.to_world(p.position);
-    s.ng = world_normal(shape, p.geometric);
-    s.offset = rounding_offset(shape, s.position);
-    const Normal3f ns = world_normal(shape, p.shading);
-    if (dot(s.ng, ns) < 0) s.ng = -s.ng;
-    s.uv = {0, 0};
-    s.shading = Frame(ns);
-    s.dp_du = s.shading.s, s.dp_dv = s.shading.t;
-    return s;
-  }
-  Normal3f n;
-  // Back onto the surface, to remove the rounding error of the distance.
-  switch (shape.kind) {
-    case ShapeKind::sphere: {
-      const double l = 1 / std::sqrt(x * x + y * y + z * z);
-      x *= l, y *= l, z *= l;
-      n = {float(x), float(y), float(z)};
-      break;
-    }
-    case ShapeKind::cylinder: {
-      const double l = 1 / std::sqrt(x * x + y * y);
-      x *= l, y *= l;
-      n = {float(x), float(y), 0};
-      break;
-    }
-    default:
-      z = 0, n = {0, 0, 1};
-  }
-  const Point3f p{float(x), float(y), float(z)};
+  const Normal3f n = snap_to_shape(shape.kind, at);
+  const Point3f p{float(at.x), float(at.y), float(at.z)};
   s.position = shape.to_world(p);
   s.ng = world_normal(shape, n);
   s.offset = rounding_offset(shape, s.position);
@@ -262,23 +292,7 @@ Surface make_analytic_surface(const Shape& shape, const Ray& ray, const Hit& hit
     return s;
   }
   s.uv = analytic_uv(shape.kind, p);
-  const float r = std::sqrt(p.x * p.x + p.y * p.y);
-  const float cos_phi = r > 0 ? p.x / r : 1.0f, sin_phi = r > 0 ? p.y / r : 0.0f;
-  const Vector3f tangent(-2 * kPi * p.y, 2 * kPi * p.x, 0);
-  Vector3f du, dv;
-  switch (shape.kind) {
-    case ShapeKind::sphere:
-      du = tangent;
-      dv = Vector3f(p.z * cos_phi, p.z * sin_phi, -r) * kPi;
-      break;
-    case ShapeKind::disk:
-      du = {cos_phi, sin_phi, 0};
-      dv = r > 0 ? tangent : Vector3f(0, 1, 0);
-      break;
-    default:
-      du = tangent;
-      dv = {0, 0, 1};
-  }
+  const auto [du, dv] = derivatives(shape.kind, p);
   s.dp_du = shape.to_world(du);
   s.dp_dv = shape.to_world(dv);
   s.shading = Frame::from_tangent(s.ng, s.dp_du);

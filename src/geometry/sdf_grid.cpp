@@ -105,8 +105,8 @@ void cell_bounds(const SdfGrid& grid, uint32_t cell, Point3f& lower, Point3f& up
   }
 }
 
-bool intersect_cell(const SdfGrid& grid, uint32_t cell, const Double3& o, const Double3& d,
-                    double tnear, double tfar, double& t) {
+std::optional<double> intersect_cell(const SdfGrid& grid, uint32_t cell, const Double3& o,
+                                     const Double3& d, double tnear, double tfar) {
   const Cell c = lower_corner(grid, cell);
   Double3 from, by;
   double begin = tnear, end = tfar;
@@ -114,13 +114,13 @@ bool intersect_cell(const SdfGrid& grid, uint32_t cell, const Double3& o, const 
     const double scale = grid.size[i] - 1;
     from[i] = o[i] * scale - c[i], by[i] = d[i] * scale;
     if (by[i] == 0) {
-      if (from[i] < 0 || from[i] > 1) return false;
+      if (from[i] < 0 || from[i] > 1) return std::nullopt;
       continue;
     }
     const double t0 = -from[i] / by[i], t1 = (1 - from[i]) / by[i];
     begin = std::max(begin, std::min(t0, t1)), end = std::min(end, std::max(t0, t1));
   }
-  if (!(begin < end)) return false;
+  if (!(begin < end)) return std::nullopt;
   const Trilinear f(grid, c);
   for (size_t i = 0; i < 3; ++i) from[i] += begin * by[i];
   const Cubic cubic = along(f, from, by);
@@ -139,10 +139,10 @@ bool intersect_cell(const SdfGrid& grid, uint32_t cell, const Double3& o, const 
   for (int i = 0; i < n; ++i) {
     const double fa = cubic(bounds[i]), fb = cubic(bounds[i + 1]);
     if (fa == 0 || (fa < 0) == (fb < 0)) continue;
-    t = begin + monotonic_root(cubic, bounds[i], bounds[i + 1], fa);
-    return t > tnear && t < tfar;
+    const double t = begin + monotonic_root(cubic, bounds[i], bounds[i + 1], fa);
+    return t > tnear && t < tfar ? std::optional(t) : std::nullopt;
   }
-  return false;
+  return std::nullopt;
 }
 
 namespace {

@@ -5,6 +5,7 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "math/vector.h"
@@ -32,10 +33,11 @@ std::vector<uint32_t> surface_cells(const SdfGrid& grid);
 /// Lower and upper corner of a cell in the unit cube.
 void cell_bounds(const SdfGrid& grid, uint32_t cell, Point3f& lower, Point3f& upper);
 
-/// The first point in (tnear, tfar) where the ray o + t d meets the surface within a cell. False if
+/// The first t in (tnear, tfar) at which the ray o + t d meets the surface within a cell; empty if
 /// there is none.
-bool intersect_cell(const SdfGrid& grid, uint32_t cell, const std::array<double, 3>& o,
-                    const std::array<double, 3>& d, double tnear, double tfar, double& t);
+std::optional<double> intersect_cell(const SdfGrid& grid, uint32_t cell,
+                                     const std::array<double, 3>& o, const std::array<double, 3>& d,
+                                     double tnear, double tfar);
 
 /// Where and how the surface is near a point within a cell: the point is moved onto it along the
 /// gradient. Normals have any length and point to where the distance grows.

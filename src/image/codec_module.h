@@ -10,7 +10,7 @@ extern "C" {
 #endif
 
 /// Changes whenever anything below does.
-#define DUET_CODEC_VERSION 1
+#define DUET_CODEC_VERSION 2
 #define DUET_CODEC_SYMBOL "duet_codecs"
 
 /// An image handed out by the module. `pixels` are uint8_t or float, rows from the top, channels
@@ -20,6 +20,12 @@ struct DuetDecodedImage {
   int is_float;    ///< the pixels are floats; otherwise bytes
   int is_integer;  ///< the file stores integers
   void* pixels;
+};
+
+/// An image for the module: bytes, rows from the top, channels interleaved.
+struct DuetPixels {
+  int width, height, channels;
+  const uint8_t* bytes;
 };
 
 /// Bytes handed out by the module, to be given back to `release`.
@@ -34,8 +40,8 @@ struct DuetCodecs {
   int version;
   int (*decode)(const char* kind, const uint8_t* bytes, size_t size, struct DuetDecodedImage* image,
                 char* error, size_t error_size);
-  int (*encode)(const char* kind, int width, int height, int channels, const uint8_t* pixels,
-                struct DuetEncodedImage* image, char* error, size_t error_size);
+  int (*encode)(const char* kind, const struct DuetPixels* pixels, struct DuetEncodedImage* image,
+                char* error, size_t error_size);
   void (*release)(void* memory);
 };
 

@@ -74,7 +74,8 @@ const DuetCodecs* load() {
 }
 
 const DuetCodecs& codecs() {
-  // Tried again if it failed.
+  // A library is loaded once for the whole process, and never changes then. Tried again if it
+  // failed.
   static const DuetCodecs* const loaded = load();
   return *loaded;
 }
@@ -117,8 +118,8 @@ std::vector<uint8_t> encode_with_module(const char* kind, int width, int height,
                                         const std::vector<uint8_t>& pixels) {
   DuetEncodedImage encoded{};
   char error[1024] = "";
-  if (!codecs().encode(kind, width, height, channels, pixels.data(), &encoded, error,
-                       sizeof(error)))
+  const DuetPixels image{width, height, channels, pixels.data()};
+  if (!codecs().encode(kind, &image, &encoded, error, sizeof(error)))
     throw std::runtime_error(error);
   const std::unique_ptr<void, Release> memory(encoded.bytes);
   return {encoded.bytes, encoded.bytes + encoded.size};

@@ -23,27 +23,26 @@ size_t trimmed_count(size_t pixels) {
   return std::max<size_t>(1, size_t(double(pixels) * (1 - kOutlierShare)));
 }
 
-ImageMetrics compare_images(const Image& image, const Image& reference,
-                            const std::optional<NoiseModel>& noise) {
-  if (image.width != reference.width || image.height != reference.height)
-    throw std::invalid_argument(fmt::format("the image is {}x{}, the reference {}x{}", image.width,
-                                            image.height, reference.width, reference.height));
-  const Colours a(image), b(reference);
-  std::optional<Colours> variance;
-  if (noise) {
-    if (noise->variance->width != image.width || noise->variance->height != image.height)
-      throw std::invalid_argument("the variance image has another size");
-    variance.emplace(*noise->variance);
-  }
-  const size_t pixels = size_t(image.width) * image.height;
-  ImageMetrics m;
-  std::vector<double> relative;  // per pixel: mean over the channels of the relative squared error
-  std::vector<double> luminances;  // of the image
-  relative.reserve(pixels);
-  luminances.reserve(pixels);
+namespace {
+
+/// Sums over the pixels whose values are finite in both images.
+struct PixelSums {
   double squares = 0, absolute = 0;
-  std::array<double, 3> sum_a{}, sum_b{}, sum_variance{};
-  for (size_t i = 0; i < pixels; ++i) {
+  std::array<double, 3> image{}, reference{}, variance{};
+  std::vector<double> relative;    ///< per pixel: relative squared error, mean over the channels
+  std::vector<double> luminances;  ///< of the image
+  double mean_reference() const {
+    return (reference[0] + reference[1] + reference[2]) / (3.0 * double(relative.size()));
+  }
+};
+
+/// Counts the pixels of the image that are not as they should be, and adds up the others.
+/// `variance` may be null.
+PixelSums sum_pixels(const Colours& a, const Colours& b, const Colours* variance, ImageMetrics& m) {
+  PixelSums sums;
+  sums.relative.reserve(a.pixels());
+  sums.luminances.reserve(a.pixels());
+  for (size_t i = 0; i < a.pixels(); ++i) {
     bool nan = false, infinite = false, negative = false, usable = true;
     for (int c = 0; c < 3; ++c) {
       nan |= std::isnan(a(i, c));
@@ -56,22 +55,20 @@ ImageMetrics compare_images(const Image& image, const Image& reference,
     double r = 0;
     for (int c = 0; c < 3; ++c) {
       const double d = a(i, c) - b(i, c);
-      squares += d * d;
-      absolute += std::abs(d);
+      sums.squares += d * d;
+      sums.absolute += std::abs(d);
       r += d * d / (b(i, c) * b(i, c) + 0.01) / 3;
-      sum_a[c] += a(i, c), sum_b[c] += b(i, c);
-      if (variance) sum_variance[c] += std::max(0.0, (*variance)(i, c));
+      sums.image[c] += a(i, c), sums.reference[c] += b(i, c);
+      if (variance) sums.variance[c] += std::max(0.0, (*variance)(i, c));
     }
-    relative.push_back(r);
-    luminances.push_back(a.luminance(i));
+    sums.relative.push_back(r);
+    sums.luminances.push_back(a.luminance(i));
   }
-  if (relative.empty()) return m;
-  const double values = 3.0 * double(relative.size());
-  const double mean_b = (sum_b[0] + sum_b[1] + sum_b[2]) / values;
-  m.rmse = std::sqrt(squares / values);
-  m.relative_rmse = m.rmse / mean_b;
-  m.mae = absolute / values;
-  for (int c = 0; c < 3; ++c) m.mean_ratio[c] = sum_a[c] / sum_b[c];
+  return sums;
+}
+
+/// The mean relative squared error with and without the worst pixels.
+void find_relative_error(std::vector<double> relative, ImageMetrics& m) {
   std::sort(relative.begin(), relative.end());
   const size_t kept = trimmed_count(relative.size());
   double kept_sum = 0, total_sum = 0;
@@ -80,37 +77,71 @@ ImageMetrics compare_images(const Image& image, const Image& reference,
   m.relmse = total_sum / double(relative.size());
   m.relmse_trimmed = kept_sum / double(kept);
   m.worst = total_sum > 0 ? 1 - kept_sum / total_sum : 0;
-  m.firefly = brightest_share(std::move(luminances));
-  if (!variance) return m;
+}
 
-  // The noise of both images, in units of the variance of one sample.
-  const double per_sample = 1 / noise->image_spp + 1 / noise->reference_spp;
+/// The difference of the means over its standard error, the worst channel; `per_sample` is the
+/// noise of both images in units of the variance of one sample.
+double bias_of(const PixelSums& sums, double systematic_error, double per_sample) {
   double bias = 0;
-  for (int c = 0; c < 3; ++c) {
-    const double systematic = noise->systematic * sum_b[c];
-    const double error = std::sqrt(sum_variance[c] * per_sample + systematic * systematic);
-    const double z = error > 0 ? (sum_a[c] - sum_b[c]) / error : 0;
+  for (size_t c = 0; c < 3; ++c) {
+    const double systematic = systematic_error * sums.reference[c];
+    const double error = std::sqrt(sums.variance[c] * per_sample + systematic * systematic);
+    const double z = error > 0 ? (sums.image[c] - sums.reference[c]) / error : 0;
     if (std::abs(z) > std::abs(bias)) bias = z;
   }
-  m.bias = bias;
-  // A pixel that happened to be equal in all samples has no variance; it is given that of an error
-  // of one percent of the mean.
-  const double floor = std::pow(0.01 * mean_b, 2);
-  const double level = 1 - std::pow(1 - 0.01, 1 / double(pixels));
+  return bias;
+}
+
+/// The differences of all values in standard errors. A pixel that happened to be equal in all
+/// samples has no variance; it is given `floor`.
+void find_z(const Colours& a, const Colours& b, const Colours& variance, double per_sample,
+            double floor, ImageMetrics& m) {
+  const double level = 1 - std::pow(1 - 0.01, 1 / double(a.pixels()));
   size_t good = 0, counted = 0;
   double z_squares = 0;
-  for (size_t i = 0; i < pixels; ++i)
+  for (size_t i = 0; i < a.pixels(); ++i)
     for (int c = 0; c < 3; ++c) {
       const double d = a(i, c) - b(i, c);
       if (!std::isfinite(b(i, c))) continue;
       ++counted;
       if (!std::isfinite(d)) continue;
-      const double z = std::abs(d) / std::sqrt(std::max((*variance)(i, c), floor) * per_sample);
+      const double z = std::abs(d) / std::sqrt(std::max(variance(i, c), floor) * per_sample);
       good += std::erfc(z / std::sqrt(2.0)) > level;
       z_squares += z * z;
     }
   m.z_share = double(good) / double(std::max<size_t>(1, counted));
   m.z_rms = std::sqrt(z_squares / double(std::max<size_t>(1, counted)));
+}
+
+}  // namespace
+
+ImageMetrics compare_images(const Image& image, const Image& reference,
+                            const std::optional<NoiseModel>& noise) {
+  if (image.width != reference.width || image.height != reference.height)
+    throw std::invalid_argument(fmt::format("the image is {}x{}, the reference {}x{}", image.width,
+                                            image.height, reference.width, reference.height));
+  const Colours a(image), b(reference);
+  std::optional<Colours> variance;
+  if (noise) {
+    if (noise->variance->width != image.width || noise->variance->height != image.height)
+      throw std::invalid_argument("the variance image has another size");
+    variance.emplace(*noise->variance);
+  }
+  ImageMetrics m;
+  PixelSums sums = sum_pixels(a, b, variance ? &*variance : nullptr, m);
+  if (sums.relative.empty()) return m;
+  const double values = 3.0 * double(sums.relative.size()), mean_b = sums.mean_reference();
+  m.rmse = std::sqrt(sums.squares / values);
+  m.relative_rmse = m.rmse / mean_b;
+  m.mae = sums.absolute / values;
+  for (size_t c = 0; c < 3; ++c) m.mean_ratio[c] = sums.image[c] / sums.reference[c];
+  find_relative_error(std::move(sums.relative), m);
+  m.firefly = brightest_share(std::move(sums.luminances));
+  if (!variance) return m;
+  const double per_sample = 1 / noise->image_spp + 1 / noise->reference_spp;
+  m.bias = bias_of(sums, noise->systematic, per_sample);
+  // An error of one percent of the mean.
+  find_z(a, b, *variance, per_sample, std::pow(0.01 * mean_b, 2), m);
   return m;
 }
 

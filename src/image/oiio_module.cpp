@@ -125,21 +125,22 @@ int decode(const char* kind, const uint8_t* bytes, size_t size, DuetDecodedImage
   });
 }
 
-int encode(const char* kind, int width, int height, int channels, const uint8_t* pixels,
-           DuetEncodedImage* image, char* error, size_t error_size) {
+int encode(const char* kind, const DuetPixels* pixels, DuetEncodedImage* image, char* error,
+           size_t error_size) {
   return guarded(error, error_size, [&] {
     std::vector<unsigned char> buffer;
     OIIO::Filesystem::IOVecOutput target(buffer);
     auto output = OIIO::ImageOutput::create(kind);
     if (!output || !output->set_ioproxy(&target)) fail(output);
-    OIIO::ImageSpec spec(width, height, channels, OIIO::TypeDesc::UINT8);
+    const int channels = pixels->channels;
+    OIIO::ImageSpec spec(pixels->width, pixels->height, channels, OIIO::TypeDesc::UINT8);
     spec.alpha_channel = channels == 2 || channels == 4 ? channels - 1 : -1;
     spec.attribute("oiio:UnassociatedAlpha", 1);
     spec.attribute("oiio:ColorSpace", "sRGB");
     spec.attribute("compression", std::string(kind) == "jpeg" ? "jpeg:95" : "zip");
     spec.attribute("jpeg:subsampling", "4:4:4");
     if (!output->open(std::string("memory.") + kind, spec) ||
-        !output->write_image(OIIO::TypeDesc::UINT8, pixels) || !output->close())
+        !output->write_image(OIIO::TypeDesc::UINT8, pixels->bytes) || !output->close())
       fail(output);
     auto bytes = allocate(buffer.size());
     std::memcpy(bytes.get(), buffer.data(), buffer.size());

@@ -21,7 +21,8 @@ void AutoIntegrator::choose(const Scene& scene, const RenderOutlook& outlook) {
   const MethodChoice choice = choose_method(scene, options_, outlook);
   description_.method = choice.method;
   chosen_ = make_integrator(description_);
-  decision_ = {integrator_name(description_), integrator_parameters(description_), choice.reason};
+  decision_ = {integrator_name(description_), integrator_parameters(description_), choice.reason,
+               choice.candidates};
   bias_ = choice.bias;
 }
 

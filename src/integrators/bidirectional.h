@@ -36,6 +36,8 @@ class BidirectionalIntegrator final : public CameraIntegrator {
  private:
   template <class Vertex>
   struct Eye;
+  template <class Vertex, class Weights>
+  class EyeWalk;
   using Method = BidirectionalMethod;
 
   void iteration(const Scene& scene, Film& film, const SampleRange& samples,

@@ -34,6 +34,12 @@ struct BidirectionalIntegrator::Eye {
   float photon_share = 1;             ///< for how many photons each of them stands
   VertexGrid::Neighborhood around{};  ///< where photons near the vertex under way are looked for
 
+  /// What the vertices of the walk are joined with.
+  template <class Weights>
+  JoinContext<Weights> joins(const Weights& weights, bool strict_normals) {
+    return {scene, weights, roulette, counters, strict_normals, &shadows};
+  }
+
   float draw() {
     random = mix64(random + 0x9e3779b97f4a7c15ull);
     return to_unit_float(uint32_t(random >> 32));
@@ -68,115 +74,171 @@ void BidirectionalIntegrator::add(Eye<Vertex>& eye, int s, int t, const Join& jo
     add_to_layer(eye.values, layer, raw_techniques_ ? join.value : join.value * join.weight);
 }
 
+/// The walk itself: from vertex to vertex, each of which is joined with what there is.
 template <class Vertex, class Weights>
-void BidirectionalIntegrator::walk(const Weights& weights, Trail* trail, Eye<Vertex>& eye) const {
-  const Scene& scene = eye.scene;
-  const Ray& camera_ray = eye.start.ray;
-  float& alpha = eye.values[3];
-  const WalkOptions options{options_.rr_depth, options_.strict_normals};
-  WalkOf<Vertex> walk = new_eye_walk<Vertex>(scene, ~eye.random);
-  walk.ray = options_.hide_emitters ? behind_emitters(scene, camera_ray, eye.counters) : camera_ray;
-  walk.from = walk.ray.origin;
-  walk.throughput = Spectrum(1);
-  walk.trail = trail;
-  int depth = 1;
-  bool straight = false;  // the last surface was passed as if it had not been there
-  uint32_t dimension = kFirstVertexDimension;
-  const auto arrive_at = [&](const Point3f& p, float d2, float cosine, float transmittance) {
-    const Partials partials =
-        depth == 1 ? first_eye_partials(scene, camera_ray, p, d2, cosine, set_, walk, transmittance)
-                   : arrive(walk.partials, d2 / transmittance, cosine, set_.walk_connections());
-    record_arrival(walk, d2 / transmittance, cosine);
-    return partials;
-  };
-  /// Joins a vertex and scatters; whether the walk goes on.
-  const auto pass = [&](const Vertex& v) {
-    eye.sampler.start_dimension(dimension);
-    if (v.is_smooth()) {
-      if (!Vertex::kMedia || depth < max_depth_) join(weights, v, samples_light(v, walk), eye);
-    } else {
-      eye.counters.connections.failed_specular += uint64_t(candidates(v, eye));
-    }
-    if constexpr (!Vertex::kMedia)
-      if (is_thesis_ && depth == windows_.eye) {
-        alpha = 1;
-        thesis_tail(v, walk, eye);
-        return false;
-      }
-    straight = false;
-    eye.sampler.start_dimension(dimension + kScatteringDimension);
-    dimension += kDimensionsPerVertex;
-    const bool goes_on =
-        (Vertex::kMedia || options_.method != Method::ptracer) &&
-        scatter<Transport::radiance>(v, set_, options, eye.sampler, walk, &straight);
-    if (!straight) alpha = 1;
-    if (Vertex::kMedia && straight) return goes_on;
-    ++depth;
-    return goes_on && (options_.method != Method::ppm || walk.unmerged) &&
-           (!Vertex::kMedia || (depth <= max_depth_ && options_.method != Method::ptracer));
-  };
-  for (;;) {
-    if (trail && depth == windows_.eye + 1 && !(Vertex::kMedia && straight) &&
-        !enter_tail(walk, eye))
-      return;
-    // Where merging or light tracing does the rest, only what is seen directly is left to be hit.
-    const bool hits = set_.light_samples || (set_.merges ? walk.unmerged : depth == 1);
-    Hit hit;
-    ++eye.counters.closest_rays;
-    const bool found = scene.accel->closest_hit(walk.ray, hit);
-    float transmittance = 1;
-    if constexpr (Vertex::kMedia) {
-      if (walk.medium) {
-        Ray segment = walk.ray;
-        if (found) segment.tmax = hit.t;
-        eye.sampler.start_dimension(dimension + kDistanceDimension);
-        const float t = walk.cross(segment, eye.sampler.next_1d(), eye.counters);
-        if (t < INFINITY) {
-          alpha = 1;
-          const Point3f p = walk.ray.origin + walk.ray.direction * t;
-          const float d2 = length_squared(p - walk.from);
-          const float extinction = walk.medium->nominal_extinction(p);
-          if (depth == max_depth_ || !(d2 > 0 && extinction > 0)) return;
-          ++eye.counters.path_vertices;
-          const Partials partials = arrive_at(p, d2, extinction, walk.counted_transmittance());
-          const Vertex v(*walk.medium, extinction, p, -walk.ray.direction, walk.throughput,
-                         partials, depth);
-          if (!pass(v)) return;
+class BidirectionalIntegrator::EyeWalk {
+ public:
+  /// `trail`, if not null, is filled.
+  EyeWalk(const BidirectionalIntegrator& method, const Weights& weights, Trail* trail,
+          Eye<Vertex>& eye)
+      : m_(method),
+        weights_(weights),
+        trail_(trail),
+        eye_(eye),
+        scene_(eye.scene),
+        options_{method.options_.rr_depth, method.options_.strict_normals},
+        walk_(new_eye_walk<Vertex>(eye.scene, ~eye.random)),
+        alpha_(eye.values[3]) {
+    const Ray& ray = eye.start.ray;
+    walk_.ray = hides_emitters() ? behind_emitters(scene_, ray, eye.counters) : ray;
+    walk_.from = walk_.ray.origin;
+    walk_.throughput = Spectrum(1);
+    walk_.trail = trail;
+  }
+
+  void trace() {
+    for (;;) {
+      if (trail_ && depth_ == m_.windows_.eye + 1 && !(Vertex::kMedia && straight_) &&
+          !m_.enter_tail(walk_, eye_))
+        return;
+      Hit hit;
+      ++eye_.counters.closest_rays;
+      const bool found = scene_.accel->closest_hit(walk_.ray, hit);
+      float transmittance = 1;
+      if constexpr (Vertex::kMedia) {
+        if (const float t = cross_medium(found, hit); t < INFINITY) {
+          if (!scatter_between(t)) return;
           continue;
         }
+        transmittance = walk_.counted_transmittance();
       }
-      transmittance = walk.counted_transmittance();
-    }
-    // Lights that are not to be seen are surfaces like others behind those that light passes, and
-    // the sky stays hidden there.
-    const bool hidden = options_.hide_emitters && alpha == 0;
-    if (!found) {
-      if (!scene.environment || hidden) return;
-      if (hits) add(eye, 0, depth + 1, join_escape(scene, weights, walk, transmittance));
-      alpha = 1;
-      return;
-    }
-    ++eye.counters.path_vertices;
-    const Surface s = scene.surface(walk.ray, hit);
-    if (eye.merging) eye.around = grid_.locate(s.position);
-    float d2 = hit.t * hit.t;
-    if constexpr (Vertex::kMedia) d2 = length_squared(s.position - walk.from);
-    const float cosine = std::abs(dot(s.ng, walk.ray.direction));
-    if (hits && s.shape->light != kNone && !(Vertex::kMedia && hidden))
-      add(eye, 0, depth + 1, join_hit(scene, weights, walk, s, d2, transmittance));
-    if ((depth == max_depth_ && !(Vertex::kMedia && may_be_passed(scene, s))) || !(cosine > 0)) {
-      alpha = 1;
-      return;
-    }
-    const Partials partials = arrive_at(s.position, d2, cosine, transmittance);
-    if constexpr (Vertex::kMedia) {
-      const Vertex v(scene, s, -walk.ray.direction, walk.throughput, partials, depth, walk.medium);
-      if (!pass(v)) return;
-    } else {
-      const Vertex v(scene, s, -walk.ray.direction, walk.throughput, partials, depth);
-      if (!pass(v)) return;
+      if (!found) return escape(transmittance);
+      if (!meet_surface(hit, transmittance)) return;
     }
   }
+
+ private:
+  bool hides_emitters() const { return m_.options_.hide_emitters; }
+
+  /// Whether light at the end of the walk counts. Where merging or light tracing does the rest,
+  /// only what is seen directly is left to be hit.
+  bool hits() const {
+    return m_.set_.light_samples || (m_.set_.merges ? walk_.unmerged : depth_ == 1);
+  }
+
+  /// Lights that are not to be seen are surfaces like others behind those that light passes, and
+  /// the sky stays hidden there.
+  bool hides_lights() const { return hides_emitters() && alpha_ == 0; }
+
+  /// The distance to where the medium that the ray is in scatters it, or INFINITY.
+  float cross_medium(bool found, const Hit& hit) {
+    if (!walk_.medium) return INFINITY;
+    Ray segment = walk_.ray;
+    if (found) segment.tmax = hit.t;
+    eye_.sampler.start_dimension(dimension_ + kDistanceDimension);
+    return walk_.cross(segment, eye_.sampler.next_1d(), eye_.counters);
+  }
+
+  /// In a medium; whether the walk goes on.
+  bool scatter_between(float t) {
+    alpha_ = 1;
+    const Point3f p = walk_.ray.origin + walk_.ray.direction * t;
+    const float d2 = length_squared(p - walk_.from);
+    const float extinction = walk_.medium->nominal_extinction(p);
+    if (depth_ == m_.max_depth_ || !(d2 > 0 && extinction > 0)) return false;
+    ++eye_.counters.path_vertices;
+    const Partials partials = arrive_at({p, d2, extinction, walk_.counted_transmittance()});
+    const Vertex v({*walk_.medium, extinction, p}, -walk_.ray.direction,
+                   {walk_.throughput, partials, depth_});
+    return pass(v);
+  }
+
+  void escape(float transmittance) {
+    if (!scene_.environment || hides_lights()) return;
+    if (hits()) m_.add(eye_, 0, depth_ + 1, join_escape(scene_, weights_, walk_, transmittance));
+    alpha_ = 1;
+  }
+
+  /// Whether the walk goes on.
+  bool meet_surface(const Hit& hit, float transmittance) {
+    ++eye_.counters.path_vertices;
+    const Surface s = scene_.surface(walk_.ray, hit);
+    if (eye_.merging) eye_.around = m_.grid_.locate(s.position);
+    float d2 = hit.t * hit.t;
+    if constexpr (Vertex::kMedia) d2 = length_squared(s.position - walk_.from);
+    const float cosine = std::abs(dot(s.ng, walk_.ray.direction));
+    if (hits() && s.shape->light != kNone && !(Vertex::kMedia && hides_lights()))
+      m_.add(eye_, 0, depth_ + 1, join_hit(scene_, weights_, walk_, s, d2, transmittance));
+    if ((depth_ == m_.max_depth_ && !(Vertex::kMedia && may_be_passed(scene_, s))) ||
+        !(cosine > 0)) {
+      alpha_ = 1;
+      return false;
+    }
+    const Partials partials = arrive_at({s.position, d2, cosine, transmittance});
+    if constexpr (Vertex::kMedia) {
+      const Vertex v(scene_, s, -walk_.ray.direction, {walk_.throughput, partials, depth_},
+                     walk_.medium);
+      return pass(v);
+    } else {
+      const Vertex v(scene_, s, -walk_.ray.direction, walk_.throughput, partials, depth_);
+      return pass(v);
+    }
+  }
+
+  Partials arrive_at(const Arrival& a) {
+    const Partials partials =
+        depth_ == 1
+            ? first_eye_partials(scene_, eye_.start.ray, a, m_.set_, walk_)
+            : arrive(walk_.partials, a.d2 / a.transmittance, a.cosine, m_.set_.walk_connections());
+    record_arrival(walk_, a.d2 / a.transmittance, a.cosine);
+    return partials;
+  }
+
+  /// Joins a vertex and scatters; whether the walk goes on.
+  bool pass(const Vertex& v) {
+    eye_.sampler.start_dimension(dimension_);
+    if (v.is_smooth()) {
+      if (!Vertex::kMedia || depth_ < m_.max_depth_)
+        m_.join(weights_, v, m_.samples_light(v, walk_), eye_);
+    } else {
+      eye_.counters.connections.failed_specular += uint64_t(m_.candidates(v, eye_));
+    }
+    if constexpr (!Vertex::kMedia)
+      if (m_.is_thesis_ && depth_ == m_.windows_.eye) {
+        alpha_ = 1;
+        m_.thesis_tail(v, walk_, eye_);
+        return false;
+      }
+    straight_ = false;
+    eye_.sampler.start_dimension(dimension_ + kScatteringDimension);
+    dimension_ += kDimensionsPerVertex;
+    const Method method = m_.options_.method;
+    const bool goes_on =
+        (Vertex::kMedia || method != Method::ptracer) &&
+        scatter<Transport::radiance>(v, m_.set_, options_, eye_.sampler, walk_, &straight_);
+    if (!straight_) alpha_ = 1;
+    if (Vertex::kMedia && straight_) return goes_on;
+    ++depth_;
+    return goes_on && (method != Method::ppm || walk_.unmerged) &&
+           (!Vertex::kMedia || (depth_ <= m_.max_depth_ && method != Method::ptracer));
+  }
+
+  const BidirectionalIntegrator& m_;
+  const Weights& weights_;
+  Trail* const trail_;
+  Eye<Vertex>& eye_;
+  const Scene& scene_;
+  const WalkOptions options_;
+  WalkOf<Vertex> walk_;
+  float& alpha_;
+  int depth_ = 1;
+  bool straight_ = false;  ///< the last surface was passed as if it had not been there
+  uint32_t dimension_ = kFirstVertexDimension;
+};
+
+template <class Vertex, class Weights>
+void BidirectionalIntegrator::walk(const Weights& weights, Trail* trail, Eye<Vertex>& eye) const {
+  EyeWalk<Vertex, Weights>(*this, weights, trail, eye).trace();
 }
 
 template <class Vertex, class Weights>
@@ -184,8 +246,7 @@ void BidirectionalIntegrator::join(const Weights& weights, const Vertex& v, bool
                                    Eye<Vertex>& eye) const {
   if (light_sample && eye.scene.picker.size() > 0)
     add(eye, 1, v.depth + 1,
-        join_light(eye.scene, weights, v, options_.strict_normals, eye.sampler, eye.roulette,
-                   eye.counters, &eye.shadows));
+        join_light(eye.joins(weights, options_.strict_normals), v, eye.sampler));
   if (eye.merging && v.merges()) find_photons(v, eye);
   if (set_.connections) {
     if (options_.connections < 0)
@@ -222,13 +283,12 @@ void BidirectionalIntegrator::connect(const Weights& weights, const Vertex& v,
       unpacked.emplace_back(Unpacked<Vertex>{l, eye.scene});
     eye.light_vertices = &unpacked;
   }
+  const JoinContext<Weights> joins = eye.joins(weights, options_.strict_normals);
   int tried = 0;
   for (const Vertex& l : *eye.light_vertices) {
     if (l.depth > most) break;
     ++tried;
-    add(eye, l.depth + 1, v.depth + 1,
-        join_ends(eye.scene, weights, l, v, options_.strict_normals, eye.roulette, eye.counters,
-                  &eye.shadows));
+    add(eye, l.depth + 1, v.depth + 1, join_ends(joins, l, v));
   }
   eye.counters.connections.failed_specular += uint64_t(most - tried);
 }
@@ -241,12 +301,12 @@ void BidirectionalIntegrator::connect_to_cache(const Weights& weights, const Ver
   // Every vertex of all walks is drawn with the same probability.
   const float scale =
       float(double(cache.size()) / (double(set_.light_paths) * options_.connections));
+  const JoinContext<Weights> joins = eye.joins(weights, options_.strict_normals);
   for (int i = 0; i < options_.connections; ++i) {
     const LightVertex& drawn =
         cache[std::min(size_t(double(eye.draw()) * double(cache.size())), cache.size() - 1)];
     if (int(drawn.depth) + v.depth + 1 > max_depth_) continue;
-    Join found = join_ends(eye.scene, weights, drawn.unpack<Vertex>(eye.scene), v,
-                           options_.strict_normals, eye.roulette, eye.counters, &eye.shadows);
+    Join found = join_ends(joins, drawn.unpack<Vertex>(eye.scene), v);
     found.value *= scale;
     add(eye, int(drawn.depth) + 1, v.depth + 1, found);
   }
@@ -334,8 +394,7 @@ void BidirectionalIntegrator::thesis_tail(const PathVertex& limit, Walk& walk,
     if (!v->bsdf.has_smooth() || scene.picker.size() == 0) continue;
     eye.sampler.start_dimension(kFirstVertexDimension + kDimensionsPerVertex * uint32_t(depth - 1));
     add(eye, 1, depth + 1,
-        join_light(scene, PathWeights(), *v, options_.strict_normals, eye.sampler, eye.roulette,
-                   eye.counters));
+        join_light(eye.joins(PathWeights(), options_.strict_normals), *v, eye.sampler));
   }
 }
 

@@ -78,7 +78,7 @@ void CameraIntegrator::sample(const Scene& scene, const CameraPath& path, Sample
     if (is_moment(layer.kind))
       out[0] = l.r * l.r, out[1] = l.g * l.g, out[2] = l.b * l.b;
     else if (found)
-      evaluate_layer(layer.kind, scene, surface, -ray.direction, hit, path.next, out);
+      evaluate_layer(layer.kind, scene, {surface, -ray.direction, hit, path.next}, out);
   }
 }
 

@@ -24,14 +24,14 @@ Spectrum DirectIntegrator::radiance(const Scene& scene, const CameraPath& start,
   values[3] = 1;
   const Surface s = scene.surface(ray, hit);
   Spectrum sum =
-      weighted_emission(scene, s, ray.origin, ray.direction, hit.t, std::nullopt, shares);
+      weighted_emission(scene, s, {ray.origin, ray.direction, hit.t}, std::nullopt, shares);
   const Bsdf bsdf = scene.materials[s.shape->material]->bind(s, -ray.direction);
   uint32_t dimension = kFirstVertexDimension;
   if (bsdf.has_smooth() && scene.picker.size() > 0)
     for (int i = 0; i < lights; ++i) {
       sampler.start_dimension(dimension);
       dimension += kDimensionsPerSample;
-      sum += sample_light(scene, s, bsdf, options_.strict_normals, shares, sampler, counters) *
+      sum += sample_light(scene, s, bsdf, {options_.strict_normals, shares}, sampler, counters) *
              (1 / float(lights));
     }
   for (int i = 0; i < bsdfs; ++i) {
@@ -47,8 +47,8 @@ Spectrum DirectIntegrator::radiance(const Scene& scene, const CameraPath& start,
     ++counters.closest_rays;
     Spectrum light;
     if (scene.accel->closest_hit(next, hit))
-      light = weighted_emission(scene, scene.surface(next, hit), s.position, next.direction, hit.t,
-                                pdf, shares);
+      light = weighted_emission(scene, scene.surface(next, hit),
+                                {s.position, next.direction, hit.t}, pdf, shares);
     else
       light = weighted_environment(scene, next.direction, pdf, shares);
     sum += sample->weight * light * (1 / float(bsdfs));

@@ -63,7 +63,8 @@ struct RenderOutlook {
 /// What a method that chooses another has chosen, and why.
 struct MethodDecision {
   std::string method, parameters;
-  std::string reason;  ///< one line
+  std::string reason;                   ///< one line
+  std::vector<std::string> candidates;  ///< what each method promised, a line each
 };
 
 /// A method of light transport, for any number of images of one scene and one size of film. An

@@ -108,16 +108,17 @@ bool layer_needs_next_rays(LayerKind kind) {
   return kind == LayerKind::duv_dx || kind == LayerKind::duv_dy;
 }
 
-void evaluate_layer(LayerKind kind, const Scene& scene, const Surface& s, const Vector3f& wo,
-                    const Hit& hit, const NextRays* next, std::span<float> out) {
+void evaluate_layer(LayerKind kind, const Scene& scene, const LayerPoint& point,
+                    std::span<float> out) {
+  const Surface& s = point.surface;
   switch (kind) {
     case LayerKind::albedo: {
-      const Spectrum a = scene.materials[s.shape->material]->albedo(s, wo);
+      const Spectrum a = scene.materials[s.shape->material]->albedo(s, point.wo);
       out[0] = a.r, out[1] = a.g, out[2] = a.b;
       break;
     }
     case LayerKind::depth:
-      out[0] = hit.t;
+      out[0] = point.hit.t;
       break;
     case LayerKind::position:
       put(s.position, out);
@@ -137,16 +138,17 @@ void evaluate_layer(LayerKind kind, const Scene& scene, const Surface& s, const 
       break;
     case LayerKind::duv_dx:
     case LayerKind::duv_dy:
-      if (next && has_derivatives(*s.shape)) {
-        const Point2f c = uv_change(s, kind == LayerKind::duv_dx ? next->right : next->below);
+      if (point.next && has_derivatives(*s.shape)) {
+        const NextRays& next = *point.next;
+        const Point2f c = uv_change(s, kind == LayerKind::duv_dx ? next.right : next.below);
         out[0] = c.x, out[1] = c.y;
       }
       break;
     case LayerKind::prim_index:
-      out[0] = float(hit.primitive);
+      out[0] = float(point.hit.primitive);
       break;
     case LayerKind::shape_index:
-      out[0] = float(hit.shape);
+      out[0] = float(point.hit.shape);
       break;
     case LayerKind::moments:
     case LayerKind::variance:

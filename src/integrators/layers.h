@@ -46,10 +46,17 @@ SurfaceNeeds layer_needs(LayerKind kind);
 /// Whether a layer looks at where the neighbouring pixels' rays go.
 bool layer_needs_next_rays(LayerKind kind);
 
-/// Writes the layer's value at a hit seen from the unit direction `wo`; nothing for statistics. A
-/// miss leaves zeros. `next` are the rays beside the one that hit, or null if there are none or
-/// the layer does not need them.
-void evaluate_layer(LayerKind kind, const Scene& scene, const Surface& surface, const Vector3f& wo,
-                    const Hit& hit, const NextRays* next, std::span<float> out);
+/// What a camera ray has hit.
+struct LayerPoint {
+  const Surface& surface;
+  Vector3f wo;  ///< of unit length, towards the camera
+  Hit hit;
+  /// The rays beside it, or null if there are none or the layer does not need them.
+  const NextRays* next;
+};
+
+/// Writes the layer's value at a point; nothing for statistics. A miss leaves zeros.
+void evaluate_layer(LayerKind kind, const Scene& scene, const LayerPoint& point,
+                    std::span<float> out);
 
 }  // namespace duet

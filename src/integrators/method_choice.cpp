@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "base/log.h"
 #include "base/percent.h"
 #include "integrators/merge_parts.h"
 #include "integrators/method_risk.h"
@@ -191,12 +190,6 @@ size_t least_loss(const MethodPrices& prices, const std::vector<uint8_t>& may,
   const std::vector<MethodCandidate>& c = prices.candidates;
   size_t best = c.size(), unbiased = c.size();
   for (size_t i = 0; i < c.size(); ++i) {
-    const PredictedMethod& p = prices.predictions[i];
-    log::detail(
-        "auto: {:36} misses {:.2e}, merges {:.3f}, variance {:.3g}, blur² {:.3g}, error² {:.3g}, "
-        "cost {:.3g}, price {:.3g}, loss {:.3g}",
-        c[i].name, p.missing, p.merged, p.variance, p.blur, p.error, p.cost, p.error * p.cost,
-        risk.loss(i));
     const auto improves = [&](size_t on) {
       return may[i] && (on == c.size() || risk.loss(i) < risk.loss(on));
     };
@@ -206,6 +199,20 @@ size_t least_loss(const MethodPrices& prices, const std::vector<uint8_t>& may,
   if (unbiased < c.size() && !(risk.loss(unbiased) > kMergingHysteresis * risk.loss(best)))
     best = unbiased;
   return may[0] && !(risk.loss(0) > kHysteresis * risk.loss(best)) ? 0 : best;
+}
+
+/// What each candidate promises, a line each.
+std::vector<std::string> promises(const MethodPrices& prices, const MethodRisk& risk) {
+  std::vector<std::string> lines;
+  for (size_t i = 0; i < prices.candidates.size(); ++i) {
+    const PredictedMethod& p = prices.predictions[i];
+    lines.push_back(fmt::format(
+        "auto: {:36} misses {:.2e}, merges {:.3f}, variance {:.3g}, blur² {:.3g}, error² {:.3g}, "
+        "cost {:.3g}, price {:.3g}, loss {:.3g}",
+        prices.candidates[i].name, p.missing, p.merged, p.variance, p.blur, p.error, p.cost,
+        p.error * p.cost, risk.loss(i)));
+  }
+  return lines;
 }
 
 }  // namespace
@@ -239,6 +246,7 @@ MethodChoice take(const MethodPrices& prices, const MethodRules& rules) {
   const PredictedMethod &p = prices.predictions[best], &path = prices.predictions[0];
   MethodChoice choice;
   choice.method = c.method;
+  choice.candidates = promises(prices, risk);
   choice.reason = c.name + ": ";
   if (!may.candidates[0])
     choice.reason +=

@@ -13,8 +13,9 @@ namespace duet {
 
 struct MethodChoice {
   decltype(IntegratorDescription::method) method;
-  std::string reason;  ///< one line
-  std::string bias;    ///< why the mean of many images is wrong, or ""
+  std::string reason;                        ///< one line
+  std::string bias;                          ///< why the mean of many images is wrong, or ""
+  std::vector<std::string> candidates = {};  ///< what each method promised, a line each
 };
 
 MethodChoice choose_method(const Scene& scene, const AutoIntegratorDescription& options,

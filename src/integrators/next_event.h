@@ -13,6 +13,19 @@ struct SampleShares {
   float light = 1, bsdf = 1;
 };
 
+/// How next event estimation samples.
+struct NextEventOptions {
+  bool strict_normals = false;
+  SampleShares shares{};
+};
+
+/// A ray as it arrives at a surface point.
+struct ArrivingRay {
+  Point3f from;        ///< the last vertex
+  Vector3f direction;  ///< of unit length
+  float t;             ///< the distance
+};
+
 /// Weight of a sample with density a where b could have made it too.
 /// Source: Veach 1997, section 9.2.4, the power heuristic with exponent 2.
 inline float power_heuristic(float a, float b) {
@@ -27,10 +40,11 @@ inline float power_heuristic(float a, float b) {
 /// or PlainDiffuse.
 template <class B>
 inline Spectrum sample_light(const Scene& scene, const Surface& s, const B& bsdf,
-                             bool strict_normals, const SampleShares& shares, Sampler& sampler,
+                             const NextEventOptions& options, Sampler& sampler,
                              RenderCounters& counters) {
+  const SampleShares& shares = options.shares;
   const auto [light, probability] = choose_light(scene, s.position, sampler);
-  if (!light || (strict_normals && sides_differ(s, light->wi))) return {};
+  if (!light || (options.strict_normals && sides_differ(s, light->wi))) return {};
   const BsdfEval f = bsdf.eval(light->wi, Transport::radiance);
   if (f.value.is_black()) return {};
   const Ray shadow = light->finite ? spawn_ray_to(s, light->target) : spawn_ray(s, light->wi);
@@ -42,17 +56,16 @@ inline Spectrum sample_light(const Scene& scene, const Surface& s, const B& bsdf
   return f.value * light->weight * (weight / probability);
 }
 
-/// Emission of the surface that a ray with direction `w` from `from` has met at distance `t`,
-/// weighted against next event estimation. `bsdf_pdf` made the direction; nothing if it was a delta
-/// lobe or the camera, which light samples cannot compete with.
-inline Spectrum weighted_emission(const Scene& scene, const Surface& s, const Point3f& from,
-                                  const Vector3f& w, float t, std::optional<PdfW> bsdf_pdf,
-                                  const SampleShares& shares) {
+/// Emission of the surface that a ray has met, weighted against next event estimation. `bsdf_pdf`
+/// made the direction; nothing if it was a delta lobe or the camera, which light samples cannot
+/// compete with.
+inline Spectrum weighted_emission(const Scene& scene, const Surface& s, const ArrivingRay& ray,
+                                  std::optional<PdfW> bsdf_pdf, const SampleShares& shares) {
   const SurfaceLight* light = scene.light_on(*s.shape);
   if (!light) return {};
-  const Spectrum emitted = light->emitted(s, -w);
+  const Spectrum emitted = light->emitted(s, -ray.direction);
   if (!bsdf_pdf || emitted.is_black()) return emitted;
-  const float pdf = choice_density(scene, *light, from, s, w, t * t);
+  const float pdf = choice_density(scene, *light, ray.from, s, ray.direction, ray.t * ray.t);
   return emitted * power_heuristic(bsdf_pdf->value * shares.bsdf, pdf * shares.light);
 }
 

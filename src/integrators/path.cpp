@@ -37,8 +37,9 @@ Spectrum PathIntegrator::radiance(const Scene& scene, const CameraPath& start, S
     ++counters.path_vertices;
     const Surface s = scene.surface(path.ray, hit);
     if (s.shape->light != kNone)
-      path.sum += path.throughput * weighted_emission(scene, s, path.from, path.ray.direction,
-                                                      hit.t, path.bsdf_pdf, {});
+      path.sum +=
+          path.throughput *
+          weighted_emission(scene, s, {path.from, path.ray.direction, hit.t}, path.bsdf_pdf, {});
     if (depth == options_.max_depth) {
       path.alpha = 1;
       break;
@@ -61,7 +62,7 @@ inline bool PathIntegrator::scatter(const Scene& scene, const Surface& s, const 
   if (bsdf.has_smooth() && scene.picker.size() > 0) {
     sampler.start_dimension(dimension);
     path.sum += path.throughput *
-                sample_light(scene, s, bsdf, options_.strict_normals, {}, sampler, path.counters);
+                sample_light(scene, s, bsdf, {options_.strict_normals}, sampler, path.counters);
   }
   sampler.start_dimension(dimension + kScatteringDimension);
   const Point2f v = sampler.next_2d();

@@ -114,9 +114,9 @@ class PilotEyeWalk {
     const float extinction = walk_.medium->nominal_extinction(p);
     if (depth_ == pilot_.max_depth || !(d2 > 0 && extinction > 0)) return false;
     ++counters().path_vertices;
-    arrive_at(p, d2, extinction, walk_.counted_transmittance());
-    return leave_vertex(Vertex(*walk_.medium, extinction, p, -walk_.ray.direction, walk_.throughput,
-                               Partials{}, depth_));
+    arrive_at({p, d2, extinction, walk_.counted_transmittance()});
+    return leave_vertex(Vertex({*walk_.medium, extinction, p}, -walk_.ray.direction,
+                               {walk_.throughput, Partials{}, depth_}));
   }
 
   bool meet_surface(const Hit& hit, float transmittance) {
@@ -131,19 +131,18 @@ class PilotEyeWalk {
         depth_ == pilot_.max_depth &&
         !(Vertex::kMedia && scene_.materials[s.shape->material]->passes_straight());
     if (is_last || !(cosine > 0)) return false;
-    arrive_at(s.position, d2, cosine, transmittance);
+    arrive_at({s.position, d2, cosine, transmittance});
     if constexpr (Vertex::kMedia)
-      return leave_vertex(Vertex(scene_, s, -walk_.ray.direction, walk_.throughput, Partials{},
-                                 depth_, walk_.medium));
+      return leave_vertex(Vertex(scene_, s, -walk_.ray.direction,
+                                 {walk_.throughput, Partials{}, depth_}, walk_.medium));
     else
       return leave_vertex(
           Vertex(scene_, s, -walk_.ray.direction, walk_.throughput, Partials{}, depth_));
   }
 
-  void arrive_at(const Point3f& p, float d2, float cosine, float transmittance) {
-    if (depth_ == 1)
-      first_eye_partials(scene_, camera_ray_, p, d2, cosine, pilot_.set, walk_, transmittance);
-    record_arrival(walk_, d2 / transmittance, cosine);
+  void arrive_at(const Arrival& a) {
+    if (depth_ == 1) first_eye_partials(scene_, camera_ray_, a, pilot_.set, walk_);
+    record_arrival(walk_, a.d2 / a.transmittance, a.cosine);
   }
 
   /// Light at the end of the walk.
@@ -161,8 +160,7 @@ class PilotEyeWalk {
     if (v.is_smooth() && depth_ < pilot_.max_depth) {
       sampler_.start_dimension(dimension_);
       JoinRoulette none(0, 0);  // path tracing has none
-      const Join direct = join_light(scene_, weights_, v, pilot_.plan.strict_normals, sampler_,
-                                     none, counters(), &shadows_);
+      const Join direct = join_light(joins(none, counters()), v, sampler_);
       add_contribution(out_.eye, direct.value * direct.weight, weights_.shares(),
                        Technique::unidirectional, cell_);
       connect(v);
@@ -178,6 +176,10 @@ class PilotEyeWalk {
     return (Vertex::kMedia && straight) || ++depth_ <= pilot_.max_depth;
   }
 
+  JoinContext<FamilyWeights> joins(JoinRoulette& roulette, RenderCounters& counters) {
+    return {scene_, weights_, roulette, counters, pilot_.plan.strict_normals, &shadows_};
+  }
+
   void connect(const Vertex& v) {
     const std::span<const TrailVertex> trail = pilot_.light.trail(index_);
     const size_t first = pilot_.light.first_vertex(index_);
@@ -185,9 +187,8 @@ class PilotEyeWalk {
       const LightVertex& packed = pilot_.light.vertices[i];
       if (int(packed.depth) + v.depth + 1 > pilot_.max_depth) break;
       weights_.set_light(trail, &pilot_.light.arrivals[i].densities);
-      const Join join =
-          join_ends(scene_, weights_, packed.template unpack<Vertex>(scene_), v,
-                    pilot_.plan.strict_normals, roulette_, out_.connection_counters, &shadows_);
+      const Join join = join_ends(joins(roulette_, out_.connection_counters),
+                                  packed.template unpack<Vertex>(scene_), v);
       add_contribution(out_.eye, join.value * join.weight, weights_.shares(), Technique::connection,
                        cell_);
     }

@@ -105,20 +105,21 @@ class PricingPilotOf {
     RenderCounters& counters = block.record.light_counters;
     Trail trail;
     FamilyWeights weights(setup_.set);
+    const JoinContext<FamilyWeights> joins{scene_, weights, roulette, counters, false, &random};
     const auto visit = [&](const Vertex& v, const Hit& hit) {
       if (!v.is_smooth()) return;
       block.light.add(v, hit, trail);
       weights.set_light(trail);
-      const auto seen =
-          join_camera(scene_, weights, v, scene_.camera->has_lens() ? sampler.next_2d() : Point2f{},
-                      plan_.hide_emitters, roulette, counters, &random);
+      const auto seen = join_camera(
+          joins, v, scene_.camera->has_lens() ? sampler.next_2d() : Point2f{}, plan_.hide_emitters);
       if (seen)
         add_contribution(block.record.light,
                          seen->join.value * (seen->join.weight / setup_.set.light_paths),
                          weights.shares(), Technique::light_image, cell(seen->film));
     };
-    trace_light_walk<Vertex>(scene_, setup_.set, setup_.options, setup_.max_depth - 1, sampler,
-                             counters, &trail, visit, ~key);
+    trace_light_walk<Vertex>(
+        {scene_, setup_.set, setup_.options, setup_.max_depth - 1, sampler, counters, &trail, ~key},
+        visit);
     block.light.end_walk(trail);
   }
 

@@ -40,14 +40,14 @@ struct VolumePathIntegrator::Path {
 
 namespace {
 
-/// Adds what a light sends along `ray`, of which `value` goes on towards the eye. `pdf` is the
-/// density with which scattering would have sent the path to the light.
+/// Adds what a light sends along a shadow ray, of which `value` goes on towards the eye. `pdf` is
+/// the density with which scattering would have sent the path to the light.
 template <class Path>
-inline void add_light(const Scene& scene, const ChosenLight& light, const Ray& ray,
-                      const Medium* medium, const Spectrum& value, PdfW pdf, Path& path) {
+inline void add_light(const Scene& scene, const ChosenLight& light, const ShadowRay& ray,
+                      const Spectrum& value, PdfW pdf, Path& path) {
   SpectralWeights shadow;
   shadow.channel = path.weights.channel;
-  if (!walk_shadow(scene, ray, medium, path.random, shadow, path.counters)) return;
+  if (!walk_shadow(scene, ray, path.random, shadow, path.counters)) return;
   const LightSample& s = *light.sample;
   // The weight has been divided by the density of the light's point, not by that of its choice.
   const float walk = s.delta ? 0.0f : pdf.value / (s.pdf.value * light.probability);
@@ -78,19 +78,11 @@ Spectrum VolumePathIntegrator::radiance(const Scene& scene, const CameraPath& st
     Hit hit;
     ++counters.closest_rays;
     const bool found = scene.accel->closest_hit(path.ray, hit);
-    if (path.medium) {
-      Ray segment = path.ray;
-      if (found) segment.tmax = hit.t;
-      sampler.start_dimension(dimension + kDistanceDimension);
-      const RandomStream before = path.random;
-      const float t = path.medium->walk(segment, sampler.next_1d(), path.random, path.weights);
-      counters.medium_steps += 1 + path.random.drawn_since(before);
-      if (t < INFINITY) {
-        path.alpha = 1;
-        if (!scatter_in_medium(scene, path.ray.origin + path.ray.direction * t, dimension, path))
-          break;
-        continue;
-      }
+    if (const float t = cross_medium(found, hit, dimension, path); t < INFINITY) {
+      path.alpha = 1;
+      if (!scatter_in_medium(scene, path.ray.origin + path.ray.direction * t, dimension, path))
+        break;
+      continue;
     }
     if (!found) {
       if (!scene.environment || hides_lights(path.depth)) break;
@@ -99,30 +91,45 @@ Spectrum VolumePathIntegrator::radiance(const Scene& scene, const CameraPath& st
       path.alpha = 1;
       break;
     }
-    ++counters.path_vertices;
-    const Surface s = scene.surface(path.ray, hit);
-    if (const SurfaceLight* light = scene.light_on(*s.shape); light && !hides_lights(path.depth)) {
-      const Vector3f& w = path.ray.direction;
-      const Spectrum emitted = light->emitted(s, -w);
-      const Vector3f way = s.position - path.from;
-      if (!emitted.is_black())
-        path.add(emitted, path.competes
-                              ? choice_density(scene, *light, path.from, s, w, length_squared(way))
-                              : 0);
-    }
-    const Material& material = *scene.materials[s.shape->material];
-    if (at_limit(path.depth + 1) && !material.passes_straight()) {
-      path.alpha = 1;
-      break;
-    }
-    const Vector3f wo = -path.ray.direction;
-    const bool goes_on =
-        PlainDiffuse::suits(material)
-            ? scatter_at_surface(scene, s, PlainDiffuse(material, s, wo), dimension, path)
-            : scatter_at_surface(scene, s, material.bind(s, wo), dimension, path);
-    if (!goes_on) break;
+    if (!meet_surface(scene, hit, dimension, path)) break;
   }
   return path.sum;
+}
+
+float VolumePathIntegrator::cross_medium(bool found, const Hit& hit, uint32_t dimension,
+                                         Path& path) const {
+  if (!path.medium) return INFINITY;
+  Ray segment = path.ray;
+  if (found) segment.tmax = hit.t;
+  path.sampler.start_dimension(dimension + kDistanceDimension);
+  const RandomStream before = path.random;
+  const float t = path.medium->walk(segment, path.sampler.next_1d(), path.random, path.weights);
+  path.counters.medium_steps += 1 + path.random.drawn_since(before);
+  return t;
+}
+
+bool VolumePathIntegrator::meet_surface(const Scene& scene, const Hit& hit, uint32_t dimension,
+                                        Path& path) const {
+  ++path.counters.path_vertices;
+  const Surface s = scene.surface(path.ray, hit);
+  if (const SurfaceLight* light = scene.light_on(*s.shape); light && !hides_lights(path.depth)) {
+    const Vector3f& w = path.ray.direction;
+    const Spectrum emitted = light->emitted(s, -w);
+    const Vector3f way = s.position - path.from;
+    if (!emitted.is_black())
+      path.add(emitted, path.competes
+                            ? choice_density(scene, *light, path.from, s, w, length_squared(way))
+                            : 0);
+  }
+  const Material& material = *scene.materials[s.shape->material];
+  if (at_limit(path.depth + 1) && !material.passes_straight()) {
+    path.alpha = 1;
+    return false;
+  }
+  const Vector3f wo = -path.ray.direction;
+  return PlainDiffuse::suits(material)
+             ? scatter_at_surface(scene, s, PlainDiffuse(material, s, wo), dimension, path)
+             : scatter_at_surface(scene, s, material.bind(s, wo), dimension, path);
 }
 
 bool VolumePathIntegrator::scatter_in_medium(const Scene& scene, const Point3f& p,
@@ -137,7 +144,7 @@ bool VolumePathIntegrator::scatter_in_medium(const Scene& scene, const Point3f& 
       const LightSample& s = *light.sample;
       const PdfW f = phase.eval(p, wo, s.wi);
       const Ray ray = s.finite ? ray_to(p, s.target) : Ray{p, s.wi, INFINITY};
-      if (f.value > 0) add_light(scene, light, ray, path.medium, Spectrum(f.value), f, path);
+      if (f.value > 0) add_light(scene, light, {ray, path.medium}, Spectrum(f.value), f, path);
     }
   }
   path.sampler.start_dimension(dimension + kScatteringDimension);
@@ -166,7 +173,7 @@ inline bool VolumePathIntegrator::scatter_at_surface(const Scene& scene, const S
       if (!f.value.is_black()) {
         const Ray ray = l.finite ? ray_to(offset_position(s, l.wi), l.target) : spawn_ray(s, l.wi);
         const Medium* medium = separates ? scene.medium_beyond(s, l.wi) : path.medium;
-        add_light(scene, light, ray, medium, f.value, f.pdf, path);
+        add_light(scene, light, {ray, medium}, f.value, f.pdf, path);
       }
     }
   }

@@ -22,6 +22,11 @@ class VolumePathIntegrator final : public CameraIntegrator {
 
  private:
   struct Path;
+  /// The distance to where the medium that the ray is in scatters it, or INFINITY. Random numbers
+  /// begin at `dimension`.
+  float cross_medium(bool found, const Hit& hit, uint32_t dimension, Path& path) const;
+  /// Adds the light of the surface and scatters; false if the path ends.
+  bool meet_surface(const Scene& scene, const Hit& hit, uint32_t dimension, Path& path) const;
   /// Light is scattered at a point of the medium; false if the path ends.
   bool scatter_in_medium(const Scene& scene, const Point3f& p, uint32_t dimension,
                          Path& path) const;

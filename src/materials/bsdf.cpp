@@ -32,22 +32,30 @@ float cosine_exchange(const Vector3f& light, const Vector3f& local_light, const 
   return from > 0 ? std::abs(local_light.z * eye.z) / from : 0.0f;
 }
 
-ModelEval eval_below(const BsdfComponent& c, const Cover* covers, int level, const Vector3f& wo,
-                     const Vector3f& wi, Transport transport);
-std::optional<ModelSample> sample_below(const BsdfComponent& c, const Cover* covers, int level,
-                                        const Vector3f& wo, float u, const Point2f& v,
-                                        Transport transport);
+/// What is left of a component below the first `level` of its covers, in the frame that these make.
+struct Covered {
+  const BsdfComponent& component;
+  const Cover* covers;
+  int level;
+  bool has_cover() const { return level < kMaxCovers && component.covers[level] >= 0; }
+  const Cover& cover() const { return covers[component.covers[level]]; }
+  Covered below() const { return {component, covers, level + 1}; }
+};
 
-ModelEval eval_tilted(const BsdfComponent& c, const Cover* covers, int level, const Vector3f& wo,
-                      const Vector3f& wi, Transport transport) {
-  const Tilt& tilt = covers[c.covers[level]].tilt;
+ModelEval eval_below(const Covered& c, const Vector3f& wo, const Vector3f& wi, Transport transport);
+std::optional<ModelSample> sample_below(const Covered& c, const Vector3f& wo, float u,
+                                        const Point2f& v, Transport transport);
+
+ModelEval eval_tilted(const Covered& c, const Vector3f& wo, const Vector3f& wi,
+                      Transport transport) {
+  const Tilt& tilt = c.cover().tilt;
   const bool to_light = transport == Transport::radiance;
   const Vector3f& eye = to_light ? wo : wi;
   const Vector3f& light = to_light ? wi : wo;
   const bool turned = tilt.turned_for(eye);
   const Vector3f o = tilt.to_local(wo, turned), i = tilt.to_local(wi, turned);
   if (!tilt.agrees(light, to_light ? i : o)) return {};
-  ModelEval e = eval_below(c, covers, level + 1, o, i, transport);
+  ModelEval e = eval_below(c.below(), o, i, transport);
   e.value *= tilt.shadowing(light);
   if (to_light) return e;
   e.value *= cosine_exchange(light, o, eye, i);
@@ -55,17 +63,16 @@ ModelEval eval_tilted(const BsdfComponent& c, const Cover* covers, int level, co
   const float p = tilt.turned_probability();
   if (p > 0) {
     const Vector3f o2 = tilt.to_local(wo, !turned), i2 = tilt.to_local(wi, !turned);
-    const float other = eval_below(c, covers, level + 1, o2, i2, transport).pdf;
+    const float other = eval_below(c.below(), o2, i2, transport).pdf;
     const float q = turned ? p : 1 - p;
     e.pdf = q * e.pdf + (1 - q) * other;
   }
   return e;
 }
 
-std::optional<ModelSample> sample_tilted(const BsdfComponent& c, const Cover* covers, int level,
-                                         const Vector3f& wo, float u, const Point2f& v,
-                                         Transport transport) {
-  const Tilt& tilt = covers[c.covers[level]].tilt;
+std::optional<ModelSample> sample_tilted(const Covered& c, const Vector3f& wo, float u,
+                                         const Point2f& v, Transport transport) {
+  const Tilt& tilt = c.cover().tilt;
   const bool to_light = transport == Transport::radiance;
   bool turned = false;
   float probability = 1;
@@ -77,7 +84,7 @@ std::optional<ModelSample> sample_tilted(const BsdfComponent& c, const Cover* co
     u = std::min((turned ? u : u - p) / probability, kBelowOne);
   }
   const Vector3f o = tilt.to_local(wo, turned);
-  auto s = sample_below(c, covers, level + 1, o, u, v, transport);
+  auto s = sample_below(c.below(), o, u, v, transport);
   if (!s) return std::nullopt;
   const Vector3f i = s->wi;
   s->wi = tilt.from_local(i, turned);
@@ -92,32 +99,31 @@ std::optional<ModelSample> sample_tilted(const BsdfComponent& c, const Cover* co
     s->pdf *= probability;
     return s;
   }
-  const ModelEval e = eval_tilted(c, covers, level, wo, s->wi, transport);
+  const ModelEval e = eval_tilted(c, wo, s->wi, transport);
   if (!(e.pdf > 0)) return std::nullopt;
   s->weight = e.value / e.pdf;
   s->pdf = e.pdf;
   return s;
 }
 
-ModelEval eval_coated(const BsdfComponent& c, const Cover* covers, int level, const Vector3f& wo,
-                      const Vector3f& wi, Transport transport) {
-  const Coat& coat = covers[c.covers[level]].coat;
+ModelEval eval_coated(const Covered& c, const Vector3f& wo, const Vector3f& wi,
+                      Transport transport) {
+  const Coat& coat = c.cover().coat;
   if (wo.z == 0 || wi.z == 0) return {};
   const Vector3f o = coat.inside(wo), i = coat.inside(wi);
-  ModelEval e = eval_below(c, covers, level + 1, o, i, transport);
+  ModelEval e = eval_below(c.below(), o, i, transport);
   const float compression = coat.compression(wi, i);
   e.value *= coat.transmittance(wo, o, wi, i) * compression;
   e.pdf *= compression;
   return e;
 }
 
-std::optional<ModelSample> sample_coated(const BsdfComponent& c, const Cover* covers, int level,
-                                         const Vector3f& wo, float u, const Point2f& v,
-                                         Transport transport) {
-  const Coat& coat = covers[c.covers[level]].coat;
+std::optional<ModelSample> sample_coated(const Covered& c, const Vector3f& wo, float u,
+                                         const Point2f& v, Transport transport) {
+  const Coat& coat = c.cover().coat;
   if (wo.z == 0) return std::nullopt;
   const Vector3f o = coat.inside(wo);
-  auto s = sample_below(c, covers, level + 1, o, u, v, transport);
+  auto s = sample_below(c.below(), o, u, v, transport);
   if (!s) return std::nullopt;
   const Vector3f i = s->wi;
   if (!coat.outside(i, s->wi)) return std::nullopt;
@@ -128,32 +134,31 @@ std::optional<ModelSample> sample_coated(const BsdfComponent& c, const Cover* co
   return s;
 }
 
-/// Below the first `level` covers, in the frame that these make.
-ModelEval eval_below(const BsdfComponent& c, const Cover* covers, int level, const Vector3f& wo,
-                     const Vector3f& wi, Transport transport) {
-  if (level == kMaxCovers || c.covers[level] < 0)
-    return eval_model(c, on_side(wo, c.side), on_side(wi, c.side), transport);
-  return covers[c.covers[level]].is_coat ? eval_coated(c, covers, level, wo, wi, transport)
-                                         : eval_tilted(c, covers, level, wo, wi, transport);
+ModelEval eval_below(const Covered& c, const Vector3f& wo, const Vector3f& wi,
+                     Transport transport) {
+  const BsdfComponent& bare = c.component;
+  if (!c.has_cover())
+    return eval_model(bare, on_side(wo, bare.side), on_side(wi, bare.side), transport);
+  return c.cover().is_coat ? eval_coated(c, wo, wi, transport) : eval_tilted(c, wo, wi, transport);
 }
 
-std::optional<ModelSample> sample_below(const BsdfComponent& c, const Cover* covers, int level,
-                                        const Vector3f& wo, float u, const Point2f& v,
-                                        Transport transport) {
-  if (level == kMaxCovers || c.covers[level] < 0) {
-    auto s = sample_model(c, on_side(wo, c.side), u, v, transport);
-    if (s) s->wi = on_side(s->wi, c.side);
+std::optional<ModelSample> sample_below(const Covered& c, const Vector3f& wo, float u,
+                                        const Point2f& v, Transport transport) {
+  if (!c.has_cover()) {
+    const BsdfComponent& bare = c.component;
+    auto s = sample_model(bare, on_side(wo, bare.side), u, v, transport);
+    if (s) s->wi = on_side(s->wi, bare.side);
     return s;
   }
-  return covers[c.covers[level]].is_coat ? sample_coated(c, covers, level, wo, u, v, transport)
-                                         : sample_tilted(c, covers, level, wo, u, v, transport);
+  return c.cover().is_coat ? sample_coated(c, wo, u, v, transport)
+                           : sample_tilted(c, wo, u, v, transport);
 }
 
 /// Directions in the shading frame.
 ModelEval eval_component(const BsdfComponent& c, const Cover* covers, const Vector3f& wo,
                          const Vector3f& wi, Transport transport) {
   if (c.covers[0] >= 0) [[unlikely]]
-    return eval_below(c, covers, 0, wo, wi, transport);
+    return eval_below({c, covers, 0}, wo, wi, transport);
   return eval_model(c, on_side(wo, c.side), on_side(wi, c.side), transport);
 }
 
@@ -161,7 +166,7 @@ std::optional<ModelSample> sample_component(const BsdfComponent& c, const Cover*
                                             const Vector3f& wo, float u, const Point2f& v,
                                             Transport transport) {
   if (c.covers[0] >= 0) [[unlikely]]
-    return sample_below(c, covers, 0, wo, u, v, transport);
+    return sample_below({c, covers, 0}, wo, u, v, transport);
   return sample_model(c, on_side(wo, c.side), u, v, transport);
 }
 

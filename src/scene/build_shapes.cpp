@@ -1,4 +1,5 @@
-// Builds shapes from their descriptions: meshes move to world space and lose what no material or light needs.
+// Builds shapes from their descriptions: meshes move to world space and lose what no material or
+// light needs.
 #include "scene/builder.h"
 
 namespace duet {

@@ -1,8 +1,8 @@
 // What the two ends of a path have in common: how light found by an eye walk, sampled from one of
 // its vertices, or brought by a light walk becomes a weighted contribution. Shadow rays come last.
 //
-// Vertices are PathVertex or MediaVertex. Where there are media `random` is for shadow rays through
-// them, and densities count their nominal transmittance; elsewhere it is null.
+// Vertices are PathVertex or MediaVertex. Where there are media densities count their nominal
+// transmittance.
 //
 // `Weights` decides how a join is weighed against the other techniques:
 //   hit(walk, direct, emission)      s = 0; densities of the light's two other techniques
@@ -88,13 +88,23 @@ inline Join join_escape(const Scene& scene, const Weights& weights, const Walk& 
   return {walk.throughput * emitted, weights.hit(walk, direct / transmittance, emission)};
 }
 
+/// What all that is joined with the vertices of one walk needs.
+template <class Weights>
+struct JoinContext {
+  const Scene& scene;
+  const Weights& weights;
+  JoinRoulette& roulette;
+  RenderCounters& counters;
+  bool strict_normals = false;
+  RandomStream* random = nullptr;  ///< for shadow rays through media; null where there are none
+};
+
 /// A light sample from an eye vertex. Uses up to three dimensions of the sampler.
 template <class Weights, class Vertex>
-inline Join join_light(const Scene& scene, const Weights& weights, const Vertex& eye,
-                       bool strict_normals, Sampler& sampler, JoinRoulette& roulette,
-                       RenderCounters& counters, [[maybe_unused]] RandomStream* random = nullptr) {
+inline Join join_light(const JoinContext<Weights>& c, const Vertex& eye, Sampler& sampler) {
+  const Scene& scene = c.scene;
   const auto [sample, probability] = choose_light(scene, eye.position(), sampler);
-  if (!sample || (strict_normals && eye.has_two_sides(sample->wi))) return {};
+  if (!sample || (c.strict_normals && eye.has_two_sides(sample->wi))) return {};
   const BsdfEval f = eye.eval(sample->wi, Transport::radiance);
   if (f.value.is_black()) return {};
   float direct = sample->pdf.value;
@@ -105,23 +115,24 @@ inline Join join_light(const Scene& scene, const Weights& weights, const Vertex&
                   eye.reverse_pdf(sample->wi, Transport::radiance)};
   eye_end.merges = eye.merges(f.pdf.value, eye_end.beyond);
   Join join{eye.throughput * f.value * sample->weight * (1 / probability),
-            weights.light_sample(eye, direct * probability, hit, eye_end)};
-  const float kept = roulette.keep(join.value * join.weight);
+            c.weights.light_sample(eye, direct * probability, hit, eye_end)};
+  const float kept = c.roulette.keep(join.value * join.weight);
   if (kept == 0) return {};
   join.value *= kept;
   if constexpr (Vertex::kMedia) {
     const Point3f origin = eye.outside(sample->wi);
     const auto passage = pass_through_media(
         scene, sample->finite ? ray_to(origin, sample->target) : Ray{origin, sample->wi, INFINITY},
-        eye.medium_towards(scene, sample->wi), *random, counters);
+        eye.medium_towards(scene, sample->wi), *c.random, c.counters);
     if (!passage) return {};
     join.value *= passage->value;
     eye_end.arrival *= passage->nominal;
-    join.weight = weights.light_sample(eye, direct * probability, hit * passage->nominal, eye_end);
+    join.weight =
+        c.weights.light_sample(eye, direct * probability, hit * passage->nominal, eye_end);
   } else {
     const Ray shadow = sample->finite ? spawn_ray_to(eye.surface, sample->target)
                                       : spawn_ray(eye.surface, sample->wi);
-    ++counters.shadow_rays;
+    ++c.counters.shadow_rays;
     if (scene.accel->occluded(shadow)) return {};
   }
   return join;
@@ -160,12 +171,11 @@ inline std::optional<Passage> seen_through_media(const Scene& scene, const Media
   return pass_through_media(scene, ray, scene.camera_medium, random, counters);
 }
 
+/// A light vertex seen through a point of the lens; empty if it is not.
 template <class Weights, class Vertex>
-inline std::optional<CameraJoin> join_camera(const Scene& scene, const Weights& weights,
-                                             const Vertex& light, const Point2f& lens,
-                                             bool hide_emitters, JoinRoulette& roulette,
-                                             RenderCounters& counters,
-                                             [[maybe_unused]] RandomStream* random = nullptr) {
+inline std::optional<CameraJoin> join_camera(const JoinContext<Weights>& c, const Vertex& light,
+                                             const Point2f& lens, bool hide_emitters) {
+  const Scene& scene = c.scene;
   if constexpr (!Vertex::kMedia)
     if (hide_emitters && light.surface.shape->light != kNone) return std::nullopt;
   const auto seen = scene.camera->sample_lens(light.position(), lens);
@@ -177,20 +187,21 @@ inline std::optional<CameraJoin> join_camera(const Scene& scene, const Weights& 
   JoinEnd light_end{seen->importance * light.cosine(seen->direction), f.reverse.value,
                     light.merges(f.pdf.value, f.reverse.value)};
   Join join{light.throughput * f.value * (adjoint * seen->importance),
-            camera_weight(weights, light, light_end, seen->film)};
-  const float kept = roulette.keep(join.value * join.weight);
+            camera_weight(c.weights, light, light_end, seen->film)};
+  const float kept = c.roulette.keep(join.value * join.weight);
   if (kept == 0) return std::nullopt;
   join.value *= kept;
   if constexpr (Vertex::kMedia) {
-    const auto passage = seen_through_media(scene, light, *seen, hide_emitters, *random, counters);
+    const auto passage =
+        seen_through_media(scene, light, *seen, hide_emitters, *c.random, c.counters);
     if (!passage) return std::nullopt;
     join.value *= passage->value;
     light_end.arrival *= passage->nominal;
-    join.weight = camera_weight(weights, light, light_end, seen->film);
+    join.weight = camera_weight(c.weights, light, light_end, seen->film);
   } else {
     const Ray ray = spawn_ray_to(light.surface, seen->target);
-    if (hide_emitters ? occluded_by_others(scene, ray, counters)
-                      : (++counters.shadow_rays, scene.accel->occluded(ray)))
+    if (hide_emitters ? occluded_by_others(scene, ray, c.counters)
+                      : (++c.counters.shadow_rays, scene.accel->occluded(ray)))
       return std::nullopt;
   }
   return CameraJoin{seen->film, join};
@@ -198,9 +209,9 @@ inline std::optional<CameraJoin> join_camera(const Scene& scene, const Weights& 
 
 /// A light vertex seen from an eye vertex.
 template <class Weights, class Vertex>
-inline Join join_ends(const Scene& scene, const Weights& weights, const Vertex& light,
-                      const Vertex& eye, bool strict_normals, JoinRoulette& roulette,
-                      RenderCounters& counters, [[maybe_unused]] RandomStream* random = nullptr) {
+inline Join join_ends(const JoinContext<Weights>& c, const Vertex& light, const Vertex& eye) {
+  const Scene& scene = c.scene;
+  RenderCounters& counters = c.counters;
   const auto fails = [&](uint64_t& reason) {
     ++reason;
     return Join{};
@@ -209,7 +220,8 @@ inline Join join_ends(const Scene& scene, const Weights& weights, const Vertex& 
   const float d2 = length_squared(d);
   if (!(d2 > 0)) return fails(counters.connections.failed_zero);
   const Vector3f to_light = d * (1 / std::sqrt(d2));
-  if (strict_normals && eye.has_two_sides(to_light)) return fails(counters.connections.failed_zero);
+  if (c.strict_normals && eye.has_two_sides(to_light))
+    return fails(counters.connections.failed_zero);
   const BsdfPair f = eye.eval_both_ways(to_light, Transport::radiance);
   if (f.value.is_black()) return fails(counters.connections.failed_zero);
   const BsdfPair g = light.eval_both_ways(-to_light, Transport::importance);
@@ -222,18 +234,19 @@ inline Join join_ends(const Scene& scene, const Weights& weights, const Vertex& 
   JoinEnd eye_end{g.pdf.value * eye.cosine(to_light) * inverse_d2, f.reverse.value,
                   eye.merges(f.pdf.value, f.reverse.value)};
   Join join{eye.throughput * f.value * light.throughput * g.value * (adjoint * inverse_d2),
-            weights.connection(light, light_end, eye, eye_end)};
-  const float kept = roulette.keep(join.value * join.weight);
+            c.weights.connection(light, light_end, eye, eye_end)};
+  const float kept = c.roulette.keep(join.value * join.weight);
   if (kept == 0) return fails(counters.connections.skipped);
   join.value *= kept;
   const Point3f target = light.outside(-to_light);
   if constexpr (Vertex::kMedia) {
-    const auto passage = pass_through_media(scene, ray_to(eye.outside(to_light), target),
-                                            eye.medium_towards(scene, to_light), *random, counters);
+    const auto passage =
+        pass_through_media(scene, ray_to(eye.outside(to_light), target),
+                           eye.medium_towards(scene, to_light), *c.random, counters);
     if (!passage) return fails(counters.connections.failed_occluded);
     join.value *= passage->value;
     light_end.arrival *= passage->nominal, eye_end.arrival *= passage->nominal;
-    join.weight = weights.connection(light, light_end, eye, eye_end);
+    join.weight = c.weights.connection(light, light_end, eye, eye_end);
   } else {
     ++counters.shadow_rays;
     if (scene.accel->occluded(spawn_ray_to(eye.surface, target)))

@@ -38,34 +38,36 @@ void LightPass::reserve(size_t vertices, size_t walks) {
 
 template <class Vertex, class Weights>
 void LightPass::trace(const Scene& scene, const LightPassPlan& plan, const Weights& weights,
-                      uint32_t first, uint32_t end, Trail* trail, Block& block) const {
+                      Range range, Trail* trail, Block& block) const {
   block.vertices.clear();
   block.splats.clear();
   block.trails.clear();
   block.trail_ends.clear();
   block.counters = {};
   const bool has_lens = scene.camera->has_lens();
-  for (uint32_t i = first; i < end; ++i) {
+  for (uint32_t i = range.first; i < range.end; ++i) {
     const uint64_t key = hash_combine(hash_combine(plan.seed, plan.scramble ^ kLightStream),
                                       (uint64_t(plan.iteration) << 32) + i);
     JoinRoulette roulette(plan.roulette_threshold, key);
     RandomStream random(key ^ kMediaStream);
     Sampler sampler(plan.sequence, plan.seed ^ kLightStream, plan.scramble, i);
     sampler.start_sample(plan.iteration);
+    const JoinContext<Weights> joins{scene, weights, roulette, block.counters, false, &random};
     const auto visit = [&](const Vertex& v, const Hit& hit) {
       if (!v.is_smooth()) return;
       if (plan.set.camera_joins) {
         const Point2f lens = has_lens ? sampler.next_2d() : Point2f{};
-        const auto seen = join_camera(scene, weights, v, lens, plan.hide_emitters, roulette,
-                                      block.counters, &random);
+        const auto seen = join_camera(joins, v, lens, plan.hide_emitters);
         if (seen)
           block.splats.push_back({{seen->film, seen->join.value}, seen->join.weight, v.depth});
       }
       if (plan.keep_vertices && (plan.set.connections || v.merges()))
         block.vertices.vertices.emplace_back(v, hit);
     };
-    const int length = trace_light_walk<Vertex>(scene, plan.set, plan.walk, plan.max_depth, sampler,
-                                                block.counters, trail, visit, ~key ^ kMediaStream);
+    const int length =
+        trace_light_walk<Vertex>({scene, plan.set, plan.walk, plan.max_depth, sampler,
+                                  block.counters, trail, ~key ^ kMediaStream},
+                                 visit);
     block.vertices.ends.push_back(uint32_t(block.vertices.vertices.size()));
     block.vertices.lengths.push_back(uint16_t(std::min(length, 0xffff)));
     if (trail) {
@@ -76,18 +78,17 @@ void LightPass::trace(const Scene& scene, const LightPassPlan& plan, const Weigh
 }
 
 template <class Vertex>
-void LightPass::trace(const Scene& scene, const LightPassPlan& plan, uint32_t first, uint32_t end,
+void LightPass::trace(const Scene& scene, const LightPassPlan& plan, Range range,
                       Block& block) const {
   if (plan.windows) {
     Trail trail;
-    trace<Vertex>(scene, plan, WindowWeights(*plan.windows, &trail, nullptr), first, end, &trail,
-                  block);
+    trace<Vertex>(scene, plan, WindowWeights(*plan.windows, &trail, nullptr), range, &trail, block);
   } else if (plan.unit_weights) {
-    trace<Vertex>(scene, plan, UnitWeights(), first, end, nullptr, block);
+    trace<Vertex>(scene, plan, UnitWeights(), range, nullptr, block);
   } else if (plan.set.partly_merged) {
-    trace<Vertex>(scene, plan, MaskedWeights(plan.set, *plan.mask), first, end, nullptr, block);
+    trace<Vertex>(scene, plan, MaskedWeights(plan.set, *plan.mask), range, nullptr, block);
   } else {
-    trace<Vertex>(scene, plan, BalanceWeights(plan.set), first, end, nullptr, block);
+    trace<Vertex>(scene, plan, BalanceWeights(plan.set), range, nullptr, block);
   }
 }
 
@@ -105,9 +106,9 @@ void LightPass::run(const Scene& scene, const LightPassPlan& plan,
       const uint32_t first = wave + uint32_t(i) * kWalksPerBlock;
       const uint32_t end = std::min(first + kWalksPerBlock, plan.walks);
       if (scene.media.empty())
-        trace<PathVertex>(scene, plan, first, end, blocks_[i]);
+        trace<PathVertex>(scene, plan, {first, end}, blocks_[i]);
       else
-        trace<MediaVertex>(scene, plan, first, end, blocks_[i]);
+        trace<MediaVertex>(scene, plan, {first, end}, blocks_[i]);
     });
     for (uint32_t i = 0; i < count; ++i) {
       const Block& b = blocks_[i];

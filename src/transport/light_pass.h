@@ -62,12 +62,14 @@ class LightPass {
     std::vector<LightSplat> splats;
     RenderCounters counters;
   };
+  struct Range {
+    uint32_t first, end;  ///< of the walks
+  };
   template <class Vertex, class Weights>
-  void trace(const Scene& scene, const LightPassPlan& plan, const Weights& weights, uint32_t first,
-             uint32_t end, Trail* trail, Block& block) const;
+  void trace(const Scene& scene, const LightPassPlan& plan, const Weights& weights, Range range,
+             Trail* trail, Block& block) const;
   template <class Vertex>
-  void trace(const Scene& scene, const LightPassPlan& plan, uint32_t first, uint32_t end,
-             Block& block) const;
+  void trace(const Scene& scene, const LightPassPlan& plan, Range range, Block& block) const;
 
   std::vector<Block> blocks_;
   LightVertices vertices_;

@@ -98,12 +98,12 @@ template <>
 MediaVertex LightVertex::unpack(const Scene& scene) const {
   const Vector3f towards_previous = direction_to_previous();
   if (!in_medium())
-    return MediaVertex(scene, surface(scene, towards_previous), towards_previous, throughput,
-                       partials, int(depth), nullptr);
+    return MediaVertex(scene, surface(scene, towards_previous), towards_previous,
+                       {throughput, partials, int(depth)}, nullptr);
   const Medium& medium =
       *std::bit_cast<const Medium*>(std::array<uint32_t, 2>{primitive, instance});
-  return MediaVertex(medium, medium.nominal_extinction(position), position, towards_previous,
-                     throughput, partials, int(depth));
+  return MediaVertex({medium, medium.nominal_extinction(position), position}, towards_previous,
+                     {throughput, partials, int(depth)});
 }
 
 void LightVertices::append(const LightVertices& o) {

@@ -96,81 +96,138 @@ inline WalkOf<Vertex> leave_light(const Scene& scene, const LightStart& start, u
   }
 }
 
-/// Traces one walk of up to `max_depth` segments. `visit(vertex, hit)` sees every vertex, on
-/// surfaces where they were hit, and finds the sampler at the random numbers for the lens. Returns
-/// the number of vertices. `Vertex` is PathVertex or, with a `seed`, MediaVertex.
-template <class Vertex = PathVertex, class Visit>
-int trace_light_walk(const Scene& scene, const TechniqueSet& set, const WalkOptions& options,
-                     int max_depth, Sampler& sampler, RenderCounters& counters, Trail* trail,
-                     Visit&& visit, uint64_t seed = 0) {
-  ++counters.light_paths;
-  sampler.start_dimension(0);
-  const auto start = start_light_walk(scene, sampler);
-  if (trail) trail->clear();
-  if (!start) return 0;
-  WalkOf<Vertex> walk = leave_light<Vertex>(scene, *start, seed);
-  walk.trail = trail;
-  int depth = 1;
-  uint32_t dimension = kLightStartDimensions;
-  const auto arrive_at = [&](const Point3f& p, float d2, float cosine, float transmittance) {
-    if (depth == 1) {
-      record_first_arrival(*start, p, cosine, trail, transmittance);
-      return first_light_partials(*start, p, cosine, set, transmittance);
-    }
-    record_arrival(walk, d2 / transmittance, cosine);
-    return arrive(walk.partials, d2 / transmittance, cosine, set.walk_connections());
-  };
-  /// Whether the walk goes on behind the vertex.
-  const auto pass = [&](const Vertex& v, const Hit& hit, bool may_be_passed) {
-    sampler.start_dimension(dimension + kLensOffset);
-    visit(v, hit);
-    if (depth == max_depth && !may_be_passed) return false;
-    sampler.start_dimension(dimension);
-    dimension += kLightVertexStride<Vertex>;
-    bool straight = false;
-    if (!scatter<Transport::importance>(v, set, options, sampler, walk, &straight)) return false;
-    if (Vertex::kMedia && straight) return true;
-    return depth++ < max_depth;
-  };
-  if (max_depth < 1) return 0;
-  for (;;) {
-    Hit hit;
-    ++counters.closest_rays;
-    const bool found = scene.accel->closest_hit(walk.ray, hit);
-    if constexpr (Vertex::kMedia) {
-      if (walk.medium) {
-        Ray segment = walk.ray;
-        if (found) segment.tmax = hit.t;
-        sampler.start_dimension(dimension + kLightVertexDimensions);
-        const float t = walk.cross(segment, sampler.next_1d(), counters);
-        if (t < INFINITY) {
-          const Point3f p = walk.ray.origin + walk.ray.direction * t;
-          const float d2 = depth == 1 ? 1.0f : length_squared(p - walk.from);
-          const float extinction = walk.medium->nominal_extinction(p);
-          if (!(d2 > 0 && extinction > 0)) return depth - 1;
-          const Partials partials = arrive_at(p, d2, extinction, walk.counted_transmittance());
-          const Vertex v(*walk.medium, extinction, p, -walk.ray.direction, walk.throughput,
-                         partials, depth);
-          if (!pass(v, hit, false)) return depth;
+/// How a light walk is traced.
+struct LightWalkContext {
+  const Scene& scene;
+  const TechniqueSet& set;
+  WalkOptions options;
+  int max_depth;  ///< segments that it has at most
+  Sampler& sampler;
+  RenderCounters& counters;
+  Trail* trail = nullptr;  ///< filled if not null
+  uint64_t seed = 0;       ///< for what happens in media
+};
+
+/// A light walk under way; see trace_light_walk().
+template <class Vertex, class Visit>
+class LightWalk {
+ public:
+  LightWalk(const LightWalkContext& context, const LightStart& start, Visit& visit)
+      : c_(context),
+        start_(start),
+        visit_(visit),
+        walk_(leave_light<Vertex>(context.scene, start, context.seed)) {
+    walk_.trail = context.trail;
+  }
+
+  int trace() {
+    for (;;) {
+      Hit hit;
+      ++c_.counters.closest_rays;
+      const bool found = c_.scene.accel->closest_hit(walk_.ray, hit);
+      if constexpr (Vertex::kMedia)
+        if (const float t = cross_medium(found, hit); t < INFINITY) {
+          if (!scatter_between(t, hit)) return depth_ - missed_;
           continue;
         }
-      }
-    }
-    if (!found) return depth - 1;
-    const Surface s = scene.surface(walk.ray, hit);
-    const float cosine = std::abs(dot(s.ng, walk.ray.direction));
-    if (!(cosine > 0)) return depth - 1;
-    if constexpr (Vertex::kMedia) {
-      const float d2 = depth == 1 ? 1.0f : length_squared(s.position - walk.from);
-      const Partials partials = arrive_at(s.position, d2, cosine, walk.counted_transmittance());
-      const Vertex v(scene, s, -walk.ray.direction, walk.throughput, partials, depth, walk.medium);
-      if (!pass(v, hit, scene.materials[s.shape->material]->passes_straight())) return depth;
-    } else {
-      const Partials partials = arrive_at(s.position, hit.t * hit.t, cosine, 1);
-      const Vertex v(scene, s, -walk.ray.direction, walk.throughput, partials, depth);
-      if (!pass(v, hit, false)) return depth;
+      if (!found) return depth_ - 1;
+      if (!meet_surface(hit)) return depth_ - missed_;
     }
   }
+
+ private:
+  /// The distance to where the medium that the ray is in scatters it, or INFINITY.
+  float cross_medium(bool found, const Hit& hit) {
+    if (!walk_.medium) return INFINITY;
+    Ray segment = walk_.ray;
+    if (found) segment.tmax = hit.t;
+    c_.sampler.start_dimension(dimension_ + kLightVertexDimensions);
+    return walk_.cross(segment, c_.sampler.next_1d(), c_.counters);
+  }
+
+  /// In a medium; whether the walk goes on.
+  bool scatter_between(float t, const Hit& hit) {
+    const Point3f p = walk_.ray.origin + walk_.ray.direction * t;
+    const float d2 = distance2(p);
+    const float extinction = walk_.medium->nominal_extinction(p);
+    if (!(d2 > 0 && extinction > 0)) return miss();
+    const Partials partials = arrive_at({p, d2, extinction, walk_.counted_transmittance()});
+    const Vertex v({*walk_.medium, extinction, p}, -walk_.ray.direction,
+                   {walk_.throughput, partials, depth_});
+    return pass(v, hit, false);
+  }
+
+  bool meet_surface(const Hit& hit) {
+    const Surface s = c_.scene.surface(walk_.ray, hit);
+    const float cosine = std::abs(dot(s.ng, walk_.ray.direction));
+    if (!(cosine > 0)) return miss();
+    if constexpr (Vertex::kMedia) {
+      const Partials partials =
+          arrive_at({s.position, distance2(s.position), cosine, walk_.counted_transmittance()});
+      const Vertex v(c_.scene, s, -walk_.ray.direction, {walk_.throughput, partials, depth_},
+                     walk_.medium);
+      return pass(v, hit, c_.scene.materials[s.shape->material]->passes_straight());
+    } else {
+      const Partials partials = arrive_at({s.position, hit.t * hit.t, cosine});
+      const Vertex v(c_.scene, s, -walk_.ray.direction, walk_.throughput, partials, depth_);
+      return pass(v, hit, false);
+    }
+  }
+
+  /// There is no vertex where the walk ends.
+  bool miss() {
+    missed_ = 1;
+    return false;
+  }
+
+  /// Squared distance from the last vertex; that to the light cancels.
+  float distance2(const Point3f& p) const {
+    return depth_ == 1 ? 1.0f : length_squared(p - walk_.from);
+  }
+
+  Partials arrive_at(const Arrival& a) {
+    if (depth_ == 1) {
+      record_first_arrival(start_, a.at, a.cosine, c_.trail, a.transmittance);
+      return first_light_partials(start_, a.at, a.cosine, c_.set, a.transmittance);
+    }
+    record_arrival(walk_, a.d2 / a.transmittance, a.cosine);
+    return arrive(walk_.partials, a.d2 / a.transmittance, a.cosine, c_.set.walk_connections());
+  }
+
+  /// Whether the walk goes on behind the vertex.
+  bool pass(const Vertex& v, const Hit& hit, bool may_be_passed) {
+    c_.sampler.start_dimension(dimension_ + kLensOffset);
+    visit_(v, hit);
+    if (depth_ == c_.max_depth && !may_be_passed) return false;
+    c_.sampler.start_dimension(dimension_);
+    dimension_ += kLightVertexStride<Vertex>;
+    bool straight = false;
+    if (!scatter<Transport::importance>(v, c_.set, c_.options, c_.sampler, walk_, &straight))
+      return false;
+    if (Vertex::kMedia && straight) return true;
+    return depth_++ < c_.max_depth;
+  }
+
+  const LightWalkContext& c_;
+  const LightStart& start_;
+  Visit& visit_;
+  WalkOf<Vertex> walk_;
+  int depth_ = 1, missed_ = 0;
+  uint32_t dimension_ = kLightStartDimensions;
+};
+
+/// Traces one walk. `visit(vertex, hit)` sees every vertex, on surfaces where they were hit, and
+/// finds the sampler at the random numbers for the lens. Returns the number of vertices. `Vertex`
+/// is PathVertex or MediaVertex.
+template <class Vertex = PathVertex, class Visit>
+int trace_light_walk(const LightWalkContext& context, Visit&& visit) {
+  ++context.counters.light_paths;
+  context.sampler.start_dimension(0);
+  const auto start = start_light_walk(context.scene, context.sampler);
+  if (context.trail) context.trail->clear();
+  if (!start) return 0;
+  LightWalk<Vertex, std::remove_reference_t<Visit>> walk(context, *start, visit);
+  return context.max_depth < 1 ? 0 : walk.trace();
 }
 
 }  // namespace duet

@@ -12,6 +12,20 @@ namespace duet {
 /// The factor by which densities count the way between two vertices is not allowed to vanish.
 inline constexpr float kLeastTransmittance = 1e-6f;
 
+/// A point of a medium at which light is scattered.
+struct MediumPoint {
+  const Medium& medium;
+  float extinction;  ///< the nominal one there
+  Point3f position;
+};
+
+/// What a walk brings to a vertex.
+struct WalkState {
+  const Spectrum& throughput;
+  const Partials& partials;
+  int segments;  ///< from its start to here
+};
+
 /// A vertex on a surface or in a medium.
 struct MediaVertex : PathVertex {
   static constexpr bool kMedia = true;
@@ -21,17 +35,15 @@ struct MediaVertex : PathVertex {
   float extinction = 0;  ///< the nominal one; in a medium only
 
   MediaVertex(const Scene& scene, const Surface& s, const Vector3f& towards_previous,
-              const Spectrum& carried, const Partials& p, int segments, const Medium* through)
-      : PathVertex(scene, s, towards_previous, carried, p, segments),
+              const WalkState& walk, const Medium* through)
+      : PathVertex(scene, s, towards_previous, walk.throughput, walk.partials, walk.segments),
         medium(through),
         in_medium(false) {}
-  MediaVertex(const Medium& where, float nominal_extinction, const Point3f& position,
-              const Vector3f& towards_previous, const Spectrum& carried, const Partials& p,
-              int segments)
-      : PathVertex(position, towards_previous, carried, p, segments),
-        medium(&where),
+  MediaVertex(const MediumPoint& where, const Vector3f& towards_previous, const WalkState& walk)
+      : PathVertex(where.position, towards_previous, walk.throughput, walk.partials, walk.segments),
+        medium(&where.medium),
         in_medium(true),
-        extinction(nominal_extinction) {}
+        extinction(where.extinction) {}
 
   /// What makes densities per solid angle densities per area, or per volume.
   float cosine(const Vector3f& w) const { return in_medium ? extinction : PathVertex::cosine(w); }
@@ -121,7 +133,8 @@ inline std::optional<Passage> pass_through_media(const Scene& scene, const Ray& 
                                                  RenderCounters& counters) {
   SpectralWeights w;
   Passage passage;
-  if (!walk_shadow(scene, ray, medium, random, w, counters, &passage.nominal)) return std::nullopt;
+  if (!walk_shadow(scene, {ray, medium}, random, w, counters, &passage.nominal))
+    return std::nullopt;
   passage.value = w.value;
   passage.nominal = std::max(passage.nominal, kLeastTransmittance);
   return passage;

@@ -28,12 +28,18 @@ inline Ray behind_emitters(const Scene& scene, Ray ray, RenderCounters& counters
   }
 }
 
-/// Multiplies `w` by what gets through from the origin of `ray` to ray.tmax, and by the densities
-/// of a walk that would have taken the same way; false if nothing does. The direction has unit
-/// length; `medium` (or null) is what the ray starts in. `nominal`, if not null, is multiplied by
-/// the nominal transmittance.
-inline bool walk_shadow(const Scene& scene, Ray ray, const Medium* medium, RandomStream& random,
+/// A shadow ray and the medium that it starts in.
+struct ShadowRay {
+  Ray ray;               ///< of unit direction
+  const Medium* medium;  ///< or null
+};
+
+/// Multiplies `w` by what gets through from the origin of a ray to its tmax, and by the densities
+/// of a walk that would have taken the same way; false if nothing does. `nominal`, if not null, is
+/// multiplied by the nominal transmittance.
+inline bool walk_shadow(const Scene& scene, const ShadowRay& shadow, RandomStream& random,
                         SpectralWeights& w, RenderCounters& counters, float* nominal = nullptr) {
+  auto [ray, medium] = shadow;
   for (;;) {
     ++counters.shadow_rays;
     Hit hit;

@@ -35,17 +35,23 @@ inline void record_arrival(Walk& walk, float d2, float cosine) {
   walk.trail->push_back({walk.forward * cosine / d2, 0, walk.cosine_out / d2, false});
 }
 
-/// The sums at the first surface that an eye walk meets, where light tracing competes, at squared
-/// distance `d2` under the geometric cosine `cosine`. `camera_ray` starts at the camera, which the
-/// walk's ray may not do. `transmittance` is the nominal one from there.
-inline Partials first_eye_partials(const Scene& scene, const Ray& camera_ray, const Point3f& at,
-                                   float d2, float cosine, const TechniqueSet& set, Walk& walk,
-                                   float transmittance = 1) {
-  const float importance = scene.camera->importance(camera_ray, distance(at, camera_ray.origin));
-  walk.forward = importance * d2;
+/// Where and how a walk arrives at a vertex.
+struct Arrival {
+  Point3f at;
+  float d2;                 ///< squared distance from the last vertex
+  float cosine;             ///< geometric; in a medium the extinction in its place
+  float transmittance = 1;  ///< the nominal one on the way from there
+};
+
+/// The sums at the first vertex of an eye walk, where light tracing competes. `camera_ray` starts
+/// at the camera, which the walk's ray may not do.
+inline Partials first_eye_partials(const Scene& scene, const Ray& camera_ray, const Arrival& a,
+                                   const TechniqueSet& set, Walk& walk) {
+  const float importance = scene.camera->importance(camera_ray, distance(a.at, camera_ray.origin));
+  walk.forward = importance * a.d2;
   Partials p;
   if (set.camera_joins)
-    p.vcm = set.light_paths / (set.connection_share * importance * cosine * transmittance);
+    p.vcm = set.light_paths / (set.connection_share * importance * a.cosine * a.transmittance);
   return p;
 }
 

@@ -2,16 +2,25 @@
 
 namespace duet {
 
+namespace {
+
+/// The reverse density of vertex i of a side whose last vertex is n, where the other side's end
+/// goes on from it.
+double reverse_density(std::span<const TrailVertex> side, int i, int n, const JoinEnd& end) {
+  if (i == n) return double(end.arrival);
+  if (i == n - 1) return double(end.beyond) * double(side[size_t(n)].back);
+  return double(side[size_t(i)].reverse);
+}
+
+}  // namespace
+
 double WindowWeights::fewer(std::span<const TrailVertex> light, int m, int t,
                             const JoinEnd& end) const {
   double sum = 0, ratio = 1;
   // Vertex i changes sides: it is made from the eye's end now, and i light vertices are left.
   for (int i = m; i >= 1; --i) {
     const TrailVertex& v = light[size_t(i)];
-    const double reverse = i == m       ? double(end.arrival)
-                           : i == m - 1 ? double(end.beyond) * double(light[size_t(m)].back)
-                                        : double(v.reverse);
-    ratio *= reverse / double(v.forward);
+    ratio *= reverse_density(light, i, m, end) / double(v.forward);
     // Of a single light vertex light samples have a density of their own.
     if (i == 1) ratio *= double(light[0].back);
     ++t;
@@ -29,10 +38,7 @@ double WindowWeights::more(int n, int s, const JoinEnd& end) const {
   double sum = 0, ratio = 1;
   for (int j = n; j >= 1; --j) {
     const TrailVertex& v = eye[size_t(j)];
-    const double reverse = j == n       ? double(end.arrival)
-                           : j == n - 1 ? double(end.beyond) * double(eye[size_t(n)].back)
-                                        : double(v.reverse);
-    ratio *= reverse / double(v.forward);
+    ratio *= reverse_density(eye, j, n, end) / double(v.forward);
     ++s;
     const bool joins = (j == n || !v.specular) && (j == 1 || !eye[size_t(j - 1)].specular);
     if (joins) sum += windows_.share(s, j) * ratio;

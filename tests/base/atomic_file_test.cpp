@@ -22,6 +22,16 @@ TEST_CASE("a file is replaced as a whole, and a symbolic link stays one") {
   CHECK(directory.count() == 2);
 }
 
+TEST_CASE("a temporary name that is taken is no obstacle, and what has it stays") {
+  TemporaryDirectory directory;
+  const std::string path = directory.write("a", "old");
+  const std::string taken = directory.write("a." + std::to_string(getpid()) + "-0.tmp", "other");
+  write_file_atomically(path, "new text");
+  CHECK(read_file(path) == "new text");
+  CHECK(read_file(taken) == "other");
+  CHECK(directory.count() == 2);
+}
+
 TEST_CASE("what cannot be written leaves nothing behind") {
   TemporaryDirectory directory;
   CHECK_THROWS_WITH_AS(write_file_atomically(directory.path("no/such"), bytes_of("x")),

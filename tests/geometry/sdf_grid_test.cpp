@@ -29,8 +29,7 @@ SdfGrid ball(int n, double radius) {
 bool first_hit(const SdfGrid& grid, const Local& o, const Local& d, double& t, uint32_t& cell) {
   double nearest = INFINITY;
   for (const uint32_t c : grid.cells) {
-    double s;
-    if (intersect_cell(grid, c, o, d, 0, nearest, s)) nearest = s, cell = c;
+    if (const auto s = intersect_cell(grid, c, o, d, 0, nearest)) nearest = *s, cell = c;
   }
   t = nearest;
   return nearest < INFINITY;
@@ -85,9 +84,8 @@ TEST_CASE("sdf grid: rays that miss, begin beyond or end before find nothing") {
   CHECK_FALSE(first_hit(grid, {0.95, 0.5, -1}, {0, 0, 1}, t, cell));
   REQUIRE(first_hit(grid, {0.5, 0.5, -1}, {0, 0, 1}, t, cell));
   CHECK(t == doctest::Approx(1.2).epsilon(0.005));
-  double other;
-  CHECK_FALSE(intersect_cell(grid, cell, {0.5, 0.5, -1}, {0, 0, 1}, 0, t - 0.01, other));
-  CHECK_FALSE(intersect_cell(grid, cell, {0.5, 0.5, -1}, {0, 0, 1}, t + 0.01, 9, other));
+  CHECK_FALSE(intersect_cell(grid, cell, {0.5, 0.5, -1}, {0, 0, 1}, 0, t - 0.01));
+  CHECK_FALSE(intersect_cell(grid, cell, {0.5, 0.5, -1}, {0, 0, 1}, t + 0.01, 9));
 }
 
 TEST_CASE("sdf grid: only cells with the surface count") {

@@ -32,7 +32,7 @@ Shape to_shape(const std::string& name, const Matrix4& place) {
 
 Point2f change(LayerKind kind, const Surface& s, const std::optional<NextRays>& next) {
   float out[2] = {0, 0};
-  evaluate_layer(kind, Scene(), s, {0, 0, 1}, Hit(), next ? &*next : nullptr, out);
+  evaluate_layer(kind, Scene(), {s, {0, 0, 1}, Hit(), next ? &*next : nullptr}, out);
   return {out[0], out[1]};
 }
 
@@ -99,7 +99,7 @@ TEST_CASE("linear curves and grids of distances have no derivatives, as in Mitsu
     for (const LayerKind kind :
          {LayerKind::dp_du, LayerKind::dp_dv, LayerKind::duv_dx, LayerKind::duv_dy}) {
       float out[3] = {0, 0, 0};
-      evaluate_layer(kind, Scene(), s, {0, 0, 1}, Hit(), &next, out);
+      evaluate_layer(kind, Scene(), {s, {0, 0, 1}, Hit(), &next}, out);
       for (const float v : out) zero &= v == 0;
     }
     return zero;

@@ -34,15 +34,14 @@ inline ReferenceComparison compare_tiles(const TileBatches& images, const Refere
   ReferenceComparison r;
   double total = 0;
   for (size_t i = 0; i < means.size(); ++i) {
-    means[i] /= counts[i], error2[i] /= counts[i] * counts[i];
-    total += means[i] / double(means.size());
-    const Moments& tile = images.tile(int(i));
-    const double own = tile.error() * tile.error(), both = own + error2[i];
-    if (!(both > 0)) continue;
-    const double dof = both * both / std::max(own * own, 1e-300) * double(tile.count() - 1);
-    const double z = normal_of_student((tile.mean() - means[i]) / std::sqrt(both), dof);
+    // The variance of the reference is known, not estimated.
+    const MeanEstimate expected{means[i] / counts[i], error2[i] / (counts[i] * counts[i]), 0};
+    total += expected.mean / double(means.size());
+    const WelchTest test = welch_test(images.tile(int(i)).estimate(), expected);
+    if (!(test.error > 0)) continue;
+    const double z = normal_of_student(test.t, test.dof);
     r.mean_z2 += z * z / double(means.size());
-    r.least_p = std::min(r.least_p, normal_p_value(z));
+    r.least_p = std::min(r.least_p, test.p);
   }
   r.ratio = images.total().mean() / total;
   r.ratio_error = images.total().error() / total;

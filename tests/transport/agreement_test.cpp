@@ -281,7 +281,7 @@ TileBatches render(const TransportScene& scene, const Method& method, int max_de
   TransportScene::Parameters p = method.parameters;
   p.emplace_back("max_depth", std::to_string(max_depth));
   std::vector<Image> images(kBatches);
-  parallel_for(kBatches, hardware_threads(), [&](size_t b) {
+  parallel_for(kBatches, HardwareThreads().count(), [&](size_t b) {
     images[b] = scene.render(method.name, p, spp, seed * kBatches + b, 1).image;
   });
   TileBatches batches;

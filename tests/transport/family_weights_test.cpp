@@ -131,20 +131,20 @@ class Observer {
     if (!join.value.is_black()) all_.push_back({technique, join.weight, shares_of(weights_)});
   }
 
+  JoinContext<Weights> joins() { return {scene_, weights_, roulette_, counters_, false, &random_}; }
+
   void trace_light() {
     Sampler sampler(SampleSequence::independent, 1, 0, index_);
     sampler.start_sample(0);
     trace_light_walk<Vertex>(
-        scene_, set_, {1000, false}, kDepth, sampler, counters_, &light_trail_,
+        {scene_, set_, {1000, false}, kDepth, sampler, counters_, &light_trail_, uint64_t(index_)},
         [&](const Vertex& v, const Hit& hit) {
           if (!v.is_smooth()) return;
           light_.push_back(v), packed_.emplace_back(v, hit);
           arrivals_.push_back(light_trail_.back());
-          const auto seen =
-              join_camera(scene_, weights_, v, {}, false, roulette_, counters_, &random_);
+          const auto seen = join_camera(joins(), v, {}, false);
           if (seen) note('c', seen->join);
-        },
-        index_);
+        });
   }
 
   WalkOf<Vertex> new_walk() const {
@@ -166,12 +166,11 @@ class Observer {
     walk.throughput = Spectrum(1);
     walk.trail = &eye_trail_;
     int depth = 1;
-    const auto arrive_at = [&](const Point3f& p, float d2, float cosine, float transmittance) {
-      const Partials partials =
-          depth == 1
-              ? first_eye_partials(scene_, camera_ray, p, d2, cosine, set_, walk, transmittance)
-              : arrive(walk.partials, d2 / transmittance, cosine, set_.walk_connections());
-      record_arrival(walk, d2 / transmittance, cosine);
+    const auto arrive_at = [&](const Arrival& a) {
+      const Partials partials = depth == 1 ? first_eye_partials(scene_, camera_ray, a, set_, walk)
+                                           : arrive(walk.partials, a.d2 / a.transmittance, a.cosine,
+                                                    set_.walk_connections());
+      record_arrival(walk, a.d2 / a.transmittance, a.cosine);
       return partials;
     };
     uint32_t dimension = 0;
@@ -197,9 +196,9 @@ class Observer {
           const Point3f p = walk.ray.origin + walk.ray.direction * t;
           const float extinction = walk.medium->nominal_extinction(p);
           const Partials partials =
-              arrive_at(p, length_squared(p - walk.from), extinction, transmittance);
-          if (!pass(Vertex(*walk.medium, extinction, p, -walk.ray.direction, walk.throughput,
-                           partials, depth)))
+              arrive_at({p, length_squared(p - walk.from), extinction, transmittance});
+          if (!pass(Vertex({*walk.medium, extinction, p}, -walk.ray.direction,
+                           {walk.throughput, partials, depth})))
             return;
           continue;
         }
@@ -214,9 +213,9 @@ class Observer {
       if (s.shape->light != kNone)
         note('u', join_hit(scene_, weights_, walk, s, d2, transmittance));
       if (!(cosine > 0)) return;
-      const Partials partials = arrive_at(s.position, d2, cosine, transmittance);
+      const Partials partials = arrive_at({s.position, d2, cosine, transmittance});
       if constexpr (Vertex::kMedia) {
-        if (!pass(Vertex(scene_, s, -walk.ray.direction, walk.throughput, partials, depth,
+        if (!pass(Vertex(scene_, s, -walk.ray.direction, {walk.throughput, partials, depth},
                          walk.medium)))
           return;
       } else if (!pass(Vertex(scene_, s, -walk.ray.direction, walk.throughput, partials, depth))) {
@@ -228,10 +227,10 @@ class Observer {
   void join(const Vertex& v, const Sampler& sampler) {
     if (!v.is_smooth()) return;
     Sampler same = sampler;
-    note('u', join_light(scene_, weights_, v, false, same, roulette_, counters_, &random_));
+    note('u', join_light(joins(), v, same));
     for (size_t i = 0; i < light_.size(); ++i) {
       set_arrival(weights_, &arrivals_[i]);
-      note('v', join_ends(scene_, weights_, light_[i], v, false, roulette_, counters_, &random_));
+      note('v', join_ends(joins(), light_[i], v));
       // How far the two vertices are apart does not matter to the weight.
       if (v.merges() && packed_[i].merges)
         note(merge_, join_merge(weights_, packed_[i], v, 1, false));

@@ -309,13 +309,13 @@ void Checker<Vertex>::eye_walk(Weights weights, const Ray& camera_ray, int max_d
   walk.throughput = Spectrum(1);
   walk.trail = trail;
   JoinRoulette roulette(0, 0);
+  const JoinContext<Weights> joins{scene_, weights, roulette, counters_, false, &random_};
   int depth = 1;
-  const auto arrive_at = [&](const Point3f& p, float d2, float cosine, float transmittance) {
-    const Partials partials =
-        depth == 1
-            ? first_eye_partials(scene_, camera_ray, p, d2, cosine, set_, walk, transmittance)
-            : arrive(walk.partials, d2 / transmittance, cosine, set_.walk_connections());
-    record_arrival(walk, d2 / transmittance, cosine);
+  const auto arrive_at = [&](const Arrival& a) {
+    const Partials partials = depth == 1 ? first_eye_partials(scene_, camera_ray, a, set_, walk)
+                                         : arrive(walk.partials, a.d2 / a.transmittance, a.cosine,
+                                                  set_.walk_connections());
+    record_arrival(walk, a.d2 / a.transmittance, a.cosine);
     return partials;
   };
   /// Connects the vertex with all of the light walk; whether the eye walk goes on.
@@ -324,7 +324,7 @@ void Checker<Vertex>::eye_walk(Weights weights, const Ray& camera_ray, int max_d
     if (v.is_smooth())
       for (const Vertex& l : light.vertices) {
         if (!l.is_smooth()) continue;
-        const Join join = join_ends(scene_, weights, l, v, false, roulette, counters_, &random_);
+        const Join join = join_ends(joins, l, v);
         if (join.value.is_black() || share(l.depth + 1, depth + 1) == 0) continue;
         OraclePath path;
         const Vector3f next = normalize(v.position() - l.position());
@@ -359,9 +359,9 @@ void Checker<Vertex>::eye_walk(Weights weights, const Ray& camera_ray, int max_d
         const Point3f p = walk.ray.origin + walk.ray.direction * t;
         const float extinction = walk.medium->nominal_extinction(p);
         const Partials partials =
-            arrive_at(p, length_squared(p - walk.from), extinction, transmittance);
-        if (!pass(Vertex(*walk.medium, extinction, p, -walk.ray.direction, walk.throughput,
-                         partials, depth)))
+            arrive_at({p, length_squared(p - walk.from), extinction, transmittance});
+        if (!pass(Vertex({*walk.medium, extinction, p}, -walk.ray.direction,
+                         {walk.throughput, partials, depth})))
           return;
         continue;
       }
@@ -403,9 +403,9 @@ void Checker<Vertex>::eye_walk(Weights weights, const Ray& camera_ray, int max_d
     if (!found) return;
     const float cosine = std::abs(dot(s.ng, walk.ray.direction));
     if (!(cosine > 0)) return;
-    const Partials partials = arrive_at(s.position, d2, cosine, transmittance);
+    const Partials partials = arrive_at({s.position, d2, cosine, transmittance});
     if constexpr (Vertex::kMedia) {
-      if (!pass(Vertex(scene_, s, -walk.ray.direction, walk.throughput, partials, depth,
+      if (!pass(Vertex(scene_, s, -walk.ray.direction, {walk.throughput, partials, depth},
                        walk.medium)))
         return;
     } else if (!pass(Vertex(scene_, s, -walk.ray.direction, walk.throughput, partials, depth))) {
@@ -437,7 +437,9 @@ void Checker<Vertex>::pair(uint32_t index, int max_depth) {
       light.add(v);
       if (!v.is_smooth()) return;
       const auto seen =
-          join_camera(scene_, weights, v, sampler.next_2d(), false, roulette, counters_, &random_);
+          join_camera(JoinContext<std::decay_t<decltype(weights)>>{scene_, weights, roulette,
+                                                                   counters_, false, &random_},
+                      v, sampler.next_2d(), false);
       if (!seen || share(v.depth + 1, 1) == 0) return;
       const auto lens = scene_.camera->sample_lens(v.position(), {0.5f, 0.5f});
       if (!lens || scene_.camera->has_lens()) return;
@@ -449,8 +451,15 @@ void Checker<Vertex>::pair(uint32_t index, int max_depth) {
     };
   };
   const auto trace = [&](const auto& weights) {
-    trace_light_walk<Vertex>(scene_, set_, {1000, false}, max_depth - 1, light_sampler, counters_,
-                             &light_trail_, visit_with(weights), index + 1);
+    trace_light_walk<Vertex>({scene_,
+                              set_,
+                              {1000, false},
+                              max_depth - 1,
+                              light_sampler,
+                              counters_,
+                              &light_trail_,
+                              uint64_t(index + 1)},
+                             visit_with(weights));
     // The last surface may have been passed on the way out.
     if (!light.vertices.empty() && !light.vertices.back().is_smooth())
       light.vertices.pop_back(), light.specular.pop_back();

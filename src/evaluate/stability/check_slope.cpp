@@ -57,7 +57,9 @@ Image image_of_steps(const SeriesPlan& plan, int batch, Experiment& e,
 struct Steps {
   std::vector<Series> series;
 
-  void extend(const Cell& cell, const SeriesPlan& plan) {
+  void extend(const Cell& cell, const Variant& v, int batches) {
+    SeriesPlan plan = subject_plan(cell.row, cell.method, v);
+    plan.batches = batches;
     const size_t there = whole_.pictures.size();
     std::vector<std::vector<Image>> after_each(size_t(plan.batches));
     cell.laboratory.extend(whole_, plan, [&](Experiment& e, int batch, RenderCounters& counters) {
@@ -124,9 +126,7 @@ Measurement measure_slope(const Cell& cell) {
   const Truth truth = truth_of(render_reference(cell.laboratory, cell.row, cell.method, v));
   Steps steps;
   return measure_resolved(cell, [&](int batches) {
-    SeriesPlan plan = subject_plan(cell.row, cell.method, v);
-    plan.batches = batches;
-    steps.extend(cell, plan);
+    steps.extend(cell, v, batches);
     const Fit fit = fit_slope(steps.series, truth, truth, true);
     Measurement m;
     m.value = fit.slope, m.error = fit.error;
@@ -147,9 +147,7 @@ Measurement measure_slope_debiasing(const Cell& cell) {
   const Truth noisy = truth_of(few);
   Steps steps;
   return measure_resolved(cell, [&](int batches) {
-    SeriesPlan plan = subject_plan(cell.row, cell.method, v);
-    plan.batches = batches;
-    steps.extend(cell, plan);
+    steps.extend(cell, v, batches);
     const Fit good = fit_slope(steps.series, truth, truth, true);
     const Fit debiased = fit_slope(steps.series, noisy, truth, true);
     const Fit plain = fit_slope(steps.series, noisy, truth, false);

@@ -1,0 +1,28 @@
+// What the commands of the program share: made by main, and passed to whatever needs it.
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "base/log.h"
+#include "base/parallel.h"
+
+namespace duet {
+
+struct Program {
+  Log log;
+  std::string command_line;    ///< as it was typed, for the header of images
+  std::string standard_input;  ///< the scene that was read from there
+  int exit_code = 0;           ///< of the command that was run
+
+  /// All threads that the process may have.
+  int threads() {
+    if (!threads_) threads_.emplace();
+    return threads_->count();
+  }
+
+ private:
+  std::optional<HardwareThreads> threads_;
+};
+
+}  // namespace duet
