@@ -47,11 +47,13 @@ TEST_CASE("every BSDF lets light through if and only if its description says so"
       const auto scene = build_scene(d, {}, diagnostics);
       REQUIRE(scene);
       const Material& built = *scene->materials.at(scene->shapes.at(0).material);
-      CHECK(built.transmits() == transmits(d, id));
+      // A thin material could let light through, whatever its weights are.
+      CHECK(transmits(d, id) == (built.transmits() || p.name == "principledthin"));
       CHECK((built.perturbs() || !s.bumps));
       // Panes of glass count as glass, though part of the light passes them straight.
       if (s.see_through) CHECK(built.passes_straight());
-      if (const ConstantMaterial* constant = built.constant()) {
+      const ConstantMaterial* constant = built.constant();
+      if (constant && d.materials.at(size_t(id)).model.nested().empty()) {
         CHECK(constant->has_delta == (s.has_delta_lobe() || s.see_through));
         CHECK(constant->has_smooth == s.has_smooth_lobe());
       }
