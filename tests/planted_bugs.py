@@ -162,7 +162,7 @@ MUTATIONS = [
     ("the weights of area lights are lost", "src/scene/build_lights.cpp",
      "add_light(make(e, shape), e.sampling_weight);", "add_light(make(e, shape), 1);",
      "lights are chosen by the weights*"),
-    ("curves that light passes are not called one-way", "src/scene/one_way.cpp",
+    ("curves that light passes are not called one-way", "src/scene/features.cpp",
      "tubes->curves->outside_only && transmits(scene, s.material)",
      "tubes->curves->outside_only && false && transmits(scene, s.material)",
      "auto takes no method that the command line refuses"),

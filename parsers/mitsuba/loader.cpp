@@ -23,13 +23,14 @@ class Loader {
   Loader(const MitsubaOptions& options, const FileAccess& access, Report& report)
       : options_(options),
         access_(access),
+        vocabulary_(options.vocabulary ? *options.vocabulary : Vocabulary::built_in()),
         report_(report),
         substitution_(options.defines),
         references_(report) {}
 
   NodeTree load(const std::string& file) {
     tree_.nodes.emplace_back().kind = PluginKind::scene;
-    tree_.nodes.front().plugin = find_plugin(PluginKind::scene, "scene");
+    tree_.nodes.front().plugin = vocabulary_.find(PluginKind::scene, "scene");
     const SourceLocation nowhere{std::make_shared<const std::string>(file), 0, 0};
     load_file(file, tree_.nodes.front(), options_.search_paths, nowhere, "");
     references_.resolve();
@@ -183,7 +184,7 @@ class Loader {
   /// run.
   bool is_replaced(const Node& node, pugi::xml_node element, const File& file) {
     if (node.kind != PluginKind::integrator || options_.replacing_methods.empty()) return false;
-    const Plugin* plugin = find_plugin(node.kind, node.type);
+    const Plugin* plugin = vocabulary_.find(node.kind, node.type);
     for (const char* layers : {"aov", "moment", "field", "multichannel"})
       if (plugin && plugin->name == layers) return false;
     const Report::Mute mute(report_);
@@ -201,7 +202,7 @@ class Loader {
   }
 
   void find_node_plugin(Node& node, const SourceLocation& where) {
-    const Plugin* plugin = find_plugin(node.kind, node.type);
+    const Plugin* plugin = vocabulary_.find(node.kind, node.type);
     const std::string_view tag = tag_of(node.kind);
     const bool refused = plugin && plugin->support == Support::refused;
     const bool integrator = node.kind == PluginKind::integrator;
@@ -209,7 +210,7 @@ class Loader {
       report_.warning(where, "the integrator \"{}\" is {}: {} takes its place", node.type,
                       refused ? "refused" : "unknown", fmt::join(options_.replacing_methods, ", "));
       // Its name for what the methods share.
-      node.plugin = find_plugin(node.kind, "path");
+      node.plugin = vocabulary_.find(node.kind, "path");
     } else if (refused) {
       report_.error(where, "{} type \"{}\" is refused: {}{}", tag, node.type, plugin->note,
                     integrator ? kWayOut : "");
@@ -217,9 +218,9 @@ class Loader {
       node.plugin = plugin;
       node.type = plugin->name;
     } else {
-      std::string hint = did_you_mean(node.type, plugin_names(node.kind));
+      std::string hint = did_you_mean(node.type, vocabulary_.names(node.kind));
       for (int i = 0; i < kPluginKinds && hint.empty(); ++i)
-        if (find_plugin(PluginKind(i), node.type))
+        if (vocabulary_.find(PluginKind(i), node.type))
           hint = fmt::format(" (there is a {} of that name)", tag_of(PluginKind(i)));
       report_.error(where, "unknown {} type {}{}{}", tag, in_quotes(node.type), hint,
                     integrator ? kWayOut : "");
@@ -273,6 +274,7 @@ class Loader {
 
   const MitsubaOptions& options_;
   const FileAccess& access_;
+  const Vocabulary& vocabulary_;
   Report& report_;
   Substitution substitution_;
   NodeTree tree_;

@@ -28,7 +28,7 @@ const Node* MaterialLibrary::find(const std::string& name, const FileAccess& fil
 Node& MaterialLibrary::add(PluginKind kind, const char* type, int line) {
   Node& node = nodes_.emplace_back();
   node.kind = kind;
-  node.plugin = find_plugin(kind, type);
+  node.plugin = Vocabulary::built_in().find(kind, type);
   node.type = type;
   node.version = version_;
   node.where = place(line);

@@ -42,7 +42,11 @@ struct FileAccess {
   std::function<CurveSet(const std::string& path, float radius)> read_hair;
 };
 
+class Vocabulary;
+
 struct MitsubaOptions {
+  /// The plugins that are known; null for those that come with the program. Must outlive reading.
+  const Vocabulary* vocabulary = nullptr;
   /// Values of `$name` parameters; they win over the scene's own defaults.
   std::vector<std::pair<std::string, std::string>> defines;
   /// Further directories to look for files, after the scene's own.

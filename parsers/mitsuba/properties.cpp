@@ -222,18 +222,19 @@ Matrix4 Properties::transform(std::string_view name, Motion& motion) {
   return {};
 }
 
-std::string Properties::simplified(std::string_view word) {
-  std::string s = to_lower(trim(word));
-  std::erase(s, '_');
-  return s;
-}
-
-void Properties::bad_choice(std::string_view name, const std::string& value,
-                            const std::vector<std::string>& choices) {
-  std::string list;
-  for (const std::string& c : choices) list += (list.empty() ? "" : ", ") + c;
+size_t Properties::choice(std::string_view name, std::span<const std::string_view> words) {
+  const auto simplified = [](std::string_view word) {
+    std::string s = to_lower(trim(word));
+    std::erase(s, '_');
+    return s;
+  };
+  const std::string value = string(name);
+  for (size_t i = 0; i < words.size(); ++i)
+    if (simplified(words[i]) == simplified(value)) return i;
+  const std::vector<std::string> known(words.begin(), words.end());
   error(name, "{} cannot be {}{}; it is one of {}", expected(parameter(name)), in_quotes(value),
-        did_you_mean(value, choices), list);
+        did_you_mean(value, known), fmt::join(known, ", "));
+  return 0;
 }
 
 std::vector<Properties::Child> Properties::children(PluginKind kind) {

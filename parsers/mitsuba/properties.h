@@ -3,6 +3,7 @@
 
 #include <initializer_list>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -48,6 +49,8 @@ class Properties {
   /// One of several words, in any case and with or without underscores.
   template <class E>
   E choice(std::string_view name, std::initializer_list<std::pair<std::string_view, E>> choices);
+  /// The same by its place among the words; 0 after an error.
+  size_t choice(std::string_view name, std::span<const std::string_view> words);
 
   /// A check that needs more than one value failed.
   template <class... Args>
@@ -81,9 +84,6 @@ class Properties {
   const Entry* entry(std::string_view name) const;
   std::string expected(const Parameter& p) const;
   void report_unused(const Entry& e);
-  void bad_choice(std::string_view name, const std::string& value,
-                  const std::vector<std::string>& choices);
-  static std::string simplified(std::string_view word);
 
   const Node& node_;
   Report& report_;
@@ -93,14 +93,9 @@ class Properties {
 template <class E>
 E Properties::choice(std::string_view name,
                      std::initializer_list<std::pair<std::string_view, E>> choices) {
-  const std::string value = string(name);
-  std::vector<std::string> words;
-  for (const auto& [word, meaning] : choices) {
-    if (simplified(word) == simplified(value)) return meaning;
-    words.emplace_back(word);
-  }
-  bad_choice(name, value, words);
-  return choices.begin()->second;
+  std::vector<std::string_view> words;
+  for (const auto& [word, meaning] : choices) words.push_back(word);
+  return (choices.begin() + choice(name, words))->second;
 }
 
 }  // namespace duet

@@ -125,7 +125,7 @@ MaterialLibrary* SceneReader::material_library(const std::string& name, const st
   return entry->second.get();
 }
 
-void read_obj(SceneReader& s, Properties& p, ShapeList& out) {
+void read_obj_shape(SceneReader& s, Properties& p, ShapeList& out) {
   ShapeDescription shape;
   shape.where = p.node().where;
   shape.label = {p.node().id};

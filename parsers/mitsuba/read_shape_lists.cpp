@@ -44,7 +44,7 @@ Matrix4 placed(const Ellipsoid& e, double scale, const Matrix4& to_world, const 
 
 }  // namespace
 
-void read_ellipsoids(SceneReader& s, Properties& p, ShapeList& out) {
+void read_ellipsoids_shape(SceneReader& s, Properties& p, ShapeList& out) {
   const std::string file = s.file(p, "filename");
   const Matrix4 to_world = p.transform("to_world");
   const double scale = p.number("scale_factor") * p.number("extent");

@@ -246,7 +246,7 @@ void attach_to_curves(SceneReader& s, Properties& p, ShapeDescription& out) {
 
 }  // namespace
 
-void read_curves(SceneReader& s, Properties& p, ShapeDescription& out) {
+void read_curves_shape(SceneReader& s, Properties& p, ShapeDescription& out) {
   const CurveKind kind =
       p.node().plugin->name == "bsplinecurve" ? CurveKind::bspline : CurveKind::linear;
   const std::string file = s.file(p, "filename");

@@ -5,38 +5,6 @@
 
 namespace duet {
 
-// read_materials.cpp
-void read_diffuse(SceneReader&, Properties&, MaterialDescription&);
-void read_conductor(SceneReader&, Properties&, MaterialDescription&);
-void read_dielectric(SceneReader&, Properties&, MaterialDescription&);
-void read_thindielectric(SceneReader&, Properties&, MaterialDescription&);
-void read_plastic(SceneReader&, Properties&, MaterialDescription&);
-void read_principled(SceneReader&, Properties&, MaterialDescription&);
-void read_principledthin(SceneReader&, Properties&, MaterialDescription&);
-void read_phong(SceneReader&, Properties&, MaterialDescription&);
-void read_ward(SceneReader&, Properties&, MaterialDescription&);
-void read_roughdiffuse(SceneReader&, Properties&, MaterialDescription&);
-void read_difftrans(SceneReader&, Properties&, MaterialDescription&);
-void read_null(SceneReader&, Properties&, MaterialDescription&);
-
-// read_special_materials.cpp
-void read_hair_material(SceneReader&, Properties&, MaterialDescription&);
-void read_measured_material(SceneReader&, Properties&, MaterialDescription&);
-void read_pplastic(SceneReader&, Properties&, MaterialDescription&);
-void read_filter_of_light(SceneReader&, Properties&, MaterialDescription&);
-void read_coating(SceneReader&, Properties&, MaterialDescription&);
-void read_hk(SceneReader&, Properties&, MaterialDescription&);
-void read_irawan(SceneReader&, Properties&, MaterialDescription&);
-void read_sssbrdf(SceneReader&, Properties&, MaterialDescription&);
-
-// read_adapters.cpp: materials made of others
-void read_twosided(SceneReader&, Properties&, MaterialDescription&);
-void read_mask(SceneReader&, Properties&, MaterialDescription&);
-void read_mixturebsdf(SceneReader&, Properties&, MaterialDescription&);
-void read_blendbsdf(SceneReader&, Properties&, MaterialDescription&);
-void read_bumpmap(SceneReader&, Properties&, MaterialDescription&);
-void read_normalmap(SceneReader&, Properties&, MaterialDescription&);
-
 // read_textures.cpp
 void read_bitmap(SceneReader&, Properties&, TextureDescription&);
 void read_checkerboard(SceneReader&, Properties&, TextureDescription&);
@@ -57,19 +25,19 @@ void read_blackbody(SceneReader&, Properties&, MeantColor&);
 
 // read_shapes.cpp
 void read_mesh(SceneReader&, Properties&, ShapeDescription&);
-void read_obj(SceneReader&, Properties&, ShapeList&);
+void read_obj_shape(SceneReader&, Properties&, ShapeList&);
 void read_rectangle(SceneReader&, Properties&, ShapeDescription&);
 void read_cube(SceneReader&, Properties&, ShapeDescription&);
 void read_sphere(SceneReader&, Properties&, ShapeDescription&);
 void read_disk(SceneReader&, Properties&, ShapeDescription&);
 void read_sdfgrid(SceneReader&, Properties&, ShapeDescription&);
 void read_cylinder(SceneReader&, Properties&, ShapeDescription&);
-void read_curves(SceneReader&, Properties&, ShapeDescription&);
+void read_curves_shape(SceneReader&, Properties&, ShapeDescription&);
 void read_hair_shape(SceneReader&, Properties&, ShapeDescription&);
 void read_heightfield(SceneReader&, Properties&, ShapeDescription&);
 void read_instance(SceneReader&, Properties&, ShapeDescription&);
 void read_merge(SceneReader&, Properties&, ShapeList&);
-void read_ellipsoids(SceneReader&, Properties&, ShapeList&);
+void read_ellipsoids_shape(SceneReader&, Properties&, ShapeList&);
 void read_shapegroup(SceneReader&, Properties&, ShapeGroupDescription&);
 
 // read_lights.cpp

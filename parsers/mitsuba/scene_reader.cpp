@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "mitsuba/texture_uses.h"
+#include "scene/texture_uses.h"
 
 namespace duet {
 
@@ -43,7 +43,7 @@ std::optional<TextureId> SceneReader::texture(const Node& node) {
 
 std::optional<MaterialId> SceneReader::material(const Node& node) {
   const auto id = once(node, [&]() -> std::optional<uint32_t> {
-    MaterialDescription material{node.where, {node.id}, DiffuseMaterial{}};
+    MaterialDescription material{node.where, {node.id}};
     if (!read_into(node, material)) return std::nullopt;
     description_.materials.push_back(std::move(material));
     return uint32_t(description_.materials.size() - 1);

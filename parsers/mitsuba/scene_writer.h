@@ -5,9 +5,9 @@
 #include <string>
 #include <vector>
 
-#include "mitsuba/texture_uses.h"
 #include "mitsuba/xml_printer.h"
 #include "scene/description.h"
+#include "scene/texture_uses.h"
 
 namespace duet {
 
@@ -22,16 +22,15 @@ class SceneWriter {
 
  private:
   void name_things();
+  void material(const MaterialDescription& m, const std::string& id);
   std::string unique_id(const std::string& wanted, const std::string& otherwise);
   void lose(std::string what);
 
-  // write_materials.cpp
+  // write_textures.cpp
   void color(std::string_view name, const ColorInput& input);
   void number(std::string_view name, const FloatInput& input);
-  void roughness(const std::optional<Roughness>& r, bool isotropic);
   void uv_transform(const UvTransform& uv);
   void texture(size_t index);
-  void material(const MaterialDescription& m, const std::string& id);
   void write_model(const BitmapTexture& t);
   void write_model(const CheckerboardTexture& t);
   void write_model(const MeshAttributeTexture& t);
@@ -40,30 +39,22 @@ class SceneWriter {
   void write_model(const CurvatureTexture& t);
   void write_model(const ScaledTextureDescription& t);
   void write_model(const VolumeTextureDescription& t);
-  void write_model(const DiffuseMaterial& m);
-  void write_model(const ConductorMaterial& m);
-  void write_model(const DielectricMaterial& m);
-  void write_model(const ThinDielectricMaterial& m);
-  void write_model(const PlasticMaterial& m);
-  void write_model(const PhongMaterial& m);
-  void write_model(const WardMaterial& m);
-  void write_model(const RoughDiffuseMaterial& m);
-  void write_model(const DiffuseTransmitterMaterial& m);
-  void write_model(const MixtureMaterial& m);
-  void write_model(const PrincipledMaterial& m);
-  void write_model(const PrincipledThinMaterial& m);
-  void write_model(const TwoSidedMaterial& m);
-  void write_model(const MaskMaterial& m);
-  void write_model(const BlendMaterial& m);
-  void write_model(const BumpMapMaterial& m);
-  void write_model(const NormalMapMaterial& m);
-  void write_model(const NullMaterial&) {}
-  void write_model(const HairMaterial& m);
-  void write_model(const MeasuredMaterial& m);
-  void write_model(const PolarizedPlasticMaterial& m);
-  void write_model(const FilterMaterial& m);
-  void write_model(const CoatingMaterial& m);
-  void write_model(const ThinLayerMaterial& m);
+
+  // write_fields.cpp: the fields of a plugin; what has no name is nested or not written.
+  void fields(const MaterialModel& model);
+  void field(const FieldFacts& facts, const Choice& choice);
+  void field(const FieldFacts& facts, bool value);
+  void field(const FieldFacts& facts, double value);
+  void field(const FieldFacts& facts, const std::optional<double>& value);
+  void field(const FieldFacts& facts, const std::string& value);
+  void field(const FieldFacts& facts, const ColorInput& value);
+  void field(const FieldFacts& facts, const std::optional<ColorInput>& value);
+  void field(const FieldFacts& facts, const FloatInput& value);
+  void field(const FieldFacts& facts, const Roughness& value);
+  void field(const FieldFacts& facts, const std::optional<Roughness>& value);
+  void field(const FieldFacts& facts, MaterialId value);
+  void field(const FieldFacts& facts, const MaterialShares& value);
+  void field(const FieldFacts&, const std::shared_ptr<const MeasuredTable>&) {}
 
   // write_media.cpp
   void volume(std::string_view name, VolumeId id);

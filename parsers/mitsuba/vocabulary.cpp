@@ -2,6 +2,7 @@
 
 #include <array>
 
+#include "mitsuba/plugins/bsdfs.h"
 #include "mitsuba/vocabulary_tables.h"
 
 namespace duet {
@@ -149,38 +150,41 @@ std::string_view type_name(ParameterType type) {
   return "";
 }
 
-std::span<const Plugin> plugins(PluginKind kind) {
-  switch (kind) {
-    case PluginKind::scene:
-      return scenes();
-    case PluginKind::integrator:
-      return integrators();
-    case PluginKind::sensor:
-      return sensors();
-    case PluginKind::film:
-      return films();
-    case PluginKind::rfilter:
-      return rfilters();
-    case PluginKind::sampler:
-      return samplers();
-    case PluginKind::shape:
-      return shapes();
-    case PluginKind::bsdf:
-      return bsdfs();
-    case PluginKind::texture:
-      return textures();
-    case PluginKind::emitter:
-      return emitters();
-    case PluginKind::medium:
-      return media();
-    case PluginKind::phase:
-      return phases();
-    case PluginKind::volume:
-      return volumes();
-    case PluginKind::subsurface:
-      return subsurfaces();
-  }
-  return {};
+const Vocabulary& Vocabulary::built_in() {
+  static const Vocabulary all = [] {
+    Vocabulary v;
+    const auto add = [&](PluginKind kind, const auto& plugins) {
+      v.plugins_[size_t(kind)].assign(plugins.begin(), plugins.end());
+    };
+    add(PluginKind::scene, scenes());
+    add(PluginKind::integrator, integrators());
+    add(PluginKind::sensor, sensors());
+    add(PluginKind::film, films());
+    add(PluginKind::rfilter, rfilters());
+    add(PluginKind::sampler, samplers());
+    add(PluginKind::shape, shapes());
+    add(PluginKind::bsdf, plugins::bsdfs());
+    add(PluginKind::texture, textures());
+    add(PluginKind::emitter, emitters());
+    add(PluginKind::medium, media());
+    add(PluginKind::phase, phases());
+    add(PluginKind::volume, volumes());
+    add(PluginKind::subsurface, subsurfaces());
+    return v;
+  }();
+  return all;
+}
+
+const Plugin* Vocabulary::find(PluginKind kind, std::string_view name) const {
+  for (const Plugin& p : plugins(kind))
+    if (p.name == name || has_word(p.aliases, name)) return &p;
+  return nullptr;
+}
+
+std::vector<std::string> Vocabulary::names(PluginKind kind) const {
+  std::vector<std::string> names;
+  for (const Plugin& p : plugins(kind)) names.emplace_back(p.name);
+  return names;
 }
 
 std::span<const Parameter> common_parameters(PluginKind kind) {
@@ -202,18 +206,6 @@ std::span<const Parameter> common_parameters(PluginKind kind) {
     default:
       return {};
   }
-}
-
-const Plugin* find_plugin(PluginKind kind, std::string_view name) {
-  for (const Plugin& p : plugins(kind))
-    if (p.name == name || has_word(p.aliases, name)) return &p;
-  return nullptr;
-}
-
-std::vector<std::string> plugin_names(PluginKind kind) {
-  std::vector<std::string> names;
-  for (const Plugin& p : plugins(kind)) names.emplace_back(p.name);
-  return names;
 }
 
 const Parameter* find_parameter(PluginKind kind, const Plugin& plugin, std::string_view name) {

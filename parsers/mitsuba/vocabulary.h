@@ -1,7 +1,9 @@
 // Every plugin and parameter of Mitsuba 0.4 to 3, and Duet's own: the one table that reading,
-// messages, the list of plugins and the documentation are made from.
+// messages, the list of plugins and the documentation are made from. What is known of a BSDF comes
+// from its description (scene/field.h).
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <optional>
 #include <span>
@@ -39,65 +41,7 @@ std::optional<PluginKind> kind_of_tag(std::string_view tag);
 /// Which plugins may stand inside others.
 bool may_contain(PluginKind outer, PluginKind inner);
 
-enum class ParameterType : uint8_t {
-  boolean,
-  integer,
-  number,
-  string,
-  point,  ///< or a vector: three numbers
-  transform,
-  file,  ///< a string that names a file
-  ior,   ///< index of refraction, by number or by the name of a material
-  texture,
-  number_or_texture,
-  reflectance,  ///< a colour from 0 to 1, or a texture
-  unbounded,    ///< a colour without upper bound, or a texture
-  emission,     ///< radiance or power, or a texture
-  volume_only,
-  number_or_volume,
-  albedo,       ///< a colour from 0 to 1, or a volume
-  coefficient,  ///< a colour without upper bound, or a volume
-};
 std::string_view type_name(ParameterType type);
-
-/// The values that a number may have.
-enum class NumberRange : uint8_t {
-  any,
-  positive,
-  not_negative,
-  size,
-  depth,
-  degrees,
-  fraction,     ///< from 0 to 1
-  probability,  ///< the same without 0
-};
-
-/// Which files know a name. It is understood in all files: people mix versions.
-enum class FileVersions : uint8_t { all, v0, v3 };
-
-enum class Support : uint8_t {
-  done,
-  approximated,
-  inert,    ///< changes nothing that Duet does: accepted without a word
-  ignored,  ///< would change something but not the linear image: accepted with a warning
-  refused,  ///< known, never supported: the note says why
-};
-
-struct Parameter {
-  std::string_view name;  ///< in Mitsuba 3; snake_case
-  ParameterType type;
-  /// What holds if it is not given, as text. Empty: there is no such value. In parentheses: words.
-  std::string_view preset = "";
-  std::string_view note = "";
-  NumberRange range = NumberRange::any;
-  FileVersions versions = FileVersions::all;
-  Support support = Support::done;
-  /// In 0.x files, if that is different.
-  std::string_view preset_0x = "";
-  /// Further names, besides the camelCase form; separated by spaces.
-  std::string_view aliases = "";
-  bool required = false;
-};
 
 class SceneReader;
 class Properties;
@@ -128,7 +72,7 @@ using PluginReader =
                  ReadInto<SamplerDescription>, ReadInto<IntegratorDescription>>;
 
 struct Plugin {
-  std::string_view name;
+  std::string_view name = "";
   FileVersions versions = FileVersions::all;
   std::span<const Parameter> parameters = {};
   PluginReader reader = {};
@@ -139,15 +83,26 @@ struct Plugin {
   std::string_view refused_parameters = "";
 };
 
-/// The plugins of a kind, and the parameters that all of them have.
-std::span<const Plugin> plugins(PluginKind kind);
+/// The parameters that all plugins of a kind have.
 std::span<const Parameter> common_parameters(PluginKind kind);
-
-/// Null if there is no plugin of that name or alias.
-const Plugin* find_plugin(PluginKind kind, std::string_view name);
-std::vector<std::string> plugin_names(PluginKind kind);
 /// The parameter of that name or alias (in snake_case); null if the plugin has none.
 const Parameter* find_parameter(PluginKind kind, const Plugin& plugin, std::string_view name);
 std::vector<std::string> parameter_names(PluginKind kind, const Plugin& plugin);
+
+/// All plugins that a reader knows. A copy can be given more of them.
+class Vocabulary {
+ public:
+  /// Those of Mitsuba 0.4 to 3, and Duet's own.
+  static const Vocabulary& built_in();
+
+  void add(PluginKind kind, const Plugin& plugin) { plugins_[size_t(kind)].push_back(plugin); }
+  const std::vector<Plugin>& plugins(PluginKind kind) const { return plugins_[size_t(kind)]; }
+  /// Null if there is no plugin of that name or alias.
+  const Plugin* find(PluginKind kind, std::string_view name) const;
+  std::vector<std::string> names(PluginKind kind) const;
+
+ private:
+  std::array<std::vector<Plugin>, kPluginKinds> plugins_;
+};
 
 }  // namespace duet

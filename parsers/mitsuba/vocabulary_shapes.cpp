@@ -140,7 +140,7 @@ constexpr Parameter kHair[] = {
 };
 
 constexpr Plugin kShapes[] = {
-    {"obj", both, kObj, &read_obj},
+    {"obj", both, kObj, &read_obj_shape},
     {"ply", both, kPly, &read_mesh},
     {"serialized", both, kSerialized, &read_mesh},
     {"rectangle", both, kFlat, &read_rectangle},
@@ -162,21 +162,21 @@ constexpr Plugin kShapes[] = {
      .support = refused,
      .refused_parameters =
          "name mesh verts loops loop_tris polys uvs cols face_normals flip_normals"},
-    {"bsplinecurve", v3, kCurves, &read_curves,
+    {"bsplinecurve", v3, kCurves, &read_curves_shape,
      "cannot emit light; dp_dv is that of uv, where Mitsuba's twists as the curve's torsion does"},
     {.name = "deformable",
      .versions = v0,
      .note = "shapes move, but keep their form: use a mesh",
      .support = refused,
      .refused_parameters = "filename"},
-    {"ellipsoids", v3, kEllipsoids, &read_ellipsoids,
+    {"ellipsoids", v3, kEllipsoids, &read_ellipsoids_shape,
      "from files, without attributes and texture coordinates; cannot emit light"},
-    {"ellipsoidsmesh", v3, kEllipsoidsMesh, &read_ellipsoids, "as ellipsoids", approximated},
+    {"ellipsoidsmesh", v3, kEllipsoidsMesh, &read_ellipsoids_shape, "as ellipsoids", approximated},
     {"hair", v0, kHair, &read_hair_shape, "segments meet in spheres; cannot emit light"},
     {"heightfield", v0, kHeightField, &read_heightfield,
      "a triangle mesh; may hold a texture (bitmap, checkerboard, gridtexture or scale of one) "
      "instead of naming an image, and a reconstruction filter"},
-    {"linearcurve", v3, kCurves, &read_curves, "cannot emit light"},
+    {"linearcurve", v3, kCurves, &read_curves_shape, "cannot emit light"},
     {"merge", v3, {}, &read_merge, "holds shapes, which stay as they are"},
 };
 

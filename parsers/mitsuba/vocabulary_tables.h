@@ -1,18 +1,13 @@
-// The parts of the vocabulary, one table for each kind of plugin; use vocabulary.h.
+// The parts of the vocabulary, one table for each kind of plugin but BSDFs; use vocabulary.h.
 #pragma once
 
 #include "mitsuba/vocabulary.h"
 
 namespace duet::vocabulary {
 
-using enum ParameterType;
-using enum NumberRange;
-using enum Support;
-inline constexpr FileVersions v0 = FileVersions::v0, v3 = FileVersions::v3,
-                              both = FileVersions::all;
+using namespace parameter_words;
 
-// vocabulary_materials.cpp, vocabulary_textures.cpp
-std::span<const Plugin> bsdfs();
+// vocabulary_textures.cpp
 std::span<const Plugin> textures();
 // vocabulary_shapes.cpp
 std::span<const Plugin> shapes();

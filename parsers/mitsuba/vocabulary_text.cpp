@@ -120,10 +120,10 @@ std::string_view versions_name(FileVersions versions) {
   return "";
 }
 
-std::string compatibility_section(PluginKind kind) {
+std::string compatibility_section(PluginKind kind, const Vocabulary& vocabulary) {
   std::string out = fmt::format("## {}\n\n", heading(kind));
   out += "| Plugin | Files | Status | |\n|---|---|---|---|\n";
-  for (const Plugin& p : plugins(kind)) {
+  for (const Plugin& p : vocabulary.plugins(kind)) {
     std::string others;
     for (const std::string_view name : split_list(p.refused_parameters))
       others += (others.empty() ? "parameters " : ", ") + code(name);
@@ -133,7 +133,7 @@ std::string compatibility_section(PluginKind kind) {
   }
   if (const auto common = common_parameters(kind); !common.empty())
     out += "\nParameters of all of them:\n\n" + parameter_rows(common);
-  for (const Plugin& p : plugins(kind))
+  for (const Plugin& p : vocabulary.plugins(kind))
     if (!p.parameters.empty())
       out += fmt::format("\n### {}\n\n", code(p.name)) + parameter_rows(p.parameters);
   return out;

@@ -12,7 +12,8 @@ namespace duet {
 std::string compatibility_markdown();
 
 /// One section of it: a heading and the plugins of one kind.
-std::string compatibility_section(PluginKind kind);
+std::string compatibility_section(PluginKind kind,
+                                  const Vocabulary& vocabulary = Vocabulary::built_in());
 
 /// "done", "approximated", … as both show it.
 std::string_view support_name(Support support);

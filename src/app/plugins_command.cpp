@@ -31,7 +31,7 @@ void print_parameter(const Parameter& p) {
 }
 
 void print_kind(PluginKind kind) {
-  for (const Plugin& p : plugins(kind)) {
+  for (const Plugin& p : Vocabulary::built_in().plugins(kind)) {
     fmt::print("{} {:{}} {}{}{}{}\n", tag_of(kind), p.name, 31 - int(tag_of(kind).size()),
                support_name(p.support), only_in(p.versions),
                p.aliases.empty() ? "" : fmt::format(", also {}", p.aliases),

@@ -1,4 +1,5 @@
-// The closed set of scattering models. A new model is added to the list here.
+// The closed set of scattering models. A new model is added to the list here; one that is not in it
+// is a ForeignModel.
 #pragma once
 
 #include <type_traits>
@@ -9,6 +10,7 @@
 #include "materials/diffuse.h"
 #include "materials/diffuse_transmitter.h"
 #include "materials/filter.h"
+#include "materials/foreign.h"
 #include "materials/hair.h"
 #include "materials/measured.h"
 #include "materials/null.h"
@@ -44,7 +46,8 @@
   X(polarized_plastic, PolarizedPlasticModel)     \
   X(filter, FilterModel)                          \
   X(coat_reflection, CoatReflectionModel)         \
-  X(thin_layer, ThinLayerModel)
+  X(thin_layer, ThinLayerModel)                   \
+  X(foreign, ForeignModel)
 
 namespace duet {
 

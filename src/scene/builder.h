@@ -7,6 +7,7 @@
 #include <string>
 #include <tuple>
 
+#include "materials/materials.h"
 #include "media/phase_functions.h"
 #include "scene/build.h"
 #include "scene/texture_value.h"
@@ -16,7 +17,6 @@
 namespace duet {
 
 struct HeightField;
-struct RoughnessOptions;
 
 /// Makes what shapes and lights ask for, each thing once and none that nobody asks for. After an
 /// error a function returns null or something harmless, so that the remaining errors are found too.
@@ -29,9 +29,15 @@ class SceneBuilder {
 
   /// Null if there were errors.
   std::unique_ptr<Scene> build();
-  const Diagnostics& diagnostics() const { return diagnostics_; }
+  Diagnostics& diagnostics() { return diagnostics_; }
   /// Instead of building: texture_value.h.
   std::optional<TextureValue> texture_at_origin(TextureId id);
+
+  // For what builds BSDFs (scene/bsdfs). Null after an error.
+  const Material* material(MaterialId id);
+  ColorSlot slot(const ColorInput& input);
+  FloatSlot slot(const FloatInput& input);
+  RoughnessOptions roughness(const Roughness& r);
 
   // place.cpp: once the scene is built, to move what is in it. Shapes and instances are numbered as
   // in the scene, lights as in the description; the transforms can be inverted.
@@ -67,8 +73,6 @@ class SceneBuilder {
 
   // build_textures.cpp
   const Texture* texture(TextureId id);
-  ColorSlot slot(const ColorInput& input);
-  FloatSlot slot(const FloatInput& input);
   std::unique_ptr<Texture> make(const BitmapTexture& t, const SourceLocation& where);
   std::unique_ptr<Texture> make(const CheckerboardTexture& t, const SourceLocation& where);
   std::unique_ptr<Texture> make(const MeshAttributeTexture& t, const SourceLocation& where);
@@ -80,39 +84,6 @@ class SceneBuilder {
   std::shared_ptr<const BitmapPixels> pixels(const std::string& file,
                                              const BitmapDecoding& decoding,
                                              const SourceLocation& where);
-
-  // build_materials.cpp
-  const Material* material(MaterialId id);
-  RoughnessOptions roughness(const Roughness& r);
-  /// What "principled" and "principledthin" have in common.
-  template <class Options, class Description>
-  Options principled_options(const Description& m);
-  std::unique_ptr<Material> make(const DiffuseMaterial& m, const SourceLocation& where);
-  std::unique_ptr<Material> make(const ConductorMaterial& m, const SourceLocation& where);
-  std::unique_ptr<Material> make(const DielectricMaterial& m, const SourceLocation& where);
-  std::unique_ptr<Material> make(const ThinDielectricMaterial& m, const SourceLocation& where);
-  std::unique_ptr<Material> make(const PlasticMaterial& m, const SourceLocation& where);
-  std::unique_ptr<Material> make(const PhongMaterial& m, const SourceLocation& where);
-  std::unique_ptr<Material> make(const WardMaterial& m, const SourceLocation& where);
-  std::unique_ptr<Material> make(const RoughDiffuseMaterial& m, const SourceLocation& where);
-  std::unique_ptr<Material> make(const DiffuseTransmitterMaterial& m, const SourceLocation& where);
-  std::unique_ptr<Material> make(const MixtureMaterial& m, const SourceLocation& where);
-  std::unique_ptr<Material> make(const PrincipledMaterial& m, const SourceLocation& where);
-  std::unique_ptr<Material> make(const PrincipledThinMaterial& m, const SourceLocation& where);
-  std::unique_ptr<Material> make(const TwoSidedMaterial& m, const SourceLocation& where);
-  std::unique_ptr<Material> make(const MaskMaterial& m, const SourceLocation& where);
-  std::unique_ptr<Material> make(const BlendMaterial& m, const SourceLocation& where);
-  std::unique_ptr<Material> make(const BumpMapMaterial& m, const SourceLocation& where);
-  std::unique_ptr<Material> make(const NormalMapMaterial& m, const SourceLocation& where);
-  std::unique_ptr<Material> make(const NullMaterial& m, const SourceLocation& where);
-  std::unique_ptr<Material> make(const HairMaterial& m, const SourceLocation& where);
-  std::unique_ptr<Material> make(const MeasuredMaterial& m, const SourceLocation& where);
-  std::unique_ptr<Material> make(const PolarizedPlasticMaterial& m, const SourceLocation& where);
-  std::unique_ptr<Material> make(const FilterMaterial& m, const SourceLocation& where);
-  std::unique_ptr<Material> make(const CoatingMaterial& m, const SourceLocation& where);
-  std::unique_ptr<Material> make(const ThinLayerMaterial& m, const SourceLocation& where);
-  /// The material inside a bump or normal map.
-  const Material* perturbed(MaterialId id, const SourceLocation& where);
 
   // build_media.cpp
   const GridVolume* volume(VolumeId id);

@@ -14,12 +14,6 @@ void for_each_movable(Scene& scene, Visit visit) {
 
 }  // namespace
 
-bool SceneDescription::operator==(const SceneDescription& o) const {
-  return textures == o.textures && materials == o.materials && volumes == o.volumes &&
-         phases == o.phases && media == o.media && shapes == o.shapes && groups == o.groups &&
-         lights == o.lights && sensors == o.sensors && integrator == o.integrator;
-}
-
 size_t count_moving(const SceneDescription& scene) {
   size_t count = 0;
   for_each_movable(scene, [&](const auto& thing) { count += !thing.motion.empty(); });

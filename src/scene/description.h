@@ -32,8 +32,12 @@ struct SceneDescription {
   /// What is rendered differently from what the file asks for, one sentence each.
   std::vector<Diagnostic> approximations;
 
-  /// Compares what is described; the order of things counts.
-  bool operator==(const SceneDescription& other) const;
+  /// Of what is compared, the order of things counts.
+  static constexpr auto fields() {
+    using S = SceneDescription;
+    return plain_fields(&S::textures, &S::materials, &S::volumes, &S::phases, &S::media, &S::shapes,
+                        &S::groups, &S::lights, &S::sensors, &S::integrator);
+  }
 };
 
 /// The number of shapes, lights and sensors that move.

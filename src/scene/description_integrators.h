@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "base/diagnostics.h"
+#include "scene/field.h"
 
 namespace duet {
 
@@ -17,33 +18,44 @@ struct PathLimits {
   bool hide_emitters = false;
   /// Ignore directions that the shading and the geometric normal see on different sides.
   bool strict_normals = false;
-  bool operator==(const PathLimits&) const = default;
+  static constexpr auto fields() {
+    return plain_fields(&PathLimits::max_depth, &PathLimits::rr_depth, &PathLimits::hide_emitters,
+                        &PathLimits::strict_normals);
+  }
 };
-struct PathIntegratorDescription : PathLimits {
-  bool operator==(const PathIntegratorDescription&) const = default;
-};
+struct PathIntegratorDescription : PathLimits {};
 /// Mitsuba's two names for path tracing through media; Duet has one method for both.
 enum class VolumePathName { volpath, volpathmis };
 /// Its segments are between points where light is scattered: what passes straight through a surface
 /// does not count.
 struct VolumePathIntegratorDescription : PathLimits {
   VolumePathName name = VolumePathName::volpath;
-  bool operator==(const VolumePathIntegratorDescription&) const = default;
+  static constexpr auto fields() {
+    return std::tuple_cat(PathLimits::fields(),
+                          plain_fields(&VolumePathIntegratorDescription::name));
+  }
 };
 struct DirectIntegratorDescription {
   int emitter_samples = 1, bsdf_samples = 1;
   bool hide_emitters = false, strict_normals = false;
-  bool operator==(const DirectIntegratorDescription&) const = default;
+  static constexpr auto fields() {
+    return plain_fields(
+        &DirectIntegratorDescription::emitter_samples, &DirectIntegratorDescription::bsdf_samples,
+        &DirectIntegratorDescription::hide_emitters, &DirectIntegratorDescription::strict_normals);
+  }
 };
 struct DepthIntegratorDescription {
-  bool operator==(const DepthIntegratorDescription&) const = default;
+  static constexpr auto fields() { return std::tuple(); }
 };
 
 /// Ambient occlusion.
 struct OcclusionIntegratorDescription {
   int shading_samples = 1;
   double ray_length = 0;  ///< world units; 0: half the radius of a sphere around the scene
-  bool operator==(const OcclusionIntegratorDescription&) const = default;
+  static constexpr auto fields() {
+    return plain_fields(&OcclusionIntegratorDescription::shading_samples,
+                        &OcclusionIntegratorDescription::ray_length);
+  }
 };
 
 /// Methods that trace sub-paths from the lights, too.
@@ -69,22 +81,35 @@ struct BidirectionalIntegratorDescription {
   /// vcm: the parts of the image in which it merges (transport/merge_mask.h), as chosen by `auto`;
   /// empty: all of it.
   std::vector<uint8_t> merge_parts = {};
-  bool operator==(const BidirectionalIntegratorDescription&) const = default;
+  static constexpr auto fields() {
+    return plain_fields(
+        &BidirectionalIntegratorDescription::method, &BidirectionalIntegratorDescription::max_depth,
+        &BidirectionalIntegratorDescription::rr_depth,
+        &BidirectionalIntegratorDescription::hide_emitters,
+        &BidirectionalIntegratorDescription::strict_normals,
+        &BidirectionalIntegratorDescription::light_paths,
+        &BidirectionalIntegratorDescription::connections,
+        &BidirectionalIntegratorDescription::light_image,
+        &BidirectionalIntegratorDescription::radius, &BidirectionalIntegratorDescription::alpha,
+        &BidirectionalIntegratorDescription::max_eye_depth,
+        &BidirectionalIntegratorDescription::max_light_depth,
+        &BidirectionalIntegratorDescription::weights,
+        &BidirectionalIntegratorDescription::continue_probability,
+        &BidirectionalIntegratorDescription::merge_parts);
+  }
 };
 
 /// Whichever method suits the scene.
-struct AutoIntegratorDescription : PathLimits {
-  bool operator==(const AutoIntegratorDescription&) const = default;
-};
+struct AutoIntegratorDescription : PathLimits {};
 
 /// Layers by their Mitsuba name and the name they get in the file.
 struct AovDescription {
   struct Layer {
     std::string kind, name;
-    bool operator==(const Layer&) const = default;
+    static constexpr auto fields() { return plain_fields(&Layer::kind, &Layer::name); }
   };
   std::vector<Layer> layers;
-  bool operator==(const AovDescription&) const = default;
+  static constexpr auto fields() { return plain_fields(&AovDescription::layers); }
 };
 
 struct IntegratorDescription {
@@ -96,7 +121,11 @@ struct IntegratorDescription {
   AovDescription aovs;   ///< layers asked for by an `aov` integrator
   bool image = true;     ///< false if an `aov` integrator has no nested integrator
   bool moments = false;  ///< wrapped in a `moment` integrator: second moments as layers
-  bool operator==(const IntegratorDescription&) const = default;
+  static constexpr auto fields() {
+    return plain_fields(&IntegratorDescription::where, &IntegratorDescription::method,
+                        &IntegratorDescription::aovs, &IntegratorDescription::image,
+                        &IntegratorDescription::moments);
+  }
 };
 
 }  // namespace duet

@@ -10,6 +10,7 @@
 #include "math/transform.h"
 #include "media/volume_grid.h"
 #include "scene/description_base.h"
+#include "scene/field.h"
 
 namespace duet {
 
@@ -17,7 +18,7 @@ namespace duet {
 using ColorVolume = std::variant<Spectrum, VolumeId>;
 using FloatVolume = std::variant<double, VolumeId>;
 
-/// A grid that fills the unit cube of its own space.
+/// A grid that fills the unit cube of its own space. Where it was read does not count.
 struct VolumeDescription {
   SourceLocation where;
   Label label;
@@ -30,41 +31,42 @@ struct VolumeDescription {
   VolumeWrap wrap = VolumeWrap::clamp;
   /// The outermost nodes lie on the cube's faces (0.x), not half a cell inside them (3.x).
   bool nodes_on_faces = false;
-  friend bool operator==(const VolumeDescription& a, const VolumeDescription& b) {
-    return a.to_world == b.to_world && a.filter == b.filter && a.wrap == b.wrap &&
-           a.nodes_on_faces == b.nodes_on_faces &&
-           (a.grid == b.grid || (a.grid && b.grid && *a.grid == *b.grid));
+  static constexpr auto fields() {
+    using V = VolumeDescription;
+    return plain_fields(&V::grid, &V::to_world, &V::filter, &V::wrap, &V::nodes_on_faces);
   }
 };
 
 struct IsotropicPhase {
-  bool operator==(const IsotropicPhase&) const = default;
+  static constexpr auto fields() { return std::tuple(); }
 };
 /// Henyey & Greenstein 1941; g is the mean cosine of the deflection.
 struct HenyeyGreensteinPhase {
   double g = 0.8;
-  bool operator==(const HenyeyGreensteinPhase&) const = default;
+  static constexpr auto fields() { return plain_fields(&HenyeyGreensteinPhase::g); }
 };
 struct RayleighPhase {
-  bool operator==(const RayleighPhase&) const = default;
+  static constexpr auto fields() { return std::tuple(); }
 };
 /// Values at equidistant cosines of the deflection from −1 (back) to 1 (straight on), linear in
 /// between; of any scale.
 struct TabulatedPhase {
   std::vector<double> values;
-  bool operator==(const TabulatedPhase&) const = default;
+  static constexpr auto fields() { return plain_fields(&TabulatedPhase::values); }
 };
 /// Microflakes whose normals are those of an ellipsoid, given by the matrix xx, yy, zz, xy, xz, yz
 /// (Heitz et al. 2015). Scales the extinction by the flakes' projected area.
 struct SggxPhase {
   std::variant<std::array<double, 6>, VolumeId> matrix = std::array<double, 6>{1, 1, 1, 0, 0, 0};
-  bool operator==(const SggxPhase&) const = default;
+  static constexpr auto fields() { return plain_fields(&SggxPhase::matrix); }
 };
 /// (1 − weight) · first + weight · second.
 struct BlendPhase {
   FloatVolume weight = 0.5;
   PhaseId first{}, second{};
-  bool operator==(const BlendPhase&) const = default;
+  static constexpr auto fields() {
+    return plain_fields(&BlendPhase::weight, &BlendPhase::first, &BlendPhase::second);
+  }
 };
 
 struct PhaseDescription {
@@ -73,7 +75,10 @@ struct PhaseDescription {
   std::variant<IsotropicPhase, HenyeyGreensteinPhase, RayleighPhase, TabulatedPhase, SggxPhase,
                BlendPhase>
       model;
-  bool operator==(const PhaseDescription&) const = default;
+  static constexpr auto fields() {
+    return plain_fields(&PhaseDescription::where, &PhaseDescription::label,
+                        &PhaseDescription::model);
+  }
 };
 
 /// Scatters and absorbs: extinction σ_t · scale per unit of length, of which `albedo` is scattered.
@@ -83,7 +88,11 @@ struct MediumDescription {
   ColorVolume sigma_t = Spectrum(1.0f), albedo = Spectrum(0.75f);
   double scale = 1;
   PhaseId phase{};
-  bool operator==(const MediumDescription&) const = default;
+  static constexpr auto fields() {
+    return plain_fields(&MediumDescription::where, &MediumDescription::label,
+                        &MediumDescription::sigma_t, &MediumDescription::albedo,
+                        &MediumDescription::scale, &MediumDescription::phase);
+  }
 };
 
 }  // namespace duet

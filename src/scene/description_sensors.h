@@ -50,7 +50,9 @@ enum class ComponentFormat { half, single };
 /// A window of the film in pixels.
 struct CropWindow {
   int x = 0, y = 0, width = 0, height = 0;
-  bool operator==(const CropWindow&) const = default;
+  static constexpr auto fields() {
+    return plain_fields(&CropWindow::x, &CropWindow::y, &CropWindow::width, &CropWindow::height);
+  }
 };
 
 /// How 0.6's ldrfilm turns radiance into display values. Used for PNG and JPEG output only.
@@ -59,7 +61,10 @@ struct ToneMapping {
   double gamma = -1;            ///< −1 is the sRGB curve
   double exposure = 0;          ///< in stops
   double key = 0.18, burn = 0;  ///< Reinhard's operator
-  bool operator==(const ToneMapping&) const = default;
+  static constexpr auto fields() {
+    return plain_fields(&ToneMapping::reinhard, &ToneMapping::gamma, &ToneMapping::exposure,
+                        &ToneMapping::key, &ToneMapping::burn);
+  }
 };
 
 struct FilmDescription {
@@ -70,14 +75,22 @@ struct FilmDescription {
   PixelFormat pixel_format = PixelFormat::rgb;
   ComponentFormat component_format = ComponentFormat::half;
   std::optional<ToneMapping> tone_mapping;
-  bool operator==(const FilmDescription&) const = default;
+  static constexpr auto fields() {
+    return plain_fields(&FilmDescription::where, &FilmDescription::width, &FilmDescription::height,
+                        &FilmDescription::crop, &FilmDescription::filter,
+                        &FilmDescription::pixel_format, &FilmDescription::component_format,
+                        &FilmDescription::tone_mapping);
+  }
 };
 
 struct SamplerDescription {
   std::string name = "independent";  ///< as the scene calls it
   int sample_count = 4;
   uint64_t seed = 0;
-  bool operator==(const SamplerDescription&) const = default;
+  static constexpr auto fields() {
+    return plain_fields(&SamplerDescription::name, &SamplerDescription::sample_count,
+                        &SamplerDescription::seed);
+  }
 };
 
 struct SensorDescription {
@@ -102,7 +115,18 @@ struct SensorDescription {
   std::optional<MediumId> medium;              ///< that the sensor stands in
   FilmDescription film;
   SamplerDescription sampler;
-  bool operator==(const SensorDescription&) const = default;
+  static constexpr auto fields() {
+    return plain_fields(
+        &SensorDescription::where, &SensorDescription::label, &SensorDescription::kind,
+        &SensorDescription::to_world, &SensorDescription::motion, &SensorDescription::shutter,
+        &SensorDescription::fov, &SensorDescription::fov_axis,
+        &SensorDescription::principal_point_offset_x, &SensorDescription::principal_point_offset_y,
+        &SensorDescription::near_clip, &SensorDescription::far_clip,
+        &SensorDescription::aperture_radius, &SensorDescription::focus_distance,
+        &SensorDescription::distortion, &SensorDescription::shape, &SensorDescription::target_point,
+        &SensorDescription::target_shape, &SensorDescription::parts, &SensorDescription::medium,
+        &SensorDescription::film, &SensorDescription::sampler);
+  }
 };
 
 }  // namespace duet

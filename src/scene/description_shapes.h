@@ -14,10 +14,12 @@
 #include "math/motion.h"
 #include "math/transform.h"
 #include "scene/description_base.h"
+#include "scene/field.h"
 
 namespace duet {
 
-/// Where a mesh came from, so that a description can be written out again.
+/// Where a mesh came from, so that a description can be written out again; it does not count in
+/// comparisons.
 struct MeshSource {
   std::string file;     ///< resolved path, or "" for a mesh made by the program
   std::string plugin;   ///< obj, ply, serialized
@@ -27,46 +29,47 @@ struct MeshSource {
   std::optional<double> max_smooth_angle;
   /// Not the whole OBJ file: one of its parts, or those of one material.
   bool is_part = false;
+  friend bool operator==(const MeshSource&, const MeshSource&) { return true; }
 };
 
 /// The mesh in its own space. Shapes may share one.
 struct MeshShape {
   std::shared_ptr<const TriangleMesh> mesh;
   MeshSource source;
-  friend bool operator==(const MeshShape& a, const MeshShape& b) {
-    return a.mesh == b.mesh || (a.mesh && b.mesh && *a.mesh == *b.mesh);
+  static constexpr auto fields() {
+    return plain_fields(&MeshShape::mesh, &MeshShape::source);
   }
 };
 struct RectangleShape {
-  bool operator==(const RectangleShape&) const = default;
+  static constexpr auto fields() { return std::tuple(); }
 };
 struct CubeShape {
-  bool operator==(const CubeShape&) const = default;
+  static constexpr auto fields() { return std::tuple(); }
 };
 /// Unit shapes; a centre, radius or end points are part of `to_world`.
 struct SphereShape {
-  bool operator==(const SphereShape&) const = default;
+  static constexpr auto fields() { return std::tuple(); }
 };
 struct DiskShape {
-  bool operator==(const DiskShape&) const = default;
+  static constexpr auto fields() { return std::tuple(); }
 };
 struct CylinderShape {
-  bool operator==(const CylinderShape&) const = default;
+  static constexpr auto fields() { return std::tuple(); }
 };
 /// A surface of zero distance.
 struct SdfGridShape {
   std::shared_ptr<const SdfGrid> grid;
   std::string file;
-  friend bool operator==(const SdfGridShape& a, const SdfGridShape& b) {
-    return a.grid == b.grid || (a.grid && b.grid && *a.grid == *b.grid);
+  static constexpr auto fields() {
+    return std::tuple(field(&SdfGridShape::grid), field(&SdfGridShape::file).not_compared());
   }
 };
 /// Tubes, in the shape's own space; `to_world` moves their points but leaves the radii.
 struct CurvesShape {
   std::shared_ptr<const CurveSet> curves;
   std::string file;
-  friend bool operator==(const CurvesShape& a, const CurvesShape& b) {
-    return a.curves == b.curves || (a.curves && b.curves && *a.curves == *b.curves);
+  static constexpr auto fields() {
+    return std::tuple(field(&CurvesShape::curves), field(&CurvesShape::file).not_compared());
   }
 };
 /// Bilinear patches over the square from (−1, −1) to (1, 1), facing +z, between heights that are
@@ -78,12 +81,16 @@ struct HeightFieldShape {
   bool shading_normals = true;  ///< smooth from patch to patch
   /// Makes a number of heights that is one more than a power of two along either side.
   FilterDescription filter{.kind = FilterKind::lanczos, .lobes = 2};
-  bool operator==(const HeightFieldShape&) const = default;
+  static constexpr auto fields() {
+    return plain_fields(&HeightFieldShape::heights, &HeightFieldShape::scale,
+                        &HeightFieldShape::width, &HeightFieldShape::height,
+                        &HeightFieldShape::shading_normals, &HeightFieldShape::filter);
+  }
 };
 /// A copy of SceneDescription::groups[group].
 struct InstanceShape {
   uint32_t group = 0;
-  bool operator==(const InstanceShape&) const = default;
+  static constexpr auto fields() { return plain_fields(&InstanceShape::group); }
 };
 
 /// Radiance of a surface that emits.
@@ -93,7 +100,10 @@ struct AreaEmission {
   double sampling_weight = 1;  ///< as in LightDescription
   /// Light leaves along the normals only; `radiance` is power per unit area.
   bool directional = false;
-  bool operator==(const AreaEmission&) const = default;
+  static constexpr auto fields() {
+    return plain_fields(&AreaEmission::where, &AreaEmission::radiance,
+                        &AreaEmission::sampling_weight, &AreaEmission::directional);
+  }
 };
 
 struct ShapeDescription {
@@ -110,14 +120,23 @@ struct ShapeDescription {
   /// What fills the space behind and before the surface. A surface with neither of them changes
   /// nothing; one with either stands between the two, and the one that is absent is empty space.
   std::optional<MediumId> interior, exterior;
-  bool operator==(const ShapeDescription&) const = default;
+  static constexpr auto fields() {
+    return plain_fields(&ShapeDescription::where, &ShapeDescription::label,
+                        &ShapeDescription::geometry, &ShapeDescription::to_world,
+                        &ShapeDescription::motion, &ShapeDescription::flip_normals,
+                        &ShapeDescription::material, &ShapeDescription::emission,
+                        &ShapeDescription::interior, &ShapeDescription::exterior);
+  }
 };
 
 struct ShapeGroupDescription {
   SourceLocation where;
   Label label;
   std::vector<ShapeDescription> shapes;
-  bool operator==(const ShapeGroupDescription&) const = default;
+  static constexpr auto fields() {
+    return plain_fields(&ShapeGroupDescription::where, &ShapeGroupDescription::label,
+                        &ShapeGroupDescription::shapes);
+  }
 };
 
 }  // namespace duet

@@ -7,6 +7,7 @@
 
 #include "math/transform.h"
 #include "scene/description_base.h"
+#include "scene/field.h"
 #include "textures/bitmap_options.h"
 #include "textures/curvature_kind.h"
 
@@ -23,7 +24,13 @@ struct BitmapTexture {
   std::optional<double> gamma;
   TextureChannel channel = TextureChannel::all;
   UvTransform to_uv;
-  bool operator==(const BitmapTexture&) const = default;
+  static constexpr auto fields() {
+    return std::tuple_cat(
+        std::tuple(field(&BitmapTexture::file).names_data()),
+        plain_fields(&BitmapTexture::filter, &BitmapTexture::wrap_u, &BitmapTexture::wrap_v,
+                     &BitmapTexture::raw, &BitmapTexture::gamma, &BitmapTexture::channel,
+                     &BitmapTexture::to_uv));
+  }
 };
 
 struct CheckerboardTexture {
@@ -32,13 +39,18 @@ struct CheckerboardTexture {
   /// 0.x does not.
   bool swap_values = false;
   UvTransform to_uv;
-  bool operator==(const CheckerboardTexture&) const = default;
+  static constexpr auto fields() {
+    return plain_fields(&CheckerboardTexture::color0, &CheckerboardTexture::color1,
+                        &CheckerboardTexture::swap_values, &CheckerboardTexture::to_uv);
+  }
 };
 
 struct MeshAttributeTexture {
   std::string attribute;
   double scale = 1;
-  bool operator==(const MeshAttributeTexture&) const = default;
+  static constexpr auto fields() {
+    return plain_fields(&MeshAttributeTexture::attribute, &MeshAttributeTexture::scale);
+  }
 };
 
 /// Unit squares of texture coordinates with lines that reach line_width into each.
@@ -46,7 +58,10 @@ struct GridLinesTexture {
   ColorInput color0 = Spectrum(0.2f), color1 = Spectrum(0.4f);
   double line_width = 0.01;
   UvTransform to_uv;
-  bool operator==(const GridLinesTexture&) const = default;
+  static constexpr auto fields() {
+    return plain_fields(&GridLinesTexture::color0, &GridLinesTexture::color1,
+                        &GridLinesTexture::line_width, &GridLinesTexture::to_uv);
+  }
 };
 /// The edges of triangles.
 struct WireframeTexture {
@@ -55,24 +70,31 @@ struct WireframeTexture {
   std::optional<double> line_width;
   /// The share of the line width, at its end, over which the colours change.
   double step_width = 0.5;
-  bool operator==(const WireframeTexture&) const = default;
+  static constexpr auto fields() {
+    return plain_fields(&WireframeTexture::interior, &WireframeTexture::edge,
+                        &WireframeTexture::line_width, &WireframeTexture::step_width);
+  }
 };
 /// Curvature times a scale: positive red, negative blue.
 struct CurvatureTexture {
   CurvatureKind shown = CurvatureKind::gaussian;
   double scale = 1;
-  bool operator==(const CurvatureTexture&) const = default;
+  static constexpr auto fields() {
+    return plain_fields(&CurvatureTexture::shown, &CurvatureTexture::scale);
+  }
 };
 /// Another texture times a colour.
 struct ScaledTextureDescription {
   TextureId inner{};
   Spectrum scale{1.0f};
-  bool operator==(const ScaledTextureDescription&) const = default;
+  static constexpr auto fields() {
+    return plain_fields(&ScaledTextureDescription::inner, &ScaledTextureDescription::scale);
+  }
 };
 /// A volume, looked up in the world.
 struct VolumeTextureDescription {
   std::variant<Spectrum, VolumeId> volume = Spectrum(0.75f);
-  bool operator==(const VolumeTextureDescription&) const = default;
+  static constexpr auto fields() { return plain_fields(&VolumeTextureDescription::volume); }
 };
 
 struct TextureDescription {
@@ -82,7 +104,10 @@ struct TextureDescription {
                WireframeTexture, CurvatureTexture, ScaledTextureDescription,
                VolumeTextureDescription>
       model;
-  bool operator==(const TextureDescription&) const = default;
+  static constexpr auto fields() {
+    return plain_fields(&TextureDescription::where, &TextureDescription::label,
+                        &TextureDescription::model);
+  }
 };
 
 }  // namespace duet

@@ -18,11 +18,6 @@ Point3f place(const Matrix4& m, const Point3f& p) {
   return out;
 }
 
-bool is_used(const FloatInput& input) {
-  const double* constant = std::get_if<double>(&input);
-  return !constant || *constant != 0;
-}
-
 class Survey {
  public:
   explicit Survey(const SceneDescription& scene) : scene_(scene) {
@@ -51,52 +46,6 @@ class Survey {
   void operator()(const SkyLight&) { features_.sky = true; }
   void operator()(const CollimatedLight&) { ++features_.beams; }
 
-  // Materials.
-  void operator()(const DiffuseMaterial&) { ++features_.diffuse; }
-  void operator()(const ConductorMaterial& m) {
-    ++(m.roughness ? features_.rough_reflection : features_.mirrors);
-  }
-  void operator()(const DielectricMaterial& m) {
-    ++(m.roughness ? features_.rough_refraction : features_.smooth_glass);
-  }
-  void operator()(const ThinDielectricMaterial&) { ++features_.smooth_glass; }
-  void operator()(const PlasticMaterial& m) {
-    ++features_.diffuse;
-    ++(m.roughness ? features_.rough_reflection : features_.mirrors);
-  }
-  void operator()(const PrincipledMaterial& m) {
-    ++features_.diffuse, ++features_.rough_reflection;
-    features_.rough_refraction += is_used(m.spec_trans);
-  }
-  void operator()(const PrincipledThinMaterial& m) {
-    ++features_.diffuse, ++features_.rough_reflection;
-    features_.rough_refraction += is_used(m.spec_trans);
-  }
-  void operator()(const PhongMaterial&) { ++features_.diffuse, ++features_.rough_reflection; }
-  void operator()(const WardMaterial&) { ++features_.diffuse, ++features_.rough_reflection; }
-  void operator()(const RoughDiffuseMaterial&) { ++features_.diffuse; }
-  void operator()(const DiffuseTransmitterMaterial&) { ++features_.diffuse; }
-  void operator()(const HairMaterial&) { ++features_.rough_reflection; }
-  void operator()(const MeasuredMaterial&) { ++features_.rough_reflection; }
-  void operator()(const PolarizedPlasticMaterial&) {
-    ++features_.diffuse, ++features_.rough_reflection;
-  }
-  void operator()(const FilterMaterial&) { ++features_.masks; }
-  void operator()(const CoatingMaterial& m) {
-    ++(m.roughness ? features_.rough_reflection : features_.mirrors);
-    add(m.nested);
-  }
-  void operator()(const ThinLayerMaterial&) { ++features_.diffuse, ++features_.masks; }
-  void operator()(const TwoSidedMaterial& m) { add(m.front), add(m.back); }
-  void operator()(const MaskMaterial& m) { ++features_.masks, add(m.nested); }
-  void operator()(const BlendMaterial& m) { add(m.first), add(m.second); }
-  void operator()(const MixtureMaterial& m) {
-    for (const auto& [weight, id] : m.parts) add(id);
-  }
-  void operator()(const BumpMapMaterial& m) { ++features_.bumps, add(m.nested); }
-  void operator()(const NormalMapMaterial& m) { ++features_.bumps, add(m.nested); }
-  void operator()(const NullMaterial&) { ++features_.masks; }
-
  private:
   struct Group {
     size_t triangles = 0;
@@ -104,7 +53,17 @@ class Survey {
   };
 
   void add(MaterialId id) {
-    if (materials_.insert(id).second) std::visit(*this, scene_.materials[size_t(id)].model);
+    if (!materials_.insert(id).second) return;
+    const MaterialModel& model = scene_.materials[size_t(id)].model;
+    const Scattering s = model.scattering();
+    features_.diffuse += s.diffuse;
+    features_.rough_reflection += s.rough_reflection;
+    features_.rough_refraction += s.rough_refraction;
+    features_.mirrors += s.mirror;
+    features_.smooth_glass += s.smooth_glass;
+    features_.masks += s.see_through;
+    features_.bumps += s.bumps;
+    for (const MaterialId nested : model.nested()) add(nested);
   }
 
   void add(std::optional<MediumId> id) {
@@ -224,6 +183,11 @@ class List {
 };
 
 }  // namespace
+
+bool is_one_way(const SceneDescription& scene, const ShapeDescription& s) {
+  const auto* tubes = std::get_if<CurvesShape>(&s.geometry);
+  return tubes && tubes->curves->outside_only && transmits(scene, s.material);
+}
 
 SceneFeatures scene_features(const SceneDescription& scene) {
   const size_t moving = count_moving(scene);

@@ -11,26 +11,6 @@ namespace {
 
 // ---- What a scene uses ----
 
-/// The materials that are put together in this one.
-std::vector<MaterialId> parts_of(const SceneDescription& scene, MaterialId id) {
-  return std::visit(
-      [](const auto& m) -> std::vector<MaterialId> {
-        if constexpr (requires { m.nested; })
-          return {m.nested};
-        else if constexpr (requires { m.front; })
-          return {m.front, m.back};
-        else if constexpr (requires { m.first; })
-          return {m.first, m.second};
-        else if constexpr (requires { m.parts; }) {
-          std::vector<MaterialId> out;
-          for (const auto& [weight, part] : m.parts) out.push_back(part);
-          return out;
-        } else
-          return {};
-      },
-      scene.materials[size_t(id)].model);
-}
-
 template <class Visit>
 void for_each_shape(const SceneDescription& scene, Visit visit) {
   for (const ShapeDescription& s : scene.shapes) visit(s);
@@ -49,7 +29,7 @@ std::set<MaterialId> used_materials(const SceneDescription& scene) {
     const MaterialId id = open.back();
     open.pop_back();
     if (!used.insert(id).second) continue;
-    for (const MaterialId part : parts_of(scene, id)) open.push_back(part);
+    for (const MaterialId part : scene.materials[size_t(id)].model.nested()) open.push_back(part);
   }
   return used;
 }
@@ -77,8 +57,10 @@ class LobesOf {
 
   Lobes operator()(MaterialId id) {
     if (const auto known = known_.find(id); known != known_.end()) return known->second;
-    Lobes l = own(id);
-    for (const MaterialId part : parts_of(scene_, id)) {
+    const MaterialModel& model = scene_.materials[size_t(id)].model;
+    const Scattering own = model.scattering();
+    Lobes l{own.has_delta_lobe(), own.has_smooth_lobe()};
+    for (const MaterialId part : model.nested()) {
       const Lobes p = (*this)(part);
       l.delta |= p.delta;
       l.other |= p.other;
@@ -87,29 +69,6 @@ class LobesOf {
   }
 
  private:
-  Lobes own(MaterialId id) const {
-    return std::visit(
-        [](const auto& m) -> Lobes {
-          using M = std::decay_t<decltype(m)>;
-          if constexpr (std::is_same_v<M, PlasticMaterial>)
-            return {!m.roughness, true};
-          else if constexpr (std::is_same_v<M, CoatingMaterial>)
-            return {!m.roughness, m.roughness.has_value()};
-          else if constexpr (requires { m.roughness.has_value(); })
-            return {!m.roughness, m.roughness.has_value()};
-          else if constexpr (std::is_same_v<M, ThinDielectricMaterial>)
-            return {true, false};
-          else if constexpr (
-              requires { m.nested; } || requires { m.front; } || requires { m.first; } ||
-              requires { m.parts; } || std::is_same_v<M, NullMaterial> ||
-              std::is_same_v<M, FilterMaterial>)
-            return {};
-          else
-            return {false, true};
-        },
-        scene_.materials[size_t(id)].model);
-  }
-
   const SceneDescription& scene_;
   std::map<MaterialId, Lobes> known_;
 };
@@ -120,7 +79,7 @@ bool blends_delta(const SceneDescription& scene, const SceneFeatures&) {
   LobesOf lobes(scene);
   const auto ids = used_materials(scene);
   return std::any_of(ids.begin(), ids.end(), [&](MaterialId id) {
-    const auto* blend = std::get_if<BlendMaterial>(&scene.materials[size_t(id)].model);
+    const auto* blend = scene.materials[size_t(id)].model.get_if<BlendMaterial>();
     if (!blend || blend->weight == FloatInput(0.0) || blend->weight == FloatInput(1.0))
       return false;
     const Lobes a = lobes(blend->first), b = lobes(blend->second);

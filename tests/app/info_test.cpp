@@ -240,7 +240,7 @@ TEST_SUITE("program") {
     CHECK(all.code == 0);
     for (int k = 0; k < kPluginKinds; ++k) {
       if (PluginKind(k) == PluginKind::scene) continue;
-      for (const Plugin& p : plugins(PluginKind(k))) {
+      for (const Plugin& p : Vocabulary::built_in().plugins(PluginKind(k))) {
         CAPTURE(p.name);
         CHECK(contains(all.out,
                        std::string(tag_of(PluginKind(k))) + " " + std::string(p.name) + " "));

@@ -43,7 +43,7 @@ TEST_CASE("bsdf: models of 0.6 that Mitsuba 3 has not") {
       "<spectrum name='diffuseReflectance' value='0.7'/></bsdf>";
   const ReadResult phong = read_scene("0.6.0", bright);
   CHECK(phong.has("<bsdf type=\"phong\"> would reflect 1.5 times the light"));
-  const auto& scaled = std::get<PhongMaterial>(phong.description().materials[0].model);
+  const auto& scaled = phong.description().materials[0].model.get<PhongMaterial>();
   CHECK(std::get<Spectrum>(scaled.specular_reflectance).r == doctest::Approx(0.8 * 0.66));
   CHECK(fails("0.6.0", "<bsdf type='phong'><float name='exponent' value='-1'/></bsdf>",
               "an exponent must not be negative"));

@@ -280,13 +280,11 @@ TEST_CASE("media on shapes, sensors and lights") {
     const SceneDescription& d = read_again.description();
     return d.materials.at(size_t(d.shapes.at(0).material)).model;
   };
-  CHECK(std::holds_alternative<DiffuseMaterial>(material("3.0.0", both)));
-  CHECK(std::holds_alternative<NullMaterial>(material("0.6.0", both)));
-  CHECK(std::holds_alternative<DiffuseMaterial>(material("0.6.0", "")));
-  CHECK(
-      std::holds_alternative<DiffuseMaterial>(material("0.6.0", both + "<emitter type='area'/>")));
-  CHECK(std::holds_alternative<ConductorMaterial>(
-      material("0.6.0", both + "<bsdf type='conductor'/>")));
+  CHECK(material("3.0.0", both).is<DiffuseMaterial>());
+  CHECK(material("0.6.0", both).is<NullMaterial>());
+  CHECK(material("0.6.0", "").is<DiffuseMaterial>());
+  CHECK(material("0.6.0", both + "<emitter type='area'/>").is<DiffuseMaterial>());
+  CHECK(material("0.6.0", both + "<bsdf type='conductor'/>").is<ConductorMaterial>());
   CHECK(read("0.6.0", media + "<shape type='sphere'><ref name='inside' id='a'/></shape>")
             .has("is called \"interior\" or \"exterior\""));
   CHECK(read("3.0.0",

@@ -37,10 +37,10 @@ const MaterialDescription& material_of(const ReadResult& r, size_t i) {
   return r.description().materials.at(size_t(r.description().shapes.at(i).material));
 }
 template <class M>
-const M& model(const ReadResult& r, size_t i) {
+M model(const ReadResult& r, size_t i) {
   INFO(r.messages());
   REQUIRE(r.scene);
-  return std::get<M>(material_of(r, i).model);
+  return material_of(r, i).model.get<M>();
 }
 ColorInput reflectance(const ReadResult& r, size_t i) {
   return model<DiffuseMaterial>(r, i).reflectance;
@@ -204,10 +204,10 @@ TEST_CASE("OBJ materials: images, from beside the OBJ file or the scene's folder
   const auto& mask = model<MaskMaterial>(r, 0);
   CHECK(bitmap(r, std::get<TextureId>(mask.opacity)).file == "/scene/meshes/wood.png");
   const auto& materials = r.description().materials;
-  const auto& bump = std::get<BumpMapMaterial>(materials.at(size_t(mask.nested)).model);
+  const auto& bump = materials.at(size_t(mask.nested)).model.get<BumpMapMaterial>();
   CHECK(bitmap(r, std::get<TextureId>(bump.height)).file == "/scene/bark.png");
   CHECK(bitmap(r, std::get<TextureId>(bump.height)).raw);
-  const auto& base = std::get<DiffuseMaterial>(materials.at(size_t(bump.nested)).model);
+  const auto& base = materials.at(size_t(bump.nested)).model.get<DiffuseMaterial>();
   const BitmapTexture& wood = bitmap(r, std::get<TextureId>(base.reflectance));
   CHECK(wood.file == "/scene/meshes/wood.png");
   CHECK_FALSE(wood.raw);

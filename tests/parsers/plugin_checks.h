@@ -23,7 +23,7 @@ inline SceneDescription good(const std::string& version, const std::string& cont
 template <class M>
 M bsdf(const std::string& version, const std::string& type, const std::string& content = "") {
   const SceneDescription d = good(version, "<bsdf type='" + type + "'>" + content + "</bsdf>");
-  return std::get<M>(d.materials.back().model);
+  return d.materials.back().model.get<M>();
 }
 
 template <class T>

@@ -28,9 +28,9 @@ TEST_CASE("included files: found beside their includer, share parameters and ids
   CHECK(d.shapes.size() == 2);
   CHECK(d.shapes[0].to_world[0][0] == 7);
   // The metal is in a file of 0.6: copper.
-  CHECK(std::get<ConductorMaterial>(d.materials[size_t(d.shapes[0].material)].model).eta !=
+  CHECK(d.materials[size_t(d.shapes[0].material)].model.get<ConductorMaterial>().eta !=
         ColorInput(Spectrum(0.0f)));
-  CHECK(std::get<DiffuseMaterial>(d.materials[size_t(d.shapes[1].material)].model).reflectance ==
+  CHECK(d.materials[size_t(d.shapes[1].material)].model.get<DiffuseMaterial>().reflectance ==
         ColorInput(Spectrum(0.125f)));
   CHECK(d.shapes[0].where.to_string() == "/scene/parts/b.xml:1:24");
 }
@@ -104,7 +104,7 @@ TEST_CASE("references go forwards and backwards, through names and aliases") {
   CHECK(d.materials.size() == 1);
   CHECK(d.textures.size() == 1);
   CHECK(d.shapes[0].material == d.shapes[1].material);
-  CHECK(std::get<DiffuseMaterial>(d.materials[0].model).reflectance == ColorInput(TextureId{0}));
+  CHECK(d.materials[0].model.get<DiffuseMaterial>().reflectance == ColorInput(TextureId{0}));
 }
 
 TEST_CASE("plugins that contain themselves are errors") {

@@ -188,7 +188,7 @@ TEST_CASE("shape: material by default, black under a light") {
            "<shape type='sphere'/><shape type='cube'><emitter type='area'/></shape>"
            "<shape type='disk'/>");
   const auto reflectance = [&](size_t i) {
-    return std::get<DiffuseMaterial>(d.materials[size_t(d.shapes[i].material)].model).reflectance;
+    return d.materials[size_t(d.shapes[i].material)].model.get<DiffuseMaterial>().reflectance;
   };
   CHECK(reflectance(0) == ColorInput(Spectrum(0.5f)));
   CHECK(reflectance(1) == ColorInput(Spectrum(0.0f)));

@@ -77,7 +77,7 @@ TEST_CASE("bsdf: polarizer, retarder and circular say what they are without pola
                                               "<float name='theta' value='30'/></bsdf>");
     REQUIRE(r.scene);
     CHECK(r.has("without polarisation"));
-    const auto& m = std::get<FilterMaterial>(r.description().materials.at(0).model);
+    const auto& m = r.description().materials.at(0).model.get<FilterMaterial>();
     CHECK(m.kind == kind);
     CHECK(m.transmittance == ColorInput(Spectrum(1, 0.5f, 0)));
   }
@@ -88,7 +88,7 @@ TEST_CASE("bsdf: measured") {
       "3.0.0", "<bsdf type='measured'>" + scene_file("bsdf-measured/isotropic.bsdf") + "</bsdf>");
   INFO(r.messages());
   REQUIRE(r.scene);
-  const auto& m = std::get<MeasuredMaterial>(r.description().materials.at(0).model);
+  const auto& m = r.description().materials.at(0).model.get<MeasuredMaterial>();
   CHECK(m.table->theta.size() == 5);
   CHECK(on_disk("3.0.0", "<bsdf type='measured'>" + scene_file("curves/cables.txt") + "</bsdf>")
             .has("is not a measured material"));
@@ -133,7 +133,7 @@ TEST_CASE("bsdf: hk and sssbrdf") {
   REQUIRE(sss.scene);
   CHECK(sss.has("dipole"));
   // Nothing is absorbed: the base is white.
-  const auto& white = std::get<PlasticMaterial>(sss.description().materials.at(0).model);
+  const auto& white = sss.description().materials.at(0).model.get<PlasticMaterial>();
   CHECK(std::get<Spectrum>(white.diffuse_reflectance).r > 0.95f);
 }
 

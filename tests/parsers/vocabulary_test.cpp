@@ -21,7 +21,7 @@ std::vector<std::string> words(std::string_view text) {
 
 TEST_CASE("every plugin that is supported has a reader, and only those") {
   for (int k = 0; k < kPluginKinds; ++k)
-    for (const Plugin& p : plugins(PluginKind(k))) {
+    for (const Plugin& p : Vocabulary::built_in().plugins(PluginKind(k))) {
       CAPTURE(p.name);
       if (PluginKind(k) == PluginKind::scene) continue;
       const bool has_reader = !std::holds_alternative<std::monostate>(p.reader);
@@ -39,10 +39,11 @@ TEST_CASE("names are unique and found again") {
     const PluginKind kind = PluginKind(k);
     CHECK(kind_of_tag(tag_of(kind)) == kind);
     std::set<std::string> seen;
-    for (const Plugin& p : plugins(kind)) {
+    for (const Plugin& p : Vocabulary::built_in().plugins(kind)) {
       CHECK(seen.insert(std::string(p.name)).second);
-      CHECK(find_plugin(kind, p.name) == &p);
-      for (const std::string& alias : words(p.aliases)) CHECK(find_plugin(kind, alias) == &p);
+      CHECK(Vocabulary::built_in().find(kind, p.name) == &p);
+      for (const std::string& alias : words(p.aliases))
+        CHECK(Vocabulary::built_in().find(kind, alias) == &p);
       std::set<std::string> parameters;
       for (const std::span<const Parameter> list : {p.parameters, common_parameters(kind)})
         for (const Parameter& q : list) {
@@ -62,7 +63,7 @@ TEST_CASE("names are unique and found again") {
 
 TEST_CASE("presets have the type of their parameter") {
   for (int k = 0; k < kPluginKinds; ++k)
-    for (const Plugin& p : plugins(PluginKind(k)))
+    for (const Plugin& p : Vocabulary::built_in().plugins(PluginKind(k)))
       for (const std::span<const Parameter> list : {p.parameters, common_parameters(PluginKind(k))})
         for (const Parameter& q : list)
           for (std::string_view preset : {q.preset, q.preset_0x}) {
@@ -137,8 +138,9 @@ TEST_CASE("all plugins of Mitsuba 3.9 and of 0.6 are known") {
   for (const auto& [kind, names] : known)
     for (const std::string& name : words(names)) {
       CAPTURE(name);
-      CHECK(find_plugin(kind, name));
+      CHECK(Vocabulary::built_in().find(kind, name));
     }
-  CHECK(!find_plugin(PluginKind::bsdf, "difuse"));
-  CHECK(did_you_mean("difuse", plugin_names(PluginKind::bsdf)) == " (did you mean \"diffuse\"?)");
+  CHECK(!Vocabulary::built_in().find(PluginKind::bsdf, "difuse"));
+  CHECK(did_you_mean("difuse", Vocabulary::built_in().names(PluginKind::bsdf)) ==
+        " (did you mean \"diffuse\"?)");
 }

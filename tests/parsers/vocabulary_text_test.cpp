@@ -38,7 +38,7 @@ TEST_CASE("docs/compatibility.md is what the tables say") {
 TEST_CASE("every plugin and every parameter is listed with its status") {
   for (int k = 0; k < kPluginKinds; ++k) {
     const std::string section = compatibility_section(PluginKind(k));
-    for (const Plugin& p : plugins(PluginKind(k))) {
+    for (const Plugin& p : Vocabulary::built_in().plugins(PluginKind(k))) {
       CAPTURE(p.name);
       CHECK(contains(section, fmt::format("| `{}` | {} | {} |", p.name, versions_name(p.versions),
                                           support_name(p.support))));
@@ -54,7 +54,7 @@ TEST_CASE("every plugin and every parameter is listed with its status") {
 
 TEST_CASE("names of refused parameters are snake_case and unique") {
   for (int k = 0; k < kPluginKinds; ++k)
-    for (const Plugin& p : plugins(PluginKind(k))) {
+    for (const Plugin& p : Vocabulary::built_in().plugins(PluginKind(k))) {
       std::set<std::string_view> seen;
       for (const std::string_view name : split_list(p.refused_parameters)) {
         CAPTURE(name);
@@ -82,7 +82,7 @@ TEST_CASE("tables have as many cells in each row as in their head") {
 
 TEST_CASE("what is approximated, ignored or refused is explained") {
   for (int k = 0; k < kPluginKinds; ++k)
-    for (const Plugin& p : plugins(PluginKind(k))) {
+    for (const Plugin& p : Vocabulary::built_in().plugins(PluginKind(k))) {
       CAPTURE(p.name);
       if (p.support == Support::approximated || p.support == Support::refused)
         CHECK(!p.note.empty());

@@ -88,7 +88,7 @@ TEST_CASE("bsdf: irawan has the average colours of its yarns") {
   REQUIRE(r.scene);
   CHECK(r.has("threads are not simulated"));
   CHECK_FALSE(r.has("unused"));
-  const auto& m = std::get<WardMaterial>(r.description().materials.at(0).model);
+  const auto& m = r.description().materials.at(0).model.get<WardMaterial>();
   const Spectrum diffuse = std::get<Spectrum>(m.diffuse_reflectance);
   CHECK(diffuse.r == doctest::Approx(0.25 * 0.1 + 0.75 * 0.9));
   CHECK(diffuse.b == doctest::Approx(0.25 * 0.4));

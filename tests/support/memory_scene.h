@@ -45,7 +45,7 @@ template <class M>
 M read_bsdf(const std::string& version, const std::string& bsdf) {
   const ReadResult r = read_scene(version, "<shape type='sphere'>" + bsdf + "</shape>");
   if (!r.scene) throw std::runtime_error(r.messages());
-  return std::get<M>(r.description().materials.back().model);
+  return r.description().materials.back().model.get<M>();
 }
 
 }  // namespace duet::test

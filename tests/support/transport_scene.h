@@ -22,6 +22,7 @@ struct TransportScene {
     REQUIRE_MESSAGE(read.scene, read.messages());
     prepare(read.scene->description);
   }
+  explicit TransportScene(SceneDescription description) { prepare(description); }
   /// The same as a file on the disk, which finds others there.
   TransportScene(const TemporaryDirectory& folder, const std::string& content) {
     const std::string file =

@@ -5,105 +5,64 @@
 
 namespace duet {
 
+namespace {
+
+/// The parts of the line about a BSDF.
+struct BsdfLine {
+  std::string roughness;                 ///< follows the name
+  std::string values;                    ///< then what the fields say
+  std::vector<std::string> nested;       ///< then what is nested
+  std::vector<std::string_view> places;  ///< what each of these is there, if they differ
+};
+
+}  // namespace
+
 std::string DescriptionText::material(MaterialId id) const {
-  const auto rough = [&](const std::optional<Roughness>& r, const std::string& model) {
-    if (!r) return model;
-    const std::string u = input(r->alpha_u), v = input(r->alpha_v);
-    return fmt::format("rough{} ({}, alpha {})", model,
-                       r->distribution == MicrofacetDistribution::ggx ? "ggx" : "beckmann",
-                       u == v ? u : u + " and " + v);
+  const MaterialModel& model = scene_.materials[size_t(id)].model;
+  BsdfLine line;
+  const auto show = [&](const FieldFacts& facts, const std::string& text) {
+    if (!facts.shown.empty()) line.values.append(facts.shown).append(text);
   };
-  return std::visit(
-      Overloaded{
-          [&](const DiffuseMaterial& m) { return "diffuse " + input(m.reflectance); },
-          [&](const ConductorMaterial& m) { return rough(m.roughness, "conductor"); },
-          [&](const DielectricMaterial& m) {
-            return fmt::format("{}, eta {}", rough(m.roughness, "dielectric"), input(m.eta));
-          },
-          [&](const ThinDielectricMaterial& m) {
-            return fmt::format("thindielectric, eta {:.4g}", m.eta);
-          },
-          [&](const PlasticMaterial& m) {
-            return fmt::format("{}, eta {:.4g}, diffuse {}", rough(m.roughness, "plastic"), m.eta,
-                               input(m.diffuse_reflectance));
-          },
-          [&](const PrincipledMaterial& m) {
-            return fmt::format("principled {}, roughness {}, metallic {}", input(m.base_color),
-                               input(m.roughness), input(m.metallic));
-          },
-          [&](const PrincipledThinMaterial& m) {
-            return fmt::format("principledthin {}, roughness {}", input(m.base_color),
-                               input(m.roughness));
-          },
-          [&](const PhongMaterial& m) {
-            return fmt::format("phong, exponent {}, diffuse {}, specular {}", input(m.exponent),
-                               input(m.diffuse_reflectance), input(m.specular_reflectance));
-          },
-          [&](const WardMaterial& m) {
-            return fmt::format("ward, alpha {} and {}, diffuse {}, specular {}", input(m.alpha_u),
-                               input(m.alpha_v), input(m.diffuse_reflectance),
-                               input(m.specular_reflectance));
-          },
-          [&](const RoughDiffuseMaterial& m) {
-            return fmt::format("roughdiffuse {}, alpha {}", input(m.reflectance), input(m.alpha));
-          },
-          [&](const DiffuseTransmitterMaterial& m) {
-            return "difftrans " + input(m.transmittance);
-          },
-          [&](const MixtureMaterial& m) {
-            std::vector<std::string> parts;
-            for (const auto& [weight, part] : m.parts)
-              parts.push_back(fmt::format("{:.4g} of {}", weight, material(part)));
-            return fmt::format("mixturebsdf [{}]", fmt::join(parts, "; "));
-          },
-          [&](const HairMaterial& m) {
-            return fmt::format("hair, roughness {:.4g} and {:.4g}, {}", m.longitudinal_roughness,
-                               m.azimuthal_roughness,
-                               m.sigma_a ? "sigma_a " + input(*m.sigma_a)
-                                         : fmt::format("eumelanin {:.4g}, pheomelanin {:.4g}",
-                                                       m.eumelanin, m.pheomelanin));
-          },
-          [&](const MeasuredMaterial& m) {
-            return "measured " + std::filesystem::path(m.file).filename().string();
-          },
-          [&](const PolarizedPlasticMaterial& m) {
-            return fmt::format("p{}, eta {:.4g}, diffuse {}", rough(m.interface, "plastic"), m.eta,
-                               input(m.diffuse_reflectance));
-          },
-          [&](const FilterMaterial& m) {
-            constexpr const char* kinds[] = {"polarizer", "retarder", "circular"};
-            return fmt::format("{}, transmittance {}", kinds[size_t(m.kind)],
-                               input(m.transmittance));
-          },
-          [&](const CoatingMaterial& m) {
-            return fmt::format("{}, eta {:.4g} [{}]", rough(m.roughness, "coating"), m.eta,
-                               material(m.nested));
-          },
-          [&](const ThinLayerMaterial& m) {
-            return fmt::format("hk, sigma_s {}, sigma_a {}, thickness {:.4g}", input(m.sigma_s),
-                               input(m.sigma_a), m.thickness);
-          },
-          [&](const TwoSidedMaterial& m) {
-            return m.front == m.back ? fmt::format("twosided [{}]", material(m.front))
-                                     : fmt::format("twosided [front {}; back {}]",
-                                                   material(m.front), material(m.back));
-          },
-          [&](const MaskMaterial& m) {
-            return fmt::format("mask, opacity {} [{}]", input(m.opacity), material(m.nested));
-          },
-          [&](const BlendMaterial& m) {
-            return fmt::format("blendbsdf, weight {} [{}; {}]", input(m.weight), material(m.first),
-                               material(m.second));
-          },
-          [&](const BumpMapMaterial& m) {
-            return fmt::format("bumpmap {} [{}]", input(m.height), material(m.nested));
-          },
-          [&](const NormalMapMaterial& m) {
-            return fmt::format("normalmap {} [{}]", input(m.normals), material(m.nested));
-          },
-          [&](const NullMaterial&) { return std::string("null"); },
-      },
-      scene_.materials[size_t(id)].model);
+  const auto show_rough = [&](const Roughness& r) {
+    const std::string u = input(r.alpha_u), v = input(r.alpha_v);
+    line.roughness = fmt::format(" ({}, alpha {})",
+                                 r.distribution == MicrofacetDistribution::ggx ? "ggx" : "beckmann",
+                                 u == v ? u : u + " and " + v);
+  };
+  model.for_each_field([&](const FieldFacts& facts, const FieldValue& value) {
+    if (!facts.given) return;
+    with_value(value,
+               Overloaded{
+                   [&](double v) { show(facts, fmt::format("{:.4g}", v)); },
+                   [&](const std::string& v) {
+                     show(facts, std::filesystem::path(v).filename().string());
+                   },
+                   [&](const ColorInput& v) { show(facts, input(v)); },
+                   [&](const std::optional<ColorInput>& v) {
+                     if (v) show(facts, input(*v));
+                   },
+                   [&](const FloatInput& v) { show(facts, input(v)); },
+                   [&](const Roughness& r) { show_rough(r); },
+                   [&](const std::optional<Roughness>& r) {
+                     if (r) show_rough(*r);
+                   },
+                   [&](const MaterialId& nested) {
+                     line.nested.push_back(material(nested));
+                     line.places.push_back(facts.shown);
+                   },
+                   [&](const MaterialShares& shares) {
+                     for (const auto& [weight, part] : shares)
+                       line.nested.push_back(fmt::format("{:.4g} of {}", weight, material(part)));
+                   },
+                   [](const auto&) {},
+               });
+  });
+  // Where only one is nested, it is clear which.
+  for (size_t i = 0; i < line.places.size() && line.nested.size() > 1; ++i)
+    line.nested[i].insert(0, line.places[i]);
+  std::string text = model.name() + line.roughness + line.values;
+  if (!line.nested.empty()) text += fmt::format(" [{}]", fmt::join(line.nested, "; "));
+  return text;
 }
 
 }  // namespace duet

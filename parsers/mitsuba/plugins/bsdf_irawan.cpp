@@ -1,11 +1,11 @@
 // Mitsuba 0.6's woven cloth, approximated: Irawan and Marschner's model needs the light on every
 // thread.
-#include "mitsuba/readers.h"
-#include "mitsuba/scene_reader.h"
-#include "mitsuba/two_lobes.h"
+#include "mitsuba/plugins/bsdf.h"
+#include "mitsuba/plugins/bsdfs.h"
+#include "mitsuba/plugins/two_lobes.h"
 #include "weave/weave.h"
 
-namespace duet {
+namespace duet::plugins {
 
 namespace {
 
@@ -39,17 +39,15 @@ Spectrum cloth_color(Properties& p, const WeaveColor& color) {
   return {float(value[0]), float(value[1]), float(value[2])};
 }
 
-}  // namespace
-
 void read_irawan(SceneReader& s, Properties& p, MaterialDescription& out) {
-  const std::string file = s.file(p, "filename");
-  if (file.empty()) return;
+  const std::string path = s.file(p, "filename");
+  if (path.empty()) return;
   WardMaterial m;
   m.alpha_u = m.alpha_v = kClothRoughness;
   try {
-    const auto text = s.files().read(file);
-    if (!text) throw ReadError(file + ": cannot be read");
-    const Weave weave = parse_weave(*text, file);
+    const auto text = s.files().read(path);
+    if (!text) throw ReadError(path + ": cannot be read");
+    const Weave weave = parse_weave(*text, path);
     Spectrum diffuse, specular;
     std::vector<size_t> cells(weave.yarns.size());
     for (const uint32_t yarn : weave.pattern) ++cells[yarn];
@@ -69,4 +67,25 @@ void read_irawan(SceneReader& s, Properties& p, MaterialDescription& out) {
   out.model = m;
 }
 
-}  // namespace duet
+constexpr const char* kNormalised = "Mitsuba 0.6 refuses it, too: highlights are normalised";
+constexpr Parameter kCloth[] = {
+    {.name = "filename", .type = file, .note = "a .wv file", .required = true},
+    {.name = "repeat_u", .type = number, .note = "threads are not simulated", .support = inert},
+    {.name = "repeat_v", .type = number, .note = "threads are not simulated", .support = inert},
+    {.name = "ks_multiplier", .type = number, .note = kNormalised, .support = refused},
+    {.name = "kd_multiplier", .type = number, .note = kNormalised, .support = refused}};
+
+}  // namespace
+
+Plugin irawan() {
+  return {.name = "irawan",
+          .versions = v0,
+          .parameters = kCloth,
+          .reader = &read_irawan,
+          .note =
+              "woven cloth is its average colours and a wide highlight; the file's own "
+              "parameters are colours; Mitsuba 3 has none",
+          .support = approximated};
+}
+
+}  // namespace duet::plugins

@@ -1,83 +1,10 @@
-// Fibres, measurements, filters, coats and layers.
+// BSDFs by the coefficients of a medium.
 #include "mitsuba/medium_presets.h"
-#include "mitsuba/read_roughness.h"
-#include "mitsuba/readers.h"
-#include "mitsuba/scene_reader.h"
+#include "mitsuba/plugins/bsdf.h"
+#include "mitsuba/plugins/bsdfs.h"
 #include "mitsuba/text.h"
 
-namespace duet {
-
-void read_hair_material(SceneReader& s, Properties& p, MaterialDescription& out) {
-  HairMaterial m;
-  m.longitudinal_roughness = p.number("longitudinal_roughness");
-  m.azimuthal_roughness = p.number("azimuthal_roughness");
-  m.scale_tilt = p.number("scale_tilt");
-  m.eta = relative_index(s, p);
-  if (m.eta == 1) p.error("int_ior", "the indices of refraction of hair must differ");
-  if (p.has("sigma_a")) {
-    if (p.has("eumelanin") || p.has("pheomelanin"))
-      p.error("sigma_a", "either \"sigma_a\" or concentrations of pigments can be given");
-    m.sigma_a = s.color(p, "sigma_a");
-  }
-  m.eumelanin = p.number("eumelanin");
-  m.pheomelanin = p.number("pheomelanin");
-  m.scale = p.number("scale");
-  out.model = m;
-}
-
-void read_measured_material(SceneReader& s, Properties& p, MaterialDescription& out) {
-  const std::string file = s.file(p, "filename");
-  if (file.empty()) return;
-  try {
-    out.model =
-        MeasuredMaterial{std::make_shared<MeasuredTable>(s.files().read_measured(file)), file};
-  } catch (const ReadError& error) {
-    s.report().error(p.where("filename"), "{}", error.what());
-  }
-}
-
-void read_pplastic(SceneReader& s, Properties& p, MaterialDescription& out) {
-  PolarizedPlasticMaterial m;
-  m.eta = relative_index(s, p);
-  if (m.eta == 1) p.error("int_ior", "the indices of refraction of \"pplastic\" must differ");
-  m.diffuse_reflectance = s.color(p, "diffuse_reflectance");
-  m.specular_reflectance = s.color(p, "specular_reflectance");
-  m.interface = checked_roughness(s, p);
-  out.model = m;
-}
-
-void read_filter_of_light(SceneReader& s, Properties& p, MaterialDescription& out) {
-  FilterMaterial m;
-  const std::string_view name = p.node().plugin->name;
-  m.kind = name == "polarizer"  ? FilterKindOfLight::polarizer
-           : name == "retarder" ? FilterKindOfLight::retarder
-                                : FilterKindOfLight::circular;
-  m.transmittance = s.color(p, "transmittance");
-  s.report().warning(p.node().where, "{} sees light without polarisation: it {}",
-                     describe(p.node()),
-                     m.kind == FilterKindOfLight::retarder ? "changes only its intensity"
-                                                           : "lets half of it pass");
-  out.model = m;
-}
-
-void read_coating(SceneReader& s, Properties& p, MaterialDescription& out) {
-  CoatingMaterial m;
-  m.eta = relative_index(s, p);
-  if (!(m.eta > 1))
-    p.error("int_ior", "the index of refraction of a coating must be larger inside than outside");
-  m.thickness = p.number("thickness");
-  m.sigma_a = s.color(p, "sigma_a");
-  m.specular_reflectance = s.color(p, "specular_reflectance");
-  if (p.node().type.starts_with("rough")) m.roughness = checked_roughness(s, p);
-  const auto children = p.children(PluginKind::bsdf);
-  if (children.size() != 1)
-    return s.report().error(p.node().where, "{} needs one nested BSDF, not {}", describe(p.node()),
-                            children.size());
-  const auto nested = s.material(*children[0].node);
-  if (!nested) return;
-  m.nested = *nested;
-  out.model = m;
-}
+namespace duet::plugins {
 
 namespace {
 
@@ -116,13 +43,11 @@ Coefficients read_coefficients(SceneReader& s, Properties& p) {
   return c;
 }
 
-}  // namespace
-
 void read_hk(SceneReader& s, Properties& p, MaterialDescription& out) {
   ThinLayerMaterial m;
   const Coefficients c = read_coefficients(s, p);
   m.sigma_s = c.sigma_s, m.sigma_a = c.sigma_a;
-  m.thickness = p.number("thickness");
+  read_values(s, p, m);
   if (const Node* node = p.child(PluginKind::phase)) {
     const auto id = s.phase(*node);
     const PhaseDescription* phase = id ? &s.description().phases[size_t(*id)] : nullptr;
@@ -141,7 +66,7 @@ void read_sssbrdf(SceneReader& s, Properties& p, MaterialDescription& out) {
   PlasticMaterial m;
   m.eta = relative_index(s, p);
   m.nonlinear = true;
-  m.roughness = checked_roughness(s, p);
+  m.roughness = read_roughness(s, p);
   const Coefficients c = read_coefficients(s, p);
   const Spectrum* sigma_s = std::get_if<Spectrum>(&c.sigma_s);
   const Spectrum* sigma_a = std::get_if<Spectrum>(&c.sigma_a);
@@ -167,4 +92,43 @@ void read_sssbrdf(SceneReader& s, Properties& p, MaterialDescription& out) {
   out.model = m;
 }
 
-}  // namespace duet
+constexpr Parameter kMediumName{"material", string, "skin1", "name of a medium"};
+constexpr Parameter kScattering = parameter_of<ThinLayerMaterial>("sigma_s"),
+                    kAbsorption = parameter_of<ThinLayerMaterial>("sigma_a");
+constexpr Parameter kExtinction{"sigma_t", unbounded, "", "extinction coefficient"};
+constexpr Parameter kAlbedo{"albedo", reflectance, "", "share that is scattered"};
+constexpr Parameter kThinLayer[] = {kMediumName, kScattering,
+                                    kAbsorption, kExtinction,
+                                    kAlbedo,     parameter_of<ThinLayerMaterial>("thickness")};
+constexpr Parameter kDipole[] = {
+    kMediumName,
+    kScattering,
+    kAbsorption,
+    kExtinction,
+    kAlbedo,
+    parameter_of<DielectricMaterial>("int_ior"),
+    parameter_of<DielectricMaterial>("ext_ior"),
+    {"g", number, "0", "mean cosine of scattering"},
+    kDistribution,
+    kAlpha,
+    kSampleVisible,
+};
+
+}  // namespace
+
+Plugin hk() {
+  return {.name = "hk",
+          .parameters = kThinLayer,
+          .reader = &read_hk,
+          .note = "may hold a phase function: isotropic or hg; Mitsuba 3 has none"};
+}
+
+Plugin sssbrdf() {
+  return {.name = "sssbrdf",
+          .parameters = kDipole,
+          .reader = &read_sssbrdf,
+          .note = "a rough plastic with the reflectance of a dipole; Mitsuba 3 has none",
+          .support = approximated};
+}
+
+}  // namespace duet::plugins

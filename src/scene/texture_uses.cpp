@@ -1,4 +1,4 @@
-#include "mitsuba/texture_uses.h"
+#include "scene/texture_uses.h"
 
 #include <utility>
 
@@ -17,50 +17,11 @@ class Marker {
     (input(inputs), ...);
   }
 
-  void model(const DiffuseMaterial& m) { mark(m.reflectance); }
-  void model(const ConductorMaterial& m) { mark(m.eta, m.k, m.specular_reflectance, m.roughness); }
-  void model(const DielectricMaterial& m) {
-    mark(m.eta, m.specular_reflectance, m.specular_transmittance, m.roughness);
+  void model(const MaterialModel& m) {
+    m.for_each_field([&](const FieldFacts&, const FieldValue& value) {
+      with_value(value, [&](const auto& v) { input(v); });
+    });
   }
-  void model(const ThinDielectricMaterial& m) {
-    mark(m.specular_reflectance, m.specular_transmittance);
-  }
-  void model(const PlasticMaterial& m) {
-    mark(m.diffuse_reflectance, m.specular_reflectance, m.roughness);
-  }
-  void model(const PrincipledMaterial& m) {
-    mark(m.base_color, m.roughness, m.anisotropic, m.metallic, m.spec_trans, m.spec_tint, m.sheen,
-         m.sheen_tint, m.flatness, m.clearcoat, m.clearcoat_gloss);
-  }
-  void model(const PrincipledThinMaterial& m) {
-    mark(m.base_color, m.roughness, m.anisotropic, m.spec_trans, m.eta, m.spec_tint, m.sheen,
-         m.sheen_tint, m.flatness, m.diff_trans);
-  }
-  void model(const PhongMaterial& m) {
-    mark(m.diffuse_reflectance, m.specular_reflectance, m.exponent);
-  }
-  void model(const WardMaterial& m) {
-    mark(m.diffuse_reflectance, m.specular_reflectance, m.alpha_u, m.alpha_v);
-  }
-  void model(const RoughDiffuseMaterial& m) { mark(m.reflectance, m.alpha); }
-  void model(const DiffuseTransmitterMaterial& m) { mark(m.transmittance); }
-  void model(const MixtureMaterial&) {}
-  void model(const HairMaterial& m) {
-    if (m.sigma_a) mark(*m.sigma_a);
-  }
-  void model(const MeasuredMaterial&) {}
-  void model(const PolarizedPlasticMaterial& m) {
-    mark(m.diffuse_reflectance, m.specular_reflectance, std::optional(m.interface));
-  }
-  void model(const FilterMaterial& m) { mark(m.transmittance); }
-  void model(const CoatingMaterial& m) { mark(m.sigma_a, m.specular_reflectance, m.roughness); }
-  void model(const ThinLayerMaterial& m) { mark(m.sigma_s, m.sigma_a); }
-  void model(const TwoSidedMaterial&) {}
-  void model(const MaskMaterial& m) { mark(m.opacity); }
-  void model(const BlendMaterial& m) { mark(m.weight); }
-  void model(const BumpMapMaterial& m) { mark(m.height); }
-  void model(const NormalMapMaterial& m) { mark(m.normals); }
-  void model(const NullMaterial&) {}
 
   void model(const PointLight&) {}
   void model(const SpotLight& l) {
@@ -80,9 +41,13 @@ class Marker {
   void input(const FloatInput& i) {
     if (const TextureId* id = std::get_if<TextureId>(&i)) texture(*id, &TextureUse::as_number);
   }
-  void input(const std::optional<Roughness>& r) {
-    if (r) mark(r->alpha_u, r->alpha_v);
+  void input(const Roughness& r) { mark(r.alpha_u, r.alpha_v); }
+  template <class T>
+  void input(const std::optional<T>& value) {
+    if (value) input(*value);
   }
+  template <class T>
+  void input(const T&) {}  // other values name no textures
   void texture(TextureId id, bool TextureUse::*use) {
     if (std::exchange(uses_[size_t(id)].*use, true)) return;
     const auto& model = scene_.textures[size_t(id)].model;
@@ -105,7 +70,7 @@ class Marker {
 std::vector<TextureUse> texture_uses(const SceneDescription& scene) {
   Marker marker(scene);
   const auto model = [&](const auto& m) { marker.model(m); };
-  for (const MaterialDescription& m : scene.materials) std::visit(model, m.model);
+  for (const MaterialDescription& m : scene.materials) marker.model(m.model);
   for (const LightDescription& l : scene.lights) std::visit(model, l.model);
   const auto shapes = [&](const std::vector<ShapeDescription>& list) {
     for (const ShapeDescription& s : list) {

@@ -1,0 +1,127 @@
+#include "mitsuba/read_fields.h"
+
+#include "mitsuba/text.h"
+
+namespace duet {
+
+namespace {
+
+bool has_parameter(const Properties& p, std::string_view name) {
+  return find_parameter(p.node().kind, *p.node().plugin, name) != nullptr;
+}
+
+bool is_rough(const Properties& p) {
+  return p.node().type.starts_with("rough");
+}
+
+bool is_index(const FieldFacts& facts) {
+  return facts.parameters.front().type == ParameterType::ior;
+}
+
+Roughness unchecked_roughness(SceneReader& s, Properties& p) {
+  constexpr std::string_view names[] = {"beckmann", "ggx", "phong", "as"};
+  Roughness r;
+  const size_t name = p.choice("distribution", names);
+  if (name == 1) r.distribution = MicrofacetDistribution::ggx;
+  if (name >= 2)
+    s.approximate_loudly(p.where("distribution"),
+                         "the Phong microfacet distribution is approximated by Beckmann's");
+  r.sample_visible = p.boolean("sample_visible");
+
+  r.alpha_u = r.alpha_v = s.number_or_texture(p, "alpha");
+  // Plastic is isotropic.
+  if (!has_parameter(p, "alpha_u")) return r;
+  const bool u = p.has("alpha_u"), v = p.has("alpha_v");
+  if (u != v)
+    p.error(u ? "alpha_u" : "alpha_v", "\"alpha_u\" and \"alpha_v\" must be given together");
+  if (!u || !v) return r;
+  if (p.has("alpha"))
+    p.error("alpha_u", "either \"alpha\" or \"alpha_u\" and \"alpha_v\" can be given");
+  r.alpha_u = s.number_or_texture(p, "alpha_u");
+  r.alpha_v = s.number_or_texture(p, "alpha_v");
+  return r;
+}
+
+}  // namespace
+
+Roughness read_roughness(SceneReader& s, Properties& p) {
+  // A roughness of zero or less has no distribution; Mitsuba uses a small one then.
+  constexpr double least = 1e-4;
+  Roughness r = unchecked_roughness(s, p);
+  for (FloatInput* alpha : {&r.alpha_u, &r.alpha_v})
+    if (double* value = std::get_if<double>(alpha)) {
+      if (*value < 0)
+        p.error(p.has("alpha") ? "alpha" : "alpha_u", "a roughness must not be negative");
+      *value = std::max(*value, least);
+    }
+  return r;
+}
+
+double relative_index(SceneReader& s, Properties& p) {
+  const double inside = s.index_of_refraction(p, "int_ior");
+  const double outside = s.index_of_refraction(p, "ext_ior");
+  if (is_rough(p) && inside == outside)
+    p.error("int_ior", "the indices of refraction of {} must differ", describe(p.node()));
+  return inside / outside;
+}
+
+std::vector<MaterialId> nested_bsdfs(SceneReader& s, Properties& p, size_t least, size_t most) {
+  const auto children = p.children(PluginKind::bsdf);
+  if (children.size() < least || children.size() > most) {
+    s.report().error(p.node().where, "{} needs {}{} nested BSDF{}, not {}", describe(p.node()),
+                     least, least == most ? "" : " or " + std::to_string(most),
+                     most == 1 ? "" : "s", children.size());
+    return {};
+  }
+  std::vector<MaterialId> ids;
+  for (const Properties::Child& child : children)
+    if (const auto id = s.material(*child.node)) ids.push_back(*id);
+  return ids.size() == children.size() ? ids : std::vector<MaterialId>();
+}
+
+void FieldReader::read(const FieldFacts& facts, bool& value) {
+  value = p_.boolean(facts.name());
+}
+
+void FieldReader::read(const FieldFacts& facts, double& value) {
+  if (is_index(facts))
+    value = relative_index(s_, p_);
+  else if (p_.preset(facts.name()).empty())
+    value = p_.optional_number(facts.name()).value_or(value);
+  else
+    value = p_.number(facts.name());
+}
+
+void FieldReader::read(const FieldFacts& facts, std::optional<double>& value) {
+  value = p_.optional_number(facts.name());
+}
+
+void FieldReader::read(const FieldFacts& facts, std::string& value) {
+  value = facts.parameters.front().type == ParameterType::file ? s_.file(p_, facts.name())
+                                                               : p_.string(facts.name());
+}
+
+void FieldReader::read(const FieldFacts& facts, ColorInput& value) {
+  value = s_.color(p_, facts.name());
+}
+
+void FieldReader::read(const FieldFacts& facts, std::optional<ColorInput>& value) {
+  if (p_.has(facts.name())) value = s_.color(p_, facts.name());
+}
+
+void FieldReader::read(const FieldFacts& facts, FloatInput& value) {
+  if (is_index(facts))
+    value = relative_index(s_, p_);
+  else
+    value = s_.number_or_texture(p_, facts.name());
+}
+
+void FieldReader::read(const FieldFacts&, Roughness& value) {
+  value = read_roughness(s_, p_);
+}
+
+void FieldReader::read(const FieldFacts&, std::optional<Roughness>& value) {
+  if (has_parameter(p_, "alpha")) value = read_roughness(s_, p_);
+}
+
+}  // namespace duet

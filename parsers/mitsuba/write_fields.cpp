@@ -1,0 +1,94 @@
+// The fields of a plugin as Mitsuba 3 writes them, or would.
+#include "mitsuba/scene_writer.h"
+
+namespace duet {
+
+namespace {
+
+bool is_relative_index(const FieldFacts& facts) {
+  return !facts.parameters.empty() && facts.parameters.front().type == ParameterType::ior;
+}
+
+}  // namespace
+
+void SceneWriter::material(const MaterialDescription& m, const std::string& id) {
+  out_.open("bsdf", m.model.name(), {}, id);
+  fields(m.model);
+  if (const std::string loss = m.model.loss(); !loss.empty()) lose(loss);
+  out_.close();
+}
+
+void SceneWriter::fields(const MaterialModel& model) {
+  model.for_each_field([&](const FieldFacts& facts, const FieldValue& value) {
+    if (facts.given) with_value(value, [&](const auto& v) { field(facts, v); });
+  });
+}
+
+void SceneWriter::field(const FieldFacts& facts, const Choice& choice) {
+  if (!facts.name().empty()) out_.string(facts.name(), facts.words[choice.index]);
+}
+
+void SceneWriter::field(const FieldFacts& facts, bool value) {
+  if (!facts.name().empty()) out_.boolean(facts.name(), value);
+}
+
+void SceneWriter::field(const FieldFacts& facts, double value) {
+  if (!facts.name().empty()) out_.number(facts.name(), value);
+  if (is_relative_index(facts)) out_.number("ext_ior", 1);
+}
+
+void SceneWriter::field(const FieldFacts& facts, const std::optional<double>& value) {
+  if (value) field(facts, *value);
+}
+
+void SceneWriter::field(const FieldFacts& facts, const std::string& value) {
+  if (!facts.name().empty()) out_.string(facts.name(), value);
+}
+
+void SceneWriter::field(const FieldFacts& facts, const ColorInput& value) {
+  color(facts.name(), value);
+}
+
+void SceneWriter::field(const FieldFacts& facts, const std::optional<ColorInput>& value) {
+  if (value) field(facts, *value);
+}
+
+void SceneWriter::field(const FieldFacts& facts, const FloatInput& value) {
+  const bool nested = facts.name().empty();
+  if (nested && std::holds_alternative<double>(value)) {
+    out_.open("texture", "uniform");
+    number("value", value);
+    out_.close();
+  } else {
+    number(facts.name(), value);
+  }
+  if (is_relative_index(facts)) out_.number("ext_ior", 1);
+}
+
+void SceneWriter::field(const FieldFacts& facts, const Roughness& r) {
+  out_.string("distribution", r.distribution == MicrofacetDistribution::ggx ? "ggx" : "beckmann");
+  if (!facts.has_parameter("alpha_u") || r.alpha_u == r.alpha_v) {
+    number("alpha", r.alpha_u);
+  } else {
+    number("alpha_u", r.alpha_u);
+    number("alpha_v", r.alpha_v);
+  }
+  if (!r.sample_visible) out_.boolean("sample_visible", false);
+}
+
+void SceneWriter::field(const FieldFacts& facts, const std::optional<Roughness>& value) {
+  if (value) field(facts, *value);
+}
+
+void SceneWriter::field(const FieldFacts&, MaterialId value) {
+  out_.reference({}, material_id(value));
+}
+
+void SceneWriter::field(const FieldFacts& facts, const MaterialShares& value) {
+  std::vector<double> weights;
+  for (const auto& [weight, id] : value) weights.push_back(weight);
+  out_.string(facts.name(), fmt::format("{}", fmt::join(weights, ", ")));
+  for (const auto& [weight, id] : value) out_.reference({}, material_id(id));
+}
+
+}  // namespace duet
