@@ -89,15 +89,25 @@ const std::string kFog =
 
 }  // namespace
 
-TEST_CASE("in fog an open lamp is left to path tracing, and one behind a screen is not") {
+TEST_CASE("a cloud in the open is left to path tracing, and a lamp behind a screen in fog is not") {
+  const std::string cloud =
+      sphere_xml("0, 0, 0.7", "0.65",
+                 "<bsdf type='null'/><medium type='homogeneous' name='interior'>"
+                 "<float name='sigma_t' value='5'/><float name='albedo' value='0.9'/></medium>");
+  const std::string ground =
+      "<shape type='rectangle'><transform name='to_world'><scale value='6'/></transform>" +
+      grey("0.5, 0.5, 0.5") + "</shape>";
+  const std::string point =
+      "<emitter type='point'><point name='position' value='2, -2, 4'/>"
+      "<rgb name='intensity' value='40'/></emitter>";
+  const Choice open = choose(TransportScene(kCamera + ground + cloud + point));
+  CAPTURE(open.reason);
+  CHECK(open.name == "volpath");
+  CHECK(open.bias.empty());
   const std::string screen =
       "<shape type='rectangle'><transform name='to_world'><scale value='0.9'/>"
       "<translate z='1.7'/></transform>" +
       grey("0.5, 0.5, 0.5") + "</shape>";
-  const Choice open = choose(TransportScene(kCamera + kWalls + kFog + lamp_xml("0.5", "5")));
-  CAPTURE(open.reason);
-  CHECK(open.name == "volpath");
-  CHECK(open.bias.empty());
   const Choice hidden =
       choose(TransportScene(kCamera + kWalls + kFog + screen + lamp_xml("0.1", "100")));
   CAPTURE(hidden.reason);
