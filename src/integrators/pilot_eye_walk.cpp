@@ -186,7 +186,7 @@ class PilotEyeWalk {
     for (size_t i = first; i < pilot_.light.vertex_ends[index_]; ++i) {
       const LightVertex& packed = pilot_.light.vertices[i];
       if (int(packed.depth) + v.depth + 1 > pilot_.max_depth) break;
-      weights_.set_light(trail, &pilot_.light.arrivals[i].densities);
+      weights_.set_light(trail, &pilot_.light.arrivals[i].ends);
       const Join join = join_ends(joins(roulette_, out_.connection_counters),
                                   packed.template unpack<Vertex>(scene_), v);
       add_contribution(out_.eye, join.value * join.weight, weights_.shares(), Technique::connection,
@@ -210,7 +210,7 @@ class PilotEyeWalk {
     pilot_.grid.query(v.position(), pilot_.grid.locate(v.position()), [&](uint32_t i, float) {
       const LightVertex& photon = light.vertices[i];
       if (int(photon.depth) + v.depth > pilot_.max_depth || (light.owner[i] ^ index_) & 1) return;
-      weights_.set_light(light.trail(light.owner[i]), &light.arrivals[i].densities);
+      weights_.set_light(light.trail(light.owner[i]), &light.arrivals[i].ends);
       const Join join = join_merge(weights_, photon, v, kernel, pilot_.plan.strict_normals);
       if (join.value.is_black()) return;
       ++counters.merges;

@@ -14,8 +14,7 @@ struct PhotonArrival {
   /// The vertex before, the point on the light, or where the last surface was passed straight.
   Point3f from;
   Normal3f normal;  ///< of the surface: geometric, unit; in a medium none
-  /// What the walk's trail had for the vertex, which it loses where a walk goes straight on.
-  TrailVertex densities;
+  TrailEnds ends;   ///< of the walk's trail
 };
 
 /// The vertices of some light walks, walk after walk.
@@ -36,7 +35,7 @@ struct PilotLightWalks {
   template <class Vertex>
   void add(const Vertex& v, const Hit& hit, const Trail& trail) {
     vertices.emplace_back(v, hit);
-    PhotonArrival a{v.position(), {}, trail.back()};
+    PhotonArrival a{v.position(), {}, {trail.front(), trail.back()}};
     if (v.surface.shape) a.from = v.position() + v.wo * hit.t, a.normal = v.surface.ng;
     arrivals.push_back(a);
     owner.push_back(uint32_t(vertex_ends.size()));

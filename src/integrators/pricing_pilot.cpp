@@ -19,9 +19,9 @@ constexpr int kLongest = FamilyWeights::kMostVertices / 2;
 constexpr size_t kWalksPerBlock = 64;
 
 template <class Vertex>
-class PricingPilotOf {
+class PricingPilot {
  public:
-  PricingPilotOf(const Scene& scene, const PricingPlan& plan)
+  PricingPilot(const Scene& scene, const PricingPlan& plan)
       : scene_(scene),
         plan_(plan),
         walks_(2 * size_t(plan.pixels_per_side) * plan.pixels_per_side),
@@ -155,8 +155,8 @@ class PricingPilotOf {
 }  // namespace
 
 PricingRecord run_pricing_pilot(const Scene& scene, const PricingPlan& plan) {
-  return scene.media.empty() ? PricingPilotOf<PathVertex>(scene, plan).run()
-                             : PricingPilotOf<MediaVertex>(scene, plan).run();
+  return scene.media.empty() ? PricingPilot<PathVertex>(scene, plan).run()
+                             : PricingPilot<MediaVertex>(scene, plan).run();
 }
 
 }  // namespace duet

@@ -20,9 +20,9 @@ FamilyWeights::Path& FamilyWeights::start(int count) const {
 }
 
 void FamilyWeights::take_light(Path& path, int m, const JoinEnd& end) const {
-  const TrailVertex& last = arrival_ ? *arrival_ : light_[size_t(m)];
+  const TrailVertex& last = ends_ ? ends_->vertex : light_[size_t(m)];
   const double beyond = double(end.beyond) * double(last.back);
-  path.direct = double(light_[0].back);
+  path.direct = double(ends_ ? ends_->light.back : light_[0].back);
   path.emitted = double(m == 1 ? last.forward : light_[1].forward);
   if (!light_[0].specular) path.found = m == 1 ? beyond : double(light_[0].reverse);
   for (int i = 1; i <= m; ++i) {

@@ -32,10 +32,9 @@ class FamilyWeights {
       : light_paths_(double(set.light_paths)),
         eta_(double(set.light_paths) * double(set.merge_area)) {}
   /// The walks that are joined. The trail of the light walk may go on beyond the vertex at hand;
-  /// where it went straight on from there, and has another vertex in its place, `arrival` is that
-  /// at the vertex at hand.
-  void set_light(std::span<const TrailVertex> trail, const TrailVertex* arrival = nullptr) {
-    light_ = trail, arrival_ = arrival;
+  /// if the walk may have gone straight on from there, `ends` are those at that vertex.
+  void set_light(std::span<const TrailVertex> trail, const TrailEnds* ends = nullptr) {
+    light_ = trail, ends_ = ends;
   }
   void set_eye(const Trail& trail) { eye_ = trail; }
 
@@ -72,7 +71,7 @@ class FamilyWeights {
 
   double light_paths_, eta_;
   std::span<const TrailVertex> light_, eye_;
-  const TrailVertex* arrival_ = nullptr;
+  const TrailEnds* ends_ = nullptr;
   mutable Path path_;
   mutable FamilyShares shares_;
 };

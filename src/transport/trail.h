@@ -17,4 +17,10 @@ struct TrailVertex {
 /// Vertex 0 is on the light or on the lens; only those between them have all entries.
 using Trail = std::vector<TrailVertex>;
 
+/// What the trail of a light walk had at its ends when the walk was at a vertex: where a walk goes
+/// straight on, another vertex takes the place of the last.
+struct TrailEnds {
+  TrailVertex light, vertex;
+};
+
 }  // namespace duet

@@ -20,19 +20,19 @@ const std::string kPoint =
 const std::string kGlassBall = sphere_xml("-0.4, 0, 0.6", "0.4", "<bsdf type='dielectric'/>");
 const std::string kWalls = room_xml(grey("0.7, 0.7, 0.7"));
 
-struct Choice {
+struct Chosen {
   std::string name;
   double light_paths = 0;
   std::string reason, bias;
 };
 
-Choice choose(const TransportScene& s, int max_depth = 8, int threads = 2, int spp = 256) {
+Chosen choose(const TransportScene& s, int max_depth = 8, int threads = 2, int spp = 256) {
   AutoIntegratorDescription options;
   options.max_depth = max_depth;
   const MethodChoice c = choose_method(*s.scene, options, {s.layout.full, spp, threads});
   IntegratorDescription d;
   d.method = c.method;
-  Choice choice{integrator_name(d), 0, c.reason, c.bias};
+  Chosen choice{integrator_name(d), 0, c.reason, c.bias};
   // The help names every method that there is to choose from.
   REQUIRE(integrator_names()[0].name == "auto");
   CHECK((" " + integrator_names()[0].summary).find(" " + choice.name) != std::string::npos);
@@ -43,7 +43,7 @@ Choice choose(const TransportScene& s, int max_depth = 8, int threads = 2, int s
   return choice;
 }
 
-bool merges(const Choice& c) {
+bool merges(const Chosen& c) {
   return c.name == "vcm" || c.name == "ppm";
 }
 
@@ -89,16 +89,26 @@ const std::string kFog =
 
 }  // namespace
 
-TEST_CASE("in fog an open lamp is left to path tracing, and one behind a screen is not") {
+TEST_CASE("a cloud in the open is left to path tracing, and a lamp behind a screen in fog is not") {
+  const std::string cloud =
+      sphere_xml("0, 0, 0.7", "0.65",
+                 "<bsdf type='null'/><medium type='homogeneous' name='interior'>"
+                 "<float name='sigma_t' value='5'/><float name='albedo' value='0.9'/></medium>");
+  const std::string ground =
+      "<shape type='rectangle'><transform name='to_world'><scale value='6'/></transform>" +
+      grey("0.5, 0.5, 0.5") + "</shape>";
+  const std::string point =
+      "<emitter type='point'><point name='position' value='2, -2, 4'/>"
+      "<rgb name='intensity' value='40'/></emitter>";
+  const Chosen open = choose(TransportScene(kCamera + ground + cloud + point));
+  CAPTURE(open.reason);
+  CHECK(open.name == "volpath");
+  CHECK(open.bias.empty());
   const std::string screen =
       "<shape type='rectangle'><transform name='to_world'><scale value='0.9'/>"
       "<translate z='1.7'/></transform>" +
       grey("0.5, 0.5, 0.5") + "</shape>";
-  const Choice open = choose(TransportScene(kCamera + kWalls + kFog + lamp_xml("0.5", "5")));
-  CAPTURE(open.reason);
-  CHECK(open.name == "volpath");
-  CHECK(open.bias.empty());
-  const Choice hidden =
+  const Chosen hidden =
       choose(TransportScene(kCamera + kWalls + kFog + screen + lamp_xml("0.1", "100")));
   CAPTURE(hidden.reason);
   CHECK(hidden.name == "bdpt");
@@ -106,21 +116,21 @@ TEST_CASE("in fog an open lamp is left to path tracing, and one behind a screen 
 }
 
 TEST_CASE("light walks are taken where path tracing through media loses light") {
-  const Choice c = choose(TransportScene(kCamera + kWalls + kFog + kPoint + kGlassBall));
+  const Chosen c = choose(TransportScene(kCamera + kWalls + kFog + kPoint + kGlassBall));
   CAPTURE(c.reason);
   CHECK(c.reason.find("volpath would miss") != std::string::npos);
   CHECK(c.light_paths > 0);
 }
 
 TEST_CASE("without specular surfaces nothing is merged") {
-  const Choice c = choose(TransportScene(kCamera + kWalls + lamp_xml("0.5", "5")));
+  const Chosen c = choose(TransportScene(kCamera + kWalls + lamp_xml("0.5", "5")));
   CAPTURE(c.reason);
   CHECK(!merges(c));
   CHECK(c.bias.empty());
 }
 
 TEST_CASE("under an open sky paths start at the camera") {
-  const Choice c =
+  const Chosen c =
       choose(TransportScene(kCamera + sphere_xml("0, 0, 1", "0.5", grey("0.5, 0.5, 0.5")) +
                             "<emitter type='constant'><rgb name='radiance' value='1'/></emitter>"));
   CAPTURE(c.reason);
@@ -144,14 +154,14 @@ TEST_CASE("nothing is tried where there is nothing to choose") {
 }
 
 TEST_CASE("light walks are taken where path tracing loses light") {
-  const Choice c = choose(TransportScene(kCamera + kWalls + kPoint + kGlassBall));
+  const Chosen c = choose(TransportScene(kCamera + kWalls + kPoint + kGlassBall));
   CAPTURE(c.reason);
   CHECK(c.name != "path");
   CHECK(c.light_paths > 0);
 }
 
 TEST_CASE("light that only merging finds is not lost") {
-  const Choice c = choose(
+  const Chosen c = choose(
       TransportScene(camera_xml("0, -0.9, 1", "0, 1, 0.9", 32) +
                      room_xml("<bsdf type='twosided'><bsdf type='plastic'/></bsdf>") + kPoint +
                      kGlassBall + sphere_xml("0.5, 0.3, 0.5", "0.45", "<bsdf type='conductor'/>")));
@@ -162,7 +172,7 @@ TEST_CASE("light that only merging finds is not lost") {
 }
 
 TEST_CASE("caustics in mirrors are merged") {
-  const Choice c = choose(TransportScene("thesis-modified", 64));
+  const Chosen c = choose(TransportScene("thesis-modified", 64));
   CAPTURE(c.reason);
   CHECK(merges(c));
   CHECK(!c.bias.empty());
@@ -177,11 +187,11 @@ TEST_CASE("a nearly specular bulb does not keep light from being merged elsewher
                                      "</emitter>") +
                           sphere_xml("0, 0, 1.3", "0.2", glass));
   };
-  const Choice rough =
+  const Chosen rough =
       choose(bulb("<bsdf type='roughdielectric'><float name='alpha' value='0.005'/></bsdf>"));
   CAPTURE(rough.reason);
   CHECK(merges(rough));
-  const Choice smooth = choose(bulb("<bsdf type='dielectric'/>"));
+  const Chosen smooth = choose(bulb("<bsdf type='dielectric'/>"));
   CAPTURE(smooth.reason);
   CHECK(merges(smooth));
 }
@@ -199,7 +209,7 @@ TEST_CASE("photons are merged on a body in rough glass") {
         alpha + "'/></bsdf></shape>" + sphere_xml("0, 0, 0.7", "0.35", grey("0.8, 0.4, 0.2")) +
         "<emitter type='directional'><vector name='direction' x='0.4' y='0.3' z='-1'/></emitter>");
     for (const int spp : {64, 256}) {
-      const Choice c = choose(s, 12, 2, spp);
+      const Chosen c = choose(s, 12, 2, spp);
       CAPTURE(alpha);
       CAPTURE(c.reason);
       CHECK(merges(c));
@@ -253,7 +263,7 @@ TEST_CASE("photons alone are enough where much light is merged anyway") {
   const auto with_64_samples = [](const std::string& scene) {
     return choose(TransportScene(scene, 128), 8, 2, 64);
   };
-  const Choice lamp = with_64_samples("lamp-in-glass");
+  const Chosen lamp = with_64_samples("lamp-in-glass");
   CAPTURE(lamp.reason);
   CHECK(lamp.name == "ppm");
   CHECK(!lamp.bias.empty());
@@ -261,13 +271,13 @@ TEST_CASE("photons alone are enough where much light is merged anyway") {
 
 TEST_CASE("the choice does not depend on threads where there are media") {
   const TransportScene s(kCamera + kWalls + kFog + lamp_xml("0.3", "10"));
-  const Choice one = choose(s, 8, 1);
+  const Chosen one = choose(s, 8, 1);
   for (const int threads : {2, 7}) CHECK(choose(s, 8, threads).reason == one.reason);
 }
 
 TEST_CASE("the choice does not depend on threads or windows") {
   const TransportScene s("thesis-modified", 48);
-  const Choice one = choose(s, 8, 1);
+  const Chosen one = choose(s, 8, 1);
   for (const int threads : {2, 7}) CHECK(choose(s, 8, threads).reason == one.reason);
   // A film that shows a part is decided on like the whole.
   FilmLayout window = s.layout;

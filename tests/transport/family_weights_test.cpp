@@ -71,10 +71,10 @@ struct Growing {
   const Trail* eye;
   mutable FamilyWeights weights;
   /// Of the light vertex at hand.
-  mutable const TrailVertex* arrival = nullptr;
+  mutable const TrailEnds* ends = nullptr;
 
   FamilyWeights& update() const {
-    weights.set_light(*light, arrival);
+    weights.set_light(*light, ends);
     weights.set_eye(*eye);
     return weights;
   }
@@ -101,10 +101,10 @@ FamilyShares shares_of(const Growing& w) {
 FamilyShares shares_of(const BalanceWeights&) {
   return {};
 }
-void set_arrival(const Growing& w, const TrailVertex* arrival) {
-  w.arrival = arrival;
+void set_ends(const Growing& w, const TrailEnds* ends) {
+  w.ends = ends;
 }
-void set_arrival(const BalanceWeights&, const TrailVertex*) {}
+void set_ends(const BalanceWeights&, const TrailEnds*) {}
 
 /// All joins of a light walk and an eye walk that are the same for every kind of weights.
 template <class Vertex, class Weights>
@@ -141,7 +141,7 @@ class Observer {
         [&](const Vertex& v, const Hit& hit) {
           if (!v.is_smooth()) return;
           light_.push_back(v), packed_.emplace_back(v, hit);
-          arrivals_.push_back(light_trail_.back());
+          ends_.push_back({light_trail_.front(), light_trail_.back()});
           const auto seen = join_camera(joins(), v, {}, false);
           if (seen) note('c', seen->join);
         });
@@ -229,13 +229,13 @@ class Observer {
     Sampler same = sampler;
     note('u', join_light(joins(), v, same));
     for (size_t i = 0; i < light_.size(); ++i) {
-      set_arrival(weights_, &arrivals_[i]);
+      set_ends(weights_, &ends_[i]);
       note('v', join_ends(joins(), light_[i], v));
       // How far the two vertices are apart does not matter to the weight.
       if (v.merges() && packed_[i].merges)
         note(merge_, join_merge(weights_, packed_[i], v, 1, false));
     }
-    set_arrival(weights_, nullptr);
+    set_ends(weights_, nullptr);
   }
 
   const Scene& scene_;
@@ -248,7 +248,7 @@ class Observer {
   JoinRoulette roulette_{0, 0};
   std::vector<Vertex> light_;
   std::vector<LightVertex> packed_;
-  std::vector<TrailVertex> arrivals_;
+  std::vector<TrailEnds> ends_;
   char merge_ = 'f';
   std::vector<Observation> all_;
 };
