@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "app/terminal.h"
+#include "base/terminal.h"
 
 namespace duet {
 

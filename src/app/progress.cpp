@@ -9,9 +9,9 @@
 #include <iterator>
 #include <vector>
 
-#include "app/terminal.h"
 #include "base/percent.h"
 #include "base/seconds_text.h"
+#include "base/terminal.h"
 
 namespace duet {
 
