@@ -36,9 +36,7 @@ struct MeshSource {
 struct MeshShape {
   std::shared_ptr<const TriangleMesh> mesh;
   MeshSource source;
-  static constexpr auto fields() {
-    return plain_fields(&MeshShape::mesh, &MeshShape::source);
-  }
+  static constexpr auto fields() { return plain_fields(&MeshShape::mesh, &MeshShape::source); }
 };
 struct RectangleShape {
   static constexpr auto fields() { return std::tuple(); }
