@@ -26,7 +26,8 @@ PathVertex floor_at(const Scene& scene, float x, const Vector3f& towards_eye = {
 float blur(const TransportScene& s, const PathVertex& eye, float photon,
            const PhotonShift& shift = {}) {
   RenderCounters counters;
-  return merge_blur(*s.scene, eye, {photon, 0, 0}, {kLight, Normal3f(0, 0, 1), {}}, shift, counters);
+  return merge_blur(*s.scene, eye, {photon, 0, 0}, {kLight, Normal3f(0, 0, 1), {}}, shift,
+                    counters);
 }
 
 /// Of a point light of height 1 on the floor.
