@@ -16,10 +16,6 @@ namespace duet {
 
 namespace {
 
-struct CloseFile {
-  void operator()(std::FILE* f) const { std::fclose(f); }
-};
-
 /// Whether the whole line arrived where it should.
 bool put(std::FILE* file, std::string_view text) {
   return std::fwrite(text.data(), 1, text.size(), file) == text.size() && std::fflush(file) == 0;
@@ -38,6 +34,9 @@ std::string with_time(std::string_view line) {
 }  // namespace
 
 struct Log::State {
+  struct CloseFile {
+    void operator()(std::FILE* f) const { std::fclose(f); }
+  };
   std::atomic<Level> level{Level::normal};
   std::mutex mutex;  ///< of all below
   std::function<void()> before_write;
