@@ -1,6 +1,6 @@
 #include "scene/material_model.h"
 
-#include <algorithm>
+#include <set>
 
 #include "materials/bsdf.h"
 #include "scene/description.h"
@@ -22,11 +22,17 @@ std::vector<MaterialId> MaterialModel::nested() const {
 }
 
 bool transmits(const SceneDescription& scene, MaterialId id) {
-  const MaterialModel& model = scene.materials[size_t(id)].model;
-  if (model.scattering().transmits()) return true;
-  const std::vector<MaterialId> nested = model.nested();
-  return std::any_of(nested.begin(), nested.end(),
-                     [&](MaterialId n) { return transmits(scene, n); });
+  // Materials may share what is nested in them, so each is looked at once.
+  std::set<MaterialId> seen{id};
+  std::vector<MaterialId> open{id};
+  while (!open.empty()) {
+    const MaterialModel& model = scene.materials[size_t(open.back())].model;
+    open.pop_back();
+    if (model.scattering().transmits()) return true;
+    for (const MaterialId nested : model.nested())
+      if (seen.insert(nested).second) open.push_back(nested);
+  }
+  return false;
 }
 
 }  // namespace duet
