@@ -11,7 +11,8 @@ namespace duet {
 double normal_p_value(double z);
 /// The |z| that a normal variate exceeds with this probability, 0 < p < 1.
 double normal_quantile(double p);
-/// Probability that a variate of Student's distribution is further from zero than |t|.
+/// Probability that a variate of Student's distribution is further from zero than |t|; the normal
+/// distribution's if dof is infinite.
 /// Source: Abramowitz & Stegun, 26.7.1, by the incomplete beta function.
 double student_p_value(double t, double dof);
 /// The |normal variate| that is as improbable as Student's t; at most 40.

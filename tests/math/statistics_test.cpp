@@ -3,6 +3,7 @@
 #include <doctest/doctest.h>
 
 #include <cmath>
+#include <limits>
 #include <initializer_list>
 #include <random>
 #include <tuple>
@@ -57,6 +58,12 @@ TEST_CASE("Student's distribution has its known tails") {
   CHECK(student_p_value(-6, 15) == student_p_value(6, 15));
   CHECK(student_p_value(1.959964, 1e6) == doctest::Approx(0.05).epsilon(1e-3));
   CHECK(student_p_value(0, 3) == doctest::Approx(1));
+  // With many degrees of freedom it is the normal distribution, on both sides of the change.
+  for (const double dof : {0.9e8, 1.1e8, 1e15, std::numeric_limits<double>::infinity()}) {
+    CAPTURE(dof);
+    CHECK(student_p_value(4, dof) == doctest::Approx(normal_p_value(4)).epsilon(1e-5));
+    CHECK(student_p_value(0.5, dof) == doctest::Approx(normal_p_value(0.5)).epsilon(1e-5));
+  }
 }
 
 TEST_CASE("means and their errors") {
@@ -90,6 +97,8 @@ TEST_CASE("Welch's test: p-values of equal means are uniform, those of unequal o
   CHECK(welch_test({1, 0, 1}, {1, 0, 1}).p == 1);
   CHECK(welch_test({1, 0, 1}, {1.5, 0, 1}).p == 0);
   CHECK(welch_test({NAN, 1, 4}, a).p == 0);
+  // A constant against a mean whose variance is known: no degrees of freedom are to be counted.
+  CHECK(welch_test({1, 0, 16}, {1.1, 0.01, 0}).p == doctest::Approx(normal_p_value(1)));
   CHECK(welch_test({1, 1e-4, 16}, {1.1, 0, 0}).p ==
         doctest::Approx(student_p_value(10, 15)).epsilon(1e-6));
 }
