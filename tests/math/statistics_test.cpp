@@ -3,8 +3,8 @@
 #include <doctest/doctest.h>
 
 #include <cmath>
-#include <limits>
 #include <initializer_list>
+#include <limits>
 #include <random>
 #include <tuple>
 #include <vector>
