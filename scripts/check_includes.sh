@@ -26,7 +26,8 @@ find src parsers -name '*.h' -o -name '*.cpp' | sort | xargs awk '
     split(target, path, "/")
     to = path[1]
     if (to == "mitsuba" || to == "mesh" || to == "volume" ||
-        to == "curves" || to == "measured" || to == "weave") to = "parsers"
+        to == "curves" || to == "measured" || to == "weave" || to == "values" || to == "xml" ||
+        to == "pbrt") to = "parsers"
     if (!(to in level)) { print FILENAME ":" FNR ": include of unknown room: " target; bad = 1; next }
     ok = to == room || level[to] < level[room]
     if (room == "parsers" && to != "parsers")

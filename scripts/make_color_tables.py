@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Makes parsers/mitsuba/color_tables.cpp and parsers/mitsuba/conductor_table.cpp.
+"""Makes parsers/values/color_tables.cpp and parsers/values/conductor_table.cpp.
 
     make_color_tables.py        needs the Python packages mitsuba (3.9.1) and numpy
 

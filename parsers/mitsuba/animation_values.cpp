@@ -2,7 +2,7 @@
 #include <algorithm>
 
 #include "mitsuba/property_values.h"
-#include "mitsuba/text.h"
+#include "values/text.h"
 
 namespace duet {
 

@@ -1,6 +1,6 @@
 #include "mitsuba/attributes.h"
 
-#include "mitsuba/text.h"
+#include "values/text.h"
 
 namespace duet {
 

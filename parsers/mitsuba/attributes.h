@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "mitsuba/substitution.h"
-#include "mitsuba/xml_document.h"
+#include "xml/xml_document.h"
 
 namespace duet {
 

@@ -7,7 +7,7 @@
 #include "mitsuba/property_values.h"
 #include "mitsuba/references.h"
 #include "mitsuba/scene_file_xml.h"
-#include "mitsuba/text.h"
+#include "values/text.h"
 
 namespace duet {
 

@@ -5,7 +5,7 @@
 
 #include "mitsuba/mitsuba.h"
 #include "mitsuba/node.h"
-#include "mitsuba/report.h"
+#include "values/report.h"
 
 namespace duet {
 

@@ -4,7 +4,7 @@
 
 #include "math/spectrum.h"
 #include "mitsuba/scene_files.h"
-#include "mitsuba/text.h"
+#include "values/text.h"
 
 namespace duet {
 

@@ -9,7 +9,7 @@
 #include "mesh/mtl.h"
 #include "mitsuba/mitsuba.h"
 #include "mitsuba/node.h"
-#include "mitsuba/report.h"
+#include "values/report.h"
 
 namespace duet {
 

@@ -12,8 +12,8 @@
 
 #include "base/diagnostics.h"
 #include "math/motion.h"
-#include "mitsuba/color.h"
 #include "mitsuba/vocabulary.h"
+#include "values/color.h"
 
 namespace duet {
 

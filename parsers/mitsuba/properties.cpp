@@ -2,7 +2,7 @@
 
 #include <cassert>
 
-#include "mitsuba/text.h"
+#include "values/text.h"
 
 namespace duet {
 

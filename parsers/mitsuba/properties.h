@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "mitsuba/node.h"
-#include "mitsuba/report.h"
+#include "values/report.h"
 
 namespace duet {
 

@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
-#include "mitsuba/ior.h"
-#include "mitsuba/text.h"
+#include "values/ior.h"
+#include "values/text.h"
 
 namespace duet {
 

@@ -1,7 +1,7 @@
 // Integrators: methods, and wrappers around them.
 #include "mitsuba/readers.h"
 #include "mitsuba/scene_reader.h"
-#include "mitsuba/text.h"
+#include "values/text.h"
 
 namespace duet {
 

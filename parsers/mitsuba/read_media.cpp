@@ -1,10 +1,10 @@
 // Media and the volumes in them.
 #include <memory>
 
-#include "mitsuba/medium_presets.h"
 #include "mitsuba/readers.h"
 #include "mitsuba/scene_reader.h"
-#include "mitsuba/text.h"
+#include "values/medium_presets.h"
+#include "values/text.h"
 
 namespace duet {
 

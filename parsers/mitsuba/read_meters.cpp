@@ -4,7 +4,7 @@
 #include "mitsuba/focal_length.h"
 #include "mitsuba/readers.h"
 #include "mitsuba/sensor_parts.h"
-#include "mitsuba/text.h"
+#include "values/text.h"
 
 namespace duet {
 

@@ -6,7 +6,7 @@
 #include "mitsuba/readers.h"
 #include "mitsuba/scene_files.h"
 #include "mitsuba/scene_reader.h"
-#include "mitsuba/text.h"
+#include "values/text.h"
 
 namespace duet {
 

@@ -5,7 +5,7 @@
 #include "mesh/ellipsoids.h"
 #include "mitsuba/readers.h"
 #include "mitsuba/scene_reader.h"
-#include "mitsuba/text.h"
+#include "values/text.h"
 
 namespace duet {
 

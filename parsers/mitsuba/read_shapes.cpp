@@ -7,7 +7,7 @@
 #include "mitsuba/property_values.h"
 #include "mitsuba/readers.h"
 #include "mitsuba/scene_reader.h"
-#include "mitsuba/text.h"
+#include "values/text.h"
 
 namespace duet {
 

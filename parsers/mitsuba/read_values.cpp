@@ -1,10 +1,10 @@
 // Parameters that may be numbers, colours, names or textures.
 #include <cmath>
 
-#include "mitsuba/ior.h"
 #include "mitsuba/scene_files.h"
 #include "mitsuba/scene_reader.h"
-#include "mitsuba/text.h"
+#include "values/ior.h"
+#include "values/text.h"
 
 namespace duet {
 

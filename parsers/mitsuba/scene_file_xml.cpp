@@ -1,6 +1,6 @@
 #include "mitsuba/scene_file_xml.h"
 
-#include "mitsuba/text.h"
+#include "values/text.h"
 
 namespace duet {
 

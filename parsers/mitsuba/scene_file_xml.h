@@ -7,7 +7,7 @@
 
 #include "mitsuba/mitsuba.h"
 #include "mitsuba/node.h"
-#include "mitsuba/xml_document.h"
+#include "xml/xml_document.h"
 
 namespace duet {
 

@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <fstream>
 
-#include "mitsuba/text.h"
+#include "values/text.h"
 
 namespace duet {
 

@@ -5,9 +5,9 @@
 #include <string>
 #include <vector>
 
-#include "mitsuba/xml_printer.h"
 #include "scene/description.h"
 #include "scene/texture_uses.h"
+#include "xml/xml_printer.h"
 
 namespace duet {
 

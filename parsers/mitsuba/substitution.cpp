@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cctype>
 
-#include "mitsuba/text.h"
+#include "values/text.h"
 
 namespace duet {
 

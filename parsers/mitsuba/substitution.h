@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "mitsuba/report.h"
+#include "values/report.h"
 
 namespace duet {
 

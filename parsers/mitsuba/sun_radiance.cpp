@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-#include "mitsuba/color.h"
+#include "values/color.h"
 
 namespace duet {
 

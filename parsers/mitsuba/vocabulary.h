@@ -12,8 +12,8 @@
 #include <variant>
 #include <vector>
 
-#include "mitsuba/color.h"
 #include "scene/description.h"
+#include "values/color.h"
 
 namespace duet {
 

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "mitsuba/text.h"
+#include "values/text.h"
 
 namespace duet {
 

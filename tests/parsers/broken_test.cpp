@@ -7,10 +7,10 @@
 #include <set>
 #include <sstream>
 
-#include "mitsuba/text.h"
 #include "scene/build.h"
 #include "support/files.h"
 #include "support/memory_scene.h"
+#include "values/text.h"
 
 using namespace duet;
 using namespace duet::test;

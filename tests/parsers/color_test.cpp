@@ -1,11 +1,11 @@
 // Numbers in this file are Mitsuba 3.9.1's (scalar_rgb): traverse() of a diffuse BSDF's
 // reflectance, a conductor's eta, or a constant emitter's radiance, loaded from the same element.
-#include "mitsuba/color.h"
+#include "values/color.h"
 
 #include <doctest/doctest.h>
 
-#include "mitsuba/ior.h"
 #include "support/memory_scene.h"
+#include "values/ior.h"
 
 using namespace duet;
 using namespace duet::test;

@@ -5,7 +5,7 @@
 #include <set>
 
 #include "base/diagnostics.h"
-#include "mitsuba/text.h"
+#include "values/text.h"
 
 using namespace duet;
 

@@ -6,9 +6,9 @@
 #include <set>
 #include <sstream>
 
-#include "mitsuba/text.h"
 #include "scene/mitsuba_differences.h"
 #include "support/files.h"
+#include "values/text.h"
 
 using namespace duet;
 using namespace duet::test;

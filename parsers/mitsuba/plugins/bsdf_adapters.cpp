@@ -4,7 +4,7 @@
 
 #include "mitsuba/plugins/bsdf.h"
 #include "mitsuba/plugins/bsdfs.h"
-#include "mitsuba/text.h"
+#include "values/text.h"
 
 namespace duet::plugins {
 

@@ -1,8 +1,8 @@
 // Metals by name, and indices relative to the outside.
-#include "mitsuba/ior.h"
 #include "mitsuba/plugins/bsdf.h"
 #include "mitsuba/plugins/bsdfs.h"
-#include "mitsuba/text.h"
+#include "values/ior.h"
+#include "values/text.h"
 
 namespace duet::plugins {
 

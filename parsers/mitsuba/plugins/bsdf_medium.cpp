@@ -1,8 +1,8 @@
 // BSDFs by the coefficients of a medium.
-#include "mitsuba/medium_presets.h"
 #include "mitsuba/plugins/bsdf.h"
 #include "mitsuba/plugins/bsdfs.h"
-#include "mitsuba/text.h"
+#include "values/medium_presets.h"
+#include "values/text.h"
 
 namespace duet::plugins {
 

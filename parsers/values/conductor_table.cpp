@@ -4,7 +4,7 @@
 // BSD-3-Clause; the files name luxpop.com, Palik's handbook and the SOPRA database as theirs.
 // Converted to linear sRGB by Mitsuba.
 
-#include "mitsuba/ior.h"
+#include "values/ior.h"
 
 namespace duet {
 

@@ -1,8 +1,8 @@
-#include "mitsuba/xml_text.h"
+#include "xml/xml_text.h"
 
 #include <algorithm>
 
-#include "mitsuba/text.h"
+#include "values/text.h"
 
 namespace duet {
 

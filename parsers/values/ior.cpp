@@ -1,4 +1,4 @@
-#include "mitsuba/ior.h"
+#include "values/ior.h"
 
 #include <algorithm>
 #include <cctype>

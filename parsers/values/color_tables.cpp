@@ -3,7 +3,7 @@
 // Source: colorimetric data of the CIE (ISO/CIE 11664-1 and 11664-2) as tabulated by Mitsuba 3,
 // which is Copyright (c) Wenzel Jakob and others, BSD-3-Clause.
 
-#include "mitsuba/color_tables.h"
+#include "values/color_tables.h"
 
 namespace duet {
 

@@ -1,4 +1,4 @@
-#include "mitsuba/xml_document.h"
+#include "xml/xml_document.h"
 
 #include <algorithm>
 #include <functional>

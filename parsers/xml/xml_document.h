@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "mitsuba/xml_text.h"
+#include "xml/xml_text.h"
 
 namespace duet {
 

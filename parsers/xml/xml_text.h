@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "mitsuba/report.h"
+#include "values/report.h"
 
 namespace duet {
 

@@ -1,10 +1,10 @@
-#include "mitsuba/color.h"
+#include "values/color.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 
-#include "mitsuba/color_tables.h"
+#include "values/color_tables.h"
 
 namespace duet {
 

@@ -1,6 +1,6 @@
-#include "mitsuba/medium_presets.h"
+#include "values/medium_presets.h"
 
-#include "mitsuba/text.h"
+#include "values/text.h"
 
 namespace duet {
 

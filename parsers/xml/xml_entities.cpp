@@ -5,8 +5,8 @@
 #include <map>
 
 #include "mitsuba/scene_files.h"
-#include "mitsuba/text.h"
-#include "mitsuba/xml_text.h"
+#include "values/text.h"
+#include "xml/xml_text.h"
 
 namespace duet {
 

@@ -1,4 +1,4 @@
-#include "mitsuba/text.h"
+#include "values/text.h"
 
 #include <cctype>
 #include <charconv>
