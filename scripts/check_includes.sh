@@ -5,7 +5,7 @@
 #   parsers -> scene/description.h, scene/texture_uses.h and scene/texture_value.h (of a description),
 #              geometry/mesh.h, geometry/curves.h, materials/measured_table.h, media/volume_grid.h,
 #              math, base and parsers
-# A room may include itself and every room further right; rooms in braces do not see each other.
+# A module may include itself and every module further right; modules in braces do not see each other.
 # What evaluate finds out it returns: it prints nothing and parses no arguments.
 set -euo pipefail
 cd "$(dirname "$0")/.."
@@ -18,7 +18,7 @@ find src parsers -name '*.h' -o -name '*.cpp' | sort | xargs awk '
   }
   FNR == 1 {
     split(FILENAME, part, "/")
-    room = part[1] == "parsers" ? "parsers" : part[2]
+    module = part[1] == "parsers" ? "parsers" : part[2]
   }
   /^#include "/ {
     split($0, quoted, "\"")
@@ -28,14 +28,14 @@ find src parsers -name '*.h' -o -name '*.cpp' | sort | xargs awk '
     if (to == "mitsuba" || to == "mesh" || to == "volume" ||
         to == "curves" || to == "measured" || to == "weave" || to == "values" || to == "xml" ||
         to == "pbrt") to = "parsers"
-    if (!(to in level)) { print FILENAME ":" FNR ": include of unknown room: " target; bad = 1; next }
-    ok = to == room || level[to] < level[room]
-    if (room == "parsers" && to != "parsers")
+    if (!(to in level)) { print FILENAME ":" FNR ": include of unknown module: " target; bad = 1; next }
+    ok = to == module || level[to] < level[module]
+    if (module == "parsers" && to != "parsers")
       ok = to == "math" || to == "base" || target == "scene/description.h" ||
            target == "scene/texture_uses.h" || target == "scene/texture_value.h" ||
            target == "geometry/mesh.h" || target == "geometry/curves.h" ||
            target == "materials/measured_table.h" || target == "media/volume_grid.h"
-    if (!ok) { print FILENAME ":" FNR ": " room " must not include " target; bad = 1 }
+    if (!ok) { print FILENAME ":" FNR ": " module " must not include " target; bad = 1 }
   }
   /^#include <embree/ && FILENAME !~ /accel_embree.cpp$/ {
     print FILENAME ":" FNR ": only geometry/accel_embree.cpp may include Embree"; bad = 1
@@ -43,7 +43,7 @@ find src parsers -name '*.h' -o -name '*.cpp' | sort | xargs awk '
   /^#include <(OpenEXR|Imf|OpenImageIO)/ && FILENAME !~ /^src\/image\// {
     print FILENAME ":" FNR ": only src/image may include image libraries"; bad = 1
   }
-  room == "evaluate" && (/^#include (<CLI|<iostream>|"base\/log\.h")/ ||
+  module == "evaluate" && (/^#include (<CLI|<iostream>|"base\/log\.h")/ ||
                          /fmt::print|std::(cout|cerr|printf|fprintf|puts|fputs)/) {
     print FILENAME ":" FNR ": evaluate must not print or parse arguments"; bad = 1
   }

@@ -10,8 +10,8 @@ namespace duet {
 
 namespace {
 
-/// The numbers of a list; empty after an error.
-std::vector<double> number_list(Properties& p, std::string_view name) {
+/// The numbers of a list, none of them below zero; empty after an error.
+std::vector<double> non_negative_list(Properties& p, std::string_view name) {
   if (!p.has(name)) return p.find(name), std::vector<double>();
   const std::string text = p.string(name);
   auto numbers = parse_numbers(text);
@@ -58,7 +58,7 @@ void read_rayleigh(SceneReader&, Properties&, PhaseDescription& out) {
 }
 
 void read_tabphase(SceneReader&, Properties& p, PhaseDescription& out) {
-  const auto values = number_list(p, "values");
+  const auto values = non_negative_list(p, "values");
   const bool usable = values.size() >= 2 && *std::max_element(values.begin(), values.end()) > 0;
   if (usable)
     out.model = TabulatedPhase{values};
@@ -83,7 +83,7 @@ void read_blendphase(SceneReader& s, Properties& p, PhaseDescription& out) {
 
 /// A chain of blends.
 void read_mixturephase(SceneReader& s, Properties& p, PhaseDescription& out) {
-  const auto weights = number_list(p, "weights");
+  const auto weights = non_negative_list(p, "weights");
   if (weights.empty()) return;
   const auto phases = nested_phases(s, p, weights.size());
   if (!phases) return;

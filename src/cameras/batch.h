@@ -8,7 +8,7 @@
 
 namespace duet {
 
-/// Each camera has a strip of the film, from the left. What several of them see could be joined
+/// Each camera has a strip of the film, from the left. What several of them see could be connected
 /// with one only, so that no point of the scene is.
 class CameraBatch final : public Camera {
  public:

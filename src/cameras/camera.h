@@ -53,7 +53,7 @@ class Camera {
   /// What the radiance along a ray is to be multiplied by.
   virtual float ray_weight() const { return 1; }
 
-  /// Whether points of the scene can be joined with the lens. If not, importance() and
+  /// Whether points of the scene can be connected with the lens. If not, importance() and
   /// sample_lens() say nothing, and light is found from this side only.
   virtual bool connectible() const { return true; }
 

@@ -1,5 +1,5 @@
-// Sensors that measure one quantity rather than show a picture. No point of the scene can be joined
-// with them.
+// Sensors that measure one quantity rather than show a picture. No point of the scene can be
+// connected with them.
 #pragma once
 
 #include <optional>

@@ -31,7 +31,7 @@ class OrthographicCamera final : public Camera {
 };
 
 /// A telecentric lens: rays leave a disk-shaped aperture around the orthographic camera's and meet
-/// in the plane of focus. As in Mitsuba 0.6, points cannot be joined with it.
+/// in the plane of focus. As in Mitsuba 0.6, points cannot be connected with it.
 class TelecentricCamera final : public Camera {
  public:
   /// Radius and distance in world units.

@@ -17,7 +17,7 @@ namespace {
 double default_alpha(BidirectionalMethod method) {
   return method == BidirectionalMethod::vcm ? 0.75 : 2.0 / 3;
 }
-/// Light walks per pixel unless the user says otherwise: as measured (docs/performance.md).
+/// Light sub-paths per pixel unless the user says otherwise: as measured (docs/performance.md).
 double default_light_paths(BidirectionalMethod method) {
   return method == BidirectionalMethod::bdpt || method == BidirectionalMethod::vcm ? 0.25 : 1.0;
 }
@@ -62,7 +62,7 @@ BidirectionalIntegrator::BidirectionalIntegrator(const Options& options, const C
     for (int s = 0; s <= k; ++s) {
       const int t = k + 1 - s;
       if (has_technique(s, t))
-        layers_.joins[size_t(s)][size_t(t)] = add_colour_layer(fmt::format("s{}t{}", s, t));
+        layers_.connections[size_t(s)][size_t(t)] = add_colour_layer(fmt::format("s{}t{}", s, t));
       // A merge has one vertex more than a path of as many segments.
       if (merges(options_.method) && s >= 1 && t >= 2 && k >= 2)
         layers_.merges[size_t(s + 1)][size_t(t)] =
@@ -93,18 +93,19 @@ bool BidirectionalIntegrator::blurs() const {
 }
 
 double BidirectionalIntegrator::memory_bytes(const FilmLayout& film) const {
-  // Roulette leaves few walks with more vertices than this.
+  // Roulette leaves few sub-paths with more vertices than this.
   constexpr int kMostVertices = 6;
   int vertices = std::clamp(max_depth_ - 1, 0, kMostVertices);
   if (options_.method == Method::reuse) vertices = std::min(vertices, options_.max_light_depth);
   LightPassPlan plan;
-  plan.walks = light_walks(film.full);
+  plan.subpaths = light_subpaths(film.full);
   plan.keep_vertices =
       merges(options_.method) || (connects(options_.method) && options_.connections != 0);
   if (options_.method == Method::reuse && !is_thesis_) plan.windows = &windows_;
   return LightPass::memory_bytes(plan, vertices) +
-         (merges(options_.method) ? VertexGrid::memory_bytes(double(plan.walks) * double(vertices))
-                                  : 0.0);
+         (merges(options_.method)
+              ? VertexGrid::memory_bytes(double(plan.subpaths) * double(vertices))
+              : 0.0);
 }
 
 void BidirectionalIntegrator::prepare(Film& film) const {
@@ -114,10 +115,10 @@ void BidirectionalIntegrator::prepare(Film& film) const {
   gather_moments(film);
   if (!layers_.enabled) return;
   for (int s = 2; s <= max_depth_; ++s)
-    if (const size_t first = layers_.join(s, 1)) film.add_splat_layer(first);
+    if (const size_t first = layers_.connection(s, 1)) film.add_splat_layer(first);
 }
 
-uint32_t BidirectionalIntegrator::light_walks(Point2i film) const {
+uint32_t BidirectionalIntegrator::light_subpaths(Point2i film) const {
   const double pixels = double(film.x) * film.y;
   return uint32_t(std::clamp(std::round(options_.light_paths * pixels), 1.0, 4e9));
 }
@@ -132,17 +133,17 @@ TechniqueSet BidirectionalIntegrator::techniques(const Film& film, uint32_t iter
   TechniqueSet set;
   set.hits = set.light_samples = connects(options_.method);
   set.connections = set.light_samples && options_.connections != 0;
-  set.camera_joins =
+  set.camera_connections =
       options_.light_image && (set.light_samples || options_.method == Method::ptracer);
   set.merges = merges(options_.method);
-  set.light_paths = float(light_walks(film.full_size()));
+  set.light_paths = float(light_subpaths(film.full_size()));
   set.partly_merged = set.merges && set.light_samples && !options_.merge_parts.empty();
   if (!pilot_) return set;
   if (set.connections && options_.connections > 0) {
     // Of none there is no share, and so no connection.
-    set.connections = pilot_->vertices_per_walk > 0;
+    set.connections = pilot_->vertices_per_subpath > 0;
     if (set.connections)
-      set.connection_share = float(options_.connections / pilot_->vertices_per_walk);
+      set.connection_share = float(options_.connections / pilot_->vertices_per_subpath);
   }
   if (set.merges) set.merge_area = kPi * sqr(float(radius(iteration)));
   return set;
@@ -153,7 +154,7 @@ void BidirectionalIntegrator::render_samples(const Scene& scene, Film& film,
                                              RenderCounters& counters) {
   for_each_sample(samples, control, [&](const SampleRange& one, const PassControl& part) {
     PassControl whole = part;
-    // Eye and light walks belong together: an iteration that has begun is finished.
+    // Eye and light sub-paths belong together: an iteration that has begun is finished.
     whole.cancelled = [] { return false; };
     iteration(scene, film, one, whole, counters);
   });
@@ -161,18 +162,18 @@ void BidirectionalIntegrator::render_samples(const Scene& scene, Film& film,
 
 void BidirectionalIntegrator::iteration(const Scene& scene, Film& film, const SampleRange& samples,
                                         const PassControl& control, RenderCounters& counters) {
-  windows_.light_paths = light_walks(film.full_size());
-  // What the sensor cannot be joined with, it finds by itself.
+  windows_.light_paths = light_subpaths(film.full_size());
+  // What the sensor cannot be connected with, it finds by itself.
   options_.light_image &= scene.camera->connectible();
   mask_ = {film.full_size(), options_.merge_parts};
   LightPassPlan plan;
   plan.set = techniques(film, samples.first);
   plan.mask = &mask_;
-  plan.walk = {options_.rr_depth, options_.strict_normals};
+  plan.subpath = {options_.rr_depth, options_.strict_normals};
   plan.max_depth = max_depth_ - 1;
   if (options_.method == Method::reuse)
     plan.max_depth = std::min(plan.max_depth, options_.max_light_depth);
-  plan.walks = light_walks(film.full_size());
+  plan.subpaths = light_subpaths(film.full_size());
   plan.unit_weights = options_.method == Method::ptracer;
   plan.hide_emitters = options_.hide_emitters;
   if (options_.method == Method::reuse && !is_thesis_) plan.windows = &windows_;
@@ -186,17 +187,17 @@ void BidirectionalIntegrator::iteration(const Scene& scene, Film& film, const Sa
     plan.set = techniques(film, samples.first);
   }
   plan.keep_vertices = plan.set.merges || plan.set.connections;
-  // A walk counts 1 / N_L.
+  // A sub-path counts 1 / N_L.
   plan.roulette_threshold = pilot_->roulette_threshold() * plan.set.light_paths;
   set_ = plan.set;
   const uint64_t sequence_key = hash_combine(samples.seed, samples.scramble);
   sharing_.start(film.full_size(), sequence_key);
   key_ = hash_combine(sequence_key, samples.first);
-  if (scene.lights.empty()) plan.walks = 0;
+  if (scene.lights.empty()) plan.subpaths = 0;
   if (plan.keep_vertices)
-    lights_.reserve(size_t(1.05 * pilot_->vertices_per_walk * double(plan.walks)) + 1024,
-                    plan.walks);
-  if (plan.walks > 0 && (plan.keep_vertices || plan.set.camera_joins))
+    lights_.reserve(size_t(1.05 * pilot_->vertices_per_subpath * double(plan.subpaths)) + 1024,
+                    plan.subpaths);
+  if (plan.subpaths > 0 && (plan.keep_vertices || plan.set.camera_connections))
     lights_.run(
         scene, plan,
         [&](std::span<const LightSplat> splats) { splat(film, splats, control.threads, counters); },
@@ -233,7 +234,7 @@ void BidirectionalIntegrator::splat(Film& film, std::span<const LightSplat> spla
   if (!layers_.enabled) return;
   size_t layer = 1;
   for (int s = 2; s <= max_depth_; ++s)
-    if (layers_.join(s, 1)) add(layer++, s - 1, !raw_techniques_);
+    if (layers_.connection(s, 1)) add(layer++, s - 1, !raw_techniques_);
 }
 
 std::unique_ptr<Integrator> make_bidirectional(const BidirectionalIntegratorDescription& d,

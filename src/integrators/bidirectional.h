@@ -1,4 +1,4 @@
-// The methods that trace walks from both ends.
+// The methods that trace sub-paths from both ends.
 #pragma once
 
 #include <memory>
@@ -9,14 +9,14 @@
 #include "integrators/technique_layers.h"
 #include "scene/description_integrators.h"
 #include "transport/light_pass.h"
+#include "transport/subpath_sharing.h"
 #include "transport/vertex_grid.h"
-#include "transport/walk_sharing.h"
 
 namespace duet {
 
 /// Light tracing, bidirectional path tracing, path reuse, photon mapping in its progressive and
 /// bidirectional forms, and vertex connection and merging, told apart by their TechniqueSet. Every
-/// sample per pixel is an iteration: first all light walks, then an eye walk per pixel.
+/// sample per pixel is an iteration: first all light sub-paths, then an eye sub-path per pixel.
 class BidirectionalIntegrator final : public CameraIntegrator {
  public:
   using Options = BidirectionalIntegratorDescription;
@@ -37,14 +37,14 @@ class BidirectionalIntegrator final : public CameraIntegrator {
   template <class Vertex>
   struct Eye;
   template <class Vertex, class Weights>
-  class EyeWalk;
+  class EyeSubpath;
   using Method = BidirectionalMethod;
 
   void iteration(const Scene& scene, Film& film, const SampleRange& samples,
                  const PassControl& control, RenderCounters& counters);
   TechniqueSet techniques(const Film& film, uint32_t iteration) const;
   double radius(uint32_t iteration) const;
-  uint32_t light_walks(Point2i film) const;
+  uint32_t light_subpaths(Point2i film) const;
   bool has_technique(int s, int t) const;
   void splat(Film& film, std::span<const LightSplat> splats, int threads, RenderCounters& counters);
 
@@ -53,13 +53,13 @@ class BidirectionalIntegrator final : public CameraIntegrator {
   Spectrum trace(const Scene& scene, const CameraPath& path, Sampler& sampler,
                  RenderCounters& counters, std::span<float> values) const;
   template <class Vertex, class Weights>
-  void walk(const Weights& weights, Trail* trail, Eye<Vertex>& eye) const;
+  void subpath(const Weights& weights, SubpathPdfs* pdfs, Eye<Vertex>& eye) const;
   template <class Vertex, class Weights>
-  void join(const Weights& weights, const Vertex& v, bool light_sample, Eye<Vertex>& eye) const;
-  /// Whether the method takes a light sample at a vertex to which `walk` has come. Those that leave
-  /// light to photons do so only for what is scattered by nearly specular lobes.
+  void connect(const Weights& weights, const Vertex& v, bool light_sample, Eye<Vertex>& eye) const;
+  /// Whether the method takes a light sample at a vertex to which `subpath` has come. Those that
+  /// leave light to photons do so only for what is scattered by nearly specular lobes.
   template <class Vertex>
-  bool samples_light(const Vertex& v, const Walk& walk) const;
+  bool samples_light(const Vertex& v, const Subpath& subpath) const;
   template <class Vertex, class Weights>
   void connect(const Weights& weights, const Vertex& v, Eye<Vertex>& eye) const;
   template <class Vertex, class Weights>
@@ -68,17 +68,18 @@ class BidirectionalIntegrator final : public CameraIntegrator {
   void find_photons(const Vertex& v, Eye<Vertex>& eye) const;
   template <class Vertex, class Weights>
   void merge(const Weights& weights, const Vertex& v, Eye<Vertex>& eye) const;
-  /// Vertices of the pixel's light walk that are near enough in length to be joined with `v`.
+  /// Vertices of the pixel's light sub-path that are near enough in length to be connected with
+  /// `v`.
   template <class Vertex>
   int candidates(const Vertex& v, const Eye<Vertex>& eye) const;
   /// Whether the method merges in a pixel, whose number is that of CameraPath.
   bool merges_in(uint64_t pixel) const;
   template <class Vertex>
-  bool enter_tail(Walk& walk, Eye<Vertex>& eye) const;
-  /// What the thesis does at the end of an eye walk that cannot connect.
-  void thesis_tail(const PathVertex& limit, Walk& walk, Eye<PathVertex>& eye) const;
+  bool enter_tail(Subpath& subpath, Eye<Vertex>& eye) const;
+  /// What the thesis does at the end of an eye sub-path that cannot connect.
+  void thesis_tail(const PathVertex& limit, Subpath& subpath, Eye<PathVertex>& eye) const;
   template <class Vertex>
-  void add(Eye<Vertex>& eye, int s, int t, const Join& join) const;
+  void add(Eye<Vertex>& eye, int s, int t, const Connection& connection) const;
 
   Options options_;
   int max_depth_;
@@ -92,7 +93,7 @@ class BidirectionalIntegrator final : public CameraIntegrator {
   // Of the iteration under way.
   TechniqueSet set_;
   uint64_t key_ = 0;
-  WalkSharing sharing_;
+  SubpathSharing sharing_;
   LightPass lights_;
   VertexGrid grid_;
   std::vector<Splat> splat_buffer_;

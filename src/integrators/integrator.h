@@ -27,7 +27,7 @@ struct SampleRange {
   uint32_t scramble = 0;  ///< number of the batch; batches are independent
   uint32_t first = 0, count = 0;
   /// If not empty, what each tile of the film gets instead; `count` is the greatest of theirs.
-  /// Walks that start at lights are not part of a tile and follow the range.
+  /// Sub-paths that start at lights are not part of a tile and follow the range.
   std::span<const TileSamples> tiles = {};
 };
 

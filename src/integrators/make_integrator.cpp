@@ -230,8 +230,8 @@ void check_support(const SensorDescription& sensor, const IntegratorDescription&
   const SceneLimits limits{.connectible = is_connectible(sensor.kind)};
   if (integrator.image && find_obstacle(limits, integrator.method) == Obstacle::sensor)
     diagnostics.error(sensor.where,
-                      "integrator \"{}\" needs a sensor with which walks from lights can be "
-                      "joined: this one only sends rays, as \"path\" and \"bdpt\" need it",
+                      "integrator \"{}\" needs a sensor with which light sub-paths can be "
+                      "connected: this one only sends rays, as \"path\" and \"bdpt\" need it",
                       integrator_name(integrator));
 }
 

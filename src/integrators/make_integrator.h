@@ -41,7 +41,7 @@ SurfaceNeeds integrator_needs(const IntegratorDescription& integrator);
 void check_support(const SceneDescription& scene, const IntegratorDescription& integrator,
                    Diagnostics& diagnostics);
 
-/// Reports if the method needs what the sensor does not have: that walks from lights can be joined
+/// Reports if the method needs what the sensor does not have: that light sub-paths can be connected
 /// with it.
 void check_support(const SensorDescription& sensor, const IntegratorDescription& integrator,
                    Diagnostics& diagnostics);

@@ -1,7 +1,7 @@
 // By how much a merge errs because the photon lies beside the vertex with which it is merged.
 #pragma once
 
-#include "integrators/pilot_light_walks.h"
+#include "integrators/pilot_light_subpaths.h"
 #include "scene/scene.h"
 
 namespace duet {
@@ -12,7 +12,7 @@ struct PhotonShift {
   /// is smaller; at most 1.
   float scale = 1;
   /// A number in [0, 1): where it is not below `scale`, no edge lies between the two in that
-  /// render. Walks through the same pixel are to have the same.
+  /// render. Sub-paths through the same pixel are to have the same.
   float edge = 0;
 };
 

@@ -18,8 +18,8 @@ struct PartlyMerged {
 };
 
 /// The parts with the least product of error and cost, from predictions of a method without merging
-/// and of the same with merging. Few walks know each part, so the eight around it have a say, and
-/// where merging finds light that nothing else does it stays.
+/// and of the same with merging. Few sub-paths know each part, so the eight around it have a say,
+/// and where merging finds light that nothing else does it stays.
 PartlyMerged merge_where_it_pays(const PredictedMethod& without, const PredictedMethod& with);
 
 }  // namespace duet

@@ -15,9 +15,9 @@ namespace duet {
 
 namespace {
 
-/// Share of the render's cost that the pilot may have, and what one of its eye walks costs in
+/// Share of the render's cost that the pilot may have, and what one of its eye sub-paths costs in
 /// samples of path tracing.
-constexpr double kPilotShare = 0.04, kPilotWalkCost = 14;
+constexpr double kPilotShare = 0.04, kPilotSubpathCost = 14;
 constexpr int kFewestPixels = 16, kMostPixels = 64;  ///< per side
 /// How much better than path tracing a method has to be: that gains more from Sobol' points.
 constexpr double kHysteresis = 1.2;
@@ -29,7 +29,7 @@ constexpr double kDoubt = 0.1;
 constexpr double kNearlyAll = 0.95;
 /// Share of the light that may be missed.
 constexpr double kNegligible = 1e-4;
-/// Between the sphere of all surfaces and that of the visible ones: beyond, walks from lights that
+/// Between the sphere of all surfaces and that of the visible ones: beyond, light sub-paths that
 /// are far away miss what the image shows.
 constexpr double kFarRatio = 30;
 
@@ -61,7 +61,7 @@ BidirectionalIntegratorDescription bidirectional(const PathLimits& o, Bidirectio
   return d;
 }
 
-/// The method whose walks all start at the camera.
+/// The method whose sub-paths all start at the camera.
 MethodCandidate from_camera(const MethodRules& rules, const PathLimits& o) {
   if (rules.has_media) return {VolumePathIntegratorDescription{o}, "volpath"};
   return {PathIntegratorDescription{o}, "path"};
@@ -139,7 +139,7 @@ MethodPrices predict_all(const PricingRecord& record, const Scene& scene, const 
                          int spp, int batches) {
   MethodPrices prices;
   prices.candidates = candidates(scene, o, std::max(1, spp / batches));
-  prices.walks = record.walks();
+  prices.subpaths = record.subpaths();
   prices.spp = spp;
   for (const MethodCandidate& c : prices.candidates)
     prices.predictions.push_back(predict(record, c, spp));
@@ -172,7 +172,7 @@ Eligible eligible(const MethodPrices& prices, const MethodRules& rules) {
   for (const PredictedMethod& q : p) least_missing = std::min(least_missing, q.missing);
   const auto finds_all = [&](size_t i) {
     return p[i].missing <= least_missing + kNegligible &&
-           !(rules.needs_light_walks && c[i].light_paths == 0);
+           !(rules.needs_light_subpaths && c[i].light_paths == 0);
   };
   Eligible result;
   for (size_t i = 0; i < c.size(); ++i) {
@@ -226,7 +226,7 @@ MethodPrices price_methods(const Scene& scene, const AutoIntegratorDescription& 
   plan.pixels_per_side = pilot.pixels_per_side;
   if (plan.pixels_per_side == 0) {
     const double samples = double(outlook.film.x) * outlook.film.y * guess;
-    const double pixels = kPilotShare * samples / (2 * kPilotWalkCost);
+    const double pixels = kPilotShare * samples / (2 * kPilotSubpathCost);
     plan.pixels_per_side = std::clamp(int(std::sqrt(pixels)), kFewestPixels, kMostPixels);
   }
   const PricingRecord record = run_pricing_pilot(scene, plan);
@@ -260,7 +260,7 @@ MethodChoice take(const MethodPrices& prices, const MethodRules& rules) {
     choice.reason +=
         fmt::format("{} times the efficiency of {}",
                     ratio(path.error * path.cost / p.error / p.cost), from_camera.name);
-  choice.reason += fmt::format(", by a pilot of {} eye walks", prices.walks);
+  choice.reason += fmt::format(", by a pilot of {} eye sub-paths", prices.subpaths);
   if (risk.doubt(best, kHysteresis) > kDoubt)
     choice.reason += fmt::format(
         ", too short to be sure: the choice is what loses least if it is wrong, {} times the "
@@ -286,9 +286,9 @@ MethodChoice choose_method(const Scene& scene, const AutoIntegratorDescription& 
   if (options.max_depth >= 0 && options.max_depth < 2)
     return no_pilot("paths of one segment are seen directly");
   if (!scene.camera->connectible())
-    return no_pilot("the sensor cannot be joined with walks from lights");
-  if (rules.far_lights_only && !rules.needs_light_walks && shows_little(scene, outlook.film))
-    return no_pilot("walks from lights so far away would miss what the image shows");
+    return no_pilot("the sensor cannot be connected with light sub-paths");
+  if (rules.far_lights_only && !rules.needs_light_subpaths && shows_little(scene, outlook.film))
+    return no_pilot("light sub-paths so far away would miss what the image shows");
 
   return take(price_methods(scene, options, outlook), rules);
 }

@@ -27,8 +27,8 @@ MethodChoice choose_method(const Scene& scene, const AutoIntegratorDescription& 
 struct MethodPrices {
   std::vector<MethodCandidate> candidates;  ///< path tracing, or that through media, first
   std::vector<PredictedMethod> predictions;
-  size_t walks = 0;  ///< eye walks of the pilot
-  int spp = 0;       ///< samples per pixel that the render is expected to have
+  size_t subpaths = 0;  ///< eye sub-paths of the pilot
+  int spp = 0;          ///< samples per pixel that the render is expected to have
 };
 /// A pilot other than the usual one.
 struct PilotChoice {

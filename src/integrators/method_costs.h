@@ -5,8 +5,8 @@ namespace duet {
 
 /// What is done for one sample of one pixel, on average.
 struct WorkPerSample {
-  double eye_rays = 0, light_samples = 0;       ///< rays of the eye walk, shadow rays to lights
-  double light_rays = 0, camera_rays = 0;       ///< of the light walks: theirs, and to the camera
+  double eye_rays = 0, light_samples = 0;  ///< rays of the eye sub-path, shadow rays to lights
+  double light_rays = 0, camera_rays = 0;  ///< of the light sub-paths: theirs, and to the camera
   double connections = 0, connection_rays = 0;  ///< tried, and those that needed a shadow ray
   double merge_queries = 0, merges = 0;
   double stored_vertices = 0;  ///< light vertices that are kept
@@ -15,7 +15,7 @@ struct WorkPerSample {
 
 /// In units of about a microsecond on the machine of docs/performance.md; only ratios matter.
 double path_cost(const WorkPerSample& work);
-/// Of the methods that walk from both ends.
+/// Of the methods that trace sub-paths from both ends.
 double bidirectional_cost(const WorkPerSample& work);
 
 }  // namespace duet

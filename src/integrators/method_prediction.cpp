@@ -29,12 +29,12 @@ double relative_density(const FamilyShares& s, const MethodCandidate& c) {
          (c.connections ? double(s.connections) : 0.0) + c.merges * double(s.merges);
 }
 
-bool is_merge(const PricedContribution& v) {
+bool is_merge(const PilotSample& v) {
   return v.technique == Technique::first_merge || v.technique == Technique::later_merge;
 }
 
 /// How many times the pilot's sample stands for one of an iteration.
-double copies(const PricedContribution& v) {
+double copies(const PilotSample& v) {
   return is_merge(v) ? 1 / PricingRecord::kMergeShare : 1.0;
 }
 
@@ -50,8 +50,8 @@ size_t tile_of(size_t cell, int side) {
 std::vector<double> normalization(const PricingRecord& r) {
   std::vector<double> cells = r.seen;
   for (const auto* list : {&r.eye, &r.light})
-    for (const PricedContribution& v : *list) cells[v.cell] += copies(v) * double(v.value);
-  const double all = std::accumulate(cells.begin(), cells.end(), 0.0) / double(r.walks());
+    for (const PilotSample& v : *list) cells[v.cell] += copies(v) * double(v.value);
+  const double all = std::accumulate(cells.begin(), cells.end(), 0.0) / double(r.subpaths());
   std::vector<double> tiles(kTilesPerSide * kTilesPerSide), counts(tiles.size());
   for (size_t c = 0; c < cells.size(); ++c) {
     cells[c] /= 2;
@@ -65,9 +65,9 @@ std::vector<double> normalization(const PricingRecord& r) {
   return cells;
 }
 
-/// What one eye walk adds up to under a candidate.
-struct WalkSums {
-  double joins = 0, join_squares = 0, merges = 0, merge_squares = 0;
+/// What one eye sub-path adds up to under a candidate.
+struct SubpathSums {
+  double connections = 0, connection_squares = 0, merges = 0, merge_squares = 0;
   double blur = 0;  ///< what is too much of the merges
 };
 
@@ -79,16 +79,16 @@ class Prediction {
         spp_(spp),
         norms_(normalization(record)),
         tiles_(kTilesPerSide * kTilesPerSide),
-        tile_walks_(tiles_.size()) {
-    for (size_t c = 0; c < norms_.size(); ++c) tile_walks_[tile_of(c, record.side)] += 2;
+        tile_subpaths_(tiles_.size()) {
+    for (size_t c = 0; c < norms_.size(); ++c) tile_subpaths_[tile_of(c, record.side)] += 2;
   }
 
   PredictedMethod run() {
     find_limit();
     add_squares();
-    add_walks();
+    add_subpaths();
     PredictedMethod p;
-    const double walks = double(record_.walks());
+    const double subpaths = double(record_.subpaths());
     double squares = 0, products = 0, lost = 0, blur_variances = 0;
     // Blur goes with the radius or, where light changes smoothly, with its square.
     const double shrinkage =
@@ -96,20 +96,20 @@ class Prediction {
     for (size_t t = 0; t < tiles_.size(); ++t) {
       const Tile& tile = tiles_[t];
       const double bias =
-          tile_walks_[t] > 0 ? tile.trimmed * tile.trimmed / tile_walks_[t] / walks : 0.0;
-      const double variance = (tile.squares + tile.products) / walks;
-      const double blur = tile.blur / walks * shrinkage;
-      const double blur_variance = tile.blur_squares * std::pow(shrinkage / walks, 2);
+          tile_subpaths_[t] > 0 ? tile.trimmed * tile.trimmed / tile_subpaths_[t] / subpaths : 0.0;
+      const double variance = (tile.squares + tile.products) / subpaths;
+      const double blur = tile.blur / subpaths * shrinkage;
+      const double blur_variance = tile.blur_squares * std::pow(shrinkage / subpaths, 2);
       p.parts.push_back({all_ > 0 ? tile.missing / all_ : 0,
                          may_merge_ > 0 ? tile.merged / may_merge_ : 0, variance,
                          variance / spp_ + bias + blur, blur, blur_variance,
-                         kLeastVariance * tile.squares / walks / spp_ + bias});
+                         kLeastVariance * tile.squares / subpaths / spp_ + bias});
       p.missing += p.parts.back().missing, p.merged += p.parts.back().merged;
       p.blur += blur, blur_variances += blur_variance;
       squares += tile.squares, products += tile.products, lost += bias;
     }
     p.blur = cautious_blur(p.blur, blur_variances);
-    p.variance = std::max(squares + products, kLeastVariance * squares) / walks;
+    p.variance = std::max(squares + products, kLeastVariance * squares) / subpaths;
     p.error = p.variance / spp_ + lost + p.blur;
     p.cost = predicted_cost(record_, candidate_);
     return p;
@@ -118,17 +118,17 @@ class Prediction {
  private:
   void find_limit() {
     SquareHistogram spectrum;
-    for_each([&](const PricedContribution& v, double density) {
+    for_each([&](const PilotSample& v, double density) {
       const double square = double(v.square) * norms_[v.cell] / (density * density);
       spectrum.add(square, copies(v) * density);
     });
-    limit_ = spectrum.limit(kTrimmedPixels / spp_ * double(record_.walks()));
+    limit_ = spectrum.limit(kTrimmedPixels / spp_ * double(record_.subpaths()));
   }
 
   template <class Visit>
   void for_each(Visit visit) const {
     for (const auto* list : {&record_.eye, &record_.light})
-      for (const PricedContribution& v : *list)
+      for (const PilotSample& v : *list)
         if (const double density = relative_density(v.shares, candidate_); density > kLeast)
           visit(v, density);
   }
@@ -136,7 +136,7 @@ class Prediction {
   void add_squares() {
     for (const double v : record_.seen) all_ += v;
     for (const auto* list : {&record_.eye, &record_.light})
-      for (const PricedContribution& v : *list) {
+      for (const PilotSample& v : *list) {
         const double value = copies(v) * double(v.value);
         all_ += value;
         Tile& tile = tiles_[tile_of(v.cell, record_.side)];
@@ -167,20 +167,20 @@ class Prediction {
     return seen / density * -std::expm1(-merged / seen);
   }
 
-  /// Contributions of one walk come together: their mean products, less the squared means of the
-  /// pixels, which two walks through the same pixel tell.
-  void add_walks() {
+  /// Contributions of one sub-path come together: their mean products, less the squared means of
+  /// the pixels, which two sub-paths through the same pixel tell.
+  void add_subpaths() {
     const double rate = candidate_.merges / PricingRecord::kMergeShare;
-    for (size_t w = 0; w + 1 < record_.walks(); w += 2) {
-      // Walks of the same cell follow each other, cell after cell.
+    for (size_t w = 0; w + 1 < record_.subpaths(); w += 2) {
+      // Sub-paths of the same cell follow each other, cell after cell.
       Tile& tile = tiles_[tile_of(w / 2, record_.side)];
       double& products = tile.products;
       double means[2], blurs[2];
       for (size_t k = 0; k < 2; ++k) {
-        const WalkSums s = walk(w + k);
-        means[k] = s.joins + rate * s.merges;
+        const SubpathSums s = subpath(w + k);
+        means[k] = s.connections + rate * s.merges;
         blurs[k] = rate * s.blur;
-        products += means[k] * means[k] - s.join_squares - rate * rate * s.merge_squares;
+        products += means[k] * means[k] - s.connection_squares - rate * rate * s.merge_squares;
       }
       products -= 2 * means[0] * means[1];
       const double blur = 2 * blurs[0] * blurs[1];
@@ -188,10 +188,10 @@ class Prediction {
     }
   }
 
-  WalkSums walk(size_t w) const {
-    WalkSums s;
+  SubpathSums subpath(size_t w) const {
+    SubpathSums s;
     for (uint32_t i = w == 0 ? 0 : record_.ends[w - 1]; i < record_.ends[w]; ++i) {
-      const PricedContribution& v = record_.eye[i];
+      const PilotSample& v = record_.eye[i];
       const double density = relative_density(v.shares, candidate_);
       if (!(density > kLeast) || !takes(v)) continue;
       const double scaled = double(v.value) * std::sqrt(norms_[v.cell]) / density;
@@ -199,14 +199,14 @@ class Prediction {
       if (square > limit_) continue;
       const bool merged = is_merge(v);
       s.blur += scaled * double(v.blur);
-      (merged ? s.merges : s.joins) += scaled;
-      (merged ? s.merge_squares : s.join_squares) += square;
+      (merged ? s.merges : s.connections) += scaled;
+      (merged ? s.merge_squares : s.connection_squares) += square;
     }
     return s;
   }
 
   /// Whether the candidate has the technique that made the contribution.
-  bool takes(const PricedContribution& v) const {
+  bool takes(const PilotSample& v) const {
     switch (v.technique) {
       case Technique::unidirectional:
         return !candidate_.photons_only || v.shares.merges == 0;
@@ -231,11 +231,11 @@ class Prediction {
     double squares = 0, products = 0;  ///< of contributions
     double trimmed = 0, missing = 0;   ///< light left out as too rare, and that cannot be found
     double merged = 0;                 ///< light that merging finds
-    /// Products of what two walks have too much, and their squares.
+    /// Products of what two sub-paths have too much, and their squares.
     double blur = 0, blur_squares = 0;
   };
   std::vector<Tile> tiles_;
-  std::vector<double> tile_walks_;
+  std::vector<double> tile_subpaths_;
   double limit_ = 0;
   double all_ = 0, may_merge_ = 0;  ///< light, and that of it which could be merged
 };

@@ -17,7 +17,7 @@ struct MethodCandidate {
   decltype(IntegratorDescription::method) method;
   std::string name;
   double light_paths = 0;    ///< per pixel
-  bool connections = false;  ///< with all vertices of a light walk
+  bool connections = false;  ///< with all vertices of a light sub-path
   double merges = 0;         ///< light paths times merging area, over those of the pilot
   /// Nothing but merges at the first vertex that does not scatter by a delta lobe, and hits before.
   bool photons_only = false;
@@ -26,7 +26,7 @@ struct MethodCandidate {
 /// What one part of the image adds to the figures of PredictedMethod, as far as they are sums.
 struct PredictedPart {
   double missing = 0, merged = 0, variance = 0, error = 0;
-  double blur = 0;  ///< is among the error; of so few walks it may come out below zero
+  double blur = 0;  ///< is among the error; of so few sub-paths it may come out below zero
   double blur_variance = 0;
   double least_error = 0;  ///< what the error of the whole is bounded by from below
 };

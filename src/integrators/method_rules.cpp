@@ -16,7 +16,7 @@ MethodRules method_rules(const SceneFeatures& f) {
   // that know media.
   const bool delta_surfaces = f.mirrors + f.smooth_glass > 0 || (f.masks > 0 && !rules.has_media);
   rules.has_lights = near_lights + far_lights > 0;
-  rules.needs_light_walks = (delta_lights && delta_surfaces) || f.beams > 0;
+  rules.needs_light_subpaths = (delta_lights && delta_surfaces) || f.beams > 0;
   rules.may_merge =
       rules.has_lights && (delta_surfaces || f.rough_reflection + f.rough_refraction > 0);
   rules.far_lights_only = rules.has_lights && near_lights == 0;
@@ -37,9 +37,10 @@ Obstacle find_obstacle(const SceneLimits& scene,
 
 std::string describe(const MethodRules& rules) {
   if (!rules.has_lights) return "no lights";
-  std::string text = rules.needs_light_walks
-                         ? "light walks are needed (lights that no ray finds, specular surfaces)"
-                         : "light walks are not needed";
+  std::string text =
+      rules.needs_light_subpaths
+          ? "light sub-paths are needed (lights that no ray finds, specular surfaces)"
+          : "light sub-paths are not needed";
   text += rules.may_merge ? ", merging may be (specular or glossy surfaces)"
                           : ", nor is merging (no specular or glossy surfaces)";
   if (rules.far_lights_only) text += "; all lights are far away";

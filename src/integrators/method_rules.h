@@ -13,10 +13,10 @@ struct MethodRules {
   bool has_lights = true;
   /// There are lights that no ray finds and surfaces through which no light sample goes, or beams:
   /// some paths can start at the light only.
-  bool needs_light_walks = false;
+  bool needs_light_subpaths = false;
   /// Merging is worth its cost for reflections of what mirrors or lenses make of light.
   bool may_merge = false;
-  /// All lights are infinitely far away: light walks may miss what the image shows.
+  /// All lights are infinitely far away: light sub-paths may miss what the image shows.
   bool far_lights_only = false;
   bool has_media = false;                ///< there are participating media
   bool has_heterogeneous_media = false;  ///< some whose transmittance has to be estimated
@@ -30,7 +30,7 @@ MethodRules method_rules(const SceneFeatures& features);
 struct SceneLimits {
   bool media = false;             ///< there are participating media
   bool one_way_surfaces = false;  ///< SceneFeatures::one_way_surfaces
-  bool connectible = true;        ///< walks from lights can be joined with the sensor
+  bool connectible = true;        ///< light sub-paths can be connected with the sensor
 };
 
 enum class Obstacle { none, media, one_way_surfaces, sensor };
@@ -40,7 +40,7 @@ enum class Obstacle { none, media, one_way_surfaces, sensor };
 Obstacle find_obstacle(const SceneLimits& scene,
                        const decltype(IntegratorDescription::method)& method);
 
-/// For people: "light walks are needed (…); merging is not (…)".
+/// For people: "light sub-paths are needed (…); merging is not (…)".
 std::string describe(const MethodRules& rules);
 
 }  // namespace duet

@@ -8,36 +8,36 @@ namespace {
 
 void add_merges(const PricingRecord& record, const MethodCandidate& c,
                 const RenderCounters& counters, WorkPerSample& w) {
-  const double walks = double(record.walks());
-  w.merge_queries = double(counters.merge_queries) / walks;
-  w.merges = c.light_paths * double(counters.merges) / (walks * PricingRecord::kMergeShare);
+  const double subpaths = double(record.subpaths());
+  w.merge_queries = double(counters.merge_queries) / subpaths;
+  w.merges = c.light_paths * double(counters.merges) / (subpaths * PricingRecord::kMergeShare);
 }
 
 }  // namespace
 
 double predicted_cost(const PricingRecord& record, const MethodCandidate& c) {
-  const double walks = double(record.walks());
+  const double subpaths = double(record.subpaths());
   WorkPerSample w;
-  w.eye_rays = double(record.eye_counters.closest_rays) / walks;
-  w.light_samples = double(record.eye_counters.shadow_rays) / walks;
-  w.medium_steps = double(record.eye_counters.medium_steps) / walks;
+  w.eye_rays = double(record.eye_counters.closest_rays) / subpaths;
+  w.light_samples = double(record.eye_counters.shadow_rays) / subpaths;
+  w.medium_steps = double(record.eye_counters.medium_steps) / subpaths;
   if (c.light_paths == 0) return path_cost(w);
-  w.light_rays = c.light_paths * double(record.light_counters.closest_rays) / walks;
+  w.light_rays = c.light_paths * double(record.light_counters.closest_rays) / subpaths;
   if (c.connections || c.merges > 0)
-    w.stored_vertices = c.light_paths * record.light_vertices / walks;
+    w.stored_vertices = c.light_paths * record.light_vertices / subpaths;
   if (c.photons_only) {
-    w.eye_rays = double(record.first_counters.closest_rays) / walks;
+    w.eye_rays = double(record.first_counters.closest_rays) / subpaths;
     w.light_samples = 0;
     add_merges(record, c, record.first_counters, w);
     return bidirectional_cost(w);
   }
-  w.camera_rays = c.light_paths * double(record.light_counters.shadow_rays) / walks;
-  w.medium_steps += c.light_paths * double(record.light_counters.medium_steps) / walks;
+  w.camera_rays = c.light_paths * double(record.light_counters.shadow_rays) / subpaths;
+  w.medium_steps += c.light_paths * double(record.light_counters.medium_steps) / subpaths;
   if (c.connections) {
     const ConnectionCounters& n = record.connection_counters.connections;
-    w.connections = double(n.attempted()) / walks;
-    w.connection_rays = double(record.connection_counters.shadow_rays) / walks;
-    w.medium_steps += double(record.connection_counters.medium_steps) / walks;
+    w.connections = double(n.attempted()) / subpaths;
+    w.connection_rays = double(record.connection_counters.shadow_rays) / subpaths;
+    w.medium_steps += double(record.connection_counters.medium_steps) / subpaths;
   }
   if (c.merges > 0) add_merges(record, c, record.merge_counters, w);
   return bidirectional_cost(w);

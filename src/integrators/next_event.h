@@ -4,7 +4,7 @@
 
 #include "integrators/integrator.h"
 #include "transport/light_choice.h"
-#include "transport/shadow_walk.h"
+#include "transport/shadow_transmittance.h"
 
 namespace duet {
 

@@ -7,7 +7,7 @@ namespace duet {
 
 namespace {
 
-constexpr uint32_t kPilotWalks = 4096;
+constexpr uint32_t kPilotSubpaths = 4096;
 /// Keeps the pilot's random numbers apart from those of the image.
 constexpr uint32_t kPilotScramble = 0x70696c6fu;
 /// The pilot is the same for all images of a scene, whichever of them a method renders first.
@@ -58,11 +58,11 @@ double median_footprint(const Scene& scene, Point2i film, uint64_t seed) {
 Pilot run_pilot(const Scene& scene, Point2i film, LightPassPlan plan) {
   Pilot pilot;
   pilot.footprint = median_footprint(scene, film, kPilotSeed);
-  plan.walks = kPilotWalks;
+  plan.subpaths = kPilotSubpaths;
   plan.seed = kPilotSeed;
   plan.scramble = kPilotScramble;
   plan.iteration = 0;
-  plan.set.camera_joins = plan.unit_weights = true;
+  plan.set.camera_connections = plan.unit_weights = true;
   plan.keep_vertices = true;
   plan.windows = nullptr;
   LightPass lights;
@@ -73,8 +73,8 @@ Pilot run_pilot(const Scene& scene, Point2i film, LightPassPlan plan) {
       if (is_finite(s.splat.value)) light += double(s.splat.value.max());
   };
   if (!scene.lights.empty()) lights.run(scene, plan, measure, counters);
-  pilot.brightness = light / kPilotWalks / (double(film.x) * double(film.y));
-  pilot.vertices_per_walk = double(lights.vertices().vertices.size()) / kPilotWalks;
+  pilot.brightness = light / kPilotSubpaths / (double(film.x) * double(film.y));
+  pilot.vertices_per_subpath = double(lights.vertices().vertices.size()) / kPilotSubpaths;
   return pilot;
 }
 

@@ -1,5 +1,5 @@
-// What has to be known about a scene before the first iteration, from a few walks that are not part
-// of the image.
+// What has to be known about a scene before the first iteration, from a few sub-paths that are not
+// part of the image.
 #pragma once
 
 #include "image/film.h"
@@ -8,14 +8,14 @@
 namespace duet {
 
 struct Pilot {
-  double vertices_per_walk = 0;  ///< those that can be connected
-  double brightness = 0;         ///< mean of the image, as far as light walks reach it directly
-  double footprint = 0;          ///< side of a pixel where it meets surfaces, in world units
+  double vertices_per_subpath = 0;  ///< those that can be connected
+  double brightness = 0;  ///< mean of the image, as far as light sub-paths reach it directly
+  double footprint = 0;   ///< side of a pixel where it meets surfaces, in world units
 
   /// Radius of the first iteration's merging unless the user says otherwise.
   double first_radius() const { return 1.5 * footprint; }
-  /// Contributions below which joins are left to chance: too little to be seen in the noise of a
-  /// sample.
+  /// Contributions below which connections are left to chance: too little to be seen in the noise
+  /// of a sample.
   float roulette_threshold() const { return float(0.1 * brightness); }
 };
 

@@ -5,8 +5,8 @@
 
 #include "base/parallel.h"
 #include "integrators/pilot.h"
-#include "integrators/pilot_eye_walk.h"
-#include "transport/light_walk.h"
+#include "integrators/pilot_eye_subpath.h"
+#include "transport/light_subpath.h"
 
 namespace duet {
 
@@ -16,7 +16,7 @@ constexpr uint64_t kEyeSeed = 0x7072696365ull, kLightSeed = 0x6c69676874ull,
                    kLightShadowStream = 0x7368646full;
 /// Longer paths add next to nothing to what the pilot is asked.
 constexpr int kLongest = FamilyWeights::kMostVertices / 2;
-constexpr size_t kWalksPerBlock = 64;
+constexpr size_t kSubpathsPerBlock = 64;
 
 template <class Vertex>
 class PricingPilot {
@@ -24,18 +24,18 @@ class PricingPilot {
   PricingPilot(const Scene& scene, const PricingPlan& plan)
       : scene_(scene),
         plan_(plan),
-        walks_(2 * size_t(plan.pixels_per_side) * plan.pixels_per_side),
+        subpaths_(2 * size_t(plan.pixels_per_side) * plan.pixels_per_side),
         setup_{scene, plan} {
     setup_.max_depth = plan.max_depth < 0 ? kLongest : std::min(plan.max_depth, kLongest);
     setup_.options = {plan.rr_depth, plan.strict_normals};
     setup_.eye_seed = kEyeSeed ^ plan.seed;
     const double pixels = double(plan.film.x) * plan.film.y;
     TechniqueSet& set = setup_.set;
-    set.hits = set.light_samples = set.camera_joins = set.connections = set.merges = true;
+    set.hits = set.light_samples = set.camera_connections = set.connections = set.merges = true;
     set.light_paths = float(PricingRecord::kLightPaths * pixels);
     LightPassPlan light;
     light.set = set;
-    light.walk = setup_.options;
+    light.subpath = setup_.options;
     light.max_depth = setup_.max_depth - 1;
     light.hide_emitters = plan.hide_emitters;
     light.seed = setup_.eye_seed;
@@ -44,9 +44,9 @@ class PricingPilot {
     const double radius = sizes.first_radius();
     set.merge_area = kPi * sqr(float(radius));
     setup_.threshold = sizes.roulette_threshold();
-    // There are fewer walks than an iteration has, of which an eye walk meets every second one:
-    // with a larger radius the share of pairs is the one that is meant.
-    const double thinned = double(walks_) / pixels;
+    // There are fewer sub-paths than an iteration has, of which an eye sub-path meets every second
+    // one: with a larger radius the share of pairs is the one that is meant.
+    const double thinned = double(subpaths_) / pixels;
     setup_.query_radius = float(radius * std::sqrt(2 * PricingRecord::kMergeShare / thinned));
     setup_.first_radius = float(radius);
     setup_.shift_scale = float(std::min(1.0, radius / double(setup_.query_radius)));
@@ -54,9 +54,9 @@ class PricingPilot {
 
   PricingRecord run() {
     record_.side = plan_.pixels_per_side;
-    record_.seen.resize(walks_ / 2);
+    record_.seen.resize(subpaths_ / 2);
     trace_light();
-    const PilotLightWalks& light = setup_.light;
+    const PilotLightSubpaths& light = setup_.light;
     setup_.grid.build(
         uint32_t(light.vertices.size()),
         [&](uint32_t i) {
@@ -71,7 +71,7 @@ class PricingPilot {
  private:
   struct Block {
     PricingRecord record;
-    PilotLightWalks light;
+    PilotLightSubpaths light;
   };
 
   uint16_t cell(const Point2f& film) const {
@@ -83,10 +83,10 @@ class PricingPilot {
   }
 
   void trace_light() {
-    std::vector<Block> blocks((walks_ + kWalksPerBlock - 1) / kWalksPerBlock);
+    std::vector<Block> blocks((subpaths_ + kSubpathsPerBlock - 1) / kSubpathsPerBlock);
     parallel_for(blocks.size(), plan_.threads, [&](size_t b) {
-      const size_t end = std::min((b + 1) * kWalksPerBlock, walks_);
-      for (size_t i = b * kWalksPerBlock; i < end; ++i) light_walk(i, blocks[b]);
+      const size_t end = std::min((b + 1) * kSubpathsPerBlock, subpaths_);
+      for (size_t i = b * kSubpathsPerBlock; i < end; ++i) light_subpath(i, blocks[b]);
     });
     for (const Block& b : blocks) {
       setup_.light.append(b.light);
@@ -96,41 +96,44 @@ class PricingPilot {
     record_.light_vertices = double(setup_.light.vertices.size());
   }
 
-  void light_walk(size_t index, Block& block) {
+  void light_subpath(size_t index, Block& block) {
     const uint64_t seed = kLightSeed ^ plan_.seed, key = hash_combine(seed, index);
     Sampler sampler(SampleSequence::independent, seed, 0, index);
     sampler.start_sample(0);
-    JoinRoulette roulette(setup_.threshold * setup_.set.light_paths, key);
+    ConnectionRoulette roulette(setup_.threshold * setup_.set.light_paths, key);
     RandomStream random(key ^ kLightShadowStream);
     RenderCounters& counters = block.record.light_counters;
-    Trail trail;
+    SubpathPdfs pdfs;
     FamilyWeights weights(setup_.set);
-    const JoinContext<FamilyWeights> joins{scene_, weights, roulette, counters, false, &random};
+    const ConnectionContext<FamilyWeights> connections{scene_,   weights, roulette,
+                                                       counters, false,   &random};
     const auto visit = [&](const Vertex& v, const Hit& hit) {
       if (!v.is_smooth()) return;
-      block.light.add(v, hit, trail);
-      weights.set_light(trail);
-      const auto seen = join_camera(
-          joins, v, scene_.camera->has_lens() ? sampler.next_2d() : Point2f{}, plan_.hide_emitters);
+      block.light.add(v, hit, pdfs);
+      weights.set_light(pdfs);
+      const auto seen =
+          connect_camera(connections, v, scene_.camera->has_lens() ? sampler.next_2d() : Point2f{},
+                         plan_.hide_emitters);
       if (seen)
-        add_contribution(block.record.light,
-                         seen->join.value * (seen->join.weight / setup_.set.light_paths),
-                         weights.shares(), Technique::light_image, cell(seen->film));
+        add_contribution(
+            block.record.light,
+            seen->connection.value * (seen->connection.weight / setup_.set.light_paths),
+            weights.shares(), Technique::light_image, cell(seen->film));
     };
-    trace_light_walk<Vertex>(
-        {scene_, setup_.set, setup_.options, setup_.max_depth - 1, sampler, counters, &trail, ~key},
+    trace_light_subpath<Vertex>(
+        {scene_, setup_.set, setup_.options, setup_.max_depth - 1, sampler, counters, &pdfs, ~key},
         visit);
-    block.light.end_walk(trail);
+    block.light.end_subpath(pdfs);
   }
 
   void trace_eye() {
-    std::vector<Block> blocks((walks_ + kWalksPerBlock - 1) / kWalksPerBlock);
+    std::vector<Block> blocks((subpaths_ + kSubpathsPerBlock - 1) / kSubpathsPerBlock);
     parallel_for(blocks.size(), plan_.threads, [&](size_t b) {
-      const size_t end = std::min((b + 1) * kWalksPerBlock, walks_);
+      const size_t end = std::min((b + 1) * kSubpathsPerBlock, subpaths_);
       PricingRecord& out = blocks[b].record;
-      for (size_t i = b * kWalksPerBlock; i < end; ++i) {
+      for (size_t i = b * kSubpathsPerBlock; i < end; ++i) {
         // No other block has the cell.
-        trace_pilot_eye_walk<Vertex>(setup_, i, out, record_.seen[i / 2]);
+        trace_pilot_eye_subpath<Vertex>(setup_, i, out, record_.seen[i / 2]);
         out.ends.push_back(uint32_t(out.eye.size()));
       }
     });
@@ -147,7 +150,7 @@ class PricingPilot {
 
   const Scene& scene_;
   PricingPlan plan_;
-  size_t walks_;
+  size_t subpaths_;
   PilotSetup setup_;
   PricingRecord record_;
 };

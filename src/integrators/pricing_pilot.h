@@ -15,12 +15,12 @@ enum class Technique : uint8_t {
   unidirectional,
   light_image,
   connection,
-  first_merge,  ///< at the first vertex of the eye walk where FamilyShares::first_merge is
+  first_merge,  ///< at the first vertex of the eye sub-path where FamilyShares::first_merge is
   later_merge
 };
 
 /// A weighted contribution, f / Σ n_i p_i of its path.
-struct PricedContribution {
+struct PilotSample {
   float value, square;  ///< means over the colours
   FamilyShares shares;  ///< in the density of all techniques
   Technique technique;
@@ -37,29 +37,29 @@ struct PricingPlan : PathLimits {
   uint64_t seed = 0;  ///< pilots of different seeds are independent
 };
 
-/// What a pilot has seen. Two eye walks for each of its pixels, and as many light walks.
+/// What a pilot has seen. Two eye sub-paths for each of its pixels, and as many light sub-paths.
 struct PricingRecord {
-  /// Light walks per pixel in the weights.
+  /// Light sub-paths per pixel in the weights.
   static constexpr double kLightPaths = 1;
   /// Pairs of vertices that are near enough to be merged are looked at with this probability.
   static constexpr double kMergeShare = 0.25;
 
-  std::vector<PricedContribution> eye;  ///< walk after walk
-  std::vector<uint32_t> ends;           ///< walk i has [ends[i − 1], ends[i])
-  std::vector<PricedContribution> light;
+  std::vector<PilotSample> eye;  ///< sub-path after sub-path
+  std::vector<uint32_t> ends;    ///< sub-path i has [ends[i − 1], ends[i])
+  std::vector<PilotSample> light;
   int side = 0;  ///< of the grid of pixels
   /// Light seen without any scattering, by cell: it is the same for all methods.
   std::vector<double> seen;
 
-  RenderCounters eye_counters;         ///< eye walks and light samples
+  RenderCounters eye_counters;         ///< eye sub-paths and light samples
   RenderCounters connection_counters;  ///< connections
   RenderCounters merge_counters;       ///< of the pairs that were looked at
-  /// Of both, what eye walks do until they first scatter by a smooth lobe.
+  /// Of both, what eye sub-paths do until they first scatter by a smooth lobe.
   RenderCounters first_counters;
-  RenderCounters light_counters;  ///< light walks and what the camera sees of them
+  RenderCounters light_counters;  ///< light sub-paths and what the camera sees of them
   double light_vertices = 0;      ///< that can be connected
 
-  size_t walks() const { return ends.size(); }
+  size_t subpaths() const { return ends.size(); }
 };
 
 /// The result depends on the scene and the plan, but not on its number of threads. The scene has a

@@ -12,7 +12,7 @@ namespace {
 /// How far below and above their mean the rates of tiles may be: a few samples may miss what makes
 /// noise, but do not make up what they see.
 constexpr double kLeastRate = 0.25, kLargestRate = 16;
-/// The largest where passes also trace walks from lights: there are as many of those as the tile
+/// The largest where passes also trace light sub-paths: there are as many of those as the tile
 /// with the most samples has.
 constexpr double kLargestRateWithSplats = 4;
 /// Share of the image's mean variance that every tile is taken to have, for what has not been seen.

@@ -13,9 +13,9 @@ struct TechniqueLayers {
   static constexpr size_t kSize = kMaxDepth + 2;
 
   bool enabled = false;
-  std::array<std::array<size_t, kSize>, kSize> joins{}, merges{};  ///< by s and t
+  std::array<std::array<size_t, kSize>, kSize> connections{}, merges{};  ///< by s and t
 
-  size_t join(int s, int t) const { return enabled ? joins[size_t(s)][size_t(t)] : 0; }
+  size_t connection(int s, int t) const { return enabled ? connections[size_t(s)][size_t(t)] : 0; }
   size_t merge(int s, int t) const { return enabled ? merges[size_t(s)][size_t(t)] : 0; }
 };
 

@@ -33,7 +33,7 @@ struct VolumePathIntegrator::Path {
 
   /// Light that the ray has found, which a light sample makes with the density `light_pdf`.
   void add(const Spectrum& radiance, float light_pdf) {
-    const Spectrum density = competes ? weights.walk + weights.light * light_pdf : weights.walk;
+    const Spectrum density = competes ? weights.pdf + weights.light * light_pdf : weights.pdf;
     sum += radiance * weights.value * (1 / density.mean());
   }
 };
@@ -47,11 +47,11 @@ inline void add_light(const Scene& scene, const ChosenLight& light, const Shadow
                       const Spectrum& value, PdfW pdf, Path& path) {
   SpectralWeights shadow;
   shadow.channel = path.weights.channel;
-  if (!walk_shadow(scene, ray, path.random, shadow, path.counters)) return;
+  if (!shadow_transmittance(scene, ray, path.random, shadow, path.counters)) return;
   const LightSample& s = *light.sample;
   // The weight has been divided by the density of the light's point, not by that of its choice.
-  const float walk = s.delta ? 0.0f : pdf.value / (s.pdf.value * light.probability);
-  const Spectrum density = path.weights.walk * (shadow.walk * walk + shadow.light);
+  const float scattering = s.delta ? 0.0f : pdf.value / (s.pdf.value * light.probability);
+  const Spectrum density = path.weights.pdf * (shadow.pdf * scattering + shadow.light);
   path.sum += path.weights.value * value * s.weight * shadow.value *
               (1 / (light.probability * density.mean()));
 }
@@ -103,7 +103,8 @@ float VolumePathIntegrator::cross_medium(bool found, const Hit& hit, uint32_t di
   if (found) segment.tmax = hit.t;
   path.sampler.start_dimension(dimension + kDistanceDimension);
   const RandomStream before = path.random;
-  const float t = path.medium->walk(segment, path.sampler.next_1d(), path.random, path.weights);
+  const float t =
+      path.medium->sample_distance(segment, path.sampler.next_1d(), path.random, path.weights);
   path.counters.medium_steps += 1 + path.random.drawn_since(before);
   return t;
 }
@@ -151,7 +152,7 @@ bool VolumePathIntegrator::scatter_in_medium(const Scene& scene, const Point3f& 
   const Point2f v = path.sampler.next_2d();
   const PhaseSample sample = phase.sample(p, wo, path.sampler.next_1d(), v);
   if (!(sample.pdf.value > 0) || !survives(path)) return false;
-  path.weights.light = path.weights.walk * (1 / sample.pdf.value);
+  path.weights.light = path.weights.pdf * (1 / sample.pdf.value);
   path.competes = true;
   path.from = p;
   path.ray = {p, sample.wi, INFINITY};
@@ -188,7 +189,7 @@ inline bool VolumePathIntegrator::scatter_at_surface(const Scene& scene, const S
   if (!sample->null) {
     if (at_limit(++path.depth)) return false;
     path.competes = !sample->delta;
-    if (path.competes) path.weights.light = path.weights.walk * (1 / sample->pdf.value);
+    if (path.competes) path.weights.light = path.weights.pdf * (1 / sample->pdf.value);
     path.from = s.position;
   }
   if (!survives(path)) return false;

@@ -1,4 +1,4 @@
-// Light that leaves in one direction only: no ray and no light sample finds it, only walks that
+// Light that leaves in one direction only: no ray and no light sample finds it, only sub-paths that
 // start at the light carry it.
 #pragma once
 

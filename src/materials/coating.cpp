@@ -4,8 +4,8 @@ namespace duet {
 
 namespace {
 
-/// Probability of looking at the coat's own reflection. The same from all directions, as walks from
-/// both ends need it.
+/// Probability of looking at the coat's own reflection. The same from all directions, as sub-paths
+/// from both ends need it.
 constexpr float kReflectionShare = 0.25f;
 
 std::optional<RoughTransmittance> make_tables(const CoatingOptions& o) {

@@ -50,14 +50,14 @@ inline void HeterogeneousMedium::track(const Ray& ray, float u, RandomStream& ra
   });
 }
 
-float HeterogeneousMedium::walk(const Ray& ray, float u, RandomStream& random,
-                                SpectralWeights& w) const {
+float HeterogeneousMedium::sample_distance(const Ray& ray, float u, RandomStream& random,
+                                           SpectralWeights& w) const {
   float scattered = INFINITY;
   track(ray, u, random, [&](float t, float majorant, const Spectrum& sigma_t) {
     const float chosen = sigma_t[w.channel];
     if (random.next() * majorant < chosen) {
       const Spectrum density = is_grey_ ? Spectrum(1) : sigma_t / chosen;
-      w.walk *= density;
+      w.pdf *= density;
       w.value *= density * albedo_(ray.origin + ray.direction * t);
       scattered = t;
       return false;
@@ -66,7 +66,7 @@ float HeterogeneousMedium::walk(const Ray& ray, float u, RandomStream& random,
     const float missed = majorant - chosen;
     if (!is_grey_) {
       const Spectrum density = (Spectrum(majorant) - sigma_t) / missed;
-      w.walk *= density;
+      w.pdf *= density;
       w.value *= density;
     }
     w.light *= majorant / missed;
@@ -79,7 +79,7 @@ void HeterogeneousMedium::transmit(const Ray& ray, RandomStream& random, Spectra
   track(ray, random.next(), random, [&](float, float majorant, const Spectrum& sigma_t) {
     const Spectrum density = (Spectrum(majorant) - sigma_t) / majorant;
     w.value *= density;
-    w.walk *= density;
+    w.pdf *= density;
     const float most = w.value.max();
     if (!(most < kRouletteTransmittance)) return true;
     if (!(random.next() * kRouletteTransmittance < most)) {

@@ -15,7 +15,8 @@ class HeterogeneousMedium final : public Medium {
   /// The extinction is `scale` times the grid's values, times that of the phase function.
   HeterogeneousMedium(const GridVolume& sigma_t, float scale, const ColorVolumeSlot& albedo,
                       const PhaseFunction& phase);
-  float walk(const Ray& ray, float u, RandomStream& random, SpectralWeights& w) const override;
+  float sample_distance(const Ray& ray, float u, RandomStream& random,
+                        SpectralWeights& w) const override;
   void transmit(const Ray& ray, RandomStream& random, SpectralWeights& w) const override;
   /// What it really is would have to be estimated.
   float nominal_transmittance(const Ray&) const override { return 1; }

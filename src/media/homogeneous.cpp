@@ -19,18 +19,19 @@ inline Spectrum HomogeneousMedium::extinction(const Ray& ray) const {
   return is_microflake_ ? sigma_t_ * phase().extinction(ray.origin, -ray.direction) : sigma_t_;
 }
 
-float HomogeneousMedium::walk(const Ray& ray, float u, RandomStream&, SpectralWeights& w) const {
+float HomogeneousMedium::sample_distance(const Ray& ray, float u, RandomStream&,
+                                         SpectralWeights& w) const {
   const Spectrum sigma_t = extinction(ray);
   const float chosen = sigma_t[w.channel];
   const float t = chosen > 0 ? -std::log1p(-u) / chosen : INFINITY;
   if (t < ray.tmax) {
     const Spectrum density = relative_transmittance(sigma_t, chosen, t) * sigma_t / chosen;
-    w.walk *= density;
+    w.pdf *= density;
     w.value *= density * albedo_(ray.origin + ray.direction * t);
     return t;
   }
   const Spectrum density = relative_transmittance(sigma_t, chosen, ray.tmax);
-  w.walk *= density;
+  w.pdf *= density;
   w.value *= density;
   // A light sample would have got here without fail.
   w.light *= chosen > 0 ? std::exp(chosen * ray.tmax) : 1.0f;
@@ -48,7 +49,7 @@ inline Spectrum HomogeneousMedium::transmittance(const Ray& ray) const {
 void HomogeneousMedium::transmit(const Ray& ray, RandomStream&, SpectralWeights& w) const {
   const Spectrum t = transmittance(ray);
   w.value *= t;
-  w.walk *= t;
+  w.pdf *= t;
 }
 
 float HomogeneousMedium::nominal_transmittance(const Ray& ray) const {

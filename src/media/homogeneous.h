@@ -12,9 +12,10 @@ class HomogeneousMedium final : public Medium {
   HomogeneousMedium(const Spectrum& sigma_t, const ColorVolumeSlot& albedo,
                     const PhaseFunction& phase)
       : Medium(phase), sigma_t_(sigma_t), albedo_(albedo), is_microflake_(phase.is_microflake()) {}
-  float walk(const Ray& ray, float u, RandomStream& random, SpectralWeights& w) const override;
+  float sample_distance(const Ray& ray, float u, RandomStream& random,
+                        SpectralWeights& w) const override;
   void transmit(const Ray& ray, RandomStream& random, SpectralWeights& w) const override;
-  /// Means over the colour channels, the density of a walk for a random one of them.
+  /// Means over the colour channels, the density of a sub-path for a random one of them.
   float nominal_transmittance(const Ray& ray) const override;
   float nominal_extinction(const Point3f&) const override { return sigma_t_.mean(); }
 

@@ -18,18 +18,19 @@ class Medium {
   virtual ~Medium() = default;
   const PhaseFunction& phase() const { return phase_; }
 
-  /// Walks along the ray to where it is scattered next and returns the distance, or INFINITY if it
-  /// comes to ray.tmax before. The weights then include everything up to there: transmittance, the
-  /// scattering coefficient, the densities of each channel. `u` is used first, then `random`.
-  virtual float walk(const Ray& ray, float u, RandomStream& random, SpectralWeights& w) const = 0;
+  /// Follows the ray to where it is scattered next and returns the distance, or INFINITY if
+  /// it comes to ray.tmax before. The weights then include everything up to there: transmittance,
+  /// the scattering coefficient, the densities of each channel. `u` is used first, then `random`.
+  virtual float sample_distance(const Ray& ray, float u, RandomStream& random,
+                                SpectralWeights& w) const = 0;
   /// Multiplies the weights of a shadow ray by an estimate of the transmittance up to ray.tmax, and
-  /// by the densities of a walk that would have gone all the way.
+  /// by the densities of a sub-path that would have gone all the way.
   virtual void transmit(const Ray& ray, RandomStream& random, SpectralWeights& w) const = 0;
 
   /// What the densities that multiple importance sampling compares have for the transmittance from
   /// ray.origin to ray.tmax, and for the extinction at a point where light is scattered. All
   /// techniques have to agree on the two, so they depend on nothing else; a way back is worth the
-  /// same as the way there. What walks really do may differ.
+  /// same as the way there. What sub-paths really do may differ.
   virtual float nominal_transmittance(const Ray& ray) const = 0;
   virtual float nominal_extinction(const Point3f& p) const = 0;
 

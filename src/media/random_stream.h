@@ -1,4 +1,4 @@
-// Random numbers for walks that need nobody knows how many.
+// Random numbers for tracking in media, which takes nobody knows how many.
 #pragma once
 
 #include "math/hash.h"

@@ -15,13 +15,13 @@ namespace duet {
 /// transport", 2019, section 5.
 struct SpectralWeights {
   Spectrum value{1};  ///< contribution over the density of the chosen channel
-  Spectrum walk{1};   ///< density of each channel's walk
+  Spectrum pdf{1};    ///< density of each channel's sub-path
   Spectrum light{1};  ///< density if the last direction came from a light sample, without the
                       ///< density of that sample; only where such samples compete
   int channel = 0;
 
   /// The value weighted among the channels, where nothing else could have made the path.
-  Spectrum mean_over_channels() const { return value * (1 / walk.mean()); }
+  Spectrum mean_over_channels() const { return value * (1 / pdf.mean()); }
 };
 
 }  // namespace duet

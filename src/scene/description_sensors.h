@@ -33,7 +33,7 @@ constexpr const char* sensor_name(SensorKind k) {
       "fluencemeter",      "distant",   "batch"};
   return names[size_t(k)];
 }
-/// Whether points of the scene can be joined with the sensor: Camera::connectible().
+/// Whether points of the scene can be connected with the sensor: Camera::connectible().
 constexpr bool is_connectible(SensorKind k) {
   return k == SensorKind::perspective || k == SensorKind::thinlens ||
          k == SensorKind::orthographic || k == SensorKind::perspective_rdist ||

@@ -21,7 +21,7 @@ struct SceneFeatures {
 
   size_t area_lights = 0, textured_area_lights = 0;
   size_t point_lights = 0, spot_lights = 0, projectors = 0, directional_lights = 0;
-  size_t beams = 0;  ///< lights that only walks from them find
+  size_t beams = 0;  ///< lights that only sub-paths from them find
   bool constant_environment = false, environment_map = false, sky = false;
 
   /// Materials on surfaces, by how they scatter. One can count several times: smooth plastic is

@@ -5,7 +5,7 @@
 
 namespace duet {
 
-/// Attempts to join an eye vertex with a light vertex, by how they ended.
+/// Attempts to connect an eye vertex with a light vertex, by how they ended.
 struct ConnectionCounters {
   uint64_t contributed = 0;
   uint64_t failed_specular = 0;  ///< one of the two scatters into single directions only

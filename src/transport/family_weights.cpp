@@ -19,14 +19,14 @@ FamilyWeights::Path& FamilyWeights::start(int count) const {
   return path_;
 }
 
-void FamilyWeights::take_light(Path& path, int m, const JoinEnd& end) const {
-  const TrailVertex& last = ends_ ? ends_->vertex : light_[size_t(m)];
+void FamilyWeights::take_light(Path& path, int m, const ConnectionEnd& end) const {
+  const VertexPdfs& last = ends_ ? ends_->vertex : light_[size_t(m)];
   const double beyond = double(end.beyond) * double(last.back);
   path.direct = double(ends_ ? ends_->light.back : light_[0].back);
   path.emitted = double(m == 1 ? last.forward : light_[1].forward);
   if (!light_[0].specular) path.found = m == 1 ? beyond : double(light_[0].reverse);
   for (int i = 1; i <= m; ++i) {
-    const TrailVertex& v = i == m ? last : light_[size_t(i)];
+    const VertexPdfs& v = i == m ? last : light_[size_t(i)];
     path.light[size_t(i)] = double(v.forward);
     path.eye[size_t(i)] = i == m ? double(end.arrival) : i == m - 1 ? beyond : double(v.reverse);
     path.specular[size_t(i)] = i < m && v.specular;
@@ -34,9 +34,9 @@ void FamilyWeights::take_light(Path& path, int m, const JoinEnd& end) const {
   }
 }
 
-void FamilyWeights::take_eye(Path& path, int n, const JoinEnd& end) const {
+void FamilyWeights::take_eye(Path& path, int n, const ConnectionEnd& end) const {
   for (int j = 1; j <= n; ++j) {
-    const TrailVertex& v = eye_[size_t(j)];
+    const VertexPdfs& v = eye_[size_t(j)];
     const size_t i = size_t(path.count + 1 - j);
     path.eye[i] = double(v.forward);
     path.light[i] = j == n       ? double(end.arrival)
@@ -48,11 +48,11 @@ void FamilyWeights::take_eye(Path& path, int n, const JoinEnd& end) const {
 }
 
 // P_s is the density with which the first s vertices come from the light and all others from the
-// eye, relative to that of the technique at hand, whether or not the two ends can be joined.
+// eye, relative to that of the technique at hand, whether or not the two ends can be connected.
 float FamilyWeights::weigh(const Path& path, int s, bool merges) const {
   const int last = path.count;
   const auto smooth = [&](int i) { return !path.specular[size_t(i)]; };
-  const auto joins = [&](int i) {  // the two ends between vertex i and the next
+  const auto connections = [&](int i) {  // the two ends between vertex i and the next
     return (i == 0 || smooth(i)) && (i == last || smooth(i + 1));
   };
   const auto merges_at = [&](int i) { return smooth(i) && path.merges[size_t(i)]; };
@@ -67,7 +67,7 @@ float FamilyWeights::weigh(const Path& path, int s, bool merges) const {
   const auto add = [&](int light_vertices, double density) {
     if (light_vertices <= 1) {
       if (light_vertices == 0 || smooth(1)) sums.unidirectional += density;
-    } else if (joins(light_vertices - 1)) {
+    } else if (connections(light_vertices - 1)) {
       (light_vertices == last + 1 ? sums.light_image : sums.connections) +=
           light_vertices == last + 1 ? density * light_paths_ : density;
     }
@@ -105,7 +105,7 @@ float FamilyWeights::weigh(const Path& path, int s, bool merges) const {
   return float(own * inverse);
 }
 
-float FamilyWeights::hit(const Walk& walk, float direct, float emission) const {
+float FamilyWeights::hit(const Subpath& subpath, float direct, float emission) const {
   const int n = int(eye_.size()) - 1;  // the last vertex before the light
   if (n == 0) {
     shares_ = {1, 0, 0, 0, 0};
@@ -119,14 +119,14 @@ float FamilyWeights::hit(const Walk& walk, float direct, float emission) const {
     path.specular[i] = eye_[size_t(j)].specular;
     path.merges[i] = eye_[size_t(j)].merges;
   }
-  path.found = double(walk.forward);
+  path.found = double(subpath.forward);
   path.direct = double(direct);
-  path.emitted = double(emission) * double(walk.cosine_out);
+  path.emitted = double(emission) * double(subpath.cosine_out);
   return weigh(path, 0, false);
 }
 
 float FamilyWeights::light_sample(const PathVertex& eye, float direct, float bsdf,
-                                  const JoinEnd& eye_end) const {
+                                  const ConnectionEnd& eye_end) const {
   Path& path = start(eye.depth);
   take_eye(path, eye.depth, eye_end);
   path.found = double(bsdf);
@@ -135,27 +135,27 @@ float FamilyWeights::light_sample(const PathVertex& eye, float direct, float bsd
   return weigh(path, 1, false);
 }
 
-float FamilyWeights::camera(const PathVertex& light, const JoinEnd& light_end) const {
+float FamilyWeights::camera(const PathVertex& light, const ConnectionEnd& light_end) const {
   Path& path = start(light.depth);
   take_light(path, light.depth, light_end);
   return weigh(path, light.depth + 1, false);
 }
 
-float FamilyWeights::connection(const PathVertex& light, const JoinEnd& light_end,
-                                const PathVertex& eye, const JoinEnd& eye_end) const {
+float FamilyWeights::connection(const PathVertex& light, const ConnectionEnd& light_end,
+                                const PathVertex& eye, const ConnectionEnd& eye_end) const {
   Path& path = start(light.depth + eye.depth);
   take_light(path, light.depth, light_end);
   take_eye(path, eye.depth, eye_end);
   return weigh(path, light.depth + 1, false);
 }
 
-// As if the light walk had made the common vertex, which the eye walk's density there then makes a
-// merge.
+// As if the light sub-path had made the common vertex, which the eye sub-path's density there then
+// makes a merge.
 float FamilyWeights::merge(const LightVertex& light, float light_reverse, const PathVertex& eye,
                            float eye_reverse) const {
   const int m = int(light.depth), n = eye.depth;
   Path& path = start(m + n - 1);
-  const TrailVertex& common = eye_[size_t(n)];
+  const VertexPdfs& common = eye_[size_t(n)];
   take_light(path, m, {common.forward, light_reverse, true});
   take_eye(path, n - 1, {eye_reverse * common.back, 0, eye_[size_t(n - 1)].merges});
   // Seen from the merge, the last vertex and the one before are as recorded.

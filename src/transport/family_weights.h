@@ -5,7 +5,7 @@
 #include <array>
 #include <span>
 
-#include "transport/join.h"
+#include "transport/connection.h"
 
 namespace duet {
 
@@ -21,8 +21,8 @@ struct FamilyShares {
   float first_merge = 0;
 };
 
-/// The balance heuristic for joins (join.h) by the densities of all vertices of the path, in time
-/// proportional to their number. The method has all techniques, each connection once.
+/// The balance heuristic for connections (connection.h) by the densities of all vertices of the
+/// path, in time proportional to their number. The method has all techniques, each connection once.
 class FamilyWeights {
  public:
   /// More vertices between light and lens than a path may have.
@@ -31,47 +31,49 @@ class FamilyWeights {
   explicit FamilyWeights(const TechniqueSet& set)
       : light_paths_(double(set.light_paths)),
         eta_(double(set.light_paths) * double(set.merge_area)) {}
-  /// The walks that are joined. The trail of the light walk may go on beyond the vertex at hand;
-  /// if the walk may have gone straight on from there, `ends` are those at that vertex.
-  void set_light(std::span<const TrailVertex> trail, const TrailEnds* ends = nullptr) {
-    light_ = trail, ends_ = ends;
+  /// The sub-paths that are connected. The vertex pdfs of the light sub-path may go on beyond the
+  /// vertex at hand; if the sub-path may have gone straight on from there, `ends` are those at that
+  /// vertex.
+  void set_light(std::span<const VertexPdfs> pdfs, const EndPdfs* ends = nullptr) {
+    light_ = pdfs, ends_ = ends;
   }
-  void set_eye(const Trail& trail) { eye_ = trail; }
+  void set_eye(const SubpathPdfs& pdfs) { eye_ = pdfs; }
 
-  float hit(const Walk& walk, float direct, float emission) const;
-  float light_sample(const PathVertex& eye, float direct, float bsdf, const JoinEnd& eye_end) const;
-  float camera(const PathVertex& light, const JoinEnd& light_end) const;
-  float connection(const PathVertex& light, const JoinEnd& light_end, const PathVertex& eye,
-                   const JoinEnd& eye_end) const;
+  float hit(const Subpath& subpath, float direct, float emission) const;
+  float light_sample(const PathVertex& eye, float direct, float bsdf,
+                     const ConnectionEnd& eye_end) const;
+  float camera(const PathVertex& light, const ConnectionEnd& light_end) const;
+  float connection(const PathVertex& light, const ConnectionEnd& light_end, const PathVertex& eye,
+                   const ConnectionEnd& eye_end) const;
   float merge(const LightVertex& light, float light_reverse, const PathVertex& eye,
               float eye_reverse) const;
 
-  /// Those of the last join that was weighed.
+  /// Those of the last connection that was weighed.
   const FamilyShares& shares() const { return shares_; }
 
  private:
-  /// The path of the join at hand. Vertex 1 is the first from the light, vertex `count` the last
-  /// before the lens.
+  /// The path of the connection at hand. Vertex 1 is the first from the light, vertex `count` the
+  /// last before the lens.
   struct Path {
     int count = 0;
     /// Densities with which rays from vertex 1 find the light and with which light samples do,
-    /// per solid angle; and that of both vertices for a light walk.
+    /// per solid angle; and that of both vertices for a light sub-path.
     double found = 0, direct = 0, emitted = 0;
     std::array<double, kMostVertices> light{}, eye{};  ///< area densities; light[1] has no meaning
     std::array<bool, kMostVertices> specular{}, merges{};
   };
   Path& start(int count) const;
-  /// Vertices 1 … m of the light walk, seen from the vertex beyond by `end`.
-  void take_light(Path& path, int m, const JoinEnd& end) const;
-  /// Vertices n … 1 of the eye walk alike.
-  void take_eye(Path& path, int n, const JoinEnd& end) const;
+  /// Vertices 1 … m of the light sub-path, seen from the vertex beyond by `end`.
+  void take_light(Path& path, int m, const ConnectionEnd& end) const;
+  /// Vertices n … 1 of the eye sub-path alike.
+  void take_eye(Path& path, int n, const ConnectionEnd& end) const;
   /// `s` is the number of light vertices of the technique at hand, or one more than the vertex at
   /// which it merges.
   float weigh(const Path& path, int s, bool merges) const;
 
   double light_paths_, eta_;
-  std::span<const TrailVertex> light_, eye_;
-  const TrailEnds* ends_ = nullptr;
+  std::span<const VertexPdfs> light_, eye_;
+  const EndPdfs* ends_ = nullptr;
   mutable Path path_;
   mutable FamilyShares shares_;
 };

@@ -3,76 +3,79 @@
 #include <algorithm>
 
 #include "base/parallel.h"
-#include "transport/light_walk.h"
+#include "transport/light_subpath.h"
 
 namespace duet {
 
 namespace {
 
-/// Walks that one task traces, and tasks whose results are held at a time.
-constexpr uint32_t kWalksPerBlock = 1024;
+/// Sub-paths that one task traces, and tasks whose results are held at a time.
+constexpr uint32_t kSubpathsPerBlock = 1024;
 constexpr uint32_t kBlocksAtATime = 16;
-/// Keeps the random numbers of light walks apart from those of the pixels.
+/// Keeps the random numbers of light sub-paths apart from those of the pixels.
 constexpr uint64_t kLightStream = 0x6c69676874ull;
-/// The same for what happens in media, on walks and on their shadow rays.
+/// The same for what happens in media, on sub-paths and on their shadow rays.
 constexpr uint64_t kMediaStream = 0x6d65646961ull;
 
 }  // namespace
 
-double LightPass::memory_bytes(const LightPassPlan& plan, int vertices_per_walk) {
+double LightPass::memory_bytes(const LightPassPlan& plan, int vertices_per_subpath) {
   // Arrays that grow by doubling may hold twice as much as they need to.
   constexpr double kGrowth = 2;
-  const double vertices = vertices_per_walk;
-  const double trail = plan.windows ? kGrowth * ((vertices + 2) * sizeof(TrailVertex) + 4) : 0.0;
+  const double vertices = vertices_per_subpath;
+  const double pdfs = plan.windows ? kGrowth * ((vertices + 2) * sizeof(VertexPdfs) + 4) : 0.0;
   const double kept = plan.keep_vertices ? vertices * sizeof(LightVertex) + 6 : 0.0;
-  const double at_a_time = std::min(double(plan.walks), double(kWalksPerBlock * kBlocksAtATime));
-  return double(plan.walks) * (kept + trail) +
-         at_a_time * kGrowth * (vertices * (sizeof(LightVertex) + sizeof(LightSplat)) + trail);
+  const double at_a_time =
+      std::min(double(plan.subpaths), double(kSubpathsPerBlock * kBlocksAtATime));
+  return double(plan.subpaths) * (kept + pdfs) +
+         at_a_time * kGrowth * (vertices * (sizeof(LightVertex) + sizeof(LightSplat)) + pdfs);
 }
 
-void LightPass::reserve(size_t vertices, size_t walks) {
+void LightPass::reserve(size_t vertices, size_t subpaths) {
   vertices_.vertices.reserve(vertices);
-  vertices_.ends.reserve(walks);
-  vertices_.lengths.reserve(walks);
+  vertices_.ends.reserve(subpaths);
+  vertices_.lengths.reserve(subpaths);
 }
 
 template <class Vertex, class Weights>
 void LightPass::trace(const Scene& scene, const LightPassPlan& plan, const Weights& weights,
-                      Range range, Trail* trail, Block& block) const {
+                      Range range, SubpathPdfs* pdfs, Block& block) const {
   block.vertices.clear();
   block.splats.clear();
-  block.trails.clear();
-  block.trail_ends.clear();
+  block.pdf_lists.clear();
+  block.end_pdfs.clear();
   block.counters = {};
   const bool has_lens = scene.camera->has_lens();
   for (uint32_t i = range.first; i < range.end; ++i) {
     const uint64_t key = hash_combine(hash_combine(plan.seed, plan.scramble ^ kLightStream),
                                       (uint64_t(plan.iteration) << 32) + i);
-    JoinRoulette roulette(plan.roulette_threshold, key);
+    ConnectionRoulette roulette(plan.roulette_threshold, key);
     RandomStream random(key ^ kMediaStream);
     Sampler sampler(plan.sequence, plan.seed ^ kLightStream, plan.scramble, i);
     sampler.start_sample(plan.iteration);
-    const JoinContext<Weights> joins{scene, weights, roulette, block.counters, false, &random};
+    const ConnectionContext<Weights> connections{scene,          weights, roulette,
+                                                 block.counters, false,   &random};
     const auto visit = [&](const Vertex& v, const Hit& hit) {
       if (!v.is_smooth()) return;
-      if (plan.set.camera_joins) {
+      if (plan.set.camera_connections) {
         const Point2f lens = has_lens ? sampler.next_2d() : Point2f{};
-        const auto seen = join_camera(joins, v, lens, plan.hide_emitters);
+        const auto seen = connect_camera(connections, v, lens, plan.hide_emitters);
         if (seen)
-          block.splats.push_back({{seen->film, seen->join.value}, seen->join.weight, v.depth});
+          block.splats.push_back(
+              {{seen->film, seen->connection.value}, seen->connection.weight, v.depth});
       }
       if (plan.keep_vertices && (plan.set.connections || v.merges()))
         block.vertices.vertices.emplace_back(v, hit);
     };
     const int length =
-        trace_light_walk<Vertex>({scene, plan.set, plan.walk, plan.max_depth, sampler,
-                                  block.counters, trail, ~key ^ kMediaStream},
-                                 visit);
+        trace_light_subpath<Vertex>({scene, plan.set, plan.subpath, plan.max_depth, sampler,
+                                     block.counters, pdfs, ~key ^ kMediaStream},
+                                    visit);
     block.vertices.ends.push_back(uint32_t(block.vertices.vertices.size()));
     block.vertices.lengths.push_back(uint16_t(std::min(length, 0xffff)));
-    if (trail) {
-      block.trails.insert(block.trails.end(), trail->begin(), trail->end());
-      block.trail_ends.push_back(uint32_t(block.trails.size()));
+    if (pdfs) {
+      block.pdf_lists.insert(block.pdf_lists.end(), pdfs->begin(), pdfs->end());
+      block.end_pdfs.push_back(uint32_t(block.pdf_lists.size()));
     }
   }
 }
@@ -81,8 +84,8 @@ template <class Vertex>
 void LightPass::trace(const Scene& scene, const LightPassPlan& plan, Range range,
                       Block& block) const {
   if (plan.windows) {
-    Trail trail;
-    trace<Vertex>(scene, plan, WindowWeights(*plan.windows, &trail, nullptr), range, &trail, block);
+    SubpathPdfs pdfs;
+    trace<Vertex>(scene, plan, WindowWeights(*plan.windows, &pdfs, nullptr), range, &pdfs, block);
   } else if (plan.unit_weights) {
     trace<Vertex>(scene, plan, UnitWeights(), range, nullptr, block);
   } else if (plan.set.partly_merged) {
@@ -96,15 +99,15 @@ void LightPass::run(const Scene& scene, const LightPassPlan& plan,
                     const std::function<void(std::span<const LightSplat>)>& splats,
                     RenderCounters& counters) {
   vertices_.clear();
-  trails_.clear();
-  trail_ends_.clear();
+  pdf_lists_.clear();
+  end_pdfs_.clear();
   blocks_.resize(kBlocksAtATime);
-  for (uint32_t wave = 0; wave < plan.walks; wave += kWalksPerBlock * kBlocksAtATime) {
-    const uint32_t left = (plan.walks - wave + kWalksPerBlock - 1) / kWalksPerBlock;
+  for (uint32_t wave = 0; wave < plan.subpaths; wave += kSubpathsPerBlock * kBlocksAtATime) {
+    const uint32_t left = (plan.subpaths - wave + kSubpathsPerBlock - 1) / kSubpathsPerBlock;
     const uint32_t count = std::min(left, kBlocksAtATime);
     parallel_for(count, plan.threads, [&](size_t i) {
-      const uint32_t first = wave + uint32_t(i) * kWalksPerBlock;
-      const uint32_t end = std::min(first + kWalksPerBlock, plan.walks);
+      const uint32_t first = wave + uint32_t(i) * kSubpathsPerBlock;
+      const uint32_t end = std::min(first + kSubpathsPerBlock, plan.subpaths);
       if (scene.media.empty())
         trace<PathVertex>(scene, plan, {first, end}, blocks_[i]);
       else
@@ -116,9 +119,9 @@ void LightPass::run(const Scene& scene, const LightPassPlan& plan,
       if (!b.splats.empty()) splats(b.splats);
       if (plan.keep_vertices) vertices_.append(b.vertices);
       if (!plan.windows) continue;
-      const uint32_t offset = uint32_t(trails_.size());
-      trails_.insert(trails_.end(), b.trails.begin(), b.trails.end());
-      for (const uint32_t e : b.trail_ends) trail_ends_.push_back(offset + e);
+      const uint32_t offset = uint32_t(pdf_lists_.size());
+      pdf_lists_.insert(pdf_lists_.end(), b.pdf_lists.begin(), b.pdf_lists.end());
+      for (const uint32_t e : b.end_pdfs) end_pdfs_.push_back(offset + e);
     }
   }
 }

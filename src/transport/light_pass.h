@@ -1,4 +1,4 @@
-// All light walks of an iteration: their vertices, and what the camera sees of them.
+// All light sub-paths of an iteration: their vertices, and what the camera sees of them.
 #pragma once
 
 #include <functional>
@@ -12,14 +12,14 @@ namespace duet {
 /// What a pass over the lights is to do.
 struct LightPassPlan {
   TechniqueSet set;
-  WalkOptions walk;
-  int max_depth = 0;  ///< segments of a light walk
-  uint32_t walks = 0;
+  SubpathOptions subpath;
+  int max_depth = 0;  ///< segments of a light sub-path
+  uint32_t subpaths = 0;
   bool unit_weights = false;         ///< each path is made by one technique alone
-  const Windows* windows = nullptr;  ///< if the walks of the method are limited
+  const Windows* windows = nullptr;  ///< if the sub-paths of the method are limited
   const MergeMask* mask = nullptr;   ///< if the set is partly merged
   bool hide_emitters = false;
-  float roulette_threshold = 0;  ///< for what a walk adds to the film; see JoinRoulette
+  float roulette_threshold = 0;  ///< for what a sub-path adds to the film; see ConnectionRoulette
   bool keep_vertices = false;
   SampleSequence sequence = SampleSequence::sobol;
   uint64_t seed = 0;
@@ -37,44 +37,45 @@ struct LightSplat {
 /// Runs light passes; keeps its memory from one to the next.
 class LightPass {
  public:
-  /// Traces the plan's walks. `splats` takes what the camera sees, many at a time and always in the
-  /// same order, whatever the number of threads.
+  /// Traces the plan's sub-paths. `splats` takes what the camera sees, many at a time and always in
+  /// the same order, whatever the number of threads.
   void run(const Scene& scene, const LightPassPlan& plan,
            const std::function<void(std::span<const LightSplat>)>& splats,
            RenderCounters& counters);
 
   const LightVertices& vertices() const { return vertices_; }
-  /// Trails of the walks, one after the other, as `trail_ends` says; if there are windows.
-  std::span<const TrailVertex> trail(size_t walk) const {
-    const uint32_t first = walk == 0 ? 0 : trail_ends_[walk - 1];
-    return {trails_.data() + first, trail_ends_[walk] - first};
+  /// Vertex pdfs of the sub-paths, one after the other, as `end_pdfs` says; if there are windows.
+  std::span<const VertexPdfs> pdfs(size_t subpath) const {
+    const uint32_t first = subpath == 0 ? 0 : end_pdfs_[subpath - 1];
+    return {pdf_lists_.data() + first, end_pdfs_[subpath] - first};
   }
-  /// Bytes that passes of such a plan take if each walk has so many vertices that can be connected.
-  static double memory_bytes(const LightPassPlan& plan, int vertices_per_walk);
+  /// Bytes that passes of such a plan take if each sub-path has so many vertices that can be
+  /// connected.
+  static double memory_bytes(const LightPassPlan& plan, int vertices_per_subpath);
   /// Makes room for the vertices of an average pass.
-  void reserve(size_t vertices, size_t walks);
+  void reserve(size_t vertices, size_t subpaths);
 
  private:
   struct Block {
     LightVertices vertices;
-    Trail trails;
-    std::vector<uint32_t> trail_ends;
+    SubpathPdfs pdf_lists;
+    std::vector<uint32_t> end_pdfs;
     std::vector<LightSplat> splats;
     RenderCounters counters;
   };
   struct Range {
-    uint32_t first, end;  ///< of the walks
+    uint32_t first, end;  ///< of the sub-paths
   };
   template <class Vertex, class Weights>
   void trace(const Scene& scene, const LightPassPlan& plan, const Weights& weights, Range range,
-             Trail* trail, Block& block) const;
+             SubpathPdfs* pdfs, Block& block) const;
   template <class Vertex>
   void trace(const Scene& scene, const LightPassPlan& plan, Range range, Block& block) const;
 
   std::vector<Block> blocks_;
   LightVertices vertices_;
-  Trail trails_;
-  std::vector<uint32_t> trail_ends_;
+  SubpathPdfs pdf_lists_;
+  std::vector<uint32_t> end_pdfs_;
 };
 
 }  // namespace duet

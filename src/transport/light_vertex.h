@@ -1,4 +1,4 @@
-// Vertices of light walks in the form in which millions of them are kept.
+// Vertices of light sub-paths in the form in which millions of them are kept.
 #pragma once
 
 #include <vector>
@@ -7,8 +7,9 @@
 
 namespace duet {
 
-/// A vertex of a light walk, packed: its BSDF is bound again when it is needed. In a medium `shape`
-/// is kNone and the address of the medium stands in place of the primitive and the instance.
+/// A vertex of a light sub-path, packed: its BSDF is bound again when it is needed. In a medium
+/// `shape` is kNone and the address of the medium stands in place of the primitive and the
+/// instance.
 struct LightVertex {
   Point3f position;
   Spectrum throughput;
@@ -45,16 +46,16 @@ struct Unpacked {
   operator Vertex() const { return vertex.unpack<Vertex>(scene); }
 };
 
-/// The connectible vertices of many light walks, walk after walk.
+/// The connectible vertices of many light sub-paths, sub-path after sub-path.
 struct LightVertices {
   std::vector<LightVertex> vertices;
-  /// Walk i owns the vertices [ends[i − 1], ends[i]).
+  /// Sub-path i owns the vertices [ends[i − 1], ends[i]).
   std::vector<uint32_t> ends;
-  /// All vertices that each walk had, also those that cannot be connected.
+  /// All vertices that each sub-path had, also those that cannot be connected.
   std::vector<uint16_t> lengths;
 
   void clear() { vertices.clear(), ends.clear(), lengths.clear(); }
-  std::span<const LightVertex> walk(size_t i) const {
+  std::span<const LightVertex> subpath(size_t i) const {
     const uint32_t first = i == 0 ? 0 : ends[i - 1];
     return {vertices.data() + first, ends[i] - first};
   }

@@ -1,11 +1,12 @@
-// Walks and their vertices where there are media: light is scattered on surfaces and between them.
+// Sub-paths and their vertices where there are media: light is scattered on surfaces and between
+// them.
 #pragma once
 
 #include <algorithm>
 #include <type_traits>
 
-#include "transport/shadow_walk.h"
-#include "transport/walk.h"
+#include "transport/shadow_transmittance.h"
+#include "transport/subpath.h"
 
 namespace duet {
 
@@ -19,8 +20,8 @@ struct MediumPoint {
   Point3f position;
 };
 
-/// What a walk brings to a vertex.
-struct WalkState {
+/// What a sub-path brings to a vertex.
+struct SubpathState {
   const Spectrum& throughput;
   const Partials& partials;
   int segments;  ///< from its start to here
@@ -35,12 +36,15 @@ struct MediaVertex : PathVertex {
   float extinction = 0;  ///< the nominal one; in a medium only
 
   MediaVertex(const Scene& scene, const Surface& s, const Vector3f& towards_previous,
-              const WalkState& walk, const Medium* through)
-      : PathVertex(scene, s, towards_previous, walk.throughput, walk.partials, walk.segments),
+              const SubpathState& subpath, const Medium* through)
+      : PathVertex(scene, s, towards_previous, subpath.throughput, subpath.partials,
+                   subpath.segments),
         medium(through),
         in_medium(false) {}
-  MediaVertex(const MediumPoint& where, const Vector3f& towards_previous, const WalkState& walk)
-      : PathVertex(where.position, towards_previous, walk.throughput, walk.partials, walk.segments),
+  MediaVertex(const MediumPoint& where, const Vector3f& towards_previous,
+              const SubpathState& subpath)
+      : PathVertex(where.position, towards_previous, subpath.throughput, subpath.partials,
+                   subpath.segments),
         medium(&where.medium),
         in_medium(true),
         extinction(where.extinction) {}
@@ -78,10 +82,11 @@ struct MediaVertex : PathVertex {
   }
 };
 
-/// A walk that may be scattered before it comes to a surface. Distances are sampled for one colour
-/// channel, and what is carried has been weighed among the channels (SpectralWeights): `channels`
-/// are their densities over the mean of the three. A surface that is passed straight is no vertex.
-struct MediaWalk : Walk {
+/// A sub-path that may be scattered before it comes to a surface. Distances are sampled for one
+/// colour channel, and what is carried has been weighed among the channels (SpectralWeights):
+/// `channels` are their densities over the mean of the three. A surface that is passed straight is
+/// no vertex.
+struct MediaSubpath : Subpath {
   const Scene& scene;
   const Medium* medium;  ///< that the ray starts in
   RandomStream random;
@@ -89,8 +94,8 @@ struct MediaWalk : Walk {
   Spectrum channels{1};
   float transmittance = 1;  ///< nominal, of the way since the last vertex
 
-  MediaWalk(const Scene& s, const Walk& walk, const Medium* m, uint64_t seed)
-      : Walk(walk),
+  MediaSubpath(const Scene& s, const Subpath& subpath, const Medium* m, uint64_t seed)
+      : Subpath(subpath),
         scene(s),
         medium(m),
         random(seed),
@@ -101,12 +106,12 @@ struct MediaWalk : Walk {
   float cross(const Ray& segment, float u, RenderCounters& counters) {
     if (!medium) return INFINITY;
     SpectralWeights w;
-    w.value = throughput, w.walk = channels, w.channel = channel;
+    w.value = throughput, w.pdf = channels, w.channel = channel;
     const RandomStream start = random;
-    const float t = medium->walk(segment, u, random, w);
+    const float t = medium->sample_distance(segment, u, random, w);
     counters.medium_steps += 1 + random.drawn_since(start);
-    const float scale = 1 / w.walk.mean(), before = throughput.max();
-    throughput = w.value * scale, channels = w.walk * scale;
+    const float scale = 1 / w.pdf.mean(), before = throughput.max();
+    throughput = w.value * scale, channels = w.pdf * scale;
     carried *= throughput.max() / before;
     Ray passed = segment;
     passed.tmax = std::min(t, segment.tmax);
@@ -117,62 +122,64 @@ struct MediaWalk : Walk {
   float counted_transmittance() const { return std::max(transmittance, kLeastTransmittance); }
 };
 
-/// The walk that leads from vertex to vertex.
+/// The sub-path that leads from vertex to vertex.
 template <class Vertex>
-using WalkOf = std::conditional_t<Vertex::kMedia, MediaWalk, Walk>;
+using SubpathOf = std::conditional_t<Vertex::kMedia, MediaSubpath, Subpath>;
 
 /// What a shadow ray lets through, and how much of it in densities.
-struct Passage {
+struct Transmittance {
   Spectrum value{1};
   float nominal = 1;
 };
 
-/// Empty if the ray is blocked; as walk_shadow().
-inline std::optional<Passage> pass_through_media(const Scene& scene, const Ray& ray,
-                                                 const Medium* medium, RandomStream& random,
-                                                 RenderCounters& counters) {
+/// Empty if the ray is blocked; as shadow_transmittance().
+inline std::optional<Transmittance> pass_through_media(const Scene& scene, const Ray& ray,
+                                                       const Medium* medium, RandomStream& random,
+                                                       RenderCounters& counters) {
   SpectralWeights w;
-  Passage passage;
-  if (!walk_shadow(scene, {ray, medium}, random, w, counters, &passage.nominal))
+  Transmittance transmittance;
+  if (!shadow_transmittance(scene, {ray, medium}, random, w, counters, &transmittance.nominal))
     return std::nullopt;
-  passage.value = w.value;
-  passage.nominal = std::max(passage.nominal, kLeastTransmittance);
-  return passage;
+  transmittance.value = w.value;
+  transmittance.nominal = std::max(transmittance.nominal, kLeastTransmittance);
+  return transmittance;
 }
 
-/// Chooses where a walk goes on from a point of a medium; see scatter().
+/// Chooses where a sub-path goes on from a point of a medium; see scatter().
 template <Transport transport>
 inline bool scatter_in_medium(const MediaVertex& v, const TechniqueSet& set,
-                              const WalkOptions& options, Sampler& sampler, MediaWalk& walk) {
+                              const SubpathOptions& options, Sampler& sampler,
+                              MediaSubpath& subpath) {
   const PhaseFunction& phase = v.medium->phase();
   const Point2f direction = sampler.next_2d();
   const PhaseSample s = phase.sample(v.position(), v.wo, sampler.next_1d(), direction);
   if (!(s.pdf.value > 0)) return false;
-  walk.throughput = v.throughput;
-  if (!survives(v.depth, options, sampler, walk)) return false;
+  subpath.throughput = v.throughput;
+  if (!survives(v.depth, options, sampler, subpath)) return false;
   const float reverse = phase.eval(v.position(), s.wi, v.wo).value;
-  walk.partials = leave(v.partials, {s.pdf.value, reverse, v.extinction}, set, false);
-  walk.forward = s.pdf.value;
-  walk.from_specular = false;
-  record_departure(walk, reverse, false, false);
-  walk.cosine_out = v.extinction;
-  walk.from = v.position();
-  walk.transmittance = 1;
-  walk.ray = {v.position(), s.wi, INFINITY};
+  subpath.partials = leave(v.partials, {s.pdf.value, reverse, v.extinction}, set, false);
+  subpath.forward = s.pdf.value;
+  subpath.from_specular = false;
+  record_departure(subpath, reverse, false, false);
+  subpath.cosine_out = v.extinction;
+  subpath.from = v.position();
+  subpath.transmittance = 1;
+  subpath.ray = {v.position(), s.wi, INFINITY};
   return true;
 }
 
-/// scatter() where there are media. If the surface was passed straight the walk goes on as if it
-/// had not been there.
+/// scatter() where there are media. If the surface was passed straight the sub-path goes on as if
+/// it had not been there.
 template <Transport transport>
-inline bool scatter(const MediaVertex& v, const TechniqueSet& set, const WalkOptions& options,
-                    Sampler& sampler, MediaWalk& walk, bool* passed_straight) {
-  if (v.in_medium) return scatter_in_medium<transport>(v, set, options, sampler, walk);
+inline bool scatter(const MediaVertex& v, const TechniqueSet& set, const SubpathOptions& options,
+                    Sampler& sampler, MediaSubpath& subpath, bool* passed_straight) {
+  if (v.in_medium) return scatter_in_medium<transport>(v, set, options, sampler, subpath);
   bool straight = false;
-  if (!scatter_on_surface<transport, true>(v, set, options, sampler, walk, &straight)) return false;
+  if (!scatter_on_surface<transport, true>(v, set, options, sampler, subpath, &straight))
+    return false;
   if (passed_straight) *passed_straight = straight;
-  if (!straight) walk.transmittance = 1;
-  walk.medium = v.medium_towards(walk.scene, walk.ray.direction);
+  if (!straight) subpath.transmittance = 1;
+  subpath.medium = v.medium_towards(subpath.scene, subpath.ray.direction);
   return true;
 }
 

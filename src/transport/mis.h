@@ -1,11 +1,11 @@
-// Multiple importance sampling over all techniques that could have made a path, by sums that a walk
-// carries along: each join costs a handful of operations, however long the path is.
+// Multiple importance sampling over all techniques that could have made a path, by sums that a
+// sub-path carries along: each connection costs a handful of operations, however long the path is.
 //
 // Notation (docs/mis.md): a path x_0 (on a light) … x_k (on the lens) of k segments is made by
-// technique (s, t) from a light walk of s vertices and an eye walk of t = k + 1 − s. A weight is
-// n_i p_i / Σ n_j p_j, the balance heuristic with n samples of density p each.
-// Source: Veach 1997, section 10.2; Georgiev, "Implementing Vertex Connection and Merging", 2012,
-// equations 31 to 50, generalised to several samples per technique (docs/mis.md).
+// technique (s, t) from a light sub-path of s vertices and an eye sub-path of t = k + 1 − s. A
+// weight is n_i p_i / Σ n_j p_j, the balance heuristic with n samples of density p each. Source:
+// Veach 1997, section 10.2; Georgiev, "Implementing Vertex Connection and Merging", 2012, equations
+// 31 to 50, generalised to several samples per technique (docs/mis.md).
 #pragma once
 
 #include <cmath>
@@ -14,20 +14,20 @@ namespace duet {
 
 /// The techniques of a method, and how many samples each of them takes for a path.
 struct TechniqueSet {
-  bool hits = false;           ///< s = 0: the eye walk finds a light
-  bool light_samples = false;  ///< s = 1: next event estimation
-  bool camera_joins = false;   ///< t = 1: light vertices seen by the camera
-  bool connections = false;    ///< s, t >= 2
-  bool merges = false;         ///< eye and light vertices that are near each other, s, t >= 2
+  bool hits = false;                ///< s = 0: the eye sub-path finds a light
+  bool light_samples = false;       ///< s = 1: next event estimation
+  bool camera_connections = false;  ///< t = 1: light vertices seen by the camera
+  bool connections = false;         ///< s, t >= 2
+  bool merges = false;              ///< eye and light vertices that are near each other, s, t >= 2
 
-  float light_paths = 1;  ///< N_L: light walks per iteration
-  /// n_VC: samples of each connection per eye walk. Without connections it is no more than the unit
-  /// of the sums.
+  float light_paths = 1;  ///< N_L: light sub-paths per iteration
+  /// n_VC: samples of each connection per eye sub-path. Without connections it is no more than the
+  /// unit of the sums.
   float connection_share = 1;
   float merge_area = 0;  ///< π r², of the merging disk
-  /// Merging, beside connections, is part of the method in some pixels only. Walks carry the sums
-  /// of both methods then: without merges Partials::vm is what vc is, and with them it is vc / η,
-  /// which need not be kept.
+  /// Merging, beside connections, is part of the method in some pixels only. Sub-paths carry the
+  /// sums of both methods then: without merges Partials::vm is what vc is, and with them it is vc /
+  /// η, which need not be kept.
   bool partly_merged = false;
 
   /// η = n_VM π r² / n_VC: by how much a merge outweighs the connection that it extends.
@@ -36,14 +36,14 @@ struct TechniqueSet {
   float merge_term() const { return merges ? eta() : 0.0f; }
   /// The reverse: the connection, or the light sample, relative to the merge.
   float connection_term() const { return merges && light_samples ? 1 / eta() : 0.0f; }
-  /// What walks take for it in Partials::vm, and for the merge at a vertex itself.
-  float walk_connection_term() const { return partly_merged ? 1.0f : connection_term(); }
-  float walk_merges() const { return partly_merged ? 0.0f : 1.0f; }
+  /// What sub-paths take for it in Partials::vm, and for the merge at a vertex itself.
+  float subpath_connection_term() const { return partly_merged ? 1.0f : connection_term(); }
+  float subpath_merges() const { return partly_merged ? 0.0f : 1.0f; }
   /// What arrive() is told about connections.
-  float walk_connections() const { return connections ? 1.0f : 0.0f; }
+  float subpath_connections() const { return connections ? 1.0f : 0.0f; }
 };
 
-/// What a walk knows at a vertex about the techniques that would have made its part of the path
+/// What a sub-path knows at a vertex about the techniques that would have made its part of the path
 /// from the other end: d^VCM, d^VC and d^VM of the source.
 struct Partials {
   float vcm = 0, vc = 0, vm = 0;
@@ -52,7 +52,7 @@ struct Partials {
 /// A scattering event as the sums see it; densities are per solid angle at the vertex.
 struct Departure {
   float forward;     ///< density of the direction taken
-  float reverse;     ///< density of the direction back, for a walk from the other end
+  float reverse;     ///< density of the direction back, for a sub-path from the other end
   float cosine_out;  ///< |cos| between the direction taken and the geometric normal; in a medium,
                      ///< where densities are per volume, the nominal extinction
 };
@@ -69,8 +69,8 @@ inline Partials leave(const Partials& at, const Departure& d, float merge_term,
 /// The same where photons are merged if the method merges, or else never.
 inline Partials leave(const Partials& at, const Departure& d, const TechniqueSet& set,
                       bool merges) {
-  return leave(at, d, merges ? set.merge_term() : 0.0f, set.walk_connection_term(),
-               merges ? set.walk_merges() : 0.0f);
+  return leave(at, d, merges ? set.merge_term() : 0.0f, set.subpath_connection_term(),
+               merges ? set.subpath_merges() : 0.0f);
 }
 
 /// The same through a delta lobe. `jacobian` is the solid angle of directions that arrive per solid
@@ -90,19 +90,20 @@ inline Partials arrive(const Partials& p, float d2, float cosine, float connecti
   return {connections * p.vcm * d2 * inverse, p.vc * inverse, p.vm * inverse};
 }
 
-/// One end of a join, described by what the join adds to its walk.
-struct JoinEnd {
-  float arrival;  ///< area density with which the other end's walk would have made this vertex
+/// One end of a connection, described by what the connection adds to its sub-path.
+struct ConnectionEnd {
+  float arrival;  ///< area density with which the other end's sub-path would have made this vertex
   float beyond;   ///< density per solid angle with which it would have gone on to the one before
   bool merges = false;  ///< whether photons may be merged at this vertex of the path
 };
 
 /// Relative density of all techniques that take vertices away from this end.
-inline float beyond_end(const Partials& p, const JoinEnd& end, float merge_term) {
+inline float beyond_end(const Partials& p, const ConnectionEnd& end, float merge_term) {
   return end.arrival * (merge_term + p.vcm + end.beyond * p.vc);
 }
 
-/// The merge of two vertices; `reverse` densities per solid angle of going back along each walk.
+/// The merge of two vertices; `reverse` densities per solid angle of going back along each
+/// sub-path.
 inline float merge_weight(const Partials& light, float light_reverse, const Partials& eye,
                           float eye_reverse, float connection_term) {
   return 1 / (1 + light.vcm * connection_term + light_reverse * light.vm +

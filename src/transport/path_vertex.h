@@ -1,4 +1,4 @@
-// A point where a walk has come to, with all that joins need to know about it.
+// A point where a sub-path has come to, with all that connections need to know about it.
 #pragma once
 
 #include "scene/scene.h"
@@ -6,8 +6,8 @@
 
 namespace duet {
 
-/// A vertex on a surface, the only kind where there are no media. What walks and joins ask of
-/// vertices has one name for all kinds.
+/// A vertex on a surface, the only kind where there are no media. What sub-paths and connections
+/// ask of vertices has one name for all kinds.
 struct PathVertex {
   /// Whether there are vertices elsewhere.
   static constexpr bool kMedia = false;
@@ -15,7 +15,7 @@ struct PathVertex {
   Surface surface;
   Vector3f wo;  ///< unit, towards the previous vertex
   Bsdf bsdf;    ///< bound to wo
-  /// Light walk: flux on arrival. Eye walk: what radiance towards wo counts for the pixel.
+  /// Light sub-path: flux on arrival. Eye sub-path: what radiance towards wo counts for the pixel.
   Spectrum throughput;
   Partials partials;
   int depth;  ///< segments from the light or the lens to here
@@ -32,7 +32,7 @@ struct PathVertex {
   const Point3f& position() const { return surface.position; }
   /// |cos| between a unit direction and the geometric normal: what densities per area go by.
   float cosine(const Vector3f& w) const { return std::abs(dot(surface.ng, w)); }
-  /// Whether the vertex can be joined with others.
+  /// Whether the vertex can be connected with others.
   bool is_smooth() const { return bsdf.has_smooth(); }
   /// Whether photons can be merged with it.
   bool merges() const { return bsdf.merges(); }

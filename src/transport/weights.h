@@ -1,18 +1,18 @@
-// The ways to weigh joins (join.h) by the sums that walks carry along.
+// The ways to weigh connections (connection.h) by the sums that sub-paths carry along.
 #pragma once
 
-#include "transport/join.h"
+#include "transport/connection.h"
 #include "transport/merge_mask.h"
 
 namespace duet {
 
 /// Path tracing: light is found by rays and by light samples.
 struct PathWeights {
-  float hit(const Walk& walk, float direct, float) const {
-    return walk.from_specular ? 1.0f : walk.forward / (walk.forward + direct);
+  float hit(const Subpath& subpath, float direct, float) const {
+    return subpath.from_specular ? 1.0f : subpath.forward / (subpath.forward + direct);
   }
   template <class Vertex>
-  float light_sample(const Vertex&, float direct, float bsdf, const JoinEnd&) const {
+  float light_sample(const Vertex&, float direct, float bsdf, const ConnectionEnd&) const {
     return direct / (direct + bsdf);
   }
 };
@@ -20,7 +20,8 @@ struct PathWeights {
 /// The same for methods that merge all light but what no photon may be merged for.
 struct PhotonWeights : PathWeights {
   template <class Vertex>
-  float light_sample(const Vertex& eye, float direct, float bsdf, const JoinEnd& eye_end) const {
+  float light_sample(const Vertex& eye, float direct, float bsdf,
+                     const ConnectionEnd& eye_end) const {
     return eye_end.merges ? 0.0f : PathWeights::light_sample(eye, direct, bsdf, eye_end);
   }
 };
@@ -38,22 +39,24 @@ class BalanceWeights {
         share_(set.connection_share),
         camera_scale_(set.connection_share / set.light_paths) {}
 
-  float hit(const Walk& walk, float direct, float emission) const {
-    if (photons_) return PhotonWeights().hit(walk, direct, emission);
-    return 1 / (1 + direct * walk.partials.vcm + share_ * emission * connections(walk.partials));
+  float hit(const Subpath& subpath, float direct, float emission) const {
+    if (photons_) return PhotonWeights().hit(subpath, direct, emission);
+    return 1 /
+           (1 + direct * subpath.partials.vcm + share_ * emission * connections(subpath.partials));
   }
   template <class Vertex>
-  float light_sample(const Vertex& eye, float direct, float bsdf, const JoinEnd& eye_end) const {
+  float light_sample(const Vertex& eye, float direct, float bsdf,
+                     const ConnectionEnd& eye_end) const {
     if (photons_) return PhotonWeights().light_sample(eye, direct, bsdf, eye_end);
     return 1 / (1 + bsdf / direct + share_ * beyond(eye, eye_end));
   }
   template <class Vertex>
-  float camera(const Vertex& light, const JoinEnd& light_end) const {
+  float camera(const Vertex& light, const ConnectionEnd& light_end) const {
     return 1 / (1 + camera_scale_ * beyond(light, light_end));
   }
   template <class Vertex>
-  float connection(const Vertex& light, const JoinEnd& light_end, const Vertex& eye,
-                   const JoinEnd& eye_end) const {
+  float connection(const Vertex& light, const ConnectionEnd& light_end, const Vertex& eye,
+                   const ConnectionEnd& eye_end) const {
     return 1 / (1 + beyond(light, light_end) + beyond(eye, eye_end));
   }
   float merge(const LightVertex& light, float light_reverse, const PathVertex& eye,
@@ -64,7 +67,7 @@ class BalanceWeights {
 
  private:
   template <class Vertex>
-  float beyond(const Vertex& v, const JoinEnd& end) const {
+  float beyond(const Vertex& v, const ConnectionEnd& end) const {
     return beyond_end({v.partials.vcm, connections(v.partials), 0}, end,
                       end.merges ? merge_term_ : 0.0f);
   }
@@ -85,7 +88,7 @@ class MaskedWeights {
       : merged_(set), unmerged_(set, false), mask_(mask) {}
 
   template <class Vertex>
-  float camera(const Vertex& light, const JoinEnd& light_end, const Point2f& film) const {
+  float camera(const Vertex& light, const ConnectionEnd& light_end, const Point2f& film) const {
     return (mask_.merges(film) ? merged_ : unmerged_).camera(light, light_end);
   }
 
@@ -96,8 +99,9 @@ class MaskedWeights {
 
 /// For methods in which each path can be made in one way only, or as PhotonWeights have it.
 struct UnitWeights : PhotonWeights {
-  float camera(const PathVertex&, const JoinEnd&) const { return 1; }
-  float connection(const PathVertex&, const JoinEnd&, const PathVertex&, const JoinEnd&) const {
+  float camera(const PathVertex&, const ConnectionEnd&) const { return 1; }
+  float connection(const PathVertex&, const ConnectionEnd&, const PathVertex&,
+                   const ConnectionEnd&) const {
     return 1;
   }
   float merge(const LightVertex&, float, const PathVertex&, float) const { return 1; }

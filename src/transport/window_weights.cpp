@@ -6,7 +6,7 @@ namespace {
 
 /// The reverse density of vertex i of a side whose last vertex is n, where the other side's end
 /// goes on from it.
-double reverse_density(std::span<const TrailVertex> side, int i, int n, const JoinEnd& end) {
+double reverse_density(std::span<const VertexPdfs> side, int i, int n, const ConnectionEnd& end) {
   if (i == n) return double(end.arrival);
   if (i == n - 1) return double(end.beyond) * double(side[size_t(n)].back);
   return double(side[size_t(i)].reverse);
@@ -14,18 +14,18 @@ double reverse_density(std::span<const TrailVertex> side, int i, int n, const Jo
 
 }  // namespace
 
-double WindowWeights::fewer(std::span<const TrailVertex> light, int m, int t,
-                            const JoinEnd& end) const {
+double WindowWeights::fewer(std::span<const VertexPdfs> light, int m, int t,
+                            const ConnectionEnd& end) const {
   double sum = 0, ratio = 1;
   // Vertex i changes sides: it is made from the eye's end now, and i light vertices are left.
   for (int i = m; i >= 1; --i) {
-    const TrailVertex& v = light[size_t(i)];
+    const VertexPdfs& v = light[size_t(i)];
     ratio *= reverse_density(light, i, m, end) / double(v.forward);
     // Of a single light vertex light samples have a density of their own.
     if (i == 1) ratio *= double(light[0].back);
     ++t;
-    const bool joins = (i == m || !v.specular) && (i == 1 || !light[size_t(i - 1)].specular);
-    if (joins) sum += windows_.share(i, t) * ratio;
+    const bool connections = (i == m || !v.specular) && (i == 1 || !light[size_t(i - 1)].specular);
+    if (connections) sum += windows_.share(i, t) * ratio;
   }
   if (light[0].specular) return sum;
   const double found =
@@ -33,41 +33,41 @@ double WindowWeights::fewer(std::span<const TrailVertex> light, int m, int t,
   return sum + windows_.share(0, t + 1) * ratio * found / double(light[0].back);
 }
 
-double WindowWeights::more(int n, int s, const JoinEnd& end) const {
-  const Trail& eye = *eye_;
+double WindowWeights::more(int n, int s, const ConnectionEnd& end) const {
+  const SubpathPdfs& eye = *eye_;
   double sum = 0, ratio = 1;
   for (int j = n; j >= 1; --j) {
-    const TrailVertex& v = eye[size_t(j)];
+    const VertexPdfs& v = eye[size_t(j)];
     ratio *= reverse_density(eye, j, n, end) / double(v.forward);
     ++s;
-    const bool joins = (j == n || !v.specular) && (j == 1 || !eye[size_t(j - 1)].specular);
-    if (joins) sum += windows_.share(s, j) * ratio;
+    const bool connections = (j == n || !v.specular) && (j == 1 || !eye[size_t(j - 1)].specular);
+    if (connections) sum += windows_.share(s, j) * ratio;
   }
   return sum;
 }
 
-float WindowWeights::hit(const Walk& walk, float direct, float emission) const {
-  const Trail& eye = *eye_;
+float WindowWeights::hit(const Subpath& subpath, float direct, float emission) const {
+  const SubpathPdfs& eye = *eye_;
   const int n = int(eye.size()) - 1;  // the last vertex before the light
   if (n == 0) return 1;
   const double own = windows_.share(0, n + 2);
   if (own == 0) return 0;
   double sum = own;
-  const TrailVertex& last = eye[size_t(n)];
-  const double found = double(walk.forward);
+  const VertexPdfs& last = eye[size_t(n)];
+  const double found = double(subpath.forward);
   if (!last.specular) sum += windows_.share(1, n + 1) * double(direct) / found;
   // From two light vertices on the last eye vertex is among them.
-  double ratio = double(emission) * double(walk.cosine_out) / (found * double(last.forward));
+  double ratio = double(emission) * double(subpath.cosine_out) / (found * double(last.forward));
   for (int j = n, s = 2; j >= 1; --j, ++s) {
-    const bool joins = !eye[size_t(j)].specular && (j == 1 || !eye[size_t(j - 1)].specular);
-    if (joins) sum += windows_.share(s, j) * ratio;
+    const bool connections = !eye[size_t(j)].specular && (j == 1 || !eye[size_t(j - 1)].specular);
+    if (connections) sum += windows_.share(s, j) * ratio;
     if (j > 1) ratio *= double(eye[size_t(j - 1)].reverse) / double(eye[size_t(j - 1)].forward);
   }
   return float(own / sum);
 }
 
 float WindowWeights::light_sample(const PathVertex& eye, float direct, float bsdf,
-                                  const JoinEnd& eye_end) const {
+                                  const ConnectionEnd& eye_end) const {
   const int n = eye.depth;
   const double own = windows_.share(1, n + 1);
   if (own == 0) return 0;
@@ -75,18 +75,18 @@ float WindowWeights::light_sample(const PathVertex& eye, float direct, float bsd
   return float(own / (own + found + more(n, 1, eye_end)));
 }
 
-float WindowWeights::camera(const PathVertex& light, const JoinEnd& light_end) const {
+float WindowWeights::camera(const PathVertex& light, const ConnectionEnd& light_end) const {
   const int m = light.depth;
   const double own = windows_.share(m + 1, 1);
   return own == 0 ? 0.0f : float(own / (own + fewer(*light_, m, 1, light_end)));
 }
 
-float WindowWeights::connection(const PathVertex& light, const JoinEnd& light_end,
-                                const PathVertex& eye, const JoinEnd& eye_end) const {
+float WindowWeights::connection(const PathVertex& light, const ConnectionEnd& light_end,
+                                const PathVertex& eye, const ConnectionEnd& eye_end) const {
   const int m = light.depth, n = eye.depth;
   const double own = windows_.share(m + 1, n + 1);
   if (own == 0) return 0;
-  return float(own / (own + fewer(light_walk_, m, n + 1, light_end) + more(n, m + 1, eye_end)));
+  return float(own / (own + fewer(light_subpath_, m, n + 1, light_end) + more(n, m + 1, eye_end)));
 }
 
 }  // namespace duet

@@ -1,18 +1,18 @@
-// Weights for walks of limited length: the exact balance heuristic over the techniques that are
+// Weights for sub-paths of limited length: the exact balance heuristic over the techniques that are
 // left and the unidirectional tail, by a product over all vertices of the path (docs/mis.md).
 #pragma once
 
 #include <span>
 
-#include "transport/join.h"
+#include "transport/connection.h"
 
 namespace duet {
 
 /// The limits of path reuse.
 struct Windows {
-  int eye = 4;             ///< T: segments of the eye walk before its tail
-  int light = 3;           ///< S: segments of a light walk
-  double tail = 1;         ///< q: probability with which the eye walk goes on beyond T
+  int eye = 4;             ///< T: segments of the eye sub-path before its tail
+  int light = 3;           ///< S: segments of a light sub-path
+  double tail = 1;         ///< q: probability with which the eye sub-path goes on beyond T
   double light_paths = 1;  ///< N_L
 
   /// How many samples technique (s, t) takes; 0 if it is not among the method's. Its tail consists
@@ -23,33 +23,34 @@ struct Windows {
   }
 };
 
-/// Weighs the joins of a light walk and an eye walk by their trails; either may be null where no
-/// join asks for it. The trails end with the vertices to be joined.
+/// Weighs the connections of a light sub-path and an eye sub-path by their vertex pdfs; either may
+/// be null where no connection asks for it. The vertex pdfs end with the vertices to be connected.
 class WindowWeights {
  public:
-  WindowWeights(const Windows& windows, const Trail* light, const Trail* eye)
+  WindowWeights(const Windows& windows, const SubpathPdfs* light, const SubpathPdfs* eye)
       : windows_(windows), light_(light), eye_(eye) {}
-  /// For connections: the trail of a light walk of which some vertices may follow.
-  void set_light(std::span<const TrailVertex> trail) { light_walk_ = trail; }
+  /// For connections: the vertex pdfs of a light sub-path of which some vertices may follow.
+  void set_light(std::span<const VertexPdfs> pdfs) { light_subpath_ = pdfs; }
 
-  float hit(const Walk& walk, float direct, float emission) const;
-  float light_sample(const PathVertex& eye, float direct, float bsdf, const JoinEnd& eye_end) const;
-  float camera(const PathVertex& light, const JoinEnd& light_end) const;
-  float connection(const PathVertex& light, const JoinEnd& light_end, const PathVertex& eye,
-                   const JoinEnd& eye_end) const;
+  float hit(const Subpath& subpath, float direct, float emission) const;
+  float light_sample(const PathVertex& eye, float direct, float bsdf,
+                     const ConnectionEnd& eye_end) const;
+  float camera(const PathVertex& light, const ConnectionEnd& light_end) const;
+  float connection(const PathVertex& light, const ConnectionEnd& light_end, const PathVertex& eye,
+                   const ConnectionEnd& eye_end) const;
 
  private:
   /// Density of the techniques with fewer light vertices, relative to the one at hand, whose last
   /// light vertex is number `m`; `t` is its number of eye vertices.
-  double fewer(std::span<const TrailVertex> light, int m, int t, const JoinEnd& end) const;
+  double fewer(std::span<const VertexPdfs> light, int m, int t, const ConnectionEnd& end) const;
   /// The same for more light vertices: eye vertex `n` and all before it change sides one by one.
   /// `s` is the number of light vertices of the technique at hand.
-  double more(int n, int s, const JoinEnd& end) const;
+  double more(int n, int s, const ConnectionEnd& end) const;
 
   Windows windows_;
-  const Trail* light_;
-  const Trail* eye_;
-  std::span<const TrailVertex> light_walk_;
+  const SubpathPdfs* light_;
+  const SubpathPdfs* eye_;
+  std::span<const VertexPdfs> light_subpath_;
 };
 
 }  // namespace duet

@@ -87,7 +87,8 @@ TEST_SUITE("program") {
     CHECK(o.code == 1);
     const std::regex expected(
         "the image needs about [0-9]+ GB of memory \\([0-9]+ GB for sums of samples, [0-9]+ GB for "
-        "light walks, [0-9]+ GB for copies\\) beside the [0-9]+ MB in use; the limit is [0-9.]+ "
+        "light sub-paths, [0-9]+ GB for copies\\) beside the [0-9]+ MB in use; the limit is "
+        "[0-9.]+ "
         "[MG]B "
         "\\((physical memory|control group, /.*)\\)");
     CHECK_MESSAGE(std::regex_search(o.err, expected), o.err);

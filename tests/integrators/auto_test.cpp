@@ -60,22 +60,22 @@ TEST_CASE("rules from what a scene contains") {
   f.mirrors = 1;
   CHECK(method_rules(f) == MethodRules{.may_merge = true});
   f.spot_lights = 1;
-  CHECK(method_rules(f) == MethodRules{.needs_light_walks = true, .may_merge = true});
+  CHECK(method_rules(f) == MethodRules{.needs_light_subpaths = true, .may_merge = true});
   SceneFeatures sky;
   sky.environment_map = true;
   CHECK(method_rules(sky) == MethodRules{.far_lights_only = true});
   sky.masks = 1;
   CHECK(method_rules(sky) == MethodRules{.may_merge = true, .far_lights_only = true});
   sky.directional_lights = 1;
-  CHECK(method_rules(sky).needs_light_walks);
+  CHECK(method_rules(sky).needs_light_subpaths);
   SceneFeatures fog = f;
   fog.media = 1;
   CHECK(method_rules(fog) ==
-        MethodRules{.needs_light_walks = true, .may_merge = true, .has_media = true});
+        MethodRules{.needs_light_subpaths = true, .may_merge = true, .has_media = true});
   fog.heterogeneous_media = 1;
   CHECK(method_rules(fog).has_heterogeneous_media);
   sky.media = 1;  // masks stop light samples no longer
-  CHECK(!method_rules(sky).needs_light_walks);
+  CHECK(!method_rules(sky).needs_light_subpaths);
   for (const SceneFeatures& any : {f, sky, fog}) CHECK(!describe(method_rules(any)).empty());
 }
 
@@ -115,7 +115,7 @@ TEST_CASE("a cloud in the open is left to path tracing, and a lamp behind a scre
   CHECK(hidden.bias.empty());
 }
 
-TEST_CASE("light walks are taken where path tracing through media loses light") {
+TEST_CASE("light sub-paths are taken where path tracing through media loses light") {
   const Chosen c = choose(TransportScene(kCamera + kWalls + kFog + kPoint + kGlassBall));
   CAPTURE(c.reason);
   CHECK(c.reason.find("volpath would miss") != std::string::npos);
@@ -150,10 +150,10 @@ TEST_CASE("nothing is tried where there is nothing to choose") {
                              sphere_xml("0, 0, 0.5", "0.5", grey("0.5, 0.5, 0.5")) +
                              "<emitter type='constant'/>");
   CHECK(choose(plain).reason ==
-        "path: walks from lights so far away would miss what the image shows");
+        "path: light sub-paths so far away would miss what the image shows");
 }
 
-TEST_CASE("light walks are taken where path tracing loses light") {
+TEST_CASE("light sub-paths are taken where path tracing loses light") {
   const Chosen c = choose(TransportScene(kCamera + kWalls + kPoint + kGlassBall));
   CAPTURE(c.reason);
   CHECK(c.name != "path");

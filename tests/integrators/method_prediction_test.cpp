@@ -190,19 +190,20 @@ TEST_CASE("the work of methods in grids is foreseen") {
     const RenderCounters c = s.render(method, parameters, 2, 1).counters;
     return double(c.medium_steps) / double(c.camera_paths);
   };
-  const double walks = double(record.walks());
-  const double eye = double(record.eye_counters.medium_steps) / walks,
-               light = double(record.light_counters.medium_steps) / walks,
-               joins = double(record.connection_counters.medium_steps) / walks;
+  const double subpaths = double(record.subpaths());
+  const double eye = double(record.eye_counters.medium_steps) / subpaths,
+               light = double(record.light_counters.medium_steps) / subpaths,
+               connections = double(record.connection_counters.medium_steps) / subpaths;
   CHECK(eye > 3);
-  CHECK(joins > 0.5);
+  CHECK(connections > 0.5);
   CHECK(eye == doctest::Approx(steps("volpath", {})).epsilon(0.15));
   CHECK(eye + light ==
         doctest::Approx(steps("bdpt", {{"light_paths", "1"}, {"connections", "0"}})).epsilon(0.15));
-  CHECK(eye + light + joins ==
+  CHECK(eye + light + connections ==
         doctest::Approx(steps("bdpt", {{"light_paths", "1"}})).epsilon(0.25));
   const MethodCandidate volpath{.method = {}, .name = ""};
   MethodCandidate bdpt = volpath;
   bdpt.light_paths = 1, bdpt.connections = true;
-  CHECK(predict(record, bdpt, 1).cost > predict(record, volpath, 1).cost + 0.04 * (light + joins));
+  CHECK(predict(record, bdpt, 1).cost >
+        predict(record, volpath, 1).cost + 0.04 * (light + connections));
 }

@@ -82,7 +82,7 @@ TEST_CASE("a short pilot takes what loses least, and says that it is short") {
   double sum = 0, most = 0;
   for (uint64_t seed = 0; seed < kPilots; ++seed) {
     const MethodPrices prices = price_methods(*s.scene, options, outlook, {0, seed});
-    CHECK(prices.walks == 512);
+    CHECK(prices.subpaths == 512);
     const MethodChoice c = take(prices, rules);
     const double loss = true_price(c.reason.substr(0, c.reason.find(':'))) / least;
     sum += loss, most = std::max(most, loss);

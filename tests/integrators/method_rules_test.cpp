@@ -75,13 +75,13 @@ TEST_CASE("auto takes no method that the command line refuses") {
     CHECK(find_obstacle(limits, c.method) == Obstacle::none);
     return c.reason.substr(0, c.reason.find_first_of(": "));
   };
-  // Light that comes through the glass needs walks from the light, which the strand forbids.
+  // Light that comes through the glass needs sub-paths from the light, which the strand forbids.
   CHECK(chosen(strand(folder, kHair) + kFog) == "volpath");
   CHECK(chosen(strand(folder, kHair)) == "path");
   CHECK(chosen(strand(folder, grey("0.5")) + kFog) != "volpath");
 }
 
-TEST_CASE("some methods need a sensor that can be joined with walks from lights") {
+TEST_CASE("some methods need a sensor that can be connected with light sub-paths") {
   const SceneLimits meter{.connectible = false};
   for (const auto& [name, refused] : {std::pair{"ptracer", true},
                                       {"reuse", true},

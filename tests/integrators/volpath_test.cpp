@@ -118,7 +118,7 @@ TEST_CASE("light that is scattered once in a slab") {
       .check(once(0.5, 0.9) / turned, once(1, 0.5) / turned, once(4, 0.2) / turned);
 }
 
-TEST_CASE("walks from both ends find the light that is scattered once in a slab") {
+TEST_CASE("sub-paths from both ends find the light that is scattered once in a slab") {
   // The sensor sees the middle of the slab, whose sides light does not reach in two segments.
   const std::string slab =
       "<shape type='cube'><transform name='to_world'><scale x='1.5' y='1.5' z='0.5'/><translate "
@@ -154,7 +154,7 @@ TEST_CASE("a medium that only scatters cannot be seen in a furnace") {
       .check(1, 1, 1);
 }
 
-TEST_CASE("walks from both ends cannot see a medium that only scatters in a furnace either") {
+TEST_CASE("sub-paths from both ends cannot see a medium that only scatters in a furnace either") {
   const std::string ball = "<shape type='sphere'>" + kNull + "</shape>";
   const std::string hg = "<phase type='hg'><float name='g' value='0.6'/></phase>";
   const TransportScene grey(view(8) + homogeneous("3", "1", hg) + ball + kSky);

@@ -1,4 +1,4 @@
-// Light in one direction, which only walks from it carry.
+// Light in one direction, which only sub-paths from it carry.
 #include "lights/beam.h"
 
 #include <doctest/doctest.h>
@@ -20,7 +20,7 @@ TEST_CASE("a beam leaves along its axis with all its power") {
   CHECK_FALSE(CollimatedBeam(Transform(), Spectrum(0)).sample_emission({}, {}));
 }
 
-TEST_CASE("a directional area lights what lies before it, for methods that walk from lights") {
+TEST_CASE("a directional area lights what lies before it, for methods that trace light sub-paths") {
   // A square of side 1 that shines down on a white floor of side 4, seen from below the light.
   const std::string content =
       camera_xml("0,-3,3", "0,0,0", 24) +

@@ -26,16 +26,16 @@ std::shared_ptr<const VolumeGrid> ramp(const Spectrum& first, const Spectrum& la
   return std::make_shared<VolumeGrid>(grid);
 }
 
-/// What walks find in expectation, whichever channel decides: the share of each channel that gets
-/// through, and the light that is scattered where it is not absorbed.
-void check_walk(const Medium& medium, const Ray& ray, const Spectrum& transmittance,
-                const Spectrum& albedo) {
+/// What sub-paths find in expectation, whichever channel decides: the share of each channel that
+/// gets through, and the light that is scattered where it is not absorbed.
+void check_subpath(const Medium& medium, const Ray& ray, const Spectrum& transmittance,
+                   const Spectrum& albedo) {
   Moments through[3], scattered[3], shadow[3];
   RandomStream random(17);
   for (int i = 0; i < kSamples; ++i) {
     SpectralWeights w, s;
     w.channel = s.channel = i % 3;
-    const float t = medium.walk(ray, random.next(), random, w);
+    const float t = medium.sample_distance(ray, random.next(), random, w);
     medium.transmit(ray, random, s);
     CHECK(t >= 0);
     const Spectrum value = w.mean_over_channels();
@@ -60,8 +60,8 @@ void check_walk(const Medium& medium, const Ray& ray, const Spectrum& transmitta
   }
 }
 
-/// The densities are those of walks and light samples: what both find must not depend on how the
-/// two are weighed, so that weights sum to one.
+/// The densities are those of sub-paths and light samples: what both find must not depend on how
+/// the two are weighed, so that weights sum to one.
 void check_weights(const Medium& medium, const Ray& ray, const Spectrum& transmittance) {
   for (const float light_pdf : {0.2f, 3.0f}) {
     Moments both[3];
@@ -70,10 +70,10 @@ void check_weights(const Medium& medium, const Ray& ray, const Spectrum& transmi
       SpectralWeights w, s;
       w.channel = s.channel = i % 3;
       Spectrum found;
-      if (medium.walk(ray, random.next(), random, w) == INFINITY)
-        found += w.value * (1 / (w.walk + w.light * light_pdf).mean());
+      if (medium.sample_distance(ray, random.next(), random, w) == INFINITY)
+        found += w.value * (1 / (w.pdf + w.light * light_pdf).mean());
       medium.transmit(ray, random, s);
-      if (!s.value.is_black()) found += s.value * (1 / (s.walk * (1 / light_pdf) + s.light).mean());
+      if (!s.value.is_black()) found += s.value * (1 / (s.pdf * (1 / light_pdf) + s.light).mean());
       for (int c = 0; c < 3; ++c) both[c].add(double(found[c]));
     }
     for (int c = 0; c < 3; ++c) {
@@ -95,13 +95,13 @@ TEST_CASE("light gets as far in a homogeneous medium as its extinction allows") 
   const Spectrum sigma(0.5f, 1.5f, 0), albedo(0.9f, 0.3f, 0.5f);
   const HomogeneousMedium medium(sigma, {albedo}, kIsotropic);
   const Ray ray{{1, 2, 3}, {0, 0, 1}, 1.2f};
-  check_walk(medium, ray, exp_minus(sigma * 1.2f), albedo);
+  check_subpath(medium, ray, exp_minus(sigma * 1.2f), albedo);
   check_weights(medium, ray, exp_minus(sigma * 1.2f));
   // Endless rays end in the medium, except in channels without extinction.
   SpectralWeights w;
   RandomStream random(1);
   const Ray endless{{0, 0, 0}, {1, 0, 0}, INFINITY};
-  CHECK(medium.walk(endless, 0.999f, random, w) < INFINITY);
+  CHECK(medium.sample_distance(endless, 0.999f, random, w) < INFINITY);
   medium.transmit(endless, random, w);
   CHECK(w.value.r == 0);
 }
@@ -115,34 +115,36 @@ TEST_CASE("light gets as far in a grid as the integral over its values allows") 
                           VolumeWrap::clamp, on_faces);
     const Ray ray{{-3, .5f, .5f}, {1, 0, 0}, 10};
     const HeterogeneousMedium plain(grey, 2, {albedo}, kIsotropic);
-    check_walk(plain, ray, exp_minus(Spectrum(4 * 2 * 0.25f)), albedo);
+    check_subpath(plain, ray, exp_minus(Spectrum(4 * 2 * 0.25f)), albedo);
     check_weights(plain, ray, exp_minus(Spectrum(4 * 2 * 0.25f)));
     const GridVolume color(ramp({0.4f, 0, 0.2f}, {0, 0.2f, 0.2f}, 3), placed,
                            VolumeFilter::trilinear, VolumeWrap::clamp, on_faces);
     const HeterogeneousMedium coloured(color, 2, {albedo}, kIsotropic);
-    check_walk(coloured, ray, exp_minus(Spectrum(0.2f, 0.1f, 0.2f) * 8), albedo);
+    check_subpath(coloured, ray, exp_minus(Spectrum(0.2f, 0.1f, 0.2f) * 8), albedo);
     check_weights(coloured, ray, exp_minus(Spectrum(0.2f, 0.1f, 0.2f) * 8));
   }
 }
 
-TEST_CASE("a walk that begins and ends within a grid") {
+TEST_CASE("a sub-path that begins and ends within a grid") {
   const GridVolume v(ramp(Spectrum(1), Spectrum(1), 1), Matrix4{}, VolumeFilter::trilinear,
                      VolumeWrap::clamp, false);
   const HeterogeneousMedium medium(v, 3, {Spectrum(1)}, kIsotropic);
-  check_walk(medium, {{.25f, .5f, .5f}, {1, 0, 0}, .5f}, exp_minus(Spectrum(1.5f)), Spectrum(1));
-  check_walk(medium, {{.25f, .5f, .5f}, {0, 1, 0}, INFINITY}, exp_minus(Spectrum(1.5f)),
-             Spectrum(1));
+  check_subpath(medium, {{.25f, .5f, .5f}, {1, 0, 0}, .5f}, exp_minus(Spectrum(1.5f)), Spectrum(1));
+  check_subpath(medium, {{.25f, .5f, .5f}, {0, 1, 0}, INFINITY}, exp_minus(Spectrum(1.5f)),
+                Spectrum(1));
   // Beside the grid there is nothing.
-  check_walk(medium, {{2, .5f, .5f}, {1, 0, 0}, INFINITY}, Spectrum(1), Spectrum(1));
+  check_subpath(medium, {{2, .5f, .5f}, {1, 0, 0}, INFINITY}, Spectrum(1), Spectrum(1));
 }
 
 TEST_CASE("flakes seen edge-on hide less than flakes seen from the front") {
   const Sggx flakes({{0.04f, 0.04f, 1, 0, 0, 0}, nullptr});
   const HomogeneousMedium even(Spectrum(2), {Spectrum(0.5f)}, flakes);
-  check_walk(even, {{0, 0, 0}, {0, 0, 1}, 0.7f}, exp_minus(Spectrum(1.4f)), Spectrum(0.5f));
-  check_walk(even, {{0, 0, 0}, {1, 0, 0}, 0.7f}, exp_minus(Spectrum(1.4f * 0.2f)), Spectrum(0.5f));
+  check_subpath(even, {{0, 0, 0}, {0, 0, 1}, 0.7f}, exp_minus(Spectrum(1.4f)), Spectrum(0.5f));
+  check_subpath(even, {{0, 0, 0}, {1, 0, 0}, 0.7f}, exp_minus(Spectrum(1.4f * 0.2f)),
+                Spectrum(0.5f));
   const GridVolume v(ramp(Spectrum(1), Spectrum(1), 1), Matrix4{}, VolumeFilter::trilinear,
                      VolumeWrap::clamp, false);
   const HeterogeneousMedium grid(v, 2, {Spectrum(0.5f)}, flakes);
-  check_walk(grid, {{-1, .5f, .5f}, {1, 0, 0}, 9}, exp_minus(Spectrum(2 * 0.2f)), Spectrum(0.5f));
+  check_subpath(grid, {{-1, .5f, .5f}, {1, 0, 0}, 9}, exp_minus(Spectrum(2 * 0.2f)),
+                Spectrum(0.5f));
 }

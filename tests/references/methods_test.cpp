@@ -61,7 +61,7 @@ bool is_without_noise(const ReferenceCase& c) {
   return c.reference == "sunsky";
 }
 
-/// Whether walks from lights can be joined with the sensor, which `reuse` needs.
+/// Whether light sub-paths can be connected with the sensor, which `reuse` needs.
 bool has_light_image(const ReferenceCase& c) {
   return c.reference != "batch";
 }

@@ -74,7 +74,7 @@ std::vector<double> technique_densities(const Scene& scene, const OraclePath& pa
     q[size_t(i)] = to_area(scattered(i + 1, i + 2, i, Transport::radiance), i + 1, i);
   q[0] = path.light_can_be_hit ? scattered(1, 2, 0, Transport::radiance) * edge(0) : 0.0;
 
-  const auto joinable = [&](int i) { return i == 0 || i == k || !path.specular[size_t(i - 1)]; };
+  const auto connectible = [&](int i) { return i == 0 || i == k || !path.specular[size_t(i - 1)]; };
   const auto product = [&](int s) {
     double log_density = 0;
     for (int i = 0; i < k; ++i) {
@@ -93,14 +93,14 @@ std::vector<double> technique_densities(const Scene& scene, const OraclePath& pa
     return most;
   }();
   for (int s = 0; s <= k; ++s) {
-    const bool joins =
-        s == 0 ? path.light_can_be_hit : !(s == 1 && k == 1) && joinable(s - 1) && joinable(s);
-    const double share = joins ? shares(s, k + 1 - s) : 0;
+    const bool connections = s == 0 ? path.light_can_be_hit
+                                    : !(s == 1 && k == 1) && connectible(s - 1) && connectible(s);
+    const double share = connections ? shares(s, k + 1 - s) : 0;
     result.push_back(share > 0 ? share * std::exp(product(s) - reference) : 0.0);
   }
   for (int i = 1; i < k; ++i) {
-    // The light walk goes on to x_i, which the eye walk has reached too.
-    const double share = joinable(i) && !medium(i) ? merges(i) : 0;
+    // The light sub-path goes on to x_i, which the eye sub-path has reached too.
+    const double share = connectible(i) && !medium(i) ? merges(i) : 0;
     result.push_back(share > 0 ? share * merge_area * p[size_t(i)] *
                                      std::exp(product(i) - reference) / (i == 1 ? path.direct : 1.0)
                                : 0.0);

@@ -355,7 +355,7 @@ TEST_CASE("merging hardly changes the mean of the image") {
 
 namespace {
 
-/// Path reuse in the thesis's modified box with walks of at most `eye` and 3 segments.
+/// Path reuse in the thesis's modified box with sub-paths of at most `eye` and 3 segments.
 TileBatches render_reuse(const TransportScene& scene, const std::string& eye, int spp,
                          const TransportScene::Parameters& more) {
   TransportScene::Parameters p{{"max_eye_depth", eye}, {"max_light_depth", "3"}};
@@ -368,8 +368,8 @@ TileBatches render_reuse(const TransportScene& scene, const std::string& eye, in
 TEST_CASE("the test sees the bias of limits and of the thesis's weights") {
   const TransportScene scene("thesis-modified", 32);
   const TileBatches exact = render_reuse(scene, "4", 32, {});
-  // No eye walk comes to the end of eight segments: what is left are weights that count techniques
-  // beyond the light walks' limit.
+  // No eye sub-path comes to the end of eight segments: what is left are weights that count
+  // techniques beyond the light sub-paths' limit.
   const std::pair<const char*, TileBatches> biased[] = {
       {"limits without a tail", render_reuse(scene, "4", 32, {{"continue_probability", "1e-60"}})},
       {"stock weights under limits", render_reuse(scene, "8", 32, {{"weights", "thesis"}})},

@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "support/transport_scene.h"
-#include "transport/light_walk.h"
+#include "transport/light_subpath.h"
 #include "transport/weights.h"
 
 using namespace duet;
@@ -56,7 +56,7 @@ std::vector<std::string> foggy_scenes() {
   return foggy;
 }
 
-/// The weight of a join, and the shares of families if they are known. Techniques: `u` path
+/// The weight of a connection, and the shares of families if they are known. Techniques: `u` path
 /// tracing, `c` seen from the camera, `v` connection, `f` merge where FamilyShares::first_merge is,
 /// `m` later merge.
 struct Observation {
@@ -65,28 +65,31 @@ struct Observation {
   FamilyShares shares;
 };
 
-/// FamilyWeights of walks that still grow.
+/// FamilyWeights of sub-paths that still grow.
 struct Growing {
-  const Trail* light;
-  const Trail* eye;
+  const SubpathPdfs* light;
+  const SubpathPdfs* eye;
   mutable FamilyWeights weights;
   /// Of the light vertex at hand.
-  mutable const TrailEnds* ends = nullptr;
+  mutable const EndPdfs* ends = nullptr;
 
   FamilyWeights& update() const {
     weights.set_light(*light, ends);
     weights.set_eye(*eye);
     return weights;
   }
-  float hit(const Walk& w, float direct, float emission) const {
+  float hit(const Subpath& w, float direct, float emission) const {
     return update().hit(w, direct, emission);
   }
-  float light_sample(const PathVertex& v, float direct, float bsdf, const JoinEnd& end) const {
+  float light_sample(const PathVertex& v, float direct, float bsdf,
+                     const ConnectionEnd& end) const {
     return update().light_sample(v, direct, bsdf, end);
   }
-  float camera(const PathVertex& v, const JoinEnd& end) const { return update().camera(v, end); }
-  float connection(const PathVertex& l, const JoinEnd& light_end, const PathVertex& e,
-                   const JoinEnd& eye_end) const {
+  float camera(const PathVertex& v, const ConnectionEnd& end) const {
+    return update().camera(v, end);
+  }
+  float connection(const PathVertex& l, const ConnectionEnd& light_end, const PathVertex& e,
+                   const ConnectionEnd& eye_end) const {
     return update().connection(l, light_end, e, eye_end);
   }
   float merge(const LightVertex& l, float light_reverse, const PathVertex& e,
@@ -101,23 +104,24 @@ FamilyShares shares_of(const Growing& w) {
 FamilyShares shares_of(const BalanceWeights&) {
   return {};
 }
-void set_ends(const Growing& w, const TrailEnds* ends) {
+void set_ends(const Growing& w, const EndPdfs* ends) {
   w.ends = ends;
 }
-void set_ends(const BalanceWeights&, const TrailEnds*) {}
+void set_ends(const BalanceWeights&, const EndPdfs*) {}
 
-/// All joins of a light walk and an eye walk that are the same for every kind of weights.
+/// All connections of a light sub-path and an eye sub-path that are the same for every kind of
+/// weights.
 template <class Vertex, class Weights>
 class Observer {
  public:
   Observer(const Scene& scene, const TechniqueSet& set, uint32_t index, const Weights& weights,
-           Trail& light_trail, Trail& eye_trail)
+           SubpathPdfs& light_pdfs, SubpathPdfs& eye_pdfs)
       : scene_(scene),
         set_(set),
         index_(index),
         weights_(weights),
-        light_trail_(light_trail),
-        eye_trail_(eye_trail),
+        light_pdfs_(light_pdfs),
+        eye_pdfs_(eye_pdfs),
         random_(index) {}
 
   std::vector<Observation> run() {
@@ -127,31 +131,34 @@ class Observer {
   }
 
  private:
-  void note(char technique, const Join& join) {
-    if (!join.value.is_black()) all_.push_back({technique, join.weight, shares_of(weights_)});
+  void note(char technique, const Connection& connection) {
+    if (!connection.value.is_black())
+      all_.push_back({technique, connection.weight, shares_of(weights_)});
   }
 
-  JoinContext<Weights> joins() { return {scene_, weights_, roulette_, counters_, false, &random_}; }
+  ConnectionContext<Weights> connections() {
+    return {scene_, weights_, roulette_, counters_, false, &random_};
+  }
 
   void trace_light() {
     Sampler sampler(SampleSequence::independent, 1, 0, index_);
     sampler.start_sample(0);
-    trace_light_walk<Vertex>(
-        {scene_, set_, {1000, false}, kDepth, sampler, counters_, &light_trail_, uint64_t(index_)},
+    trace_light_subpath<Vertex>(
+        {scene_, set_, {1000, false}, kDepth, sampler, counters_, &light_pdfs_, uint64_t(index_)},
         [&](const Vertex& v, const Hit& hit) {
           if (!v.is_smooth()) return;
           light_.push_back(v), packed_.emplace_back(v, hit);
-          ends_.push_back({light_trail_.front(), light_trail_.back()});
-          const auto seen = join_camera(joins(), v, {}, false);
-          if (seen) note('c', seen->join);
+          ends_.push_back({light_pdfs_.front(), light_pdfs_.back()});
+          const auto seen = connect_camera(connections(), v, {}, false);
+          if (seen) note('c', seen->connection);
         });
   }
 
-  WalkOf<Vertex> new_walk() const {
+  SubpathOf<Vertex> new_subpath() const {
     if constexpr (Vertex::kMedia)
-      return MediaWalk(scene_, Walk(), scene_.camera_medium, ~uint64_t(index_));
+      return MediaSubpath(scene_, Subpath(), scene_.camera_medium, ~uint64_t(index_));
     else
-      return Walk();
+      return Subpath();
   }
 
   void trace_eye() {
@@ -159,81 +166,83 @@ class Observer {
     sampler.start_sample(0);
     const Ray camera_ray =
         scene_.camera->sample_ray({32 * sampler.next_1d(), 32 * sampler.next_1d()}, {});
-    eye_trail_.assign(1, TrailVertex{1, 0, 1, false});
-    WalkOf<Vertex> walk = new_walk();
-    walk.ray = camera_ray;
-    walk.from = camera_ray.origin;
-    walk.throughput = Spectrum(1);
-    walk.trail = &eye_trail_;
+    eye_pdfs_.assign(1, VertexPdfs{1, 0, 1, false});
+    SubpathOf<Vertex> subpath = new_subpath();
+    subpath.ray = camera_ray;
+    subpath.from = camera_ray.origin;
+    subpath.throughput = Spectrum(1);
+    subpath.pdfs = &eye_pdfs_;
     int depth = 1;
     const auto arrive_at = [&](const Arrival& a) {
-      const Partials partials = depth == 1 ? first_eye_partials(scene_, camera_ray, a, set_, walk)
-                                           : arrive(walk.partials, a.d2 / a.transmittance, a.cosine,
-                                                    set_.walk_connections());
-      record_arrival(walk, a.d2 / a.transmittance, a.cosine);
+      const Partials partials = depth == 1
+                                    ? first_eye_partials(scene_, camera_ray, a, set_, subpath)
+                                    : arrive(subpath.partials, a.d2 / a.transmittance, a.cosine,
+                                             set_.subpath_connections());
+      record_arrival(subpath, a.d2 / a.transmittance, a.cosine);
       return partials;
     };
     uint32_t dimension = 0;
     const auto pass = [&](const Vertex& v) {
-      join(v, sampler);
+      connection(v, sampler);
       sampler.start_dimension(dimension += 8);
       bool straight = false;
-      if (!scatter<Transport::radiance>(v, set_, {1000, false}, sampler, walk, &straight))
+      if (!scatter<Transport::radiance>(v, set_, {1000, false}, sampler, subpath, &straight))
         return false;
-      if (!walk.unmerged) merge_ = 'm';
+      if (!subpath.unmerged) merge_ = 'm';
       return (Vertex::kMedia && straight) || ++depth <= kDepth;
     };
     for (;;) {
       Hit hit;
-      const bool found = scene_.accel->closest_hit(walk.ray, hit);
+      const bool found = scene_.accel->closest_hit(subpath.ray, hit);
       float transmittance = 1;
       if constexpr (Vertex::kMedia) {
-        Ray segment = walk.ray;
+        Ray segment = subpath.ray;
         if (found) segment.tmax = hit.t;
-        const float t = walk.cross(segment, sampler.next_1d(), counters_);
-        transmittance = walk.counted_transmittance();
+        const float t = subpath.cross(segment, sampler.next_1d(), counters_);
+        transmittance = subpath.counted_transmittance();
         if (t < INFINITY) {
-          const Point3f p = walk.ray.origin + walk.ray.direction * t;
-          const float extinction = walk.medium->nominal_extinction(p);
+          const Point3f p = subpath.ray.origin + subpath.ray.direction * t;
+          const float extinction = subpath.medium->nominal_extinction(p);
           const Partials partials =
-              arrive_at({p, length_squared(p - walk.from), extinction, transmittance});
-          if (!pass(Vertex({*walk.medium, extinction, p}, -walk.ray.direction,
-                           {walk.throughput, partials, depth})))
+              arrive_at({p, length_squared(p - subpath.from), extinction, transmittance});
+          if (!pass(Vertex({*subpath.medium, extinction, p}, -subpath.ray.direction,
+                           {subpath.throughput, partials, depth})))
             return;
           continue;
         }
       }
       if (!found) {
-        if (scene_.environment) note('u', join_escape(scene_, weights_, walk, transmittance));
+        if (scene_.environment) note('u', connect_escape(scene_, weights_, subpath, transmittance));
         return;
       }
-      const Surface s = scene_.surface(walk.ray, hit);
-      const float d2 = length_squared(s.position - walk.from);
-      const float cosine = std::abs(dot(s.ng, walk.ray.direction));
+      const Surface s = scene_.surface(subpath.ray, hit);
+      const float d2 = length_squared(s.position - subpath.from);
+      const float cosine = std::abs(dot(s.ng, subpath.ray.direction));
       if (s.shape->light != kNone)
-        note('u', join_hit(scene_, weights_, walk, s, d2, transmittance));
+        note('u', connect_hit(scene_, weights_, subpath, s, d2, transmittance));
       if (!(cosine > 0)) return;
       const Partials partials = arrive_at({s.position, d2, cosine, transmittance});
       if constexpr (Vertex::kMedia) {
-        if (!pass(Vertex(scene_, s, -walk.ray.direction, {walk.throughput, partials, depth},
-                         walk.medium)))
+        if (!pass(Vertex(scene_, s, -subpath.ray.direction, {subpath.throughput, partials, depth},
+                         subpath.medium)))
           return;
-      } else if (!pass(Vertex(scene_, s, -walk.ray.direction, walk.throughput, partials, depth))) {
+      } else if (!pass(Vertex(scene_, s, -subpath.ray.direction, subpath.throughput, partials,
+                              depth))) {
         return;
       }
     }
   }
 
-  void join(const Vertex& v, const Sampler& sampler) {
+  void connection(const Vertex& v, const Sampler& sampler) {
     if (!v.is_smooth()) return;
     Sampler same = sampler;
-    note('u', join_light(joins(), v, same));
+    note('u', connect_light(connections(), v, same));
     for (size_t i = 0; i < light_.size(); ++i) {
       set_ends(weights_, &ends_[i]);
-      note('v', join_ends(joins(), light_[i], v));
+      note('v', connect_ends(connections(), light_[i], v));
       // How far the two vertices are apart does not matter to the weight.
       if (v.merges() && packed_[i].merges)
-        note(merge_, join_merge(weights_, packed_[i], v, 1, false));
+        note(merge_, connect_merge(weights_, packed_[i], v, 1, false));
     }
     set_ends(weights_, nullptr);
   }
@@ -242,13 +251,13 @@ class Observer {
   const TechniqueSet& set_;
   uint32_t index_;
   const Weights& weights_;
-  Trail &light_trail_, &eye_trail_;
+  SubpathPdfs &light_pdfs_, &eye_pdfs_;
   RandomStream random_;
   RenderCounters counters_;
-  JoinRoulette roulette_{0, 0};
+  ConnectionRoulette roulette_{0, 0};
   std::vector<Vertex> light_;
   std::vector<LightVertex> packed_;
-  std::vector<TrailEnds> ends_;
+  std::vector<EndPdfs> ends_;
   char merge_ = 'f';
   std::vector<Observation> all_;
 };
@@ -263,15 +272,15 @@ void compare_weights(const std::vector<std::string>& contents) {
   for (const std::string& content : contents) {
     const TransportScene s(content);
     TechniqueSet all;
-    all.hits = all.light_samples = all.camera_joins = all.connections = all.merges = true;
+    all.hits = all.light_samples = all.camera_connections = all.connections = all.merges = true;
     all.light_paths = 500;
     all.merge_area = 0.002f;
     TechniqueSet no_merges = all;
     no_merges.merges = false;
     TechniqueSet no_light_image = no_merges;
-    no_light_image.camera_joins = false;
+    no_light_image.camera_connections = false;
     for (uint32_t i = 0; i < 1500; ++i) {
-      Trail light, eye;
+      SubpathPdfs light, eye;
       const auto with = [&](const TechniqueSet& set) {
         const BalanceWeights sums(set);
         return Observer<Vertex, BalanceWeights>(*s.scene, set, i, sums, light, eye).run();

@@ -108,7 +108,7 @@ TEST_CASE("layers of techniques add up to the image") {
   CHECK_THROWS_AS(scene.method("bdpt", {}, TechniqueOutput::weighted), std::invalid_argument);
 }
 
-// Under this sky hardly any light walk meets the two balls, which are tiny beside the scene.
+// Under this sky hardly any light sub-path meets the two balls, which are tiny beside the scene.
 TEST_CASE(
     "without light vertices there are no connections, and without connections no layers of them") {
   const TransportScene scene(camera_xml("0, -0.2, 0", "0, 0, 0", 16) +
@@ -157,7 +157,7 @@ TEST_CASE("where vcm merges it is vcm, and elsewhere bdpt") {
               nowhere = image(BidirectionalMethod::vcm, std::vector<uint8_t>(kParts, 0)),
               half = image(BidirectionalMethod::vcm, right);
   // They have the random numbers in common: all but rounding is the same, except that the roulette
-  // of a light walk draws others once a vertex is weighed otherwise on the other side.
+  // of a light sub-path draws others once a vertex is weighed otherwise on the other side.
   size_t different = 0, different_halves = 0, merged = 0;
   for (size_t i = 0; i < vcm.data.size(); ++i) {
     const auto differ = [&](const Image& a, const Image& b) {
@@ -286,8 +286,8 @@ TEST_CASE("time and error limits stop bidirectional methods") {
   }
 }
 
-TEST_CASE("light walks find all the light that a sphere of lamps sends out") {
-  // Counters, not images: an open scene whose light walks all leave at once.
+TEST_CASE("light sub-paths find all the light that a sphere of lamps sends out") {
+  // Counters, not images: an open scene whose light sub-paths all leave at once.
   const TransportScene scene(camera_xml("0, -3, 0", "0, 0, 0", 8) +
                              sphere_xml("0, 0, 0", "0.5",
                                         "<emitter type='area'><rgb name='radiance' value='1'/>"

@@ -1,4 +1,4 @@
-// The layers of second moments where light walks add to all pixels.
+// The layers of second moments where light sub-paths add to all pixels.
 #include "support/transport_scene.h"
 
 using namespace duet;

@@ -52,29 +52,29 @@ struct RandomPath {
     if (i == k - 1) return double(importance) * double(cos_eye[size_t(i)]);
     return double(sigma_eye[size_t(i + 1)]) * double(cos_eye[size_t(i)]) / double(d2[size_t(i)]);
   }
-  bool joinable(int i) const { return !specular[size_t(i)]; }
+  bool connectible(int i) const { return !specular[size_t(i)]; }
 };
 
 /// Samples times density of every technique and of every merge.
 struct Densities {
-  std::vector<double> joins, merges;
+  std::vector<double> connections, merges;
   double sum = 0;
 
   Densities(const RandomPath& x, const TechniqueSet& set) {
     for (int s = 0; s <= x.k; ++s) {
       const double connection = set.connections ? double(set.connection_share) : 0.0;
       double d = s == x.k ? double(set.light_paths) : s >= 2 ? connection : 1.0;
-      if (s == 0 ? !x.light_can_be_hit : !(x.joinable(s - 1) && x.joinable(s))) d = 0;
+      if (s == 0 ? !x.light_can_be_hit : !(x.connectible(s - 1) && x.connectible(s))) d = 0;
       for (int i = 0; i < x.k; ++i)
         if (i < s)
           d *= s == 1 ? double(x.direct) : i == 0 ? 1.0 : x.p(i);
         else
           d *= x.q(i);
-      joins.push_back(d);
+      connections.push_back(d);
       sum += d;
     }
     for (int i = 1; i < x.k; ++i) {
-      const bool merged = set.merges && x.joinable(i) && x.merges[size_t(i)];
+      const bool merged = set.merges && x.connectible(i) && x.merges[size_t(i)];
       double d = merged ? double(set.light_paths) * double(set.merge_area) : 0;
       for (int j = 1; j <= i; ++j) d *= x.p(j);
       for (int j = i; j < x.k; ++j) d *= x.q(j);
@@ -84,7 +84,7 @@ struct Densities {
   }
 };
 
-/// The sums of both walks at each vertex, and of the eye walk on leaving x_1 for the light.
+/// The sums of both sub-paths at each vertex, and of the eye sub-path on leaving x_1 for the light.
 struct Sums {
   std::vector<Partials> light, eye;
   Partials leaving_for_light;
@@ -101,14 +101,14 @@ struct Sums {
     const float scale = 1 / (x.emission * x.cos_light[1] * set.connection_share);
     light[1].vcm = x.direct * scale;
     light[1].vc = x.light_can_be_hit ? scale : 0.0f;
-    light[1].vm = light[1].vc * set.walk_connection_term();
+    light[1].vm = light[1].vc * set.subpath_connection_term();
     for (int i = 1; i + 1 < x.k; ++i)
       light[size_t(i + 1)] = arrive(next(light[size_t(i)], i, false), x.d2[size_t(i)],
-                                    x.cos_light[size_t(i + 1)], set.walk_connections());
+                                    x.cos_light[size_t(i + 1)], set.subpath_connections());
     eye[size_t(x.k - 1)].vcm = set.light_paths / (set.connection_share * float(x.q(x.k - 1)));
     for (int i = x.k - 1; i > 1; --i)
       eye[size_t(i - 1)] = arrive(next(eye[size_t(i)], i, true), x.d2[size_t(i - 1)],
-                                  x.cos_eye[size_t(i - 1)], set.walk_connections());
+                                  x.cos_eye[size_t(i - 1)], set.subpath_connections());
     leaving_for_light = next(eye[1], 1, true);
   }
 };
@@ -119,7 +119,7 @@ TechniqueSet in_pixel(TechniqueSet set, bool merging) {
   return set;
 }
 
-/// Weights of all techniques as joins would get them in a pixel with or without merging.
+/// Weights of all techniques as connections would get them in a pixel with or without merging.
 double check_path(const RandomPath& x, const TechniqueSet& set, bool merging,
                   const PathVertex& any) {
   const Densities expected(x, in_pixel(set, merging));
@@ -135,29 +135,30 @@ double check_path(const RandomPath& x, const TechniqueSet& set, bool merging,
     v.partials = p;
     return v;
   };
-  if (expected.joins[0] > 0) {
-    Walk walk;
-    walk.partials = sums.leaving_for_light;
-    compare(double(weights.hit(walk, x.direct, x.emission)), expected.joins[0]);
+  if (expected.connections[0] > 0) {
+    Subpath subpath;
+    subpath.partials = sums.leaving_for_light;
+    compare(double(weights.hit(subpath, x.direct, x.emission)), expected.connections[0]);
   }
-  if (expected.joins[1] > 0) {
+  if (expected.connections[1] > 0) {
     // Reverse density at x_1 of going on to x_2.
-    const JoinEnd end{x.emission * x.cos_light[1] / x.direct, x.sigma_light[1], x.merges[1]};
+    const ConnectionEnd end{x.emission * x.cos_light[1] / x.direct, x.sigma_light[1], x.merges[1]};
     compare(double(weights.light_sample(at(sums.eye[1]), x.direct,
                                         x.light_can_be_hit ? x.sigma_eye[1] : 0.0f, end)),
-            expected.joins[1]);
+            expected.connections[1]);
   }
   for (int s = 2; s <= x.k; ++s) {
-    if (!(expected.joins[size_t(s)] > 0)) continue;
+    if (!(expected.connections[size_t(s)] > 0)) continue;
     const size_t y = size_t(s - 1), z = size_t(s);
-    const JoinEnd light_end{float(x.q(s - 1)), x.sigma_eye[y], x.merges[y]};
+    const ConnectionEnd light_end{float(x.q(s - 1)), x.sigma_eye[y], x.merges[y]};
     if (s == x.k) {
-      compare(double(weights.camera(at(sums.light[y]), light_end)), expected.joins[size_t(s)]);
+      compare(double(weights.camera(at(sums.light[y]), light_end)),
+              expected.connections[size_t(s)]);
       continue;
     }
-    const JoinEnd eye_end{float(x.p(s)), x.sigma_light[z], x.merges[z]};
+    const ConnectionEnd eye_end{float(x.p(s)), x.sigma_light[z], x.merges[z]};
     compare(double(weights.connection(at(sums.light[y]), light_end, at(sums.eye[z]), eye_end)),
-            expected.joins[size_t(s)]);
+            expected.connections[size_t(s)]);
   }
   for (int i = 1; i < x.k; ++i) {
     if (!(expected.merges[size_t(i - 1)] > 0)) continue;
@@ -187,7 +188,7 @@ TEST_CASE("running sums give the weights of the definition, which sum to one") {
     random.start_sample(i);
     const RandomPath x(random);
     TechniqueSet set;
-    set.hits = set.light_samples = set.camera_joins = true;
+    set.hits = set.light_samples = set.camera_connections = true;
     set.connections = random.next_1d() < 0.7f;
     set.light_paths = std::pow(10.0f, 1 + 5 * random.next_1d());
     set.connection_share = random.next_1d() < 0.5f ? 1.0f : 0.05f + 30 * sqr(random.next_1d());

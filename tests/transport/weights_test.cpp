@@ -1,9 +1,10 @@
-// Every weight that a join gets against the definition, on the paths that walks really make.
+// Every weight that a connection gets against the definition, on the paths that sub-paths really
+// make.
 #include <cmath>
 
 #include "support/mis_oracle.h"
 #include "support/transport_scene.h"
-#include "transport/light_walk.h"
+#include "transport/light_subpath.h"
 #include "transport/weights.h"
 
 using namespace duet;
@@ -13,7 +14,7 @@ namespace {
 
 constexpr float kGlass = 1.5f;
 
-/// Rooms with everything that walks can meet; `lens` for a camera with an aperture.
+/// Rooms with everything that sub-paths can meet; `lens` for a camera with an aperture.
 std::vector<std::string> scenes() {
   const std::string grey_walls = room_xml(grey("0.7, 0.5, 0.3"));
   const std::string glass =
@@ -125,7 +126,7 @@ double way_through(const FoggyScene& fog, const Point3f& from, const Point3f& to
   return std::max(0.0, std::min(l, root - b) - std::max(0.0, -root - b));
 }
 
-/// The vertices of one walk, with how each was left.
+/// The vertices of one sub-path, with how each was left.
 template <class Vertex>
 struct Recorded {
   std::vector<Vertex> vertices;
@@ -176,7 +177,7 @@ class Checker {
   using Record = Recorded<Vertex>;
   double share(int s, int t) const {
     if (windows_) {
-      // Of the definition: walks of T and S segments have T + 1 and S + 1 vertices.
+      // Of the definition: sub-paths of T and S segments have T + 1 and S + 1 vertices.
       const bool head = t - 1 <= windows_->eye && s - 1 <= windows_->light;
       if (head) return t == 1 ? windows_->light_paths : 1.0;
       return t - 1 > windows_->eye && s < 2 ? windows_->tail : 0.0;
@@ -238,7 +239,7 @@ class Checker {
                   " segments: ", weight, " for ", expected);
   }
 
-  /// The part of a path that an eye walk has made: appended from the light's side to the lens'.
+  /// The part of a path that an eye sub-path has made: appended from the light's side to the lens'.
   void append_eye(OraclePath& path, const Record& eye, int count, const Ray& camera_ray) const {
     for (int j = count - 1; j >= 0; --j) {
       const Vertex& v = eye.vertices[size_t(j)];
@@ -255,7 +256,7 @@ class Checker {
         scene_.camera->importance(camera_ray, distance(first.position(), camera_ray.origin)));
   }
 
-  /// The part that a light walk has made; `next` is where its last vertex is left to.
+  /// The part that a light sub-path has made; `next` is where its last vertex is left to.
   void append_light(OraclePath& path, const Record& light, int count, const Vector3f& next,
                     const LightStart& start) const {
     const Vertex& first = light.vertices[0];
@@ -274,11 +275,11 @@ class Checker {
     }
   }
 
-  /// One light walk and one eye walk with all their joins.
+  /// One light sub-path and one eye sub-path with all their connections.
   void pair(uint32_t index, int max_depth);
   template <class Weights>
-  void eye_walk(Weights weights, const Ray& camera_ray, int max_depth, Sampler& sampler,
-                Trail* trail, const Record& light, const std::optional<LightStart>& start);
+  void eye_subpath(Weights weights, const Ray& camera_ray, int max_depth, Sampler& sampler,
+                   SubpathPdfs* pdfs, const Record& light, const std::optional<LightStart>& start);
 
   const Scene& scene_;
   TechniqueSet set_;
@@ -287,45 +288,46 @@ class Checker {
   const FoggyScene* fog_;
   RenderCounters counters_;
   RandomStream random_{1};
-  Trail light_trail_;
+  SubpathPdfs light_pdfs_;
   int64_t compared_ = 0;
   int64_t inexact_ = 0, through_media_ = 0;
 };
 
 template <class Vertex>
 template <class Weights>
-void Checker<Vertex>::eye_walk(Weights weights, const Ray& camera_ray, int max_depth,
-                               Sampler& sampler, Trail* trail, const Record& light,
-                               const std::optional<LightStart>& start) {
+void Checker<Vertex>::eye_subpath(Weights weights, const Ray& camera_ray, int max_depth,
+                                  Sampler& sampler, SubpathPdfs* pdfs, const Record& light,
+                                  const std::optional<LightStart>& start) {
   Record eye;
-  WalkOf<Vertex> walk = [&] {
+  SubpathOf<Vertex> subpath = [&] {
     if constexpr (Vertex::kMedia)
-      return MediaWalk(scene_, Walk(), scene_.camera_medium, sampler.next_1d() * 1e9f);
+      return MediaSubpath(scene_, Subpath(), scene_.camera_medium, sampler.next_1d() * 1e9f);
     else
-      return Walk();
+      return Subpath();
   }();
-  walk.ray = camera_ray;
-  walk.from = camera_ray.origin;
-  walk.throughput = Spectrum(1);
-  walk.trail = trail;
-  JoinRoulette roulette(0, 0);
-  const JoinContext<Weights> joins{scene_, weights, roulette, counters_, false, &random_};
+  subpath.ray = camera_ray;
+  subpath.from = camera_ray.origin;
+  subpath.throughput = Spectrum(1);
+  subpath.pdfs = pdfs;
+  ConnectionRoulette roulette(0, 0);
+  const ConnectionContext<Weights> connections{scene_,    weights, roulette,
+                                               counters_, false,   &random_};
   int depth = 1;
   const auto arrive_at = [&](const Arrival& a) {
-    const Partials partials = depth == 1 ? first_eye_partials(scene_, camera_ray, a, set_, walk)
-                                         : arrive(walk.partials, a.d2 / a.transmittance, a.cosine,
-                                                  set_.walk_connections());
-    record_arrival(walk, a.d2 / a.transmittance, a.cosine);
+    const Partials partials = depth == 1 ? first_eye_partials(scene_, camera_ray, a, set_, subpath)
+                                         : arrive(subpath.partials, a.d2 / a.transmittance,
+                                                  a.cosine, set_.subpath_connections());
+    record_arrival(subpath, a.d2 / a.transmittance, a.cosine);
     return partials;
   };
-  /// Connects the vertex with all of the light walk; whether the eye walk goes on.
+  /// Connects the vertex with all of the light sub-path; whether the eye sub-path goes on.
   const auto pass = [&](const Vertex& v) {
     eye.add(v);
     if (v.is_smooth())
       for (const Vertex& l : light.vertices) {
         if (!l.is_smooth()) continue;
-        const Join join = join_ends(joins, l, v);
-        if (join.value.is_black() || share(l.depth + 1, depth + 1) == 0) continue;
+        const Connection connection = connect_ends(connections, l, v);
+        if (connection.value.is_black() || share(l.depth + 1, depth + 1) == 0) continue;
         OraclePath path;
         const Vector3f next = normalize(v.position() - l.position());
         append_light(path, light, l.depth, next, *start);
@@ -333,35 +335,35 @@ void Checker<Vertex>::eye_walk(Weights weights, const Ray& camera_ray, int max_d
         path.to_light = -next;
         append_eye(path, eye, depth, camera_ray);
         path.to_light = to_light;
-        check(path, l.depth + 1, join.weight, start->walk.ray.origin, camera_ray.origin);
+        check(path, l.depth + 1, connection.weight, start->subpath.ray.origin, camera_ray.origin);
       }
     bool straight = false;
-    if (!scatter<Transport::radiance>(v, set_, {1000, false}, sampler, walk, &straight))
+    if (!scatter<Transport::radiance>(v, set_, {1000, false}, sampler, subpath, &straight))
       return false;
     if (Vertex::kMedia && straight) {
       eye.vertices.pop_back(), eye.specular.pop_back();
       return true;
     }
-    eye.specular.back() = walk.from_specular;
+    eye.specular.back() = subpath.from_specular;
     ++depth;
     return true;
   };
   while (depth < max_depth) {
     Hit hit;
-    const bool found = scene_.accel->closest_hit(walk.ray, hit);
+    const bool found = scene_.accel->closest_hit(subpath.ray, hit);
     float transmittance = 1;
     if constexpr (Vertex::kMedia) {
-      Ray segment = walk.ray;
+      Ray segment = subpath.ray;
       if (found) segment.tmax = hit.t;
-      const float t = walk.cross(segment, sampler.next_1d(), counters_);
-      transmittance = walk.transmittance;
+      const float t = subpath.cross(segment, sampler.next_1d(), counters_);
+      transmittance = subpath.transmittance;
       if (t < INFINITY) {
-        const Point3f p = walk.ray.origin + walk.ray.direction * t;
-        const float extinction = walk.medium->nominal_extinction(p);
+        const Point3f p = subpath.ray.origin + subpath.ray.direction * t;
+        const float extinction = subpath.medium->nominal_extinction(p);
         const Partials partials =
-            arrive_at({p, length_squared(p - walk.from), extinction, transmittance});
-        if (!pass(Vertex({*walk.medium, extinction, p}, -walk.ray.direction,
-                         {walk.throughput, partials, depth})))
+            arrive_at({p, length_squared(p - subpath.from), extinction, transmittance});
+        if (!pass(Vertex({*subpath.medium, extinction, p}, -subpath.ray.direction,
+                         {subpath.throughput, partials, depth})))
           return;
         continue;
       }
@@ -369,46 +371,47 @@ void Checker<Vertex>::eye_walk(Weights weights, const Ray& camera_ray, int max_d
     Surface s;
     float d2 = 0;
     if (found) {
-      s = scene_.surface(walk.ray, hit);
-      d2 = Vertex::kMedia ? length_squared(s.position - walk.from) : hit.t * hit.t;
+      s = scene_.surface(subpath.ray, hit);
+      d2 = Vertex::kMedia ? length_squared(s.position - subpath.from) : hit.t * hit.t;
     }
     if (depth > 1) {  // s = 0
-      Join join{};
+      Connection connection{};
       double direct = 0, emission = 0;
       if (!found && scene_.environment) {
-        join = join_escape(scene_, weights, walk, transmittance);
+        connection = connect_escape(scene_, weights, subpath, transmittance);
         const float pick = scene_.picker.probability(scene_.environment_index);
-        direct = double(scene_.environment->pdf_direct(walk.ray.direction).value * pick);
-        emission = double(scene_.environment->emission_density(walk.ray.direction) * pick);
+        direct = double(scene_.environment->pdf_direct(subpath.ray.direction).value * pick);
+        emission = double(scene_.environment->emission_density(subpath.ray.direction) * pick);
       } else if (found && scene_.light_on(*s.shape)) {
-        join = join_hit(scene_, weights, walk, s, d2, transmittance);
+        connection = connect_hit(scene_, weights, subpath, s, d2, transmittance);
         const SurfaceLight& l = *scene_.light_on(*s.shape);
         const float pick = scene_.picker.probability(s.shape->light);
-        direct = double(l.pdf_direct(walk.from, s, walk.ray.direction, d2).value * pick);
-        emission = double(l.emission_density(s, -walk.ray.direction) * pick);
+        direct = double(l.pdf_direct(subpath.from, s, subpath.ray.direction, d2).value * pick);
+        emission = double(l.emission_density(s, -subpath.ray.direction) * pick);
       }
-      if (!join.value.is_black()) {
+      if (!connection.value.is_black()) {
         OraclePath path;
-        path.to_light = walk.ray.direction;
+        path.to_light = subpath.ray.direction;
         path.direct = direct, path.emission = emission;
         append_eye(path, eye, depth - 1, camera_ray);
         // The last vertex was left by a lobe of its own.
-        path.specular[0] = walk.from_specular;
-        if (walk.from_specular)
+        path.specular[0] = subpath.from_specular;
+        if (subpath.from_specular)
           path.eta[0] =
               eta_towards_eye(scene_, path.surfaces[0], path.to_light, eye.vertices.back().wo);
-        check(path, 0, join.weight, s.position, camera_ray.origin);
+        check(path, 0, connection.weight, s.position, camera_ray.origin);
       }
     }
     if (!found) return;
-    const float cosine = std::abs(dot(s.ng, walk.ray.direction));
+    const float cosine = std::abs(dot(s.ng, subpath.ray.direction));
     if (!(cosine > 0)) return;
     const Partials partials = arrive_at({s.position, d2, cosine, transmittance});
     if constexpr (Vertex::kMedia) {
-      if (!pass(Vertex(scene_, s, -walk.ray.direction, {walk.throughput, partials, depth},
-                       walk.medium)))
+      if (!pass(Vertex(scene_, s, -subpath.ray.direction, {subpath.throughput, partials, depth},
+                       subpath.medium)))
         return;
-    } else if (!pass(Vertex(scene_, s, -walk.ray.direction, walk.throughput, partials, depth))) {
+    } else if (!pass(Vertex(scene_, s, -subpath.ray.direction, subpath.throughput, partials,
+                            depth))) {
       return;
     }
   }
@@ -423,8 +426,8 @@ void Checker<Vertex>::pair(uint32_t index, int max_depth) {
   light_sampler.start_sample(0);
   Sampler same = light_sampler;
   same.start_dimension(0);
-  const auto start = start_light_walk(scene_, same);
-  JoinRoulette roulette(0, 0);
+  const auto start = start_light_subpath(scene_, same);
+  ConnectionRoulette roulette(0, 0);
   const auto visit_with = [&](const auto& weights) {
     return [&](const Vertex& v, const Hit&) {
       // What was passed straight is no vertex.
@@ -432,14 +435,14 @@ void Checker<Vertex>::pair(uint32_t index, int max_depth) {
         light.vertices.pop_back(), light.specular.pop_back();
       if (!light.vertices.empty()) {
         // How the one before was left.
-        light.specular.back() = light_trail_[size_t(v.depth - 1)].specular;
+        light.specular.back() = light_pdfs_[size_t(v.depth - 1)].specular;
       }
       light.add(v);
       if (!v.is_smooth()) return;
-      const auto seen =
-          join_camera(JoinContext<std::decay_t<decltype(weights)>>{scene_, weights, roulette,
-                                                                   counters_, false, &random_},
-                      v, sampler.next_2d(), false);
+      const auto seen = connect_camera(
+          ConnectionContext<std::decay_t<decltype(weights)>>{scene_, weights, roulette, counters_,
+                                                             false, &random_},
+          v, sampler.next_2d(), false);
       if (!seen || share(v.depth + 1, 1) == 0) return;
       const auto lens = scene_.camera->sample_lens(v.position(), {0.5f, 0.5f});
       if (!lens || scene_.camera->has_lens()) return;
@@ -447,19 +450,19 @@ void Checker<Vertex>::pair(uint32_t index, int max_depth) {
       append_light(path, light, v.depth, lens->direction, *start);
       path.to_lens = lens->direction;
       path.importance = double(lens->importance);
-      check(path, v.depth + 1, seen->join.weight, start->walk.ray.origin, lens->target);
+      check(path, v.depth + 1, seen->connection.weight, start->subpath.ray.origin, lens->target);
     };
   };
   const auto trace = [&](const auto& weights) {
-    trace_light_walk<Vertex>({scene_,
-                              set_,
-                              {1000, false},
-                              max_depth - 1,
-                              light_sampler,
-                              counters_,
-                              &light_trail_,
-                              uint64_t(index + 1)},
-                             visit_with(weights));
+    trace_light_subpath<Vertex>({scene_,
+                                 set_,
+                                 {1000, false},
+                                 max_depth - 1,
+                                 light_sampler,
+                                 counters_,
+                                 &light_pdfs_,
+                                 uint64_t(index + 1)},
+                                visit_with(weights));
     // The last surface may have been passed on the way out.
     if (!light.vertices.empty() && !light.vertices.back().is_smooth())
       light.vertices.pop_back(), light.specular.pop_back();
@@ -467,21 +470,21 @@ void Checker<Vertex>::pair(uint32_t index, int max_depth) {
   const Ray camera_ray = scene_.camera->sample_ray({32 * sampler.next_1d(), 32 * sampler.next_1d()},
                                                    sampler.next_2d());
   if (windows_) {
-    trace(WindowWeights(*windows_, &light_trail_, nullptr));
-    Trail eye_trail{{1, 0, 1, false}};
-    WindowWeights weights(*windows_, nullptr, &eye_trail);
-    weights.set_light(light_trail_);
-    eye_walk(weights, camera_ray, max_depth, sampler, &eye_trail, light, start);
+    trace(WindowWeights(*windows_, &light_pdfs_, nullptr));
+    SubpathPdfs eye_pdfs{{1, 0, 1, false}};
+    WindowWeights weights(*windows_, nullptr, &eye_pdfs);
+    weights.set_light(light_pdfs_);
+    eye_subpath(weights, camera_ray, max_depth, sampler, &eye_pdfs, light, start);
   } else {
     const BalanceWeights weights(set_, merging_);
     trace(weights);
-    eye_walk(weights, camera_ray, max_depth, sampler, nullptr, light, start);
+    eye_subpath(weights, camera_ray, max_depth, sampler, nullptr, light, start);
   }
 }
 
 TechniqueSet all_techniques(float light_paths) {
   TechniqueSet set;
-  set.hits = set.light_samples = set.camera_joins = set.connections = true;
+  set.hits = set.light_samples = set.camera_connections = set.connections = true;
   set.light_paths = light_paths;
   return set;
 }

@@ -64,7 +64,7 @@ MemoryEstimate estimate_memory(const Integrator& integrator, const FilmLayout& l
 
 std::string describe(const MemoryEstimate& e) {
   return fmt::format(
-      "the image needs about {} of memory ({} for sums of samples, {} for light walks, {} for "
+      "the image needs about {} of memory ({} for sums of samples, {} for light sub-paths, {} for "
       "copies)",
       memory_text(e.total()), memory_text(e.films), memory_text(e.method), memory_text(e.copies));
 }

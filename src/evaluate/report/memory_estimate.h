@@ -11,7 +11,7 @@ namespace duet {
 /// Bytes besides what the scene takes.
 struct MemoryEstimate {
   double films = 0;   ///< sums of samples, for all films
-  double method = 0;  ///< what the method keeps besides, such as the vertices of light walks
+  double method = 0;  ///< what the method keeps besides, such as the vertices of light sub-paths
   /// The most that there is at one time of copies: for the estimate of the error, of images that
   /// are developed, converted and encoded, now or for a snapshot.
   double copies = 0;

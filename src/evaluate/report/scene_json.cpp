@@ -102,7 +102,7 @@ Json method(const SceneDescription& scene, const std::string& name) {
 }
 
 Json rules(const MethodRules& r) {
-  return {{"has_lights", r.has_lights}, {"needs_light_walks", r.needs_light_walks},
+  return {{"has_lights", r.has_lights}, {"needs_light_walks", r.needs_light_subpaths},
           {"may_merge", r.may_merge},   {"far_lights_only", r.far_lights_only},
           {"has_media", r.has_media},   {"has_heterogeneous_media", r.has_heterogeneous_media},
           {"description", describe(r)}};

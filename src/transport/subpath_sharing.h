@@ -1,4 +1,4 @@
-// Which light walk a pixel is joined with, where there are not as many walks as pixels.
+// Which light sub-path a pixel is connected with, where there are not as many sub-paths as pixels.
 #pragma once
 
 #include <array>
@@ -9,28 +9,28 @@
 
 namespace duet {
 
-/// Gives each pixel of an image one of an iteration's light walks. Pixels that share a walk have a
-/// part of their error in common. So they lie apart, in all directions alike, but within a tile of
-/// 16 × 16 pixels as far as possible, whose walks then stay in the cache.
+/// Gives each pixel of an image one of an iteration's light sub-paths. Pixels that share a sub-path
+/// have a part of their error in common. So they lie apart, in all directions alike, but within a
+/// tile of 16 × 16 pixels as far as possible, whose sub-paths then stay in the cache.
 ///
 /// Pixels are numbered tile after tile, and within a tile such that successive numbers are far
 /// apart: by the digits of their Morton code from the lowest on, which are permuted at random at
 /// each node. The order is shifted by a random number of pixels in each tile and wraps around. It
-/// is the same in all iterations, as the walk of one number is a low-discrepancy sequence over
+/// is the same in all iterations, as the sub-path of one number is a low-discrepancy sequence over
 /// them. Source: Ahmed & Wonka, "Screen-Space Blue-Noise Diffusion of Monte Carlo Sampling Error
 /// via Hierarchical Ordering of Pixels", ACM TOG 39(6), 2020, for orders by scrambled Morton codes.
-class WalkSharing {
+class SubpathSharing {
  public:
   /// `film` is the size of the whole image; `key` seeds the shifts. Costs next to nothing if the
   /// size is the same as before.
   void start(Point2i film, uint64_t key);
 
-  /// The walk of pixel y · width + x, below `walks`. Each walk has as many pixels as any other,
-  /// give or take one. If there is one for every pixel none is shared, and neighbours have
+  /// The sub-path of pixel y · width + x, below `subpaths`. Each sub-path has as many pixels as any
+  /// other, give or take one. If there is one for every pixel none is shared, and neighbours have
   /// neighbours.
-  size_t walk(uint64_t pixel, size_t walks) const {
+  size_t subpath(uint64_t pixel, size_t subpaths) const {
     const uint64_t pixels = uint64_t(width_) * height_;
-    return size_t((walks < pixels ? number(pixel) : pixel) * walks / pixels);
+    return size_t((subpaths < pixels ? number(pixel) : pixel) * subpaths / pixels);
   }
 
  private:

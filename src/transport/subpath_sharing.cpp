@@ -1,4 +1,4 @@
-#include "transport/walk_sharing.h"
+#include "transport/subpath_sharing.h"
 
 #include <algorithm>
 #include <numeric>
@@ -36,7 +36,7 @@ std::vector<uint8_t> spread_order(uint32_t width, uint32_t height) {
 
 }  // namespace
 
-void WalkSharing::start(Point2i film, uint64_t key) {
+void SubpathSharing::start(Point2i film, uint64_t key) {
   key_ = key;
   if (width_ == uint32_t(film.x) && height_ == uint32_t(film.y)) return;
   width_ = uint32_t(film.x), height_ = uint32_t(film.y);
@@ -45,7 +45,7 @@ void WalkSharing::start(Point2i film, uint64_t key) {
              spread_order(right, bottom)};
 }
 
-uint64_t WalkSharing::number(uint64_t pixel) const {
+uint64_t SubpathSharing::number(uint64_t pixel) const {
   const uint32_t y = uint32_t(pixel / width_), x = uint32_t(pixel % width_);
   const uint32_t x0 = x / kTile * kTile, y0 = y / kTile * kTile;
   const uint32_t w = std::min(kTile, width_ - x0), h = std::min(kTile, height_ - y0);

@@ -1,5 +1,5 @@
-// That pixels share light walks evenly, and that the noise of the image shows no direction.
-#include "transport/walk_sharing.h"
+// That pixels share light sub-paths evenly, and that the noise of the image shows no direction.
+#include "transport/subpath_sharing.h"
 
 #include <algorithm>
 #include <cmath>
@@ -11,11 +11,11 @@ using namespace duet::test;
 
 namespace {
 
-/// Pixels of each walk.
-std::vector<int> shares(const WalkSharing& sharing, Point2i film, size_t walks) {
-  std::vector<int> count(walks);
+/// Pixels of each sub-path.
+std::vector<int> shares(const SubpathSharing& sharing, Point2i film, size_t subpaths) {
+  std::vector<int> count(subpaths);
   for (uint64_t pixel = 0; pixel < uint64_t(film.x) * uint64_t(film.y); ++pixel)
-    ++count.at(sharing.walk(pixel, walks));
+    ++count.at(sharing.subpath(pixel, subpaths));
   return count;
 }
 
@@ -66,41 +66,43 @@ Correlation noise_correlation(const TransportScene& s, const std::string& method
 
 }  // namespace
 
-TEST_CASE("pixels share light walks evenly, whatever the size of the image") {
+TEST_CASE("pixels share light sub-paths evenly, whatever the size of the image") {
   for (const Point2i film : {Point2i{64, 48}, Point2i{1, 1}, Point2i{33, 7}, Point2i{50, 37}}) {
     const size_t pixels = size_t(film.x) * size_t(film.y);
-    WalkSharing sharing;
+    SubpathSharing sharing;
     sharing.start(film, 5);
     for (const double per_pixel : {1 / 16.0, 0.25, 0.7, 1.0, 2.5}) {
-      const size_t walks = std::max<size_t>(1, size_t(std::round(per_pixel * double(pixels))));
-      const std::vector<int> count = shares(sharing, film, walks);
+      const size_t subpaths = std::max<size_t>(1, size_t(std::round(per_pixel * double(pixels))));
+      const std::vector<int> count = shares(sharing, film, subpaths);
       const auto [least, most] = std::minmax_element(count.begin(), count.end());
       CAPTURE(film.x);
       CAPTURE(per_pixel);
       CHECK(*most - *least <= 1);
-      CHECK(*most == int((pixels + walks - 1) / walks));
+      CHECK(*most == int((pixels + subpaths - 1) / subpaths));
     }
   }
 }
 
-TEST_CASE("pixels that share a light walk lie apart, but near enough for a cache") {
+TEST_CASE("pixels that share a light sub-path lie apart, but near enough for a cache") {
   constexpr int kSize = 64;
   constexpr size_t kPixels = kSize * kSize;
-  WalkSharing one, other;
+  SubpathSharing one, other;
   one.start({kSize, kSize}, 1);
   other.start({kSize, kSize}, 2);
-  for (const size_t walks : {kPixels / 4, kPixels / 16}) {
+  for (const size_t subpaths : {kPixels / 4, kPixels / 16}) {
     int across = 0, down = 0, diagonal = 0, differ = 0;
-    std::vector<Point2i> first(walks, {-1, -1});
+    std::vector<Point2i> first(subpaths, {-1, -1});
     bool near = true;
     for (int y = 1; y < kSize; ++y)
       for (int x = 1; x < kSize; ++x) {
-        const auto walk = [&](int i, int j) { return one.walk(uint64_t(j * kSize + i), walks); };
-        const size_t w = walk(x, y);
-        across += w == walk(x - 1, y);
-        down += w == walk(x, y - 1);
-        diagonal += w == walk(x - 1, y - 1);
-        differ += w != other.walk(uint64_t(y * kSize + x), walks);
+        const auto subpath = [&](int i, int j) {
+          return one.subpath(uint64_t(j * kSize + i), subpaths);
+        };
+        const size_t w = subpath(x, y);
+        across += w == subpath(x - 1, y);
+        down += w == subpath(x, y - 1);
+        diagonal += w == subpath(x - 1, y - 1);
+        differ += w != other.subpath(uint64_t(y * kSize + x), subpaths);
         if (first[w].x < 0) first[w] = {x, y};
         near &= first[w].x / 16 == x / 16 && first[w].y / 16 == y / 16;
       }
@@ -111,7 +113,7 @@ TEST_CASE("pixels that share a light walk lie apart, but near enough for a cache
   }
 }
 
-TEST_CASE("noise has no direction, although pixels share light walks") {
+TEST_CASE("noise has no direction, although pixels share light sub-paths") {
   const TransportScene s(indirect_room());
   const Correlation path = noise_correlation(s, "path", {{"max_depth", "6"}});
   // These vary by 0.005.

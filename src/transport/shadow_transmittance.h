@@ -35,10 +35,11 @@ struct ShadowRay {
 };
 
 /// Multiplies `w` by what gets through from the origin of a ray to its tmax, and by the densities
-/// of a walk that would have taken the same way; false if nothing does. `nominal`, if not null, is
-/// multiplied by the nominal transmittance.
-inline bool walk_shadow(const Scene& scene, const ShadowRay& shadow, RandomStream& random,
-                        SpectralWeights& w, RenderCounters& counters, float* nominal = nullptr) {
+/// of a sub-path that would have taken the same way; false if nothing does. `nominal`, if not null,
+/// is multiplied by the nominal transmittance.
+inline bool shadow_transmittance(const Scene& scene, const ShadowRay& shadow, RandomStream& random,
+                                 SpectralWeights& w, RenderCounters& counters,
+                                 float* nominal = nullptr) {
   auto [ray, medium] = shadow;
   for (;;) {
     ++counters.shadow_rays;

@@ -1,4 +1,4 @@
-#include "integrators/pilot_eye_walk.h"
+#include "integrators/pilot_eye_subpath.h"
 
 #include <algorithm>
 #include <cmath>
@@ -12,21 +12,21 @@ namespace {
 
 constexpr uint64_t kEdgeSeed = 0x65646765ull, kGapSeed = 0x676170ull, kWayStream = 0x776179ull,
                    kPilotShadowStream = 0x7368646full;
-/// Keeps the gaps that the vertices of a walk look for apart.
-constexpr size_t kMostVerticesOfWalk = FamilyWeights::kMostVertices / 2;
+/// Keeps the gaps that the vertices of a sub-path look for apart.
+constexpr size_t kMostVerticesOfSubpath = FamilyWeights::kMostVertices / 2;
 
 template <class Vertex>
-WalkOf<Vertex> new_pilot_walk(const Scene& scene, [[maybe_unused]] uint64_t seed) {
+SubpathOf<Vertex> new_pilot_subpath(const Scene& scene, [[maybe_unused]] uint64_t seed) {
   if constexpr (Vertex::kMedia)
-    return MediaWalk(scene, Walk(), scene.camera_medium, seed);
+    return MediaSubpath(scene, Subpath(), scene.camera_medium, seed);
   else
-    return Walk();
+    return Subpath();
 }
 
 template <class Vertex>
-class PilotEyeWalk {
+class PilotEyeSubpath {
  public:
-  PilotEyeWalk(const PilotSetup& pilot, size_t index, PricingRecord& out, double& seen)
+  PilotEyeSubpath(const PilotSetup& pilot, size_t index, PricingRecord& out, double& seen)
       : pilot_(pilot),
         scene_(pilot.scene),
         index_(index),
@@ -35,8 +35,8 @@ class PilotEyeWalk {
         out_(out),
         seen_(seen),
         sampler_(SampleSequence::independent, pilot.eye_seed, 0, index),
-        trail_{{1, 0, 1, false}},
-        walk_(new_pilot_walk<Vertex>(scene_, key_ ^ kWayStream)),
+        pdfs_{{1, 0, 1, false}},
+        subpath_(new_pilot_subpath<Vertex>(scene_, key_ ^ kWayStream)),
         weights_(pilot.set),
         roulette_(pilot.threshold, key_),
         shadows_(key_ ^ kPilotShadowStream),
@@ -45,22 +45,22 @@ class PilotEyeWalk {
   void trace() {
     start();
     for (;;) {
-      weights_.set_eye(trail_);
+      weights_.set_eye(pdfs_);
       Hit hit;
       ++counters().closest_rays;
       out_.first_counters.closest_rays += first_;
-      const bool found = scene_.accel->closest_hit(walk_.ray, hit);
+      const bool found = scene_.accel->closest_hit(subpath_.ray, hit);
       float transmittance = 1;
       if constexpr (Vertex::kMedia) {
         if (float t = cross_medium(found, hit); t < INFINITY) {
           if (!scatter_between(t)) return;
           continue;
         }
-        transmittance = walk_.counted_transmittance();
+        transmittance = subpath_.counted_transmittance();
       }
       if (!found) {
         if (scene_.environment && sees_lights_)
-          add_found(join_escape(scene_, weights_, walk_, transmittance), transmittance);
+          add_found(connect_escape(scene_, weights_, subpath_, transmittance), transmittance);
         return;
       }
       if (!meet_surface(hit, transmittance)) return;
@@ -78,14 +78,15 @@ class PilotEyeWalk {
     const Point2f lens = scene_.camera->has_lens() ? sampler_.next_2d() : Point2f{};
     camera_ray_ = scene_.camera->sample_ray(film, lens);
     ++counters().camera_paths;
-    walk_.ray =
+    subpath_.ray =
         pilot_.plan.hide_emitters ? behind_emitters(scene_, camera_ray_, counters()) : camera_ray_;
-    walk_.from = walk_.ray.origin;
-    walk_.throughput = Spectrum(1);
-    walk_.trail = &trail_;
+    subpath_.from = subpath_.ray.origin;
+    subpath_.throughput = Spectrum(1);
+    subpath_.pdfs = &pdfs_;
   }
 
-  /// Where the walk's pixel lies: one in each cell of a grid, the same for two walks in succession.
+  /// Where the sub-path's pixel lies: one in each cell of a grid, the same for two sub-paths in
+  /// succession.
   Point2f pixel() const {
     const size_t side = size_t(pilot_.plan.pixels_per_side);
     const uint64_t random = mix64(hash_combine(pilot_.eye_seed, cell_));
@@ -99,68 +100,68 @@ class PilotEyeWalk {
 
   /// The distance to where the medium that the ray is in scatters it, or INFINITY.
   float cross_medium(bool found, const Hit& hit) {
-    if (!walk_.medium) return INFINITY;
-    Ray segment = walk_.ray;
+    if (!subpath_.medium) return INFINITY;
+    Ray segment = subpath_.ray;
     if (found) segment.tmax = hit.t;
     sampler_.start_dimension(dimension_ + kDistanceDimension);
-    return walk_.cross(segment, sampler_.next_1d(), counters());
+    return subpath_.cross(segment, sampler_.next_1d(), counters());
   }
 
-  /// In a medium; whether the walk goes on.
+  /// In a medium; whether the sub-path goes on.
   bool scatter_between(float t) {
     sees_lights_ = true;
-    const Point3f p = walk_.ray.origin + walk_.ray.direction * t;
-    const float d2 = length_squared(p - walk_.from);
-    const float extinction = walk_.medium->nominal_extinction(p);
+    const Point3f p = subpath_.ray.origin + subpath_.ray.direction * t;
+    const float d2 = length_squared(p - subpath_.from);
+    const float extinction = subpath_.medium->nominal_extinction(p);
     if (depth_ == pilot_.max_depth || !(d2 > 0 && extinction > 0)) return false;
     ++counters().path_vertices;
-    arrive_at({p, d2, extinction, walk_.counted_transmittance()});
-    return leave_vertex(Vertex({*walk_.medium, extinction, p}, -walk_.ray.direction,
-                               {walk_.throughput, Partials{}, depth_}));
+    arrive_at({p, d2, extinction, subpath_.counted_transmittance()});
+    return leave_vertex(Vertex({*subpath_.medium, extinction, p}, -subpath_.ray.direction,
+                               {subpath_.throughput, Partials{}, depth_}));
   }
 
   bool meet_surface(const Hit& hit, float transmittance) {
     ++counters().path_vertices;
-    const Surface s = scene_.surface(walk_.ray, hit);
+    const Surface s = scene_.surface(subpath_.ray, hit);
     // The way since the last vertex may have led through surfaces that light passes straight.
-    const float d2 = Vertex::kMedia ? length_squared(s.position - walk_.from) : hit.t * hit.t;
-    const float cosine = std::abs(dot(s.ng, walk_.ray.direction));
+    const float d2 = Vertex::kMedia ? length_squared(s.position - subpath_.from) : hit.t * hit.t;
+    const float cosine = std::abs(dot(s.ng, subpath_.ray.direction));
     if (s.shape->light != kNone && (!Vertex::kMedia || sees_lights_))
-      add_found(join_hit(scene_, weights_, walk_, s, d2, transmittance), transmittance);
+      add_found(connect_hit(scene_, weights_, subpath_, s, d2, transmittance), transmittance);
     const bool is_last =
         depth_ == pilot_.max_depth &&
         !(Vertex::kMedia && scene_.materials[s.shape->material]->passes_straight());
     if (is_last || !(cosine > 0)) return false;
     arrive_at({s.position, d2, cosine, transmittance});
     if constexpr (Vertex::kMedia)
-      return leave_vertex(Vertex(scene_, s, -walk_.ray.direction,
-                                 {walk_.throughput, Partials{}, depth_}, walk_.medium));
+      return leave_vertex(Vertex(scene_, s, -subpath_.ray.direction,
+                                 {subpath_.throughput, Partials{}, depth_}, subpath_.medium));
     else
       return leave_vertex(
-          Vertex(scene_, s, -walk_.ray.direction, walk_.throughput, Partials{}, depth_));
+          Vertex(scene_, s, -subpath_.ray.direction, subpath_.throughput, Partials{}, depth_));
   }
 
   void arrive_at(const Arrival& a) {
-    if (depth_ == 1) first_eye_partials(scene_, camera_ray_, a, pilot_.set, walk_);
-    record_arrival(walk_, a.d2 / a.transmittance, a.cosine);
+    if (depth_ == 1) first_eye_partials(scene_, camera_ray_, a, pilot_.set, subpath_);
+    record_arrival(subpath_, a.d2 / a.transmittance, a.cosine);
   }
 
-  /// Light at the end of the walk.
-  void add_found(const Join& join, float transmittance) {
-    const Spectrum v = join.value * join.weight;
+  /// Light at the end of the sub-path.
+  void add_found(const Connection& connection, float transmittance) {
+    const Spectrum v = connection.value * connection.weight;
     if (depth_ > 1 || transmittance < 1)
       add_contribution(out_.eye, v, weights_.shares(), Technique::unidirectional, cell_);
     else if (is_finite(v))
       seen_ += double(v.r + v.g + v.b) / 3;
   }
 
-  /// Joins a vertex with all that there is, and scatters; whether the walk goes on.
+  /// Connects a vertex with all that there is, and scatters; whether the sub-path goes on.
   bool leave_vertex(const Vertex& v) {
-    weights_.set_eye(trail_);
+    weights_.set_eye(pdfs_);
     if (v.is_smooth() && depth_ < pilot_.max_depth) {
       sampler_.start_dimension(dimension_);
-      JoinRoulette none(0, 0);  // path tracing has none
-      const Join direct = join_light(joins(none, counters()), v, sampler_);
+      ConnectionRoulette none(0, 0);  // path tracing has none
+      const Connection direct = connect_light(connections(none, counters()), v, sampler_);
       add_contribution(out_.eye, direct.value * direct.weight, weights_.shares(),
                        Technique::unidirectional, cell_);
       connect(v);
@@ -169,54 +170,56 @@ class PilotEyeWalk {
     sampler_.start_dimension(dimension_ + kScatteringDimension);
     dimension_ += kDimensionsPerVertex;
     bool straight = false;
-    if (!scatter<Transport::radiance>(v, pilot_.set, pilot_.options, sampler_, walk_, &straight))
+    if (!scatter<Transport::radiance>(v, pilot_.set, pilot_.options, sampler_, subpath_, &straight))
       return false;
-    first_ &= walk_.unmerged;
+    first_ &= subpath_.unmerged;
     sees_lights_ |= !straight;
     return (Vertex::kMedia && straight) || ++depth_ <= pilot_.max_depth;
   }
 
-  JoinContext<FamilyWeights> joins(JoinRoulette& roulette, RenderCounters& counters) {
+  ConnectionContext<FamilyWeights> connections(ConnectionRoulette& roulette,
+                                               RenderCounters& counters) {
     return {scene_, weights_, roulette, counters, pilot_.plan.strict_normals, &shadows_};
   }
 
   void connect(const Vertex& v) {
-    const std::span<const TrailVertex> trail = pilot_.light.trail(index_);
+    const std::span<const VertexPdfs> pdfs = pilot_.light.pdfs(index_);
     const size_t first = pilot_.light.first_vertex(index_);
     for (size_t i = first; i < pilot_.light.vertex_ends[index_]; ++i) {
       const LightVertex& packed = pilot_.light.vertices[i];
       if (int(packed.depth) + v.depth + 1 > pilot_.max_depth) break;
-      weights_.set_light(trail, &pilot_.light.arrivals[i].ends);
-      const Join join = join_ends(joins(roulette_, out_.connection_counters),
-                                  packed.template unpack<Vertex>(scene_), v);
-      add_contribution(out_.eye, join.value * join.weight, weights_.shares(), Technique::connection,
-                       cell_);
+      weights_.set_light(pdfs, &pilot_.light.arrivals[i].ends);
+      const Connection connection = connect_ends(connections(roulette_, out_.connection_counters),
+                                                 packed.template unpack<Vertex>(scene_), v);
+      add_contribution(out_.eye, connection.value * connection.weight, weights_.shares(),
+                       Technique::connection, cell_);
     }
   }
 
-  /// The two walks of a pixel meet different photons, so that they are independent.
+  /// The two sub-paths of a pixel meet different photons, so that they are independent.
   void merge(const Vertex& v) {
     const float kernel = 1 / (pilot_.set.merge_area * pilot_.set.light_paths);
     const PhotonShift shift{pilot_.shift_scale, to_unit_float(uint32_t(mix64(kEdgeSeed + cell_)))};
     RenderCounters& counters = out_.merge_counters;
     ++counters.merge_queries;
     out_.first_counters.merge_queries += first_;
-    const uint64_t random = mix64(
-        hash_combine(kGapSeed ^ pilot_.plan.seed, index_ * kMostVerticesOfWalk + size_t(v.depth)));
+    const uint64_t random = mix64(hash_combine(kGapSeed ^ pilot_.plan.seed,
+                                               index_ * kMostVerticesOfSubpath + size_t(v.depth)));
     const Point2f beside{to_unit_float(uint32_t(random)), to_unit_float(uint32_t(random >> 32))};
     const float missing =
         lacks_photons(scene_, v, pilot_.first_radius, beside, counters) ? 1.0f : 0.0f;
-    const PilotLightWalks& light = pilot_.light;
+    const PilotLightSubpaths& light = pilot_.light;
     pilot_.grid.query(v.position(), pilot_.grid.locate(v.position()), [&](uint32_t i, float) {
       const LightVertex& photon = light.vertices[i];
       if (int(photon.depth) + v.depth > pilot_.max_depth || (light.owner[i] ^ index_) & 1) return;
-      weights_.set_light(light.trail(light.owner[i]), &light.arrivals[i].ends);
-      const Join join = join_merge(weights_, photon, v, kernel, pilot_.plan.strict_normals);
-      if (join.value.is_black()) return;
+      weights_.set_light(light.pdfs(light.owner[i]), &light.arrivals[i].ends);
+      const Connection connection =
+          connect_merge(weights_, photon, v, kernel, pilot_.plan.strict_normals);
+      if (connection.value.is_black()) return;
       ++counters.merges;
       out_.first_counters.merges += first_;
       add_contribution(
-          out_.eye, join.value * join.weight, weights_.shares(),
+          out_.eye, connection.value * connection.weight, weights_.shares(),
           first_ ? Technique::first_merge : Technique::later_merge, cell_,
           merge_blur(scene_, v, photon.position, light.arrivals[i], shift, counters) - missing);
     });
@@ -231,10 +234,10 @@ class PilotEyeWalk {
   double& seen_;
   Sampler sampler_;
   Ray camera_ray_;
-  Trail trail_;
-  WalkOf<Vertex> walk_;
+  SubpathPdfs pdfs_;
+  SubpathOf<Vertex> subpath_;
   FamilyWeights weights_;
-  JoinRoulette roulette_;
+  ConnectionRoulette roulette_;
   RandomStream shadows_;  ///< for shadow rays through media
   int depth_ = 1;
   uint32_t dimension_ = kFirstVertexDimension;
@@ -245,8 +248,8 @@ class PilotEyeWalk {
 
 }  // namespace
 
-void add_contribution(std::vector<PricedContribution>& to, const Spectrum& v,
-                      const FamilyShares& shares, Technique technique, uint16_t cell, float blur) {
+void add_contribution(std::vector<PilotSample>& to, const Spectrum& v, const FamilyShares& shares,
+                      Technique technique, uint16_t cell, float blur) {
   if (v.is_black() || !is_finite(v)) return;
   const float value = (v.r + v.g + v.b) * (1 / 3.0f);
   const float square = (v.r * v.r + v.g * v.g + v.b * v.b) * (1 / 3.0f);
@@ -255,11 +258,14 @@ void add_contribution(std::vector<PricedContribution>& to, const Spectrum& v,
 }
 
 template <class Vertex>
-void trace_pilot_eye_walk(const PilotSetup& pilot, size_t index, PricingRecord& out, double& seen) {
-  PilotEyeWalk<Vertex>(pilot, index, out, seen).trace();
+void trace_pilot_eye_subpath(const PilotSetup& pilot, size_t index, PricingRecord& out,
+                             double& seen) {
+  PilotEyeSubpath<Vertex>(pilot, index, out, seen).trace();
 }
 
-template void trace_pilot_eye_walk<PathVertex>(const PilotSetup&, size_t, PricingRecord&, double&);
-template void trace_pilot_eye_walk<MediaVertex>(const PilotSetup&, size_t, PricingRecord&, double&);
+template void trace_pilot_eye_subpath<PathVertex>(const PilotSetup&, size_t, PricingRecord&,
+                                                  double&);
+template void trace_pilot_eye_subpath<MediaVertex>(const PilotSetup&, size_t, PricingRecord&,
+                                                   double&);
 
 }  // namespace duet

@@ -1,4 +1,4 @@
-// Walks that start at a light.
+// Sub-paths that start at a light.
 #pragma once
 
 #include "scene/light_media.h"
@@ -6,8 +6,8 @@
 
 namespace duet {
 
-/// Random numbers set aside for the start of a walk (choice of the light, position, direction) and
-/// for each of its vertices (direction, lobe, roulette, point on the lens).
+/// Random numbers set aside for the start of a sub-path (choice of the light, position, direction)
+/// and for each of its vertices (direction, lobe, roulette, point on the lens).
 inline constexpr uint32_t kLightStartDimensions = 6;
 inline constexpr uint32_t kLightVertexDimensions = 6;
 /// Of these, where the point on the lens is.
@@ -16,9 +16,9 @@ inline constexpr uint32_t kLensOffset = 4;
 template <class Vertex>
 inline constexpr uint32_t kLightVertexStride = kLightVertexDimensions + (Vertex::kMedia ? 1 : 0);
 
-/// A walk that has left its light.
+/// A sub-path that has left its light.
 struct LightStart {
-  Walk walk;
+  Subpath subpath;
   const Light* light;
   uint32_t index;  ///< of the light
   float pick_probability;
@@ -33,7 +33,7 @@ struct LightStart {
 };
 
 /// Empty if the ray carries nothing.
-inline std::optional<LightStart> start_light_walk(const Scene& scene, Sampler& sampler) {
+inline std::optional<LightStart> start_light_subpath(const Scene& scene, Sampler& sampler) {
   const float choice = sampler.next_1d();
   const Point2f position = sampler.next_2d(), direction = sampler.next_2d();
   const LightPicker::Pick pick = scene.picker.pick(choice, position);
@@ -41,8 +41,8 @@ inline std::optional<LightStart> start_light_walk(const Scene& scene, Sampler& s
   const auto e = light.sample_emission(position, direction);
   if (!e || !(pick.probability > 0)) return std::nullopt;
   LightStart start;
-  start.walk.ray = e->ray;
-  start.walk.throughput = e->weight * (1 / pick.probability);
+  start.subpath.ray = e->ray;
+  start.subpath.throughput = e->weight * (1 / pick.probability);
   start.light = &light;
   start.index = pick.light;
   start.pick_probability = pick.probability;
@@ -50,7 +50,7 @@ inline std::optional<LightStart> start_light_walk(const Scene& scene, Sampler& s
   return start;
 }
 
-/// The sums at the first vertex of a light walk, at which light samples and rays that find the
+/// The sums at the first vertex of a light sub-path, at which light samples and rays that find the
 /// light compete. `transmittance` is the nominal one from the light.
 inline Partials first_light_partials(const LightStart& start, const Point3f& at, float cosine,
                                      const TechniqueSet& set, float transmittance = 1) {
@@ -58,73 +58,73 @@ inline Partials first_light_partials(const LightStart& start, const Point3f& at,
   Partials p;
   p.vcm = start.direct(at) * scale / transmittance;
   p.vc = is_delta(start.light->kind()) ? 0.0f : scale;
-  p.vm = p.vc * set.walk_connection_term();
+  p.vm = p.vc * set.subpath_connection_term();
   return p;
 }
 
-/// The beginning of a light walk's trail. What would be densities per area of the light are per
-/// solid angle at the first vertex instead, which spares distances and cosines that cancel:
+/// The beginning of a light sub-path's vertex pdfs. What would be densities per area of the light
+/// are per solid angle at the first vertex instead, which spares distances and cosines that cancel:
 /// `back` of vertex 0 is that of light samples, and `forward` of vertex 1 that of both vertices.
 inline void record_first_arrival(const LightStart& start, const Point3f& at, float cosine,
-                                 Trail* trail, float transmittance = 1) {
-  if (!trail) return;
-  trail->clear();
-  trail->push_back({1, 0, start.direct(at), is_delta(start.light->kind())});
-  trail->push_back({start.density() * cosine * transmittance, 0, transmittance, false});
+                                 SubpathPdfs* pdfs, float transmittance = 1) {
+  if (!pdfs) return;
+  pdfs->clear();
+  pdfs->push_back({1, 0, start.direct(at), is_delta(start.light->kind())});
+  pdfs->push_back({start.density() * cosine * transmittance, 0, transmittance, false});
 }
 
-/// The walk that has left the light, for the kind of vertices that it is to have. `seed` is for
+/// The sub-path that has left the light, for the kind of vertices that it is to have. `seed` is for
 /// what happens in media.
 template <class Vertex>
-inline WalkOf<Vertex> leave_light(const Scene& scene, const LightStart& start, uint64_t seed) {
+inline SubpathOf<Vertex> leave_light(const Scene& scene, const LightStart& start, uint64_t seed) {
   if constexpr (Vertex::kMedia) {
     const Medium* medium =
-        medium_at_emission(scene, scene.light_media[start.index], start.walk.ray.origin);
-    MediaWalk walk(scene, start.walk, medium, seed);
+        medium_at_emission(scene, scene.light_media[start.index], start.subpath.ray.origin);
+    MediaSubpath subpath(scene, start.subpath, medium, seed);
     if (medium && is_infinite(start.light->kind())) {
       // The medium goes on behind the start of the ray, up to where the light is.
-      Ray back = start.walk.ray;
+      Ray back = start.subpath.ray;
       back.direction = -back.direction, back.tmax = INFINITY;
       SpectralWeights w;
-      medium->transmit(back, walk.random, w);
-      walk.throughput *= w.value;
-      walk.transmittance = medium->nominal_transmittance(back);
+      medium->transmit(back, subpath.random, w);
+      subpath.throughput *= w.value;
+      subpath.transmittance = medium->nominal_transmittance(back);
     }
-    return walk;
+    return subpath;
   } else {
-    return start.walk;
+    return start.subpath;
   }
 }
 
-/// How a light walk is traced.
-struct LightWalkContext {
+/// How a light sub-path is traced.
+struct LightSubpathContext {
   const Scene& scene;
   const TechniqueSet& set;
-  WalkOptions options;
+  SubpathOptions options;
   int max_depth;  ///< segments that it has at most
   Sampler& sampler;
   RenderCounters& counters;
-  Trail* trail = nullptr;  ///< filled if not null
-  uint64_t seed = 0;       ///< for what happens in media
+  SubpathPdfs* pdfs = nullptr;  ///< filled if not null
+  uint64_t seed = 0;            ///< for what happens in media
 };
 
-/// A light walk under way; see trace_light_walk().
+/// A light sub-path under way; see trace_light_subpath().
 template <class Vertex, class Visit>
-class LightWalk {
+class LightSubpath {
  public:
-  LightWalk(const LightWalkContext& context, const LightStart& start, Visit& visit)
+  LightSubpath(const LightSubpathContext& context, const LightStart& start, Visit& visit)
       : c_(context),
         start_(start),
         visit_(visit),
-        walk_(leave_light<Vertex>(context.scene, start, context.seed)) {
-    walk_.trail = context.trail;
+        subpath_(leave_light<Vertex>(context.scene, start, context.seed)) {
+    subpath_.pdfs = context.pdfs;
   }
 
   int trace() {
     for (;;) {
       Hit hit;
       ++c_.counters.closest_rays;
-      const bool found = c_.scene.accel->closest_hit(walk_.ray, hit);
+      const bool found = c_.scene.accel->closest_hit(subpath_.ray, hit);
       if constexpr (Vertex::kMedia)
         if (const float t = cross_medium(found, hit); t < INFINITY) {
           if (!scatter_between(t, hit)) return depth_ - missed_;
@@ -138,43 +138,43 @@ class LightWalk {
  private:
   /// The distance to where the medium that the ray is in scatters it, or INFINITY.
   float cross_medium(bool found, const Hit& hit) {
-    if (!walk_.medium) return INFINITY;
-    Ray segment = walk_.ray;
+    if (!subpath_.medium) return INFINITY;
+    Ray segment = subpath_.ray;
     if (found) segment.tmax = hit.t;
     c_.sampler.start_dimension(dimension_ + kLightVertexDimensions);
-    return walk_.cross(segment, c_.sampler.next_1d(), c_.counters);
+    return subpath_.cross(segment, c_.sampler.next_1d(), c_.counters);
   }
 
-  /// In a medium; whether the walk goes on.
+  /// In a medium; whether the sub-path goes on.
   bool scatter_between(float t, const Hit& hit) {
-    const Point3f p = walk_.ray.origin + walk_.ray.direction * t;
+    const Point3f p = subpath_.ray.origin + subpath_.ray.direction * t;
     const float d2 = distance2(p);
-    const float extinction = walk_.medium->nominal_extinction(p);
+    const float extinction = subpath_.medium->nominal_extinction(p);
     if (!(d2 > 0 && extinction > 0)) return miss();
-    const Partials partials = arrive_at({p, d2, extinction, walk_.counted_transmittance()});
-    const Vertex v({*walk_.medium, extinction, p}, -walk_.ray.direction,
-                   {walk_.throughput, partials, depth_});
+    const Partials partials = arrive_at({p, d2, extinction, subpath_.counted_transmittance()});
+    const Vertex v({*subpath_.medium, extinction, p}, -subpath_.ray.direction,
+                   {subpath_.throughput, partials, depth_});
     return pass(v, hit, false);
   }
 
   bool meet_surface(const Hit& hit) {
-    const Surface s = c_.scene.surface(walk_.ray, hit);
-    const float cosine = std::abs(dot(s.ng, walk_.ray.direction));
+    const Surface s = c_.scene.surface(subpath_.ray, hit);
+    const float cosine = std::abs(dot(s.ng, subpath_.ray.direction));
     if (!(cosine > 0)) return miss();
     if constexpr (Vertex::kMedia) {
       const Partials partials =
-          arrive_at({s.position, distance2(s.position), cosine, walk_.counted_transmittance()});
-      const Vertex v(c_.scene, s, -walk_.ray.direction, {walk_.throughput, partials, depth_},
-                     walk_.medium);
+          arrive_at({s.position, distance2(s.position), cosine, subpath_.counted_transmittance()});
+      const Vertex v(c_.scene, s, -subpath_.ray.direction, {subpath_.throughput, partials, depth_},
+                     subpath_.medium);
       return pass(v, hit, c_.scene.materials[s.shape->material]->passes_straight());
     } else {
       const Partials partials = arrive_at({s.position, hit.t * hit.t, cosine});
-      const Vertex v(c_.scene, s, -walk_.ray.direction, walk_.throughput, partials, depth_);
+      const Vertex v(c_.scene, s, -subpath_.ray.direction, subpath_.throughput, partials, depth_);
       return pass(v, hit, false);
     }
   }
 
-  /// There is no vertex where the walk ends.
+  /// There is no vertex where the sub-path ends.
   bool miss() {
     missed_ = 1;
     return false;
@@ -182,19 +182,20 @@ class LightWalk {
 
   /// Squared distance from the last vertex; that to the light cancels.
   float distance2(const Point3f& p) const {
-    return depth_ == 1 ? 1.0f : length_squared(p - walk_.from);
+    return depth_ == 1 ? 1.0f : length_squared(p - subpath_.from);
   }
 
   Partials arrive_at(const Arrival& a) {
     if (depth_ == 1) {
-      record_first_arrival(start_, a.at, a.cosine, c_.trail, a.transmittance);
+      record_first_arrival(start_, a.at, a.cosine, c_.pdfs, a.transmittance);
       return first_light_partials(start_, a.at, a.cosine, c_.set, a.transmittance);
     }
-    record_arrival(walk_, a.d2 / a.transmittance, a.cosine);
-    return arrive(walk_.partials, a.d2 / a.transmittance, a.cosine, c_.set.walk_connections());
+    record_arrival(subpath_, a.d2 / a.transmittance, a.cosine);
+    return arrive(subpath_.partials, a.d2 / a.transmittance, a.cosine,
+                  c_.set.subpath_connections());
   }
 
-  /// Whether the walk goes on behind the vertex.
+  /// Whether the sub-path goes on behind the vertex.
   bool pass(const Vertex& v, const Hit& hit, bool may_be_passed) {
     c_.sampler.start_dimension(dimension_ + kLensOffset);
     visit_(v, hit);
@@ -202,32 +203,32 @@ class LightWalk {
     c_.sampler.start_dimension(dimension_);
     dimension_ += kLightVertexStride<Vertex>;
     bool straight = false;
-    if (!scatter<Transport::importance>(v, c_.set, c_.options, c_.sampler, walk_, &straight))
+    if (!scatter<Transport::importance>(v, c_.set, c_.options, c_.sampler, subpath_, &straight))
       return false;
     if (Vertex::kMedia && straight) return true;
     return depth_++ < c_.max_depth;
   }
 
-  const LightWalkContext& c_;
+  const LightSubpathContext& c_;
   const LightStart& start_;
   Visit& visit_;
-  WalkOf<Vertex> walk_;
+  SubpathOf<Vertex> subpath_;
   int depth_ = 1, missed_ = 0;
   uint32_t dimension_ = kLightStartDimensions;
 };
 
-/// Traces one walk. `visit(vertex, hit)` sees every vertex, on surfaces where they were hit, and
-/// finds the sampler at the random numbers for the lens. Returns the number of vertices. `Vertex`
-/// is PathVertex or MediaVertex.
+/// Traces one sub-path. `visit(vertex, hit)` sees every vertex, on surfaces where they were hit,
+/// and finds the sampler at the random numbers for the lens. Returns the number of vertices.
+/// `Vertex` is PathVertex or MediaVertex.
 template <class Vertex = PathVertex, class Visit>
-int trace_light_walk(const LightWalkContext& context, Visit&& visit) {
+int trace_light_subpath(const LightSubpathContext& context, Visit&& visit) {
   ++context.counters.light_paths;
   context.sampler.start_dimension(0);
-  const auto start = start_light_walk(context.scene, context.sampler);
-  if (context.trail) context.trail->clear();
+  const auto start = start_light_subpath(context.scene, context.sampler);
+  if (context.pdfs) context.pdfs->clear();
   if (!start) return 0;
-  LightWalk<Vertex, std::remove_reference_t<Visit>> walk(context, *start, visit);
-  return context.max_depth < 1 ? 0 : walk.trace();
+  LightSubpath<Vertex, std::remove_reference_t<Visit>> subpath(context, *start, visit);
+  return context.max_depth < 1 ? 0 : subpath.trace();
 }
 
 }  // namespace duet

@@ -1,11 +1,12 @@
-// What the two ends of a path have in common: how light found by an eye walk, sampled from one of
-// its vertices, or brought by a light walk becomes a weighted contribution. Shadow rays come last.
+// What the two ends of a path have in common: how light found by an eye sub-path, sampled from one
+// of its vertices, or brought by a light sub-path becomes a weighted contribution. Shadow rays come
+// last.
 //
 // Vertices are PathVertex or MediaVertex. Where there are media densities count their nominal
 // transmittance.
 //
-// `Weights` decides how a join is weighed against the other techniques:
-//   hit(walk, direct, emission)      s = 0; densities of the light's two other techniques
+// `Weights` decides how a connection is weighed against the other techniques:
+//   hit(subpath, direct, emission)      s = 0; densities of the light's two other techniques
 //   light_sample(eye, direct, bsdf, eye_end)
 //                                    s = 1; densities of sampling and of hitting the light
 //   camera(light, light_end)         t = 1
@@ -20,12 +21,12 @@
 
 namespace duet {
 
-/// Spares joins that would add next to nothing their shadow ray: one that contributes c is kept
-/// with probability min(1, c / threshold) and then counts for more.
-class JoinRoulette {
+/// Spares connections that would add next to nothing their shadow ray: one that contributes c is
+/// kept with probability min(1, c / threshold) and then counts for more.
+class ConnectionRoulette {
  public:
   /// `key` seeds the decisions; a threshold of zero keeps everything.
-  JoinRoulette(float threshold, uint64_t key) : threshold_(threshold), key_(key) {}
+  ConnectionRoulette(float threshold, uint64_t key) : threshold_(threshold), key_(key) {}
   /// 0 to drop the contribution, or what it is to be multiplied by.
   float keep(const Spectrum& contribution) {
     const float c = contribution.max();
@@ -55,45 +56,45 @@ inline bool occluded_by_others(const Scene& scene, Ray ray, RenderCounters& coun
 }
 
 /// A way from the light to the lens: its estimate without weight, and its weight.
-struct Join {
+struct Connection {
   Spectrum value;
   float weight = 0;
 };
 
-/// The light at the end of an eye walk that has hit the surface point `s` at squared distance `d2`
-/// from its last vertex. `transmittance` is the nominal one on the way from there.
+/// The light at the end of an eye sub-path that has hit the surface point `s` at squared distance
+/// `d2` from its last vertex. `transmittance` is the nominal one on the way from there.
 template <class Weights>
-inline Join join_hit(const Scene& scene, const Weights& weights, const Walk& walk, const Surface& s,
-                     float d2, float transmittance = 1) {
+inline Connection connect_hit(const Scene& scene, const Weights& weights, const Subpath& subpath,
+                              const Surface& s, float d2, float transmittance = 1) {
   const SurfaceLight* light = scene.light_on(*s.shape);
   if (!light) return {};
-  const Spectrum emitted = light->emitted(s, -walk.ray.direction);
+  const Spectrum emitted = light->emitted(s, -subpath.ray.direction);
   if (emitted.is_black()) return {};
-  const float direct = choice_density(scene, *light, walk.from, s, walk.ray.direction, d2);
+  const float direct = choice_density(scene, *light, subpath.from, s, subpath.ray.direction, d2);
   const float emission =
-      light->emission_density(s, -walk.ray.direction) * scene.picker.probability(s.shape->light);
-  return {walk.throughput * emitted, weights.hit(walk, direct / transmittance, emission)};
+      light->emission_density(s, -subpath.ray.direction) * scene.picker.probability(s.shape->light);
+  return {subpath.throughput * emitted, weights.hit(subpath, direct / transmittance, emission)};
 }
 
-/// The environment at the end of an eye walk that has left the scene.
+/// The environment at the end of an eye sub-path that has left the scene.
 template <class Weights>
-inline Join join_escape(const Scene& scene, const Weights& weights, const Walk& walk,
-                        float transmittance = 1) {
-  const Vector3f& w = walk.ray.direction;
+inline Connection connect_escape(const Scene& scene, const Weights& weights, const Subpath& subpath,
+                                 float transmittance = 1) {
+  const Vector3f& w = subpath.ray.direction;
   const Spectrum emitted = scene.environment->emitted(w);
   if (emitted.is_black()) return {};
   const float direct = choice_density(scene, w);
   const float emission =
       scene.environment->emission_density(w) * scene.picker.probability(scene.environment_index);
-  return {walk.throughput * emitted, weights.hit(walk, direct / transmittance, emission)};
+  return {subpath.throughput * emitted, weights.hit(subpath, direct / transmittance, emission)};
 }
 
-/// What all that is joined with the vertices of one walk needs.
+/// What all that is connected with the vertices of one sub-path needs.
 template <class Weights>
-struct JoinContext {
+struct ConnectionContext {
   const Scene& scene;
   const Weights& weights;
-  JoinRoulette& roulette;
+  ConnectionRoulette& roulette;
   RenderCounters& counters;
   bool strict_normals = false;
   RandomStream* random = nullptr;  ///< for shadow rays through media; null where there are none
@@ -101,7 +102,8 @@ struct JoinContext {
 
 /// A light sample from an eye vertex. Uses up to three dimensions of the sampler.
 template <class Weights, class Vertex>
-inline Join join_light(const JoinContext<Weights>& c, const Vertex& eye, Sampler& sampler) {
+inline Connection connect_light(const ConnectionContext<Weights>& c, const Vertex& eye,
+                                Sampler& sampler) {
   const Scene& scene = c.scene;
   const auto [sample, probability] = choose_light(scene, eye.position(), sampler);
   if (!sample || (c.strict_normals && eye.has_two_sides(sample->wi))) return {};
@@ -111,44 +113,44 @@ inline Join join_light(const JoinContext<Weights>& c, const Vertex& eye, Sampler
   if (sample->delta)
     direct = sample->finite ? length_squared(sample->target - eye.position()) : 1.0f;
   const float hit = sample->delta ? 0.0f : f.pdf.value;
-  JoinEnd eye_end{sample->emission * eye.cosine(sample->wi) / direct,
-                  eye.reverse_pdf(sample->wi, Transport::radiance)};
+  ConnectionEnd eye_end{sample->emission * eye.cosine(sample->wi) / direct,
+                        eye.reverse_pdf(sample->wi, Transport::radiance)};
   eye_end.merges = eye.merges(f.pdf.value, eye_end.beyond);
-  Join join{eye.throughput * f.value * sample->weight * (1 / probability),
-            c.weights.light_sample(eye, direct * probability, hit, eye_end)};
-  const float kept = c.roulette.keep(join.value * join.weight);
+  Connection connection{eye.throughput * f.value * sample->weight * (1 / probability),
+                        c.weights.light_sample(eye, direct * probability, hit, eye_end)};
+  const float kept = c.roulette.keep(connection.value * connection.weight);
   if (kept == 0) return {};
-  join.value *= kept;
+  connection.value *= kept;
   if constexpr (Vertex::kMedia) {
     const Point3f origin = eye.outside(sample->wi);
-    const auto passage = pass_through_media(
+    const auto transmittance = pass_through_media(
         scene, sample->finite ? ray_to(origin, sample->target) : Ray{origin, sample->wi, INFINITY},
         eye.medium_towards(scene, sample->wi), *c.random, c.counters);
-    if (!passage) return {};
-    join.value *= passage->value;
-    eye_end.arrival *= passage->nominal;
-    join.weight =
-        c.weights.light_sample(eye, direct * probability, hit * passage->nominal, eye_end);
+    if (!transmittance) return {};
+    connection.value *= transmittance->value;
+    eye_end.arrival *= transmittance->nominal;
+    connection.weight =
+        c.weights.light_sample(eye, direct * probability, hit * transmittance->nominal, eye_end);
   } else {
     const Ray shadow = sample->finite ? spawn_ray_to(eye.surface, sample->target)
                                       : spawn_ray(eye.surface, sample->wi);
     ++c.counters.shadow_rays;
     if (scene.accel->occluded(shadow)) return {};
   }
-  return join;
+  return connection;
 }
 
 /// Where a light vertex is seen, and how bright it makes that place if the image is a function per
-/// pixel area and one light walk is traced.
-struct CameraJoin {
+/// pixel area and one light sub-path is traced.
+struct CameraConnection {
   Point2f film;
-  Join join;
+  Connection connection;
 };
 
 /// The weight of a light vertex seen at a film position, which only few weights ask for.
 template <class Weights, class Vertex>
-inline float camera_weight(const Weights& weights, const Vertex& light, const JoinEnd& light_end,
-                           const Point2f& film) {
+inline float camera_weight(const Weights& weights, const Vertex& light,
+                           const ConnectionEnd& light_end, const Point2f& film) {
   if constexpr (requires { weights.camera(light, light_end, film); })
     return weights.camera(light, light_end, film);
   else
@@ -156,10 +158,11 @@ inline float camera_weight(const Weights& weights, const Vertex& light, const Jo
 }
 
 /// What lies between the camera and a vertex where there are media; empty if the vertex cannot be
-/// seen. Light is followed as eye walks follow it, from the camera.
-inline std::optional<Passage> seen_through_media(const Scene& scene, const MediaVertex& v,
-                                                 const CameraSample& seen, bool hide_emitters,
-                                                 RandomStream& random, RenderCounters& counters) {
+/// seen. Light is followed as eye sub-paths follow it, from the camera.
+inline std::optional<Transmittance> seen_through_media(const Scene& scene, const MediaVertex& v,
+                                                       const CameraSample& seen, bool hide_emitters,
+                                                       RandomStream& random,
+                                                       RenderCounters& counters) {
   Ray ray = ray_to(seen.target, v.outside(seen.direction));
   if (hide_emitters) {
     ray = behind_emitters(scene, ray, counters);
@@ -173,8 +176,9 @@ inline std::optional<Passage> seen_through_media(const Scene& scene, const Media
 
 /// A light vertex seen through a point of the lens; empty if it is not.
 template <class Weights, class Vertex>
-inline std::optional<CameraJoin> join_camera(const JoinContext<Weights>& c, const Vertex& light,
-                                             const Point2f& lens, bool hide_emitters) {
+inline std::optional<CameraConnection> connect_camera(const ConnectionContext<Weights>& c,
+                                                      const Vertex& light, const Point2f& lens,
+                                                      bool hide_emitters) {
   const Scene& scene = c.scene;
   if constexpr (!Vertex::kMedia)
     if (hide_emitters && light.surface.shape->light != kNone) return std::nullopt;
@@ -184,37 +188,38 @@ inline std::optional<CameraJoin> join_camera(const JoinContext<Weights>& c, cons
   if (f.value.is_black()) return std::nullopt;
   const float adjoint = light.adjoint(seen->direction);
   if (!(adjoint > 0)) return std::nullopt;
-  JoinEnd light_end{seen->importance * light.cosine(seen->direction), f.reverse.value,
-                    light.merges(f.pdf.value, f.reverse.value)};
-  Join join{light.throughput * f.value * (adjoint * seen->importance),
-            camera_weight(c.weights, light, light_end, seen->film)};
-  const float kept = c.roulette.keep(join.value * join.weight);
+  ConnectionEnd light_end{seen->importance * light.cosine(seen->direction), f.reverse.value,
+                          light.merges(f.pdf.value, f.reverse.value)};
+  Connection connection{light.throughput * f.value * (adjoint * seen->importance),
+                        camera_weight(c.weights, light, light_end, seen->film)};
+  const float kept = c.roulette.keep(connection.value * connection.weight);
   if (kept == 0) return std::nullopt;
-  join.value *= kept;
+  connection.value *= kept;
   if constexpr (Vertex::kMedia) {
-    const auto passage =
+    const auto transmittance =
         seen_through_media(scene, light, *seen, hide_emitters, *c.random, c.counters);
-    if (!passage) return std::nullopt;
-    join.value *= passage->value;
-    light_end.arrival *= passage->nominal;
-    join.weight = camera_weight(c.weights, light, light_end, seen->film);
+    if (!transmittance) return std::nullopt;
+    connection.value *= transmittance->value;
+    light_end.arrival *= transmittance->nominal;
+    connection.weight = camera_weight(c.weights, light, light_end, seen->film);
   } else {
     const Ray ray = spawn_ray_to(light.surface, seen->target);
     if (hide_emitters ? occluded_by_others(scene, ray, c.counters)
                       : (++c.counters.shadow_rays, scene.accel->occluded(ray)))
       return std::nullopt;
   }
-  return CameraJoin{seen->film, join};
+  return CameraConnection{seen->film, connection};
 }
 
 /// A light vertex seen from an eye vertex.
 template <class Weights, class Vertex>
-inline Join join_ends(const JoinContext<Weights>& c, const Vertex& light, const Vertex& eye) {
+inline Connection connect_ends(const ConnectionContext<Weights>& c, const Vertex& light,
+                               const Vertex& eye) {
   const Scene& scene = c.scene;
   RenderCounters& counters = c.counters;
   const auto fails = [&](uint64_t& reason) {
     ++reason;
-    return Join{};
+    return Connection{};
   };
   const Vector3f d = light.position() - eye.position();
   const float d2 = length_squared(d);
@@ -229,38 +234,39 @@ inline Join join_ends(const JoinContext<Weights>& c, const Vertex& light, const 
   const float adjoint = light.adjoint(-to_light);
   if (!(adjoint > 0)) return fails(counters.connections.failed_zero);
   const float inverse_d2 = 1 / d2;
-  JoinEnd light_end{f.pdf.value * light.cosine(to_light) * inverse_d2, g.reverse.value,
-                    light.merges(g.pdf.value, g.reverse.value)};
-  JoinEnd eye_end{g.pdf.value * eye.cosine(to_light) * inverse_d2, f.reverse.value,
-                  eye.merges(f.pdf.value, f.reverse.value)};
-  Join join{eye.throughput * f.value * light.throughput * g.value * (adjoint * inverse_d2),
-            c.weights.connection(light, light_end, eye, eye_end)};
-  const float kept = c.roulette.keep(join.value * join.weight);
+  ConnectionEnd light_end{f.pdf.value * light.cosine(to_light) * inverse_d2, g.reverse.value,
+                          light.merges(g.pdf.value, g.reverse.value)};
+  ConnectionEnd eye_end{g.pdf.value * eye.cosine(to_light) * inverse_d2, f.reverse.value,
+                        eye.merges(f.pdf.value, f.reverse.value)};
+  Connection connection{
+      eye.throughput * f.value * light.throughput * g.value * (adjoint * inverse_d2),
+      c.weights.connection(light, light_end, eye, eye_end)};
+  const float kept = c.roulette.keep(connection.value * connection.weight);
   if (kept == 0) return fails(counters.connections.skipped);
-  join.value *= kept;
+  connection.value *= kept;
   const Point3f target = light.outside(-to_light);
   if constexpr (Vertex::kMedia) {
-    const auto passage =
+    const auto transmittance =
         pass_through_media(scene, ray_to(eye.outside(to_light), target),
                            eye.medium_towards(scene, to_light), *c.random, counters);
-    if (!passage) return fails(counters.connections.failed_occluded);
-    join.value *= passage->value;
-    light_end.arrival *= passage->nominal, eye_end.arrival *= passage->nominal;
-    join.weight = c.weights.connection(light, light_end, eye, eye_end);
+    if (!transmittance) return fails(counters.connections.failed_occluded);
+    connection.value *= transmittance->value;
+    light_end.arrival *= transmittance->nominal, eye_end.arrival *= transmittance->nominal;
+    connection.weight = c.weights.connection(light, light_end, eye, eye_end);
   } else {
     ++counters.shadow_rays;
     if (scene.accel->occluded(spawn_ray_to(eye.surface, target)))
       return fails(counters.connections.failed_occluded);
   }
   ++counters.connections.contributed;
-  return join;
+  return connection;
 }
 
 /// A light vertex near an eye vertex, taken for the same point. `kernel` is the weight of the
-/// photon: one over the disk's area and the number of light walks.
+/// photon: one over the disk's area and the number of light sub-paths.
 template <class Weights>
-inline Join join_merge(const Weights& weights, const LightVertex& light, const PathVertex& eye,
-                       float kernel, bool strict_normals) {
+inline Connection connect_merge(const Weights& weights, const LightVertex& light,
+                                const PathVertex& eye, float kernel, bool strict_normals) {
   const Vector3f wi = light.direction_to_previous();
   // Photons are counted per area of the surface, not of the shading normal's.
   const float cosine = eye.cosine(wi);
