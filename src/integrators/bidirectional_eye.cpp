@@ -287,10 +287,14 @@ void BidirectionalIntegrator::connect(const Weights& weights, const Vertex& v,
       unpacked.emplace_back(Unpacked<Vertex>{l, eye.scene});
     eye.light_vertices = &unpacked;
   }
-  const ConnectionContext<Weights> connections = eye.connections(weights, options_.strict_normals);
+  Weights own = weights;
+  const ConnectionContext<Weights> connections = eye.connections(own, options_.strict_normals);
   int tried = 0;
   for (const Vertex& l : *eye.light_vertices) {
     if (l.depth > most) break;
+    if constexpr (Vertex::kMedia && std::is_same_v<Weights, WindowWeights>)
+      own.set_light(lights_.pdfs(eye.light_subpath),
+                    &lights_.end_pdfs(eye.light_subpath)[size_t(tried)]);
     ++tried;
     add(eye, l.depth + 1, v.depth + 1, connect_ends(connections, l, v));
   }

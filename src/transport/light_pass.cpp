@@ -23,7 +23,10 @@ double LightPass::memory_bytes(const LightPassPlan& plan, int vertices_per_subpa
   // Arrays that grow by doubling may hold twice as much as they need to.
   constexpr double kGrowth = 2;
   const double vertices = vertices_per_subpath;
-  const double pdfs = plan.windows ? kGrowth * ((vertices + 2) * sizeof(VertexPdfs) + 4) : 0.0;
+  const double pdfs =
+      plan.windows
+          ? kGrowth * ((vertices + 2) * sizeof(VertexPdfs) + 4 + vertices * sizeof(EndPdfs))
+          : 0.0;
   const double kept = plan.keep_vertices ? vertices * sizeof(LightVertex) + 6 : 0.0;
   const double at_a_time =
       std::min(double(plan.subpaths), double(kSubpathsPerBlock * kBlocksAtATime));
@@ -43,6 +46,7 @@ void LightPass::trace(const Scene& scene, const LightPassPlan& plan, const Weigh
   block.vertices.clear();
   block.splats.clear();
   block.pdf_lists.clear();
+  block.pdf_ends.clear();
   block.end_pdfs.clear();
   block.counters = {};
   const bool has_lens = scene.camera->has_lens();
@@ -64,8 +68,10 @@ void LightPass::trace(const Scene& scene, const LightPassPlan& plan, const Weigh
           block.splats.push_back(
               {{seen->film, seen->connection.value}, seen->connection.weight, v.depth});
       }
-      if (plan.keep_vertices && (plan.set.connections || v.merges()))
+      if (plan.keep_vertices && (plan.set.connections || v.merges())) {
         block.vertices.vertices.emplace_back(v, hit);
+        if (Vertex::kMedia && pdfs) block.end_pdfs.push_back({pdfs->front(), pdfs->back()});
+      }
     };
     const int length =
         trace_light_subpath<Vertex>({scene, plan.set, plan.subpath, plan.max_depth, sampler,
@@ -75,7 +81,7 @@ void LightPass::trace(const Scene& scene, const LightPassPlan& plan, const Weigh
     block.vertices.lengths.push_back(uint16_t(std::min(length, 0xffff)));
     if (pdfs) {
       block.pdf_lists.insert(block.pdf_lists.end(), pdfs->begin(), pdfs->end());
-      block.end_pdfs.push_back(uint32_t(block.pdf_lists.size()));
+      block.pdf_ends.push_back(uint32_t(block.pdf_lists.size()));
     }
   }
 }
@@ -100,6 +106,7 @@ void LightPass::run(const Scene& scene, const LightPassPlan& plan,
                     RenderCounters& counters) {
   vertices_.clear();
   pdf_lists_.clear();
+  pdf_ends_.clear();
   end_pdfs_.clear();
   blocks_.resize(kBlocksAtATime);
   for (uint32_t wave = 0; wave < plan.subpaths; wave += kSubpathsPerBlock * kBlocksAtATime) {
@@ -121,7 +128,8 @@ void LightPass::run(const Scene& scene, const LightPassPlan& plan,
       if (!plan.windows) continue;
       const uint32_t offset = uint32_t(pdf_lists_.size());
       pdf_lists_.insert(pdf_lists_.end(), b.pdf_lists.begin(), b.pdf_lists.end());
-      for (const uint32_t e : b.end_pdfs) end_pdfs_.push_back(offset + e);
+      for (const uint32_t e : b.pdf_ends) pdf_ends_.push_back(offset + e);
+      end_pdfs_.insert(end_pdfs_.end(), b.end_pdfs.begin(), b.end_pdfs.end());
     }
   }
 }

@@ -44,10 +44,15 @@ class LightPass {
            RenderCounters& counters);
 
   const LightVertices& vertices() const { return vertices_; }
-  /// Vertex pdfs of the sub-paths, one after the other, as `end_pdfs` says; if there are windows.
+  /// Vertex pdfs of a sub-path; if there are windows.
   std::span<const VertexPdfs> pdfs(size_t subpath) const {
-    const uint32_t first = subpath == 0 ? 0 : end_pdfs_[subpath - 1];
-    return {pdf_lists_.data() + first, end_pdfs_[subpath] - first};
+    const uint32_t first = subpath == 0 ? 0 : pdf_ends_[subpath - 1];
+    return {pdf_lists_.data() + first, pdf_ends_[subpath] - first};
+  }
+  /// What stood at the ends of that list at each of the sub-path's kept vertices; if there are
+  /// windows and media, where a sub-path may pass surfaces straight.
+  std::span<const EndPdfs> end_pdfs(size_t subpath) const {
+    return vertices_.part_of(end_pdfs_, subpath);
   }
   /// Bytes that passes of such a plan take if each sub-path has so many vertices that can be
   /// connected.
@@ -59,7 +64,8 @@ class LightPass {
   struct Block {
     LightVertices vertices;
     SubpathPdfs pdf_lists;
-    std::vector<uint32_t> end_pdfs;
+    std::vector<uint32_t> pdf_ends;
+    std::vector<EndPdfs> end_pdfs;
     std::vector<LightSplat> splats;
     RenderCounters counters;
   };
@@ -75,7 +81,8 @@ class LightPass {
   std::vector<Block> blocks_;
   LightVertices vertices_;
   SubpathPdfs pdf_lists_;
-  std::vector<uint32_t> end_pdfs_;
+  std::vector<uint32_t> pdf_ends_;
+  std::vector<EndPdfs> end_pdfs_;
 };
 
 }  // namespace duet

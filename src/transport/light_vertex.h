@@ -55,9 +55,12 @@ struct LightVertices {
   std::vector<uint16_t> lengths;
 
   void clear() { vertices.clear(), ends.clear(), lengths.clear(); }
-  std::span<const LightVertex> subpath(size_t i) const {
+  std::span<const LightVertex> subpath(size_t i) const { return part_of(vertices, i); }
+  /// The part of a list with an entry for every vertex that belongs to sub-path i.
+  template <class T>
+  std::span<const T> part_of(const std::vector<T>& list, size_t i) const {
     const uint32_t first = i == 0 ? 0 : ends[i - 1];
-    return {vertices.data() + first, ends[i] - first};
+    return {list.data() + first, ends[i] - first};
   }
   void append(const LightVertices& o);
 };

@@ -4,33 +4,35 @@ namespace duet {
 
 namespace {
 
-/// The reverse density of vertex i of a side whose last vertex is n, where the other side's end
-/// goes on from it.
-double reverse_density(std::span<const VertexPdfs> side, int i, int n, const ConnectionEnd& end) {
+/// The reverse density of vertex i of a side whose last vertex is number n, with the pdfs `last`,
+/// where the other side's end goes on from it.
+double reverse_density(std::span<const VertexPdfs> side, const VertexPdfs& last, int i, int n,
+                       const ConnectionEnd& end) {
   if (i == n) return double(end.arrival);
-  if (i == n - 1) return double(end.beyond) * double(side[size_t(n)].back);
+  if (i == n - 1) return double(end.beyond) * double(last.back);
   return double(side[size_t(i)].reverse);
 }
 
 }  // namespace
 
-double WindowWeights::fewer(std::span<const VertexPdfs> light, int m, int t,
+double WindowWeights::fewer(std::span<const VertexPdfs> light, const EndPdfs& ends, int m, int t,
                             const ConnectionEnd& end) const {
+  const double direct = double(ends.light.back);
   double sum = 0, ratio = 1;
   // Vertex i changes sides: it is made from the eye's end now, and i light vertices are left.
   for (int i = m; i >= 1; --i) {
-    const VertexPdfs& v = light[size_t(i)];
-    ratio *= reverse_density(light, i, m, end) / double(v.forward);
+    const VertexPdfs& v = i == m ? ends.vertex : light[size_t(i)];
+    ratio *= reverse_density(light, ends.vertex, i, m, end) / double(v.forward);
     // Of a single light vertex light samples have a density of their own.
-    if (i == 1) ratio *= double(light[0].back);
+    if (i == 1) ratio *= direct;
     ++t;
     const bool connections = (i == m || !v.specular) && (i == 1 || !light[size_t(i - 1)].specular);
     if (connections) sum += windows_.share(i, t) * ratio;
   }
   if (light[0].specular) return sum;
   const double found =
-      m == 1 ? double(end.beyond) * double(light[1].back) : double(light[0].reverse);
-  return sum + windows_.share(0, t + 1) * ratio * found / double(light[0].back);
+      m == 1 ? double(end.beyond) * double(ends.vertex.back) : double(light[0].reverse);
+  return sum + windows_.share(0, t + 1) * ratio * found / direct;
 }
 
 double WindowWeights::more(int n, int s, const ConnectionEnd& end) const {
@@ -38,7 +40,7 @@ double WindowWeights::more(int n, int s, const ConnectionEnd& end) const {
   double sum = 0, ratio = 1;
   for (int j = n; j >= 1; --j) {
     const VertexPdfs& v = eye[size_t(j)];
-    ratio *= reverse_density(eye, j, n, end) / double(v.forward);
+    ratio *= reverse_density(eye, eye[size_t(n)], j, n, end) / double(v.forward);
     ++s;
     const bool connections = (j == n || !v.specular) && (j == 1 || !eye[size_t(j - 1)].specular);
     if (connections) sum += windows_.share(s, j) * ratio;
@@ -78,7 +80,9 @@ float WindowWeights::light_sample(const PathVertex& eye, float direct, float bsd
 float WindowWeights::camera(const PathVertex& light, const ConnectionEnd& light_end) const {
   const int m = light.depth;
   const double own = windows_.share(m + 1, 1);
-  return own == 0 ? 0.0f : float(own / (own + fewer(*light_, m, 1, light_end)));
+  if (own == 0) return 0;
+  const EndPdfs ends{light_->front(), light_->back()};
+  return float(own / (own + fewer(*light_, ends, m, 1, light_end)));
 }
 
 float WindowWeights::connection(const PathVertex& light, const ConnectionEnd& light_end,
@@ -86,7 +90,9 @@ float WindowWeights::connection(const PathVertex& light, const ConnectionEnd& li
   const int m = light.depth, n = eye.depth;
   const double own = windows_.share(m + 1, n + 1);
   if (own == 0) return 0;
-  return float(own / (own + fewer(light_subpath_, m, n + 1, light_end) + more(n, m + 1, eye_end)));
+  const EndPdfs ends = ends_ ? *ends_ : EndPdfs{light_subpath_[0], light_subpath_[size_t(m)]};
+  return float(own /
+               (own + fewer(light_subpath_, ends, m, n + 1, light_end) + more(n, m + 1, eye_end)));
 }
 
 }  // namespace duet

@@ -29,8 +29,11 @@ class WindowWeights {
  public:
   WindowWeights(const Windows& windows, const SubpathPdfs* light, const SubpathPdfs* eye)
       : windows_(windows), light_(light), eye_(eye) {}
-  /// For connections: the vertex pdfs of a light sub-path of which some vertices may follow.
-  void set_light(std::span<const VertexPdfs> pdfs) { light_subpath_ = pdfs; }
+  /// For connections: the vertex pdfs of a light sub-path, as FamilyWeights::set_light() takes
+  /// them.
+  void set_light(std::span<const VertexPdfs> pdfs, const EndPdfs* ends = nullptr) {
+    light_subpath_ = pdfs, ends_ = ends;
+  }
 
   float hit(const Subpath& subpath, float direct, float emission) const;
   float light_sample(const PathVertex& eye, float direct, float bsdf,
@@ -41,8 +44,9 @@ class WindowWeights {
 
  private:
   /// Density of the techniques with fewer light vertices, relative to the one at hand, whose last
-  /// light vertex is number `m`; `t` is its number of eye vertices.
-  double fewer(std::span<const VertexPdfs> light, int m, int t, const ConnectionEnd& end) const;
+  /// light vertex is number `m`; `t` is its number of eye vertices. `ends` are those at vertex m.
+  double fewer(std::span<const VertexPdfs> light, const EndPdfs& ends, int m, int t,
+               const ConnectionEnd& end) const;
   /// The same for more light vertices: eye vertex `n` and all before it change sides one by one.
   /// `s` is the number of light vertices of the technique at hand.
   double more(int n, int s, const ConnectionEnd& end) const;
@@ -51,6 +55,7 @@ class WindowWeights {
   const SubpathPdfs* light_;
   const SubpathPdfs* eye_;
   std::span<const VertexPdfs> light_subpath_;
+  const EndPdfs* ends_ = nullptr;
 };
 
 }  // namespace duet

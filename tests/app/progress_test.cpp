@@ -93,6 +93,7 @@ TEST_SUITE("program") {
     duet.send(SIGTERM);
     const Outcome o = duet.wait(60);
     CAPTURE(o.err);
-    CHECK(std::regex_search(o.err, std::regex(R"(\[1/2\] a: \d+ %, [0-9.]+ spp, .* left \(all: )")));
+    CHECK(
+        std::regex_search(o.err, std::regex(R"(\[1/2\] a: \d+ %, [0-9.]+ spp, .* left \(all: )")));
   }
 }

@@ -1,5 +1,6 @@
 // Every weight that a connection gets against the definition, on the paths that sub-paths really
 // make.
+#include <array>
 #include <cmath>
 
 #include "support/mis_oracle.h"
@@ -14,6 +15,11 @@ namespace {
 
 constexpr float kGlass = 1.5f;
 
+std::string holes_xml() {
+  return "<bsdf type='mask'><float name='opacity' value='0.6'/>" + grey("0.5, 0.5, 0.5") +
+         "</bsdf>";
+}
+
 /// Rooms with everything that sub-paths can meet; `lens` for a camera with an aperture.
 std::vector<std::string> scenes() {
   const std::string grey_walls = room_xml(grey("0.7, 0.5, 0.3"));
@@ -27,8 +33,7 @@ std::vector<std::string> scenes() {
   const std::string rough_metal =
       "<bsdf type='roughconductor'><float name='alpha' value='0.2'/></bsdf>";
   const std::string plastic = "<bsdf type='plastic'/>";
-  const std::string holes =
-      "<bsdf type='mask'><float name='opacity' value='0.6'/>" + grey("0.5, 0.5, 0.5") + "</bsdf>";
+  const std::string holes = holes_xml();
   const std::string camera = camera_xml("0, -3, 1", "0, 0, 1", 32);
   const std::string lens = camera_xml(
       "0.3, -3, 1.2", "0, 0, 1", 32, "thinlens",
@@ -85,19 +90,24 @@ std::vector<std::string> sharp_scenes() {
               ball("-0.4, 0, 0.5", metal)};
 }
 
-/// Rooms with fog of the extinctions kFog, and where it is.
+/// Rooms with fog, and where it is.
 struct FoggyScene {
   std::string content;
   Point3f center;
   float radius;
+  std::array<double, 3> extinction{1.5, 0.7, 0.3};
 };
-constexpr double kFog[] = {1.5, 0.7, 0.3};
 
 std::vector<FoggyScene> foggy_scenes() {
   const std::string fog =
       "<medium type='homogeneous' id='fog'><rgb name='sigma_t' value='1.5, 0.7, 0.3'/>"
       "<rgb name='albedo' value='0.9'/><phase type='hg'><float name='g' value='0.6'/></phase>"
       "</medium>";
+  // Densities count the mean of the three channels for each part of a way between surfaces that are
+  // passed; of grey fog that is the product.
+  const std::string grey_fog =
+      "<medium type='homogeneous' id='fog'><rgb name='sigma_t' value='0.7'/>"
+      "<rgb name='albedo' value='0.9'/></medium>";
   const std::string null = "<bsdf type='null'/><ref id='fog' name='interior'/>";
   const std::string walls = room_xml(grey("0.7, 0.5, 0.3")), lamp = lamp_xml("0.3", "12");
   const std::string point =
@@ -113,6 +123,14 @@ std::vector<FoggyScene> foggy_scenes() {
       {fog + camera_xml("0, -3, 1", "0, 0, 1", 32, "perspective", "<ref id='fog'/>") + walls +
            lamp + mirror + sphere_xml("0, 0, 0", "9", null),
        Point3f(0, 0, 0), 9},
+      // Surfaces that light is scattered by or passes straight.
+      {grey_fog + camera_xml("0, -3, 1", "0, 0, 1", 32, "perspective", "<ref id='fog'/>") + walls +
+           lamp + point + sphere_xml("0, 0, 0", "9", null) +
+           sphere_xml("-0.3, 0, 1", "0.5", holes_xml()) +
+           sphere_xml("0.4, 0.2, 0.5", "0.3", holes_xml()),
+       Point3f(0, 0, 0),
+       9,
+       {0.7, 0.7, 0.7}},
   };
 }
 
@@ -175,6 +193,12 @@ class Checker {
 
  private:
   using Record = Recorded<Vertex>;
+  /// A light sub-path up to a vertex that it then passed straight, and the ends of its vertex pdfs
+  /// there.
+  struct Branch {
+    Record record;
+    EndPdfs ends;
+  };
   double share(int s, int t) const {
     if (windows_) {
       // Of the definition: sub-paths of T and S segments have T + 1 and S + 1 vertices.
@@ -212,7 +236,8 @@ class Checker {
       Point3f from = on_light;
       const auto go = [&](const Point3f& to) {
         double t = 0;
-        for (const double sigma : kFog) t += std::exp(-sigma * way_through(*fog_, from, to)) / 3;
+        for (const double sigma : fog_->extinction)
+          t += std::exp(-sigma * way_through(*fog_, from, to)) / 3;
         path.transmittance.push_back(t);
         from = to;
       };
@@ -289,6 +314,7 @@ class Checker {
   RenderCounters counters_;
   RandomStream random_{1};
   SubpathPdfs light_pdfs_;
+  std::vector<Branch> branches_;
   int64_t compared_ = 0;
   int64_t inexact_ = 0, through_media_ = 0;
 };
@@ -323,20 +349,28 @@ void Checker<Vertex>::eye_subpath(Weights weights, const Ray& camera_ray, int ma
   /// Connects the vertex with all of the light sub-path; whether the eye sub-path goes on.
   const auto pass = [&](const Vertex& v) {
     eye.add(v);
-    if (v.is_smooth())
-      for (const Vertex& l : light.vertices) {
-        if (!l.is_smooth()) continue;
-        const Connection connection = connect_ends(connections, l, v);
-        if (connection.value.is_black() || share(l.depth + 1, depth + 1) == 0) continue;
-        OraclePath path;
-        const Vector3f next = normalize(v.position() - l.position());
-        append_light(path, light, l.depth, next, *start);
-        const Vector3f to_light = path.to_light;
-        path.to_light = -next;
-        append_eye(path, eye, depth, camera_ray);
-        path.to_light = to_light;
-        check(path, l.depth + 1, connection.weight, start->subpath.ray.origin, camera_ray.origin);
+    const auto connect = [&](const Record& from, const Vertex& l) {
+      if (!l.is_smooth()) return;
+      const Connection connection = connect_ends(connections, l, v);
+      if (connection.value.is_black() || share(l.depth + 1, depth + 1) == 0) return;
+      OraclePath path;
+      const Vector3f next = normalize(v.position() - l.position());
+      append_light(path, from, l.depth, next, *start);
+      const Vector3f to_light = path.to_light;
+      path.to_light = -next;
+      append_eye(path, eye, depth, camera_ray);
+      path.to_light = to_light;
+      check(path, l.depth + 1, connection.weight, start->subpath.ray.origin, camera_ray.origin);
+    };
+    if (v.is_smooth()) {
+      for (const Vertex& l : light.vertices) connect(light, l);
+      for (const Branch& b : branches_) {
+        if constexpr (std::is_same_v<Weights, WindowWeights>)
+          weights.set_light(light_pdfs_, &b.ends);
+        connect(b.record, b.record.vertices.back());
       }
+      if constexpr (std::is_same_v<Weights, WindowWeights>) weights.set_light(light_pdfs_);
+    }
     bool straight = false;
     if (!scatter<Transport::radiance>(v, set_, {1000, false}, sampler, subpath, &straight))
       return false;
@@ -428,11 +462,16 @@ void Checker<Vertex>::pair(uint32_t index, int max_depth) {
   same.start_dimension(0);
   const auto start = start_light_subpath(scene_, same);
   ConnectionRoulette roulette(0, 0);
+  branches_.clear();
+  EndPdfs ends{};  // at the last vertex
   const auto visit_with = [&](const auto& weights) {
     return [&](const Vertex& v, const Hit&) {
-      // What was passed straight is no vertex.
-      if (!light.vertices.empty() && light.vertices.back().depth == v.depth)
+      // What was passed straight is no vertex of what follows.
+      if (!light.vertices.empty() && light.vertices.back().depth == v.depth) {
+        if (light.vertices.back().is_smooth()) branches_.push_back({light, ends});
         light.vertices.pop_back(), light.specular.pop_back();
+      }
+      ends = {light_pdfs_.front(), light_pdfs_.back()};
       if (!light.vertices.empty()) {
         // How the one before was left.
         light.specular.back() = light_pdfs_[size_t(v.depth - 1)].specular;
@@ -464,8 +503,10 @@ void Checker<Vertex>::pair(uint32_t index, int max_depth) {
                                  uint64_t(index + 1)},
                                 visit_with(weights));
     // The last surface may have been passed on the way out.
-    if (!light.vertices.empty() && !light.vertices.back().is_smooth())
+    if (!light.vertices.empty() && light_pdfs_.size() == light.vertices.size()) {
+      if (light.vertices.back().is_smooth()) branches_.push_back({light, ends});
       light.vertices.pop_back(), light.specular.pop_back();
+    }
   };
   const Ray camera_ray = scene_.camera->sample_ray({32 * sampler.next_1d(), 32 * sampler.next_1d()},
                                                    sampler.next_2d());
