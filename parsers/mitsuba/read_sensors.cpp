@@ -1,11 +1,11 @@
 // Sensors with their films, filters and samplers.
 #include <cmath>
-#include <numbers>
 
 #include "mitsuba/focal_length.h"
 #include "mitsuba/readers.h"
 #include "mitsuba/sensor_parts.h"
 #include "values/text.h"
+#include "math/angles.h"
 
 namespace duet {
 
@@ -118,7 +118,7 @@ void read_sensor(SceneReader& s, Properties& p, SensorDescription& out) {
 
 double diagonal_fov(double focal_length) {
   const double diagonal = std::sqrt(36.0 * 36 + 24 * 24);
-  return 2 * std::atan(diagonal / (2 * focal_length)) * (180 / std::numbers::pi);
+  return 2 * std::atan(diagonal / (2 * focal_length)) * kDegrees;
 }
 
 std::pair<double, FovAxis> read_fov(Properties& p) {

@@ -1,8 +1,8 @@
 #include "cameras/perspective.h"
 
-#include <numbers>
 
 #include "math/warp.h"
+#include "math/angles.h"
 
 namespace duet {
 
@@ -11,7 +11,7 @@ PerspectiveCamera::PerspectiveCamera(const PerspectiveView& view)
       near_(float(view.near_clip)),
       depth_(float(view.far_clip - view.near_clip)),
       film_(view.film) {
-  const double half_width = std::tan(0.5 * view.horizontal_fov * std::numbers::pi / 180);
+  const double half_width = std::tan(0.5 * view.horizontal_fov * kRadians);
   // Camera space has +x on the left of the image, film space on the right.
   const double pixel = -2 * half_width / view.film.x;
   right_ = view.to_world(Vector3f(float(pixel), 0, 0));

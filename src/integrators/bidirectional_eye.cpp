@@ -108,7 +108,9 @@ class BidirectionalIntegrator::EyeSubpath {
       const bool found = scene_.accel->closest_hit(subpath_.ray, hit);
       float transmittance = 1;
       if constexpr (Vertex::kMedia) {
-        if (const float t = cross_medium(found, hit); t < INFINITY) {
+        if (const float t = subpath_.cross(found ? hit.t : INFINITY, eye_.sampler,
+                                           dimension_ + kDistanceDimension, eye_.counters);
+            t < INFINITY) {
           if (!scatter_between(t)) return;
           continue;
         }
@@ -131,15 +133,6 @@ class BidirectionalIntegrator::EyeSubpath {
   /// Lights that are not to be seen are surfaces like others behind those that light passes, and
   /// the sky stays hidden there.
   bool hides_lights() const { return hides_emitters() && alpha_ == 0; }
-
-  /// The distance to where the medium that the ray is in scatters it, or INFINITY.
-  float cross_medium(bool found, const Hit& hit) {
-    if (!subpath_.medium) return INFINITY;
-    Ray segment = subpath_.ray;
-    if (found) segment.tmax = hit.t;
-    eye_.sampler.start_dimension(dimension_ + kDistanceDimension);
-    return subpath_.cross(segment, eye_.sampler.next_1d(), eye_.counters);
-  }
 
   /// In a medium; whether the sub-path goes on.
   bool scatter_between(float t) {

@@ -52,7 +52,9 @@ class PilotEyeSubpath {
       const bool found = scene_.accel->closest_hit(subpath_.ray, hit);
       float transmittance = 1;
       if constexpr (Vertex::kMedia) {
-        if (float t = cross_medium(found, hit); t < INFINITY) {
+        if (float t = subpath_.cross(found ? hit.t : INFINITY, sampler_,
+                                     dimension_ + kDistanceDimension, counters());
+            t < INFINITY) {
           if (!scatter_between(t)) return;
           continue;
         }
@@ -96,15 +98,6 @@ class PilotEyeSubpath {
     };
     return {place(cell_ % side, random, pilot_.plan.film.x),
             place(cell_ / side, random >> 32, pilot_.plan.film.y)};
-  }
-
-  /// The distance to where the medium that the ray is in scatters it, or INFINITY.
-  float cross_medium(bool found, const Hit& hit) {
-    if (!subpath_.medium) return INFINITY;
-    Ray segment = subpath_.ray;
-    if (found) segment.tmax = hit.t;
-    sampler_.start_dimension(dimension_ + kDistanceDimension);
-    return subpath_.cross(segment, sampler_.next_1d(), counters());
   }
 
   /// In a medium; whether the sub-path goes on.

@@ -3,6 +3,7 @@
 #include <numbers>
 
 #include "math/warp.h"
+#include "math/angles.h"
 
 namespace duet {
 
@@ -127,7 +128,7 @@ ProjectorEmitter::ProjectorEmitter(const Transform& to_world, const ColorSlot& i
       axis_(to_world(Vector3f(0, 0, 1))),
       irradiance_(irradiance),
       scale_(scale) {
-  const double width = 2 * std::tan(0.5 * horizontal_fov * std::numbers::pi / 180);
+  const double width = 2 * std::tan(0.5 * horizontal_fov * kRadians);
   inv_width_ = float(1 / width);
   inv_height_ = float(aspect / width);
   density_ = inv_width_ * inv_height_ * float(inverse_determinant(to_world));

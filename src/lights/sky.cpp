@@ -6,6 +6,7 @@
 #include "lights/sky_tables.h"
 #include "math/trig.h"
 #include "math/warp.h"
+#include "math/angles.h"
 
 namespace duet {
 
@@ -46,7 +47,7 @@ float interpolate(const Table& table, int width, int column, const Between& turb
 
 Spectrum sun_irradiance(double turbidity, double elevation) {
   const Between t(turbidity - 1, kSkyTurbidities);
-  const Between e((elevation * 180 / std::numbers::pi - 2) / 3, kSunElevations);
+  const Between e((elevation * kDegrees - 2) / 3, kSunElevations);
   Spectrum sum(0.0f);
   for (int i = 0; i < 2; ++i)
     for (int j = 0; j < 2; ++j) {

@@ -3,13 +3,14 @@
 #pragma once
 
 #include "materials/materials.h"
+#include "math/angles.h"
 
 namespace duet {
 
 /// Roughnesses lie in [0, 1]; see HairModel.
 struct HairOptions {
   float longitudinal_roughness = 0.3f, azimuthal_roughness = 0.3f;
-  float scale_tilt = 2 * kPi / 180;
+  float scale_tilt = 2 * float(kRadians);
   float eta = 1.55f / 1.000277f;
   ColorSlot absorption{hair_absorption(1.3f, 0.2f)};
   float absorption_scale = 1;

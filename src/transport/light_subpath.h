@@ -126,7 +126,9 @@ class LightSubpath {
       ++c_.counters.closest_rays;
       const bool found = c_.scene.accel->closest_hit(subpath_.ray, hit);
       if constexpr (Vertex::kMedia)
-        if (const float t = cross_medium(found, hit); t < INFINITY) {
+        if (const float t = subpath_.cross(found ? hit.t : INFINITY, c_.sampler,
+                                           dimension_ + kLightVertexDimensions, c_.counters);
+            t < INFINITY) {
           if (!scatter_between(t, hit)) return depth_ - missed_;
           continue;
         }
@@ -136,15 +138,6 @@ class LightSubpath {
   }
 
  private:
-  /// The distance to where the medium that the ray is in scatters it, or INFINITY.
-  float cross_medium(bool found, const Hit& hit) {
-    if (!subpath_.medium) return INFINITY;
-    Ray segment = subpath_.ray;
-    if (found) segment.tmax = hit.t;
-    c_.sampler.start_dimension(dimension_ + kLightVertexDimensions);
-    return subpath_.cross(segment, c_.sampler.next_1d(), c_.counters);
-  }
-
   /// In a medium; whether the sub-path goes on.
   bool scatter_between(float t, const Hit& hit) {
     const Point3f p = subpath_.ray.origin + subpath_.ray.direction * t;

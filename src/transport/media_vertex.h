@@ -118,6 +118,15 @@ struct MediaSubpath : Subpath {
     transmittance *= medium->nominal_transmittance(passed);
     return t;
   }
+  /// The same along the sub-path's own ray, up to the surface at distance `end` or INFINITY, with
+  /// the random number of this dimension.
+  float cross(float end, Sampler& sampler, uint32_t dimension, RenderCounters& counters) {
+    if (!medium) return INFINITY;
+    Ray segment = ray;
+    segment.tmax = std::min(segment.tmax, end);
+    sampler.start_dimension(dimension);
+    return cross(segment, sampler.next_1d(), counters);
+  }
   /// The transmittance as densities count it.
   float counted_transmittance() const { return std::max(transmittance, kLeastTransmittance); }
 };

@@ -1,9 +1,9 @@
 #include "evaluate/report/header.h"
 
 #include <cmath>
-#include <numbers>
 
 #include "evaluate/report/provenance.h"
+#include "math/angles.h"
 
 namespace duet {
 
@@ -29,7 +29,7 @@ Matrix4 camera_to_ndc(const SensorDescription& view, Point2i size) {
     return m;
   }
   const double fov = horizontal_fov(view.fov, view.fov_axis, aspect);
-  const double t = std::tan(0.5 * fov * std::numbers::pi / 180);
+  const double t = std::tan(0.5 * fov * kRadians);
   m[0] = {0.5 / t, 0, 0.5 - view.principal_point_offset_x, 0};
   m[1] = {0, -0.5 * aspect / t, 0.5 - view.principal_point_offset_y, 0};
   m[2] = {0, 0, 1, 0};

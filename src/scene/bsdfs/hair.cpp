@@ -2,6 +2,7 @@
 
 #include "materials/special_materials.h"
 #include "scene/builder.h"
+#include "math/angles.h"
 
 namespace duet {
 
@@ -9,7 +10,7 @@ MaterialPointer HairMaterial::build(SceneBuilder& b, const SourceLocation&) cons
   HairOptions o;
   o.longitudinal_roughness = float(longitudinal_roughness);
   o.azimuthal_roughness = float(azimuthal_roughness);
-  o.scale_tilt = float(scale_tilt) * (kPi / 180);
+  o.scale_tilt = float(scale_tilt * kRadians);
   o.eta = float(eta);
   o.absorption =
       sigma_a ? b.slot(*sigma_a) : ColorSlot{hair_absorption(float(eumelanin), float(pheomelanin))};

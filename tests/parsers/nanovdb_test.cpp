@@ -1,0 +1,128 @@
+#include "volume/nanovdb_file.h"
+
+#include <doctest/doctest.h>
+#define NANOVDB_USE_ZIP
+#include <nanovdb/util/GridBuilder.h>
+#include <nanovdb/util/IO.h>
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+
+#include "base/diagnostics.h"
+#include "support/files.h"
+
+using namespace duet;
+
+namespace {
+
+/// What the voxels of the test's grids are: a ball, larger than a node, and a speck far from it.
+float voxel(int x, int y, int z) {
+  if (x == 60 && y == -3 && z == 4) return 2;
+  const float r = std::sqrt(float(x * x + y * y + z * z));
+  return r < 11 ? 1 - r / 16 : 0;
+}
+
+template <class Build>
+nanovdb::GridHandle<> make_grid(const std::string& name) {
+  nanovdb::GridBuilder<float, Build> builder(0.0f, nanovdb::GridClass::FogVolume);
+  auto values = builder.getAccessor();
+  for (int x = -12; x <= 60; ++x)
+    for (int y = -12; y <= 12; ++y)
+      for (int z = -12; z <= 12; ++z)
+        if (const float v = voxel(x, y, z); v > 0) values.setValue({x, y, z}, v);
+  return builder.getHandle(0.5, nanovdb::Vec3d(1, 2, 3), name);
+}
+
+template <class Build = float>
+std::string file_of(nanovdb::io::Codec codec = nanovdb::io::Codec::NONE) {
+  const test::TemporaryDirectory directory;
+  const std::string path = directory.path("a.nvdb");
+  std::vector<nanovdb::GridHandle<>> grids;
+  grids.push_back(make_grid<float>("other"));
+  grids.push_back(make_grid<Build>("density"));
+  nanovdb::io::writeGrids<nanovdb::HostBuffer, std::vector>(path, grids, codec);
+  return test::read_file(path);
+}
+
+NanoVdbGrid parse(const std::string& file, const std::string& name = "density") {
+  ByteReader in("a.nvdb", {reinterpret_cast<const uint8_t*>(file.data()), file.size()});
+  return parse_nanovdb(in, name);
+}
+
+void check_grid(const NanoVdbGrid& g, double tolerance) {
+  REQUIRE(g.grid.size == std::array{72, 22, 22});
+  double worst = 0;
+  for (int z = 0; z < 22; ++z)
+    for (int y = 0; y < 22; ++y)
+      for (int x = 0; x < 72; ++x) {
+        const size_t i = (size_t(z) * 22 + size_t(y)) * 72 + size_t(x);
+        worst = std::max(
+            worst, std::abs(double(g.grid.values[i]) - double(voxel(x - 10, y - 10, z - 10))));
+      }
+  CHECK(worst <= tolerance);
+  // The corners of the unit cube are the outermost nodes.
+  for (int axis = 0; axis < 3; ++axis) {
+    CHECK(g.to_world[axis][3] == doctest::Approx(0.5 * -10 + axis + 1));
+    CHECK(g.to_world[axis][axis] == doctest::Approx(0.5 * (axis == 0 ? 71 : 21)));
+    CHECK(g.to_world[axis][(axis + 1) % 3] == 0);
+  }
+}
+
+std::string message_of(const std::string& file, const std::string& name = "density") {
+  try {
+    parse(file, name);
+  } catch (const ReadError& e) {
+    return e.what();
+  }
+  return "";
+}
+
+}  // namespace
+
+TEST_CASE("grids of NanoVDB files are read, with any type of floats") {
+  check_grid(parse(file_of()), 0);
+  check_grid(parse(file_of(nanovdb::io::Codec::ZIP)), 0);
+  // Within a leaf, codes are equal steps from the least to the greatest value.
+  check_grid(parse(file_of<nanovdb::Fp16>()), 2e-5);
+  check_grid(parse(file_of<nanovdb::Fp8>()), 5e-3);
+  check_grid(parse(file_of<nanovdb::Fp4>()), 0.08);
+  check_grid(parse(file_of<nanovdb::FpN>()), 0.08);
+}
+
+TEST_CASE("NanoVDB files that cannot be read are told why") {
+  const std::string file = file_of();
+  CHECK(message_of(file, "temperature") ==
+        "a.nvdb: has no grid \"temperature\"; it has \"other\", \"density\"");
+  CHECK(message_of("VDB") == "a.nvdb: the file ends in the middle of its header");
+  CHECK(message_of("not a file of volumes") == "a.nvdb: is not a NanoVDB file");
+  std::string other = file;
+  other[11] = char(other[11] + 1);  // the upper bits of the version
+  CHECK(message_of(other).find("only 32 is known") != std::string::npos);
+}
+
+TEST_CASE("damaged NanoVDB files never lead astray") {
+  const std::string file = file_of(), packed = file_of(nanovdb::io::Codec::ZIP);
+  for (size_t length = 0; length < file.size(); length += 1 + length / 7)
+    CHECK(!message_of(file.substr(0, length)).empty());
+  for (size_t length = 0; length < packed.size(); length += 1 + length / 9)
+    CHECK(!message_of(packed.substr(0, length)).empty());
+  // What is damaged beyond recognition is refused; what is not has values that are finite.
+  std::mt19937 random(1);
+  int refused = 0;
+  for (int i = 0; i < 200; ++i) {
+    std::string damaged = file;
+    // Half of the damage is where sizes and offsets are.
+    const size_t span = i % 2 ? damaged.size() : 2048;
+    const size_t start = i % 4 == 0 ? damaged.size() / 2 : 0;
+    for (int k = 0; k < 8; ++k)
+      damaged[start + random() % std::min(span, damaged.size() - start)] = char(random());
+    try {
+      const std::vector<float> values = parse(damaged).grid.values;
+      CHECK(std::all_of(values.begin(), values.end(), [](float v) { return std::isfinite(v); }));
+    } catch (const ReadError&) {
+      ++refused;
+    }
+  }
+  CHECK(refused > 10);
+}
