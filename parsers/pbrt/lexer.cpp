@@ -14,6 +14,9 @@ namespace duet::pbrt {
 
 struct Lexer::Source {
   gzFile file;
+  explicit Source(gzFile f) : file(f) {}
+  Source(const Source&) = delete;
+  Source& operator=(const Source&) = delete;
   ~Source() { gzclose(file); }
 };
 
@@ -25,7 +28,7 @@ Lexer::Lexer(const std::string& path) : name_(std::make_shared<const std::string
   // Files that are not compressed are read as they are.
   const gzFile file = gzopen(path.c_str(), "rb");
   if (!file) throw ReadError(fmt::format("{}: cannot be opened: {}", path, std::strerror(errno)));
-  source_ = std::make_unique<Source>(Source{file});
+  source_ = std::make_unique<Source>(file);
   gzbuffer(file, unsigned(kBlock));
   buffer_.resize(kBlock + kLongest);
   begin_ = next_ = end_ = buffer_.data();
