@@ -19,11 +19,12 @@ bool is_index(const FieldFacts& facts) {
 }
 
 Roughness unchecked_roughness(SceneReader& s, Properties& p) {
-  constexpr std::string_view names[] = {"beckmann", "ggx", "phong", "as"};
+  constexpr std::string_view names[] = {"beckmann", "ggx", "ggx_correlated", "phong", "as"};
   Roughness r;
   const size_t name = p.choice("distribution", names);
-  if (name == 1) r.distribution = MicrofacetDistribution::ggx;
-  if (name >= 2)
+  if (name < std::size(kMicrofacetNames))
+    r.distribution = MicrofacetDistribution(name);
+  else
     s.approximate_loudly(p.where("distribution"),
                          "the Phong microfacet distribution is approximated by Beckmann's");
   r.sample_visible = p.boolean("sample_visible");

@@ -66,7 +66,7 @@ void SceneWriter::field(const FieldFacts& facts, const FloatInput& value) {
 }
 
 void SceneWriter::field(const FieldFacts& facts, const Roughness& r) {
-  out_.string("distribution", r.distribution == MicrofacetDistribution::ggx ? "ggx" : "beckmann");
+  out_.string("distribution", kMicrofacetNames[size_t(r.distribution)]);
   if (!facts.has_parameter("alpha_u") || r.alpha_u == r.alpha_v) {
     number("alpha", r.alpha_u);
   } else {

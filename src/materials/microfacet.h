@@ -28,7 +28,8 @@ class Microfacet {
         alpha_v_(std::max(alpha_v, kMinAlpha)),
         inv_u_(1 / alpha_u_),
         inv_v_(1 / alpha_v_),
-        ggx_(distribution == MicrofacetDistribution::ggx),
+        ggx_(distribution != MicrofacetDistribution::beckmann),
+        correlated_(distribution == MicrofacetDistribution::ggx_correlated),
         visible_(sample_visible) {}
 
   bool samples_visible() const { return visible_; }
@@ -55,32 +56,40 @@ class Microfacet {
     return a * (3.535f + 2.181f * a) / (1 + a * (2.276f + 2.577f * a));
   }
 
+  /// The share of facets that i sees of those that o sees: masking(i), or G₂ / G₁(o) if the two are
+  /// correlated.
+  float shadowing(const Vector3f& o, const Vector3f& i) const {
+    if (!correlated_) return masking(i);
+    const float near = std::abs(i.z), far = stretched_length(o);
+    return (o.z + far) * near / (far * near + o.z * stretched_length(i));
+  }
+
   /// What value and density of reflection and refraction have in common: for a half vector h,
-  ///   value   = D(h) G₁(o) G₁(i) / o.z,
+  ///   value   = D(h) G₁(o) G₁(i) / o.z, or D(h) G₂(o, i) / o.z,
   ///   density = the density of h when sampled from o, over (o·h).
   struct Core {
     float value, density;
   };
   Core core(const Vector3f& o, const Vector3f& i, const Vector3f& h) const {
     const float d = density(h);
-    if (!visible_) return {d * masking(o) * masking(i) / o.z, d * h.z / dot(o, h)};
+    if (!visible_) return {d * masking(o) * shadowing(o, i) / o.z, d * h.z / dot(o, h)};
     if (ggx_) {
       // The same as D G₁(o) / o.z, without dividing by a vanishing cosine.
       const float seen = 2 * d / (o.z + stretched_length(o));
-      return {seen * masking(i), seen};
+      return {seen * shadowing(o, i), seen};
     }
     return beckmann_core(d, o, i);
   }
 
-  /// Reflection from o to i: value = D G₁ G₁ / (4 o.z) and density, both per solid angle of i, and
-  /// the cosine o·h.
+  /// Reflection from o to i: a quarter of the core's value and density, both per solid angle of i,
+  /// and the cosine o·h.
   struct Reflection {
     float value, density, cosine;
   };
   Reflection reflection(const Vector3f& o, const Vector3f& i) const {
     const Vector3f sum = o + i;
     const float length2 = length_squared(sum), length = std::sqrt(length2);
-    if (!(ggx_ && visible_)) {
+    if (!(ggx_ && visible_) || correlated_) {
       const Core c = core(o, i, sum * (1 / length));
       return {0.25f * c.value, 0.25f * c.density, 0.5f * length};
     }
@@ -105,8 +114,10 @@ class Microfacet {
   /// Source: Walter et al. 2007, section 5.3.
   Microfacet widened(float cos_o) const {
     const float s = 1.2f - 0.2f * std::sqrt(std::abs(cos_o));
-    return {ggx_ ? MicrofacetDistribution::ggx : MicrofacetDistribution::beckmann, alpha_u_ * s,
-            alpha_v_ * s, visible_};
+    Microfacet wide(*this);
+    wide.alpha_u_ = alpha_u_ * s, wide.alpha_v_ = alpha_v_ * s;
+    wide.inv_u_ = 1 / wide.alpha_u_, wide.inv_v_ = 1 / wide.alpha_v_;
+    return wide;
   }
 
  private:
@@ -119,7 +130,7 @@ class Microfacet {
   Vector3f sample_visible_beckmann(const Vector3f& o, const Point2f& u) const;
 
   float alpha_u_, alpha_v_, inv_u_, inv_v_;
-  bool ggx_, visible_;
+  bool ggx_, correlated_, visible_;
 };
 
 /// Source: Dupuy & Benyoub, "Sampling Visible GGX Normals with Spherical Caps", 2023. The

@@ -45,7 +45,8 @@ class VisibleFacets {
   VisibleFacets(MicrofacetDistribution distribution, float alpha, int n)
       : microfacet_(distribution, alpha, alpha, true),
         alpha_(std::max(alpha, Microfacet::kMinAlpha)),
-        ggx_(distribution == MicrofacetDistribution::ggx),
+        ggx_(distribution != MicrofacetDistribution::beckmann),
+        correlated_(distribution == MicrofacetDistribution::ggx_correlated),
         quadrature_(n),
         disk_x_(ggx_ ? size_t(n) * size_t(n) / 2 : 0),
         disk_y_(disk_x_.size()),
@@ -131,7 +132,11 @@ class VisibleFacets {
       cosines[a] = std::max(z, 0.0f);
       values[a] = c > 0 ? (kTransmitted ? 1 - reflected : reflected) : 0.0f;
     }
-    if (ggx_) {
+    if (correlated_) {
+      const float far = stretched(o.z);
+      for (size_t a = 0; a < n; ++a)
+        values[a] *= (o.z + far) * cosines[a] / (far * cosines[a] + o.z * stretched(cosines[a]));
+    } else if (ggx_) {
       for (size_t a = 0; a < n; ++a) values[a] *= ggx_masking(cosines[a]);
     } else {
       for (size_t a = 0; a < n; ++a) values[a] *= beckmann_masking(cosines[a]);
@@ -139,9 +144,11 @@ class VisibleFacets {
   }
 
   /// Microfacet::masking() at the cosine z.
-  float ggx_masking(float z) const {
+  float ggx_masking(float z) const { return 2 * z / (z + stretched(z)); }
+  /// Length of the direction with this cosine after stretching it by the roughness.
+  float stretched(float z) const {
     const float z2 = z * z;
-    return 2 * z / (z + std::sqrt(z2 + alpha_ * alpha_ * std::max(1 - z2, 0.0f)));
+    return std::sqrt(z2 + alpha_ * alpha_ * std::max(1 - z2, 0.0f));
   }
   float beckmann_masking(float z) const {
     const float a = z / std::sqrt(alpha_ * alpha_ * std::max(1 - z * z, 1e-20f));
@@ -151,7 +158,7 @@ class VisibleFacets {
 
   Microfacet microfacet_;
   float alpha_;
-  bool ggx_;
+  bool ggx_, correlated_;
   Quadrature quadrature_;
   std::vector<float> disk_x_, disk_y_, across_;
 };

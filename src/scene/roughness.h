@@ -10,7 +10,8 @@ namespace duet {
 namespace parameter_words {
 inline constexpr Parameter kDistribution{
     "distribution", string, "beckmann",
-    "beckmann or ggx; phong and as of 0.x are approximated by beckmann"};
+    "beckmann or ggx; ggx_correlated is Duet's own (the masking of pbrt); phong and as of 0.x are "
+    "approximated by beckmann"};
 inline constexpr Parameter kAlpha{"alpha", number_or_texture, "0.1",
                                   "roughness in both directions"};
 inline constexpr Parameter kAlphaU{"alpha_u", number_or_texture, "", "roughness along the tangent"};

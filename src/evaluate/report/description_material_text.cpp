@@ -25,8 +25,7 @@ std::string DescriptionText::material(MaterialId id) const {
   };
   const auto show_rough = [&](const Roughness& r) {
     const std::string u = input(r.alpha_u), v = input(r.alpha_v);
-    line.roughness = fmt::format(" ({}, alpha {})",
-                                 r.distribution == MicrofacetDistribution::ggx ? "ggx" : "beckmann",
+    line.roughness = fmt::format(" ({}, alpha {})", kMicrofacetNames[size_t(r.distribution)],
                                  u == v ? u : u + " and " + v);
   };
   model.for_each_field([&](const FieldFacts& facts, const FieldValue& value) {
