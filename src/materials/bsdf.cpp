@@ -19,6 +19,17 @@ ModelEval eval_model(const BsdfComponent& c, const Vector3f& wo, const Vector3f&
   return visit_model(c, [&](const auto& model) { return model.eval(wo, wi, transport); });
 }
 
+/// Without the value, where that takes much work.
+float density_of_model(const BsdfComponent& c, const Vector3f& wo, const Vector3f& wi,
+                       Transport transport) {
+  return visit_model(c, [&](const auto& model) {
+    if constexpr (requires { model.density(wo, wi); })
+      return model.density(wo, wi);
+    else
+      return model.eval(wo, wi, transport).pdf;
+  });
+}
+
 std::optional<ModelSample> sample_model(const BsdfComponent& c, const Vector3f& wo, float u,
                                         const Point2f& v, Transport transport) {
   return visit_model(c, [&](const auto& model) { return model.sample(wo, u, v, transport); });
@@ -162,6 +173,13 @@ ModelEval eval_component(const BsdfComponent& c, const Cover* covers, const Vect
   return eval_model(c, on_side(wo, c.side), on_side(wi, c.side), transport);
 }
 
+float component_density(const BsdfComponent& c, const Cover* covers, const Vector3f& wo,
+                        const Vector3f& wi, Transport transport) {
+  if (c.covers[0] >= 0) [[unlikely]]
+    return eval_below({c, covers, 0}, wo, wi, transport).pdf;
+  return density_of_model(c, on_side(wo, c.side), on_side(wi, c.side), transport);
+}
+
 std::optional<ModelSample> sample_component(const BsdfComponent& c, const Cover* covers,
                                             const Vector3f& wo, float u, const Point2f& v,
                                             Transport transport) {
@@ -253,7 +271,7 @@ PdfW Bsdf::reverse_pdf(const Vector3f& wi_world, Transport transport) const {
 [[gnu::noinline]] PdfW Bsdf::reverse_pdf_all(const Vector3f& wi, Transport transport) const {
   PdfW sum;
   for (int i = 0; i < count_; ++i)
-    sum.value += eval_component(components_[i], covers_, wi, wo_, opposite(transport)).pdf *
+    sum.value += component_density(components_[i], covers_, wi, wo_, opposite(transport)) *
                  components_[i].share;
   return sum;
 }

@@ -33,12 +33,6 @@ std::optional<ModelSample> RoughConductorModel::sample(const Vector3f& wo, float
 
 namespace {
 
-/// Optical constants beyond this would overflow and change nothing.
-Spectrum bounded(const Spectrum& c) {
-  const auto bound = [](float x) { return std::clamp(x, 0.0f, 1e4f); };
-  return {bound(c.r), bound(c.g), bound(c.b)};
-}
-
 bool is_constant(const ConductorOptions& o) {
   return all_constant(o.eta, o.k, o.specular_reflectance);
 }
@@ -54,7 +48,8 @@ Conductor::Conductor(const ConductorOptions& options) : options_(options) {
 }
 
 ConductorModel Conductor::model(const Surface& s) const {
-  return {bounded(options_.eta(s)), bounded(options_.k(s)), options_.specular_reflectance(s)};
+  return {bounded_index(options_.eta(s)), bounded_index(options_.k(s)),
+          options_.specular_reflectance(s)};
 }
 
 SurfaceNeeds Conductor::needs() const {
@@ -68,8 +63,8 @@ RoughConductor::RoughConductor(const ConductorOptions& options, const RoughnessO
 }
 
 RoughConductorModel RoughConductor::model(const Surface& s) const {
-  const Spectrum eta = bounded(options_.eta(s));
-  return {roughness_(s), eta, bounded(options_.k(s)), options_.specular_reflectance(s),
+  const Spectrum eta = bounded_index(options_.eta(s));
+  return {roughness_(s), eta, bounded_index(options_.k(s)), options_.specular_reflectance(s),
           eta.is_black()};
 }
 

@@ -52,6 +52,13 @@ inline Spectrum fresnel_conductor(float cos_i, const Spectrum& eta, const Spectr
           fresnel_conductor(cos_i, eta.b, k.b)};
 }
 
+/// An index of a metal that fresnel_conductor() takes: beyond this it would overflow and change
+/// nothing.
+inline Spectrum bounded_index(const Spectrum& c) {
+  const auto bound = [](float x) { return std::clamp(x, 0.0f, 1e4f); };
+  return {bound(c.r), bound(c.g), bound(c.b)};
+}
+
 /// Share of diffuse light that a smooth dielectric interface reflects, by the fits that Mitsuba 3
 /// uses. `eta` is the index of the far side over that of the near side. Sources: Egan & Hilgeman,
 /// "Spectral Reflectance of Particulate Materials", 1973 (eta < 1); d'Eon & Irving, "A

@@ -33,6 +33,8 @@ class Microfacet {
         visible_(sample_visible) {}
 
   bool samples_visible() const { return visible_; }
+  float alpha_u() const { return alpha_u_; }
+  float alpha_v() const { return alpha_v_; }
   /// Along x or y.
   bool is_nearly_specular() const { return std::min(alpha_u_, alpha_v_) < float(kNearlySpecular); }
 

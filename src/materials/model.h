@@ -54,6 +54,11 @@ inline std::optional<ModelSample> sample_from(const ModelEval& e, const Vector3f
 ///
 ///   float nearly_specular_share()                share of these in the light that its smooth lobes
 ///                                                scatter, from 0 to 1; the same for all directions
+///
+/// One whose value takes more work than its density also provides
+///
+///   float density(wo, wi)                        eval().pdf, which does not depend on the
+///   transport
 template <class M>
 concept ScatteringModel = requires(const M& m, const Vector3f& w, float u, const Point2f& v) {
   { m.eval(w, w, Transport::radiance) } -> std::same_as<ModelEval>;

@@ -5,13 +5,16 @@
 #include <type_traits>
 
 #include "materials/coat_reflection.h"
+#include "materials/coated_diffuse.h"
 #include "materials/conductor.h"
 #include "materials/dielectric.h"
 #include "materials/diffuse.h"
 #include "materials/diffuse_transmitter.h"
 #include "materials/filter.h"
 #include "materials/foreign.h"
+#include "materials/fresnel_blend.h"
 #include "materials/hair.h"
+#include "materials/layered.h"
 #include "materials/measured.h"
 #include "materials/null.h"
 #include "materials/phong.h"
@@ -47,6 +50,9 @@
   X(filter, FilterModel)                          \
   X(coat_reflection, CoatReflectionModel)         \
   X(thin_layer, ThinLayerModel)                   \
+  X(coated_diffuse, CoatedDiffuseModel)           \
+  X(layered, LayeredModel)                        \
+  X(fresnel_blend, FresnelBlendModel)             \
   X(foreign, ForeignModel)
 
 namespace duet {

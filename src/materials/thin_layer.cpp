@@ -1,17 +1,11 @@
 #include "materials/thin_layer.h"
 
+#include "materials/henyey_greenstein.h"
 #include "materials/special_materials.h"
-#include "math/warp.h"
 
 namespace duet {
 
 namespace {
-
-/// Henyey & Greenstein 1941, per solid angle; the cosine is that of the deflection.
-float henyey_greenstein(float cosine, float g) {
-  const float d = 1 + g * g - 2 * g * cosine;
-  return (1 - g * g) / (4 * kPi * std::max(d * std::sqrt(d), 1e-9f));
-}
 
 /// ∫₀^τ exp(−t/a − s(t)/b) dt / a with s(t) = t for reflection, τ − t for transmission: the light
 /// that is scattered on the way in at depth t (a: cosine of the view, b: of the light).
@@ -53,16 +47,7 @@ std::optional<ModelSample> ThinLayerModel::sample(const Vector3f& wo, float u, c
   if (u < p)
     return ModelSample{
         .wi = -wo, .weight = straight * (1 / p), .pdf = p, .delta = true, .null = true};
-  float cosine = 1 - 2 * v.y;
-  if (std::abs(g) > 1e-3f) {
-    const float s = (1 - g * g) / (1 - g + 2 * g * v.y);
-    cosine = std::clamp((1 + g * g - s * s) / (2 * g), -1.0f, 1.0f);
-  }
-  const float sine = safe_sqrt(1 - cosine * cosine);
-  float sin_phi, cos_phi;
-  sincos_turns(v.x, sin_phi, cos_phi);
-  const Vector3f wi =
-      Frame(Normal3f(-wo)).to_world(Vector3f(sine * cos_phi, sine * sin_phi, cosine));
+  const Vector3f wi = sample_henyey_greenstein(-wo, g, v);
   return sample_from(eval(wo, wi, transport), wi);
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "scene/bsdfs/adapters.h"
+#include "scene/bsdfs/coats.h"
 #include "scene/bsdfs/conductor.h"
 #include "scene/bsdfs/dielectric.h"
 #include "scene/bsdfs/diffuse.h"
@@ -11,6 +12,7 @@
 #include "scene/bsdfs/passing.h"
 #include "scene/bsdfs/plastic.h"
 #include "scene/bsdfs/principled.h"
+#include "scene/bsdfs/sums.h"
 #include "scene/bsdfs/two_lobes.h"
 
 namespace duet {

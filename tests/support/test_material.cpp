@@ -1,6 +1,8 @@
 #include "support/test_material.h"
 
 #include "materials/coating.h"
+#include "materials/layered_material.h"
+#include "materials/pbrt_materials.h"
 #include "materials/special_materials.h"
 
 #include <fstream>
@@ -38,8 +40,9 @@ float relative_index(const json& j, float inside) {
 
 RoughnessOptions roughness(const json& j) {
   RoughnessOptions r;
-  if (j.contains("distribution") && j["distribution"] == "ggx")
-    r.distribution = MicrofacetDistribution::ggx;
+  if (j.contains("distribution"))
+    for (size_t i = 0; i < std::size(kMicrofacetNames); ++i)
+      if (j["distribution"] == kMicrofacetNames[i]) r.distribution = MicrofacetDistribution(i);
   set(r.alpha_u, j, "alpha");
   set(r.alpha_v, j, "alpha");
   set(r.alpha_u, j, "alpha_u");
@@ -136,6 +139,45 @@ CoatingOptions coating(const json& j) {
   return o;
 }
 
+CoatLayerOptions coat_layer(const json& j) {
+  CoatLayerOptions o;
+  set(o.eta, j, "eta");
+  set(o.alpha_u, j, "alpha");
+  set(o.alpha_v, j, "alpha");
+  set(o.alpha_u, j, "alpha_u");
+  set(o.alpha_v, j, "alpha_v");
+  set(o.thickness, j, "thickness");
+  set(o.albedo, j, "albedo");
+  set(o.g, j, "g");
+  if (j.contains("max_depth")) o.max_depth = j["max_depth"];
+  if (j.contains("samples")) o.samples = j["samples"];
+  return o;
+}
+
+CoatedMetalOptions coated_metal(const json& j) {
+  CoatedMetalOptions o;
+  set(o.eta, j, "conductor_eta");
+  set(o.k, j, "conductor_k");
+  if (j.contains("reflectance")) o.reflectance.emplace(to_spectrum(j["reflectance"]));
+  set(o.alpha_u, j, "conductor_alpha");
+  set(o.alpha_v, j, "conductor_alpha");
+  return o;
+}
+
+UberOptions uber(const json& j) {
+  UberOptions o;
+  set(o.diffuse_reflectance, j, "diffuse_reflectance");
+  set(o.diffuse_transmittance, j, "diffuse_transmittance");
+  set(o.glossy_reflectance, j, "glossy_reflectance");
+  set(o.glossy_transmittance, j, "glossy_transmittance");
+  set(o.specular_reflectance, j, "specular_reflectance");
+  set(o.specular_transmittance, j, "specular_transmittance");
+  set(o.opacity, j, "opacity");
+  set(o.eta, j, "eta");
+  o.roughness = roughness(j);
+  return o;
+}
+
 ThinLayerOptions thin_layer(const json& j) {
   ThinLayerOptions o;
   set(o.sigma_s, j, "sigma_s");
@@ -202,6 +244,19 @@ const Material& TestMaterial::make(const json& j) {
     return keep(new Filter(transmittance, type == "retarder" ? 1.0f : 0.5f, type == "circular"));
   }
   if (type == "coating" || type == "roughcoating") return keep(new Coating(coating(j), *nested[0]));
+  if (type == "coateddiffuse") {
+    ColorSlot reflectance{Spectrum(0.5f)};
+    set(reflectance, j, "reflectance");
+    return keep(new CoatedDiffuse(reflectance, coat_layer(j)));
+  }
+  if (type == "coatedconductor") return keep(new CoatedConductor(coated_metal(j), coat_layer(j)));
+  if (type == "uber") return keep(new Uber(uber(j)));
+  if (type == "substrate") {
+    ColorSlot diffuse{Spectrum(0.5f)}, specular{Spectrum(0.5f)};
+    set(diffuse, j, "diffuse_reflectance");
+    set(specular, j, "specular_reflectance");
+    return keep(new Substrate(diffuse, specular, roughness(j)));
+  }
   if (type == "hk") return keep(new ThinLayer(thin_layer(j)));
   if (type == "conductor") return keep(new Conductor(conductor(j)));
   if (type == "roughconductor") return keep(new RoughConductor(conductor(j), roughness(j)));

@@ -6,6 +6,7 @@ namespace duet::plugins {
 
 std::vector<Plugin> bsdfs() {
   constexpr const char* only_0x = "Mitsuba 3 has none";
+  constexpr const char* kDuets = "Duet's own, that of pbrt-v4; only its upper side scatters light";
   return {
       bsdf<DiffuseMaterial>(),
       conductor(),
@@ -30,6 +31,8 @@ std::vector<Plugin> bsdfs() {
       mixturebsdf(),
       circular(),
       coating(),
+      bsdf<CoatedConductorMaterial>({.note = kDuets}),
+      bsdf<CoatedDiffuseMaterial>({.note = kDuets}),
       hair(),
       hk(),
       irawan(),
@@ -40,6 +43,8 @@ std::vector<Plugin> bsdfs() {
       retarder(),
       roughcoating(),
       sssbrdf(),
+      bsdf<SubstrateMaterial>({.note = "Duet's own, that of pbrt-v3"}),
+      bsdf<UberMaterial>({.note = "Duet's own, for what pbrt-v3 sums of lobes"}),
   };
 }
 
