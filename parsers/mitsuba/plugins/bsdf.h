@@ -24,12 +24,13 @@ template <class T>
 constexpr auto smooth_fields() {
   return std::apply(
       [](const auto&... fields) {
-        [[maybe_unused]] const auto unless_rough = []<class M, size_t N>(const Field<T, M, N>& f) {
-          if constexpr (std::is_same_v<M, std::optional<Roughness>>)
-            return std::tuple();
-          else
-            return std::tuple(f);
-        };
+        [[maybe_unused]] const auto unless_rough =
+            []<class B, class M, size_t N>(const Field<B, M, N>& f) {
+              if constexpr (std::is_same_v<M, std::optional<Roughness>>)
+                return std::tuple();
+              else
+                return std::tuple(f);
+            };
         return std::tuple_cat(unless_rough(fields)...);
       },
       T::fields());
