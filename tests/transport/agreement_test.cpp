@@ -122,6 +122,23 @@ std::vector<Case> cases(const TemporaryDirectory& folder) {
             sphere_xml("-0.4, 0, 0.6", "0.4",
                        glass("1.5", "1", "roughdielectric", "<float name='alpha' value='0.25'/>")) +
             sphere_xml("0.5, 0, 0.5", "0.35", material("plastic")))},
+      {"coats and layers",
+       text(room_xml(material("twosided", material("coateddiffuse",
+                                                   "<float name='alpha_u' value='0.3'/>"
+                                                   "<float name='alpha_v' value='0.3'/>"))) +
+            lamp +
+            sphere_xml("-0.4, 0, 0.6", "0.4",
+                       material("coatedconductor",
+                                "<float name='alpha_u' value='0.3'/>"
+                                "<float name='conductor_alpha_u' value='0.4'/>"
+                                "<rgb name='reflectance' value='0.9, 0.7, 0.4'/>"
+                                "<float name='thickness' value='0.4'/>"
+                                "<rgb name='albedo' value='0.8'/>")) +
+            sphere_xml("0.5, 0, 0.5", "0.35",
+                       material("coateddiffuse",
+                                "<float name='thickness' value='0.5'/>"
+                                "<rgb name='albedo' value='0.9'/>"))),
+       false, 2, true},
       {"smooth normals", [](int n) { return TransportScene("mesh-lumpy", n); }},
       {"tilted normals", text(room_xml(material("twosided", tilted)) + lamp), true},
       {"normals of a ball on few triangles", text(room + lamp + obstacles(folder)), true, 1, true},
