@@ -69,7 +69,6 @@ void read_response(Values& v, FilmDescription& film, double exposure_time) {
     }
     if (kelvin > 0) response = white_balance(kelvin, reader.film_color_space);
   }
-  response = from_linear_srgb(reader.film_color_space) * response;
   for (auto& row : response)
     for (double& x : row) x *= scale;
   const Matrix3 none{{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};

@@ -120,6 +120,7 @@ void read_sppm(Values& v, SceneDescription& scene) {
 
 void read_occlusion(Values& v, SceneDescription& scene) {
   OcclusionIntegratorDescription o;
+  o.background = false;
   // Without a limit: further than any scene is wide.
   o.ray_length = v.has("maxdistance") ? v.positive("maxdistance") : 1e15;
   if (!v.boolean("cossample"))

@@ -20,7 +20,7 @@ Spectrum emitted(Values& v, std::string_view name) {
     one.type = Type::rgb;
     one.numbers = {1, 1, 1};
     one.color_space = v.reader().state().color_space;
-    return color_from_triple(one, ColorMeaning::emission);
+    return color_from_triple(one, ColorMeaning::emission, v.reader().film_color_space);
   }
   const Spectrum color = v.reader().constant_color(*p, ColorMeaning::emission);
   if (v.reader().version() == Version::v3 || p->type == Type::rgb || p->type == Type::xyz)

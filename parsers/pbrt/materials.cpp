@@ -31,7 +31,7 @@ std::optional<Roughness> read_roughness(Values& v, std::string_view name, std::s
     return 0.1;
   };
   Roughness r;
-  r.distribution = MicrofacetDistribution::ggx;
+  r.distribution = MicrofacetDistribution::ggx_correlated;
   r.alpha_u = read(name_u);
   r.alpha_v = read(name_v);
   const double* a = std::get_if<double>(&r.alpha_u);

@@ -78,6 +78,92 @@ std::optional<MaterialId> read_glass(Values& v) {
   return v.reader().add_material(m, v.where());
 }
 
+/// Always rough: a smooth one has the least width that there is.
+Roughness rough(Values& v) {
+  const auto r = read_roughness(v);
+  if (r) return *r;
+  return {.distribution = MicrofacetDistribution::ggx_correlated, .alpha_u = 1e-3, .alpha_v = 1e-3};
+}
+
+constexpr Spec kPlastic[] = {{"Kd", kColorTexture, "0.25"},
+                             {"Ks", kColorTexture, "0.25"},
+                             DUET_ROUGHNESS_SPECS("0.1")};
+
+std::optional<MaterialId> read_plastic(Values& v) {
+  UberMaterial m;
+  m.diffuse_reflectance = v.color_input("Kd", ColorMeaning::reflectance);
+  m.glossy_reflectance = v.color_input("Ks", ColorMeaning::reflectance);
+  m.roughness = rough(v);
+  return v.reader().add_material(m, v.where());
+}
+
+constexpr Spec kUber[] = {{"Kd", kColorTexture, "0.25"},
+                          {"Ks", kColorTexture, "0.25"},
+                          {"Kr", kColorTexture, "0"},
+                          {"Kt", kColorTexture, "0"},
+                          {"opacity", kColorTexture, "1"},
+                          {"eta", kNumberTexture, "1.5"},
+                          {"index", kNumberTexture, "1.5"},
+                          DUET_ROUGHNESS_SPECS("0.1")};
+
+std::optional<MaterialId> read_uber(Values& v) {
+  UberMaterial m;
+  m.diffuse_reflectance = v.color_input("Kd", ColorMeaning::reflectance);
+  m.glossy_reflectance = v.color_input("Ks", ColorMeaning::reflectance);
+  m.specular_reflectance = v.color_input("Kr", ColorMeaning::reflectance);
+  m.specular_transmittance = v.color_input("Kt", ColorMeaning::reflectance);
+  m.opacity = v.color_input("opacity", ColorMeaning::reflectance);
+  m.eta = v.float_input(v.has("eta") ? "eta" : "index");
+  m.roughness = rough(v);
+  return v.reader().add_material(m, v.where());
+}
+
+constexpr Spec kTranslucent[] = {{"Kd", kColorTexture, "0.25"},
+                                 {"Ks", kColorTexture, "0.25"},
+                                 {"reflect", kColorTexture, "0.5"},
+                                 {"transmit", kColorTexture, "0.5"},
+                                 DUET_ROUGHNESS_SPECS("0.1")};
+
+/// A lobe's share of what is reflected or transmitted.
+ColorInput share_of(Values& v, const ColorInput& lobe, const char* name) {
+  const ColorInput share = v.color_input(name, ColorMeaning::reflectance);
+  if (const Spectrum* constant = std::get_if<Spectrum>(&share)) return scaled(v, lobe, *constant);
+  if (const Spectrum* constant = std::get_if<Spectrum>(&lobe)) return scaled(v, share, *constant);
+  v.reader().report().error(v.where(name), "textures of both \"{}\" and a lobe are not supported",
+                            name);
+  return lobe;
+}
+
+std::optional<MaterialId> read_translucent(Values& v) {
+  UberMaterial m;
+  const ColorInput diffuse = v.color_input("Kd", ColorMeaning::reflectance),
+                   glossy = v.color_input("Ks", ColorMeaning::reflectance);
+  m.diffuse_reflectance = share_of(v, diffuse, "reflect");
+  m.diffuse_transmittance = share_of(v, diffuse, "transmit");
+  m.glossy_reflectance = share_of(v, glossy, "reflect");
+  m.glossy_transmittance = share_of(v, glossy, "transmit");
+  m.roughness = rough(v);
+  return v.reader().add_material(m, v.where());
+}
+
+constexpr Spec kSubstrate[] = {{"Kd", kColorTexture, "0.5"},
+                               {"Ks", kColorTexture, "0.5"},
+                               {"uroughness", kNumberTexture, "0.1"},
+                               {"vroughness", kNumberTexture, "0.1"},
+                               {"remaproughness", kBoolean, "true"}};
+
+std::optional<MaterialId> read_substrate(Values& v) {
+  SubstrateMaterial m;
+  m.diffuse_reflectance = v.color_input("Kd", ColorMeaning::reflectance);
+  m.specular_reflectance = v.color_input("Ks", ColorMeaning::reflectance);
+  const auto r = read_roughness(v, "uroughness");
+  m.roughness = r ? *r
+                  : Roughness{.distribution = MicrofacetDistribution::ggx_correlated,
+                              .alpha_u = 1e-3,
+                              .alpha_v = 1e-3};
+  return two_sided(v, v.reader().add_material(m, v.where()));
+}
+
 constexpr Spec kOldMix[] = {{"namedmaterial1", kString},
                          {"namedmaterial2", kString},
                          {"amount", Types(kColorTexture | kNumberTexture), "0.5",
@@ -123,10 +209,10 @@ constexpr Record<ReadMaterial> kOldMaterials[] = {
     {"mix", Versions::v3, done, "", kOldMix, read_old_mix},
     {"none", Versions::v3, done, "", {}, read_none},
     {"", Versions::v3, done, "", {}, read_none},
-    {"plastic", Versions::v3, refused, "a diffuse and a glossy lobe", {}, nullptr},
-    {"substrate", Versions::v3, refused, "Ashikhmin and Shirley's coat", {}, nullptr},
-    {"uber", Versions::v3, refused, "a mixture of lobes", {}, nullptr},
-    {"translucent", Versions::v3, refused, "glossy lobes to both sides", {}, nullptr},
+    {"plastic", Versions::v3, done, "", kPlastic, read_plastic},
+    {"substrate", Versions::v3, done, "", kSubstrate, read_substrate},
+    {"uber", Versions::v3, done, "", kUber, read_uber},
+    {"translucent", Versions::v3, done, "", kTranslucent, read_translucent},
     {"hair", Versions::v3, refused, "hair of v3", {}, nullptr},
     {"disney", Versions::v3, refused, "Disney's model", {}, nullptr},
     {"subsurface", Versions::v3, refused, "light that leaves elsewhere than it enters", {},

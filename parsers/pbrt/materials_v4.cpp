@@ -1,4 +1,5 @@
 // Materials of pbrt-v4.
+#include <algorithm>
 #include <cmath>
 
 #include "pbrt/materials.h"
@@ -8,6 +9,8 @@ namespace duet::pbrt {
 namespace {
 
 using enum Status;
+
+constexpr Types kIndex = kNumber | of(Type::spectrum);
 
 #define DUET_ROUGHNESS_SPECS                                                         \
   {"roughness", kNumberTexture, "0"}, {"uroughness", kNumberTexture, "0"},            \
@@ -57,7 +60,6 @@ std::optional<MaterialId> read_conductor(Values& v) {
   return two_sided(v, v.reader().add_material(m, v.where()));
 }
 
-constexpr Types kIndex = kNumber | of(Type::spectrum);
 constexpr Spec kDielectric[] = {{"eta", kIndex, "1.5", "index of refraction"},
                                 DUET_ROUGHNESS_SPECS};
 
@@ -105,7 +107,7 @@ double hair_number(Values& v, const char* name) {
   const FloatInput input = v.float_input(name);
   if (const double* constant = std::get_if<double>(&input)) return *constant;
   v.reader().report().error(v.where(name), "textures of \"{}\" are not supported", name);
-  return v.number("alpha");
+  return 0.3;
 }
 
 /// Absorption with which many hairs have this colour: Chiang et al., "A Practical and Controllable
@@ -147,6 +149,72 @@ std::optional<MaterialId> read_hair(Values& v) {
   return v.reader().add_material(m, v.where());
 }
 
+#define DUET_COAT_SPECS                                                                  \
+  {"thickness", kNumberTexture, "0.01", "optical, of the layer between coat and base"},    \
+      {"albedo", kColorTexture, "0", "of that layer"},                                    \
+      {"g", kNumberTexture, "0", "mean cosine of its scattering"},                        \
+      {"maxdepth", kInteger, "10", "events in the layer that are followed"},              \
+      {"nsamples", kInteger, "1", "walks per value"}, {                                   \
+    "remaproughness", kBoolean, "true", "the square root of a roughness is its alpha"     \
+  }
+
+/// The coat and what is under it.
+void read_coat(Values& v, CoatLayer& coat, const char* eta, const std::optional<Roughness>& top) {
+  coat.eta = v.index_of_refraction(eta);
+  if (top) coat.alpha_u = top->alpha_u, coat.alpha_v = top->alpha_v;
+  coat.thickness = v.float_input("thickness");
+  coat.albedo = v.color_input("albedo", ColorMeaning::reflectance);
+  coat.g = v.float_input("g");
+  coat.max_depth = std::max(1, v.integer("maxdepth"));
+  coat.samples = std::max(1, v.integer("nsamples"));
+}
+
+constexpr Spec kCoatedDiffuse[] = {{"reflectance", kColorTexture, "0.5", "of the base"},
+                                   {"roughness", kNumberTexture, "0"},
+                                   {"uroughness", kNumberTexture, "0"},
+                                   {"vroughness", kNumberTexture, "0"},
+                                   {"eta", kIndex, "1.5", "of the coat"},
+                                   DUET_COAT_SPECS};
+
+std::optional<MaterialId> read_coated_diffuse(Values& v) {
+  CoatedDiffuseMaterial m;
+  m.reflectance = v.color_input("reflectance", ColorMeaning::reflectance);
+  read_coat(v, m, "eta", read_roughness(v));
+  return two_sided(v, v.reader().add_material(m, v.where()));
+}
+
+constexpr Spec kCoatedConductor[] = {
+    {"interface.roughness", kNumberTexture, "0", "of the coat"},
+    {"interface.uroughness", kNumberTexture, "0"},
+    {"interface.vroughness", kNumberTexture, "0"},
+    {"interface.eta", kIndex, "1.5", "of the coat"},
+    {"conductor.eta", kColorTexture, "metal-Cu-eta"},
+    {"conductor.k", kColorTexture, "metal-Cu-k"},
+    {"reflectance", kColorTexture, "", "instead of eta and k"},
+    {"conductor.roughness", kNumberTexture, "0"},
+    {"conductor.uroughness", kNumberTexture, "0"},
+    {"conductor.vroughness", kNumberTexture, "0"},
+    DUET_COAT_SPECS};
+
+std::optional<MaterialId> read_coated_conductor(Values& v) {
+  CoatedConductorMaterial m;
+  read_coat(v, m, "interface.eta",
+            read_roughness(v, "interface.roughness", "interface.uroughness",
+                           "interface.vroughness"));
+  if (v.has("reflectance")) {
+    m.reflectance = v.color_input("reflectance", ColorMeaning::reflectance);
+  } else {
+    m.conductor_eta = v.color_input("conductor.eta", ColorMeaning::unbounded);
+    m.conductor_k = v.color_input("conductor.k", ColorMeaning::unbounded);
+  }
+  if (const auto base = read_roughness(v, "conductor.roughness", "conductor.uroughness",
+                                       "conductor.vroughness"))
+    m.conductor_alpha_u = base->alpha_u, m.conductor_alpha_v = base->alpha_v;
+  return two_sided(v, v.reader().add_material(m, v.where()));
+}
+
+#undef DUET_COAT_SPECS
+
 constexpr Spec kMix[] = {{"materials", kString, "", "two names", 2},
                          {"amount", kNumberTexture, "0.5", "share of the second"}};
 
@@ -181,8 +249,8 @@ constexpr Record<ReadMaterial> kMaterials[] = {
     {"interface", Versions::v4, done, "", {}, read_interface},
     {"none", Versions::v4, done, "", {}, read_interface},
     {"", Versions::v4, done, "", {}, read_interface},
-    {"coateddiffuse", Versions::v4, refused, "a coat over a diffuse base", {}, nullptr},
-    {"coatedconductor", Versions::v4, refused, "a coat over metal", {}, nullptr},
+    {"coateddiffuse", Versions::v4, done, "", kCoatedDiffuse, read_coated_diffuse},
+    {"coatedconductor", Versions::v4, done, "", kCoatedConductor, read_coated_conductor},
     {"subsurface", Versions::v4, refused, "light that leaves elsewhere than it enters", {},
      nullptr},
     {"measured", Versions::v4, refused, "measured spectra", kMeasured, nullptr},

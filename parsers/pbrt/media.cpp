@@ -1,5 +1,7 @@
 // Participating media.
+#include <algorithm>
 #include <cmath>
+#include <functional>
 
 #include "pbrt/records.h"
 #include "pbrt/values.h"
@@ -100,21 +102,26 @@ std::optional<std::array<int, 3>> grid_size(Values& v, size_t cells) {
 }
 
 /// A grid over the medium's box. Around it there is nothing: cells of zero, half of whose reach
-/// lies within the box.
+/// lies within the box. If it `goes_on`, its outermost cells are repeated instead.
 VolumeId add_grid(Values& v, const std::array<int, 3>& n, int channels,
-                  const std::function<float(size_t cell, int channel)>& value) {
+                  const std::function<float(size_t cell, int channel)>& value,
+                  bool goes_on = false) {
   auto grid = std::make_shared<VolumeGrid>();
   grid->channels = channels;
   for (size_t i = 0; i < 3; ++i) grid->size[i] = n[i] + 2;
   grid->values.assign(grid->node_count() * size_t(channels), 0.0f);
-  size_t cell = 0;
-  for (int z = 0; z < n[2]; ++z)
-    for (int y = 0; y < n[1]; ++y)
-      for (int x = 0; x < n[0]; ++x, ++cell) {
-        const size_t node =
-            (size_t(z + 1) * size_t(n[1] + 2) + size_t(y + 1)) * size_t(n[0] + 2) + size_t(x + 1);
-        for (int c = 0; c < channels; ++c)
-          grid->values[node * size_t(channels) + size_t(c)] = value(cell, c);
+  size_t node = 0;
+  for (int z = -1; z <= n[2]; ++z)
+    for (int y = -1; y <= n[1]; ++y)
+      for (int x = -1; x <= n[0]; ++x, ++node) {
+        const auto at = [](int i, int count) { return size_t(std::clamp(i, 0, count - 1)); };
+        const bool inside = x == std::clamp(x, 0, n[0] - 1) && y == std::clamp(y, 0, n[1] - 1) &&
+                            z == std::clamp(z, 0, n[2] - 1);
+        const size_t cell =
+            (at(z, n[2]) * size_t(n[1]) + at(y, n[1])) * size_t(n[0]) + at(x, n[0]);
+        if (inside || goes_on)
+          for (int c = 0; c < channels; ++c)
+            grid->values[node * size_t(channels) + size_t(c)] = value(cell, c);
       }
   const auto p0 = v.point("p0"), p1 = v.point("p1");
   std::array<double, 3> low, size;
@@ -157,6 +164,25 @@ MediumDescription read_uniform_grid(Values& v) {
   return m;
 }
 
+/// The albedo of a cell; of one where nothing is, that of the cells around it, so that it does not
+/// darken what is between them.
+float albedo_near(const std::vector<Spectrum>& absorption, const std::vector<Spectrum>& scattering,
+                  const std::array<int, 3>& n, size_t cell, int c) {
+  if (const float t = absorption[cell][c] + scattering[cell][c]; t > 0)
+    return scattering[cell][c] / t;
+  const int x = int(cell % size_t(n[0])), y = int(cell / size_t(n[0]) % size_t(n[1])),
+            z = int(cell / (size_t(n[0]) * size_t(n[1])));
+  float scattered = 0, all = 0;
+  for (int k = std::max(z - 1, 0); k <= std::min(z + 1, n[2] - 1); ++k)
+    for (int j = std::max(y - 1, 0); j <= std::min(y + 1, n[1] - 1); ++j)
+      for (int i = std::max(x - 1, 0); i <= std::min(x + 1, n[0] - 1); ++i) {
+        const size_t near = (size_t(k) * size_t(n[1]) + size_t(j)) * size_t(n[0]) + size_t(i);
+        scattered += scattering[near][c];
+        all += absorption[near][c] + scattering[near][c];
+      }
+  return all > 0 ? scattered / all : 0.0f;
+}
+
 MediumDescription read_rgb_grid(Values& v) {
   MediumDescription m;
   m.where = v.where();
@@ -188,9 +214,8 @@ MediumDescription read_rgb_grid(Values& v) {
   m.sigma_t = add_grid(v, *size, 3,
                        [&](size_t i, int c) { return absorption[i][c] + scattering[i][c]; });
   m.albedo = add_grid(v, *size, 3, [&](size_t i, int c) {
-    const float t = absorption[i][c] + scattering[i][c];
-    return t > 0 ? scattering[i][c] / t : 0.0f;
-  });
+    return albedo_near(absorption, scattering, *size, i, c);
+  }, true);
   return m;
 }
 

@@ -110,6 +110,7 @@ class Reader {
   // ---- What the directives before WorldBegin leave for its end ----
   std::optional<Plugin> camera, film, filter, sampler, integrator;
   GraphicsState camera_state;  ///< as it was at Camera
+  /// The film's, and so that in which all colours of the description are.
   uint8_t film_color_space = 0;
 
  private:

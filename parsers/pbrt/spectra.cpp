@@ -145,16 +145,22 @@ Matrix3 white_balance(double kelvin, uint8_t color_space) {
   Matrix3 scale{};
   for (size_t i = 0; i < 3; ++i) scale[i][i] = to[i] / from[i];
   const Matrix3 in_xyz = inverse(bradford) * scale * bradford;
-  return inverse(to_xyz(kSrgb)) * in_xyz * to_xyz(kSrgb);
+  return inverse(to_xyz(color_space)) * in_xyz * to_xyz(color_space);
 }
 
-Spectrum color_from_triple(const Parameter& p, ColorMeaning meaning) {
+Spectrum in_working_space(const Spectrum& srgb, uint8_t working) {
+  if (working == kSrgb) return srgb;
+  const Triple c = from_linear_srgb(working) * Triple{srgb.r, srgb.g, srgb.b};
+  return {float(c[0]), float(c[1]), float(c[2])};
+}
+
+Spectrum color_from_triple(const Parameter& p, ColorMeaning meaning, uint8_t working) {
   const Triple c{p.numbers[0], p.numbers[1], p.numbers[2]};
   Triple rgb = c;
   if (p.type == Type::xyz) {
-    rgb = inverse(to_xyz(kSrgb)) * c;
-  } else if (p.color_space != kSrgb) {
-    const Matrix3 m = to_linear_srgb(p.color_space);
+    rgb = inverse(to_xyz(working)) * c;
+  } else if (p.color_space != working) {
+    const Matrix3 m = from_linear_srgb(working) * to_linear_srgb(p.color_space);
     rgb = m * c;
     if (meaning != ColorMeaning::emission) {
       // Whatever the white, a reflectance of one has no colour.

@@ -31,10 +31,13 @@ Matrix3 to_linear_srgb(uint8_t color_space);
 Matrix3 from_linear_srgb(uint8_t color_space);
 /// What makes light of the colour of daylight of `kelvin` white (CIE D series; below 4000 K a black
 /// body), by von Kries' rule in the cones' responses of Bradford.
+/// For colours of that space.
 Matrix3 white_balance(double kelvin, uint8_t color_space);
 
-/// A colour that a file gives by RGB or XYZ numbers.
-Spectrum color_from_triple(const Parameter& p, ColorMeaning meaning);
+/// A colour that a file gives by RGB or XYZ numbers, in the colour space `working`.
+Spectrum color_from_triple(const Parameter& p, ColorMeaning meaning, uint8_t working);
+/// From linear sRGB to the colour space `working`.
+Spectrum in_working_space(const Spectrum& srgb, uint8_t working);
 
 /// Light of luminance 1 of the chromaticity that a named illuminant has ("stdillum-D65" …).
 std::optional<Spectrum> find_illuminant(std::string_view name);

@@ -99,7 +99,7 @@ void read_encoding(Values& v, BitmapTexture& image) {
                               in_quotes(encoding));
 }
 
-void read_image(Values& v, const Request&, Made& made) {
+void read_image(Values& v, const Request& request, Made& made) {
   Reader& reader = v.reader();
   if (!v.has("filename")) {
     reader.report().error(v.where(), "\"string filename\" is needed");
@@ -119,6 +119,8 @@ void read_image(Values& v, const Request&, Made& made) {
   else if (wrap != "repeat")
     reader.report().error(v.where("wrap"), "the wrap mode {} is not supported", in_quotes(wrap));
   image.to_uv = mapping(v);
+  if (request.is_color && reader.film_color_space != 0)
+    reader.approximate(v.where(), "images in the film's colour space: their own is left out");
   // Their first row is at t = 1.
   for (double& x : image.to_uv.m[1]) x = -x;
   image.to_uv.m[1][2] += 1;

@@ -189,7 +189,7 @@ Spectrum Reader::constant_color(const Parameter& p, ColorMeaning meaning) {
     for (const double x : p.numbers)
       if (meaning == ColorMeaning::reflectance && p.type == Type::rgb && (x < 0 || x > 1))
         return fail(fmt::format("a reflectance is from 0 to 1, not {}", x));
-    return color_from_triple(p, meaning);
+    return color_from_triple(p, meaning, film_color_space);
   }
   if (p.type == Type::blackbody) {
     if (p.numbers[0] <= 0) return fail("a black body has a positive temperature");
@@ -205,14 +205,15 @@ Spectrum Reader::constant_color(const Parameter& p, ColorMeaning meaning) {
     const double l = wavelength * 1e-9, c = 299792458, k = 1.3806488e-23, h = 6.62606957e-34;
     peak = 2 * h * c * c / (std::pow(l, 5) * std::expm1(h * c / (l * k * p.numbers[0]))) * 1e-9;
     for (SpectrumSample& s : samples) s.value *= (scaled ? p.numbers[1] : 1) / peak;
-    return spectrum_to_rgb(samples, meaning);
+    return in_working_space(spectrum_to_rgb(samples, meaning), film_color_space);
   }
   std::vector<SpectrumSample> samples;
   if (!p.strings.empty()) {
     const std::string& name = p.strings.front();
-    if (const auto metal = find_metal(name)) return *metal;
+    if (const auto metal = find_metal(name)) return in_working_space(*metal, film_color_space);
     if (const auto glass = find_glass(name)) return Spectrum(float(*glass));
-    if (const auto light = find_illuminant(name)) return *light;
+    if (const auto light = find_illuminant(name))
+      return in_working_space(*light, film_color_space);
     const std::string path = spectrum_file(name, p.where);
     if (path.empty()) return Spectrum(0.0f);
     try {
@@ -227,9 +228,10 @@ Spectrum Reader::constant_color(const Parameter& p, ColorMeaning meaning) {
     samples = std::move(*pairs);
   }
   if (const auto constant = constant_value(samples))
-    return meaning == ColorMeaning::emission ? equal_energy_rgb(*constant)
-                                             : Spectrum(float(*constant));
-  return spectrum_to_rgb(samples, meaning);
+    return meaning == ColorMeaning::emission
+               ? in_working_space(equal_energy_rgb(*constant), film_color_space)
+               : Spectrum(float(*constant));
+  return in_working_space(spectrum_to_rgb(samples, meaning), film_color_space);
 }
 
 std::string Reader::spectrum_file(const std::string& name, const SourceLocation& where) {
