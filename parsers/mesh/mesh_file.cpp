@@ -71,6 +71,12 @@ TriangleMesh read_ply(const std::string& file, const MeshOptions& options) {
   return parse_file(file, [&](ByteReader& in) { return parse_ply(in, options); });
 }
 
+TriangleMesh read_ply(const std::string& name, std::span<const uint8_t> memory,
+                      const MeshOptions& options) {
+  ByteReader in(name, memory);
+  return parse_ply(in, options);
+}
+
 TriangleMesh read_serialized(const std::string& file, const MeshOptions& options) {
   return parse_file(file, [&](ByteReader& in) { return parse_serialized(in, options); });
 }
@@ -81,6 +87,11 @@ void finish_mesh(const ByteReader& in, const MeshOptions& options, TriangleMesh&
     for (uint32_t v : mesh.triangles[t])
       if (v >= vertices)
         in.fail("triangle {} uses vertex {}, but there are only {} vertices", t, v, vertices);
+  if (options.quads)
+    for (const auto& quad : *options.quads)
+      for (uint32_t v : quad)
+        if (v >= vertices)
+          in.fail("a face uses vertex {}, but there are only {} vertices", v, vertices);
   for (size_t v = 0; v < vertices; ++v)
     if (!is_finite(mesh.positions[v])) in.fail("the position of vertex {} is not finite", v);
   for (size_t v = 0; v < mesh.uvs.size(); ++v) {
@@ -98,7 +109,7 @@ void finish_mesh(const ByteReader& in, const MeshOptions& options, TriangleMesh&
   } else if (options.max_smooth_angle) {
     compute_creased_normals(mesh, *options.max_smooth_angle);
   } else if (mesh.normals.empty()) {
-    compute_vertex_normals(mesh);
+    if (!options.only_own_normals) compute_vertex_normals(mesh);
   } else {
     for (Normal3f& n : mesh.normals) n = normalized_or_zero(n);
   }

@@ -1,7 +1,10 @@
 // Reads triangle meshes from files.
 #pragma once
 
+#include <array>
+#include <cstdint>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -22,6 +25,11 @@ struct MeshOptions {
   MeshDialect dialect = MeshDialect::mitsuba3;
   /// Drop the file's normals and make none: the surface is faceted.
   bool face_normals = false;
+  /// Make no normals where the file has none: the surface is faceted there.
+  bool only_own_normals = false;
+  /// PLY: faces of four corners go here as they are, instead of becoming triangles. Not null
+  /// together with attributes of faces.
+  std::vector<std::array<uint32_t, 4>>* quads = nullptr;
   /// Turn v upside down (1 − v). Mitsuba's default is true for OBJ and false for PLY; serialized
   /// files have no such parameter.
   bool flip_tex_coords = false;
@@ -48,6 +56,9 @@ struct MeshOptions {
 TriangleMesh read_obj(const std::string& file, const MeshOptions& options);
 TriangleMesh read_ply(const std::string& file, const MeshOptions& options);
 TriangleMesh read_serialized(const std::string& file, const MeshOptions& options);
+/// From memory; `name` is used in messages.
+TriangleMesh read_ply(const std::string& name, std::span<const uint8_t> memory,
+                      const MeshOptions& options);
 
 /// A stretch of an OBJ file between its `g` and `usemtl` lines.
 struct ObjPart {

@@ -152,11 +152,17 @@ void read_faces(ByteReader& in, PlyValues& values, const PlyElement& element,
         // A polygon becomes a fan around its first vertex.
         const uint64_t corners = values.next_count(property.count_type, "the corners of a face");
         if (corners < 3) in.fail("face {} has {} corners", i, corners);
+        const bool is_quad = options.quads && corners == 4;
+        if (is_quad) options.quads->emplace_back();
         uint32_t first = 0, last = 0;
         for (uint64_t c = 0; c < corners; ++c) {
           const uint64_t index = values.next_count(property.type, "the index of a vertex");
           const uint32_t v =
               uint32_t(std::min<uint64_t>(index, std::numeric_limits<uint32_t>::max()));
+          if (is_quad) {
+            options.quads->back()[size_t(c)] = v;
+            continue;
+          }
           if (c == 0) first = v;
           if (c >= 2) mesh.triangles.push_back({first, last, v});
           last = v;

@@ -9,6 +9,7 @@
 #include "app/program.h"
 #include "app/scene_operand.h"
 #include "mitsuba/scene_files.h"
+#include "pbrt/pbrt.h"
 
 namespace duet {
 
@@ -24,6 +25,24 @@ MitsubaOptions mitsuba_options(const ReadOptions& options, const Program& progra
   };
   mitsuba.replacing_methods = options.methods;
   return mitsuba;
+}
+
+LoadedScene load_pbrt(const std::string& file, const ReadOptions& options, Program& program) {
+  Diagnostics diagnostics;
+  InputFiles files;
+  pbrt::Options pbrt;
+  if (options.pbrt_version != 0) pbrt.version = pbrt::Version(options.pbrt_version);
+  pbrt.search_paths = options.search_paths;
+  pbrt.replaces_integrator = !options.methods.empty();
+  pbrt.exists = files.watch({}).exists;
+  auto scene = pbrt::read_pbrt(file, pbrt, diagnostics);
+  pbrt.exists = nullptr;
+  report(diagnostics, options.strict, program.log);
+  return {std::move(scene.value().description),
+          fmt::format("pbrt-v{}", int(scene->version)),
+          {},
+          std::move(files),
+          diagnostics.all()};
 }
 
 /// One triangle, for those who do not look.
@@ -48,6 +67,9 @@ void add_read_options(CLI::App& c, ReadOptions& o) {
   c.add_option("-a,--path", o.search_paths, "Further directory to look for files; repeatable")
       ->allow_extra_args(false)
       ->check(CLI::ExistingDirectory);
+  c.add_option("--pbrt-version", o.pbrt_version,
+               "Version of pbrt that .pbrt files are for, 3 or 4; by default found from the file")
+      ->check(CLI::IsMember({3, 4}));
   c.add_flag("--strict", o.strict, "Every warning is an error");
   c.option_defaults()->group("Options");
 }
@@ -62,6 +84,7 @@ void check_defines(const ReadOptions& options, const Program& program) {
   };
   std::set<std::string> names;
   for (const std::string& file : options.scenes) {
+    if (pbrt::is_pbrt_file(file)) continue;
     Diagnostics ignored;
     const auto scene = read_mitsuba(file, mitsuba, ignored);
     if (!scene) return;
@@ -96,6 +119,7 @@ LoadedScene load_scene(const std::string& file, const ReadOptions& options, Prog
     program.log.error("cannot read {}: {}", file, why);
     throw SceneFailure(why, true);
   }
+  if (pbrt::is_pbrt_file(file)) return load_pbrt(file, options, program);
   Diagnostics diagnostics;
   InputFiles files;
   MitsubaOptions mitsuba = mitsuba_options(options, program);

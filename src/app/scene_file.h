@@ -23,7 +23,8 @@ struct ReadOptions {
   std::vector<std::string> search_paths;
   /// Methods that take the place of the scene's integrator, so that it may be unknown.
   std::vector<std::string> methods;
-  bool strict = false;  ///< warnings are errors
+  bool strict = false;   ///< warnings are errors
+  int pbrt_version = 0;  ///< 3 or 4; 0: found from the file
 };
 
 /// Adds the scenes and the options -D, -a and --strict to a command.

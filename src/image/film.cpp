@@ -16,22 +16,24 @@ template <class F>
 void for_reached_rows(const ReconstructionFilter& filter, const Point2f& p,
                       const PixelBounds& bounds, F&& f) {
   constexpr int kMaxReach = 64;
-  const float r = filter.radius();
+  const FilterProfile &along_x = filter.along_x(), &along_y = filter.along_y();
+  const float rx = along_x.radius(), ry = along_y.radius();
   // Pixel i has its centre at i + 1/2.
-  const int x0 = std::max(bounds.x0, int(std::ceil(p.x - r - 0.5f)));
-  const int x1 = std::min(bounds.x1 - 1, int(std::floor(p.x + r - 0.5f)));
-  const int y0 = std::max(bounds.y0, int(std::ceil(p.y - r - 0.5f)));
-  const int y1 = std::min(bounds.y1 - 1, int(std::floor(p.y + r - 0.5f)));
+  const int x0 = std::max(bounds.x0, int(std::ceil(p.x - rx - 0.5f)));
+  const int x1 = std::min(bounds.x1 - 1, int(std::floor(p.x + rx - 0.5f)));
+  const int y0 = std::max(bounds.y0, int(std::ceil(p.y - ry - 0.5f)));
+  const int y1 = std::min(bounds.y1 - 1, int(std::floor(p.y + ry - 0.5f)));
   if (x0 > x1 || y0 > y1) return;
   assert(x1 - x0 < kMaxReach);
   float wx[kMaxReach];
-  for (int x = x0; x <= x1; ++x) wx[x - x0] = filter.weight(float(x) + 0.5f - p.x);
+  for (int x = x0; x <= x1; ++x) wx[x - x0] = along_x.weight(float(x) + 0.5f - p.x);
   for (int y = y0; y <= y1; ++y)
-    f(x0, y, std::span<const float>(wx, size_t(x1 - x0 + 1)), filter.weight(float(y) + 0.5f - p.y));
+    f(x0, y, std::span<const float>(wx, size_t(x1 - x0 + 1)),
+      along_y.weight(float(y) + 0.5f - p.y));
 }
 
 /// The filter around each pixel of [first, end), integrated over [lower, upper).
-std::vector<double> filter_integrals(const ReconstructionFilter& filter, int first, int end,
+std::vector<double> filter_integrals(const FilterProfile& filter, int first, int end,
                                      int lower, int upper) {
   constexpr int kSteps = 1024;
   std::vector<double> integrals;
@@ -108,6 +110,7 @@ Film::Film(const FilmLayout& layout, std::vector<std::string> channels)
       crop_(layout.crop),
       image_(lit_part(layout)),
       filter_(layout.filter),
+      response_(layout.response),
       channels_(std::move(channels)) {
   for_tiles(layout, filter_.border(), [&](const PixelBounds& sampled, const PixelBounds& stored) {
     tiles_.emplace_back(sampled, stored, int(channels_.size()));
@@ -159,10 +162,24 @@ Image Film::develop() const {
       for (int x = crop_.x0; x < crop_.x1; ++x, pixel += n)
         for (int c = 0; c < 3; ++c) pixel[c] += float(splat_mean(k, x, y, c));
   }
+  respond(image);
   for (const size_t first : moment_channels_)
     for (size_t i = 0; i < squares_.size(); ++i)
       image.data[i / 3 * size_t(n) + first + i % 3] = float(squares_[i] / std::max(1, passes_));
   return image;
+}
+
+void Film::respond(Image& image) const {
+  const size_t n = channels_.size();
+  if (!response_ || n < 3 || channels_[0] != "R") return;
+  for (size_t i = 0; i < image.data.size(); i += n) {
+    const std::array<float, 3> from{image.data[i], image.data[i + 1], image.data[i + 2]};
+    for (size_t c = 0; c < 3; ++c) {
+      const auto& row = (*response_)[c];
+      image.data[i + c] = float(row[0] * double(from[0]) + row[1] * double(from[1]) +
+                                row[2] * double(from[2]));
+    }
+  }
 }
 
 void Film::add_moments(size_t first_channel) {
@@ -185,8 +202,8 @@ void Film::end_pass() {
 
 size_t Film::add_splat_layer(size_t first_channel) {
   if (splats_.empty() && !filter_.is_unit_box()) {
-    filter_x_ = filter_integrals(filter_, crop_.x0, crop_.x1, image_.x0, image_.x1);
-    filter_y_ = filter_integrals(filter_, crop_.y0, crop_.y1, image_.y0, image_.y1);
+    filter_x_ = filter_integrals(filter_.along_x(), crop_.x0, crop_.x1, image_.x0, image_.x1);
+    filter_y_ = filter_integrals(filter_.along_y(), crop_.y0, crop_.y1, image_.y0, image_.y1);
   }
   splats_.push_back(
       {first_channel, std::vector<double>(3 * size_t(crop_.width()) * size_t(crop_.height()))});

@@ -1,7 +1,9 @@
 // The film: gathers weighted samples into pixels, tile by tile.
 #pragma once
 
+#include <array>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -67,6 +69,9 @@ struct Splat {
   Spectrum value;
 };
 
+/// What a film makes of linear sRGB: exposure, white balance, the primaries of its colour space.
+using FilmResponse = std::array<std::array<double, 3>, 3>;
+
 /// What a film looks like before it has samples.
 struct FilmLayout {
   Point2i full;      ///< size of the whole image
@@ -75,6 +80,8 @@ struct FilmLayout {
   /// Samples are taken in the window alone, as if the image ended there: that is what the window of
   /// a scene file means. Otherwise the window is cut out of the whole image.
   bool ends_at_crop = false;
+  /// Of the channels R, G and B; without, they stay as they are.
+  std::optional<FilmResponse> response = std::nullopt;
 };
 
 /// A film is the set of its tiles. Their grid is anchored at the full image's origin, so that a
@@ -125,10 +132,14 @@ class Film {
   static Film mean(std::span<const Film> films);
 
  private:
+  /// Applies the response to a developed image.
+  void respond(Image& image) const;
+
   Point2i full_;
   PixelBounds crop_;
   PixelBounds image_;  ///< where there is light
   ReconstructionFilter filter_;
+  std::optional<FilmResponse> response_;
   std::vector<std::string> channels_;
   std::vector<FilmTile> tiles_;
 

@@ -30,6 +30,10 @@ double mitsuba_gaussian(double x) {
   return std::max(0.0, sum);
 }
 
+double gaussian(double x, double stddev) {
+  return std::exp(-x * x / (2 * stddev * stddev));
+}
+
 double sinc(double x) {
   return x == 0 ? 1 : std::sin(std::numbers::pi * x) / (std::numbers::pi * x);
 }
@@ -53,8 +57,9 @@ double filter_radius(const FilterDescription& f) {
   return 0;
 }
 
-double evaluate_filter(const FilterDescription& f, double distance) {
-  const double x = std::abs(distance), r = filter_radius(f);
+double evaluate_filter(const FilterDescription& f, double distance,
+                       const std::optional<double>& reach) {
+  const double x = std::abs(distance), r = reach.value_or(filter_radius(f));
   if (x > r) return 0;
   switch (f.kind) {
     case FilterKind::box:
@@ -62,24 +67,31 @@ double evaluate_filter(const FilterDescription& f, double distance) {
     case FilterKind::tent:
       return 1 - x / r;
     case FilterKind::gaussian:
+      if (reach) return gaussian(x, f.stddev) - gaussian(r, f.stddev);
       return mitsuba_gaussian(x / r);
     case FilterKind::mitchell:
-      return cubic(x, f.b, f.c);
+      return cubic(2 * x / r, f.b, f.c);
     case FilterKind::catmullrom:
-      return cubic(x, 0, 0.5);
+      return cubic(2 * x / r, 0, 0.5);
     case FilterKind::lanczos:
-      return sinc(x) * sinc(x / r);
+      return sinc(x) * sinc(x / f.lobes);
   }
   return 0;
 }
 
-ReconstructionFilter::ReconstructionFilter(const FilterDescription& f) {
-  const double r = filter_radius(f);
+FilterProfile::FilterProfile(const FilterDescription& f, const std::optional<double>& reach) {
+  const double r = reach.value_or(filter_radius(f));
   radius_ = float(r);
   scale_ = float(kResolution / r);
+  for (int i = 0; i <= kResolution; ++i)
+    table_[i] = float(evaluate_filter(f, r * i / kResolution, reach));
+}
+
+ReconstructionFilter::ReconstructionFilter(const FilterDescription& f)
+    : along_x_(f, f.reach_x), along_y_(f, f.reach_y) {
+  const double r = double(std::max(along_x_.radius(), along_y_.radius()));
   border_ = std::max(0, int(std::ceil(r - 0.5 - 1e-6)));
   is_unit_box_ = f.kind == FilterKind::box && border_ == 0;
-  for (int i = 0; i <= kResolution; ++i) table_[i] = float(evaluate_filter(f, r * i / kResolution));
 }
 
 }  // namespace duet

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <optional>
 
 namespace duet {
 
@@ -16,21 +17,21 @@ struct FilterDescription {
   double stddev = 0.5;
   double b = 1.0 / 3, c = 1.0 / 3;
   int lobes = 3;
+  /// Half widths along x and y where they are not what follows from the other parameters: box, tent
+  /// and Mitchell's and Catmull and Rom's filters are stretched to them, the others end there, and
+  /// the Gaussian is lowered so that it is zero there. This is how pbrt has them.
+  std::optional<double> reach_x = std::nullopt, reach_y = std::nullopt;
   bool operator==(const FilterDescription&) const = default;
 };
 
-/// A separable filter, tabulated: weight(dx) · weight(dy).
-class ReconstructionFilter {
+/// A filter along one axis, tabulated.
+class FilterProfile {
  public:
-  explicit ReconstructionFilter(const FilterDescription& description);
+  /// `reach` is FilterDescription's along this axis.
+  FilterProfile(const FilterDescription& description, const std::optional<double>& reach);
 
   /// Half width in pixels; the weight is zero at and beyond it.
   float radius() const { return radius_; }
-  /// How many pixels beyond its own a sample can reach.
-  int border() const { return border_; }
-  /// True if each sample counts for its own pixel alone, with weight 1.
-  bool is_unit_box() const { return is_unit_box_; }
-
   float weight(float distance) const {
     const float x = (distance < 0 ? -distance : distance) * scale_;
     const int i = int(x);
@@ -43,13 +44,31 @@ class ReconstructionFilter {
   static constexpr int kResolution = 512;
   std::array<float, kResolution + 1> table_;
   float radius_, scale_;
+};
+
+/// A separable filter: along_x().weight(dx) · along_y().weight(dy).
+class ReconstructionFilter {
+ public:
+  explicit ReconstructionFilter(const FilterDescription& description);
+
+  const FilterProfile& along_x() const { return along_x_; }
+  const FilterProfile& along_y() const { return along_y_; }
+  /// How many pixels beyond its own a sample can reach.
+  int border() const { return border_; }
+  /// True if each sample counts for its own pixel alone, with weight 1.
+  bool is_unit_box() const { return is_unit_box_; }
+
+ private:
+  FilterProfile along_x_, along_y_;
   int border_;
   bool is_unit_box_;
 };
 
-/// The filter's value at a distance from its centre, from its formula.
-double evaluate_filter(const FilterDescription& description, double distance);
-/// Half width of the filter in pixels.
+/// The filter's value at a distance from its centre along an axis, from its formula; `reach` is
+/// FilterDescription's along that axis.
+double evaluate_filter(const FilterDescription& description, double distance,
+                       const std::optional<double>& reach = std::nullopt);
+/// Half width of the filter in pixels, without a reach.
 double filter_radius(const FilterDescription& description);
 
 }  // namespace duet

@@ -7,7 +7,7 @@
 namespace duet {
 
 /// The share of directions, weighted by the cosine, in which nothing is nearer than a length; one
-/// where the camera sees nothing. No light and no material counts, and surfaces are looked at from
+/// where the camera sees nothing, unless that is to be black. No light and no material counts, and surfaces are looked at from
 /// the side of their normal. Source: Zhukov, Iones & Kronin, "An Ambient Light Illumination Model",
 /// 1998.
 class OcclusionIntegrator final : public CameraIntegrator {
@@ -20,7 +20,7 @@ class OcclusionIntegrator final : public CameraIntegrator {
                     RenderCounters& counters, std::span<float> values) const override {
     Hit hit;
     ++counters.closest_rays;
-    if (!scene.accel->closest_hit(start.ray, hit)) return Spectrum(1);
+    if (!scene.accel->closest_hit(start.ray, hit)) return Spectrum(options_.background ? 1.0f : 0.0f);
     values[3] = 1;
     ++counters.path_vertices;
     const Surface s = scene.surface(start.ray, hit);

@@ -34,11 +34,16 @@ std::optional<Parallelogram> find_parallelogram(const TriangleMesh& m) {
 
 }  // namespace
 
-AreaLight::AreaLight(const Shape& shape, const ColorSlot& radiance)
-    : shape_(shape), radiance_(radiance), area_(surface_area(shape)), uniform_{float(1 / area_)} {
+AreaLight::AreaLight(const Shape& shape, const ColorSlot& radiance, bool two_sided)
+    : shape_(shape),
+      radiance_(radiance),
+      two_sided_(two_sided),
+      area_(surface_area(shape)),
+      uniform_{float(1 / area_)} {
+  // Of two sides, either may be the one that is seen.
   if (shape.kind != ShapeKind::mesh) {
-    strategy_ = choose_cone() ? Strategy::cone : Strategy::surface;
-  } else if (radiance.is_constant() && choose_parallelogram()) {
+    strategy_ = !two_sided && choose_cone() ? Strategy::cone : Strategy::surface;
+  } else if (!two_sided && radiance.is_constant() && choose_parallelogram()) {
     strategy_ = Strategy::parallelogram;
   } else {
     strategy_ = Strategy::cells;
@@ -79,21 +84,22 @@ bool AreaLight::choose_parallelogram() {
 double AreaLight::power(double) const {
   const double emission =
       cells_ ? cells_->integral() : area_ * double(radiance_.average().luminance());
-  return double(kPi) * emission;
+  return double(kPi) * emission * (two_sided_ ? 2 : 1);
 }
 
 Spectrum AreaLight::emitted(const Surface& surface, const Vector3f& w) const {
-  return dot(surface.shading.n, w) > 0 ? radiance_(surface) : Spectrum();
+  return two_sided_ || dot(surface.shading.n, w) > 0 ? radiance_(surface) : Spectrum();
 }
 
 std::optional<LightSample> AreaLight::sample_direct(const Point3f& from, const Point2f& u) const {
   if (strategy_ == Strategy::parallelogram) return sample_parallelogram(from, u);
   if (strategy_ == Strategy::cone) return sample_cone(from, u);
-  const ShapePoint p = cells_ ? cells_->sample(u) : sample_analytic(shape_, u);
+  ShapePoint p = cells_ ? cells_->sample(u) : sample_analytic(shape_, u);
   const Vector3f d = p.position - from;
   const float d2 = length_squared(d);
   if (!(d2 > 0)) return std::nullopt;
   const Vector3f wi = d * (1 / std::sqrt(d2));
+  if (two_sided_ && dot(p.ng, wi) > 0) p.ng = -p.ng, p.ns = -p.ns;
   const float cosine = -dot(p.ng, wi);
   // Light leaves on the side of the shading normal, which the surface itself may hide.
   if (!(cosine > 0 && dot(p.ns, wi) < 0)) return std::nullopt;
@@ -126,7 +132,7 @@ Spectrum AreaLight::radiance(const ShapePoint& p) const {
 
 LightSample AreaLight::toward(const ShapePoint& p, PdfW pdf, const Vector3f& wi) const {
   return {wi, p.position + Vector3f(p.ng) * p.offset, radiance(p) / pdf.value, pdf,
-          p.pdf.value * kInvPi};
+          p.pdf.value * direction_density()};
 }
 
 namespace {
@@ -173,7 +179,7 @@ inline PdfA AreaLight::point_pdf(const Surface& surface) const {
 
 PdfW AreaLight::pdf_direct(const Point3f& from, const Surface& surface, const Vector3f& wi,
                            float d2) const {
-  const float cosine = -dot(surface.ng, wi);
+  const float facing = -dot(surface.ng, wi), cosine = two_sided_ ? std::abs(facing) : facing;
   if (!(cosine > 0)) return {};
   return strategy_ == Strategy::cone ? cone_pdf(from)
                                      : to_solid_angle(point_pdf(surface), d2, cosine);
@@ -195,20 +201,28 @@ ShapePoint AreaLight::sample_point(const Point2f& u) const {
 
 std::optional<EmissionSample> AreaLight::sample_emission(const Point2f& position,
                                                          const Point2f& direction) const {
-  const ShapePoint p = sample_point(position);
-  const Vector3f w = Frame(p.ng).to_world(square_to_cosine_hemisphere(direction));
+  ShapePoint p = sample_point(position);
+  Point2f u = direction;
+  if (two_sided_) {
+    // Half of the directions for each side.
+    const bool back = u.x >= 0.5f;
+    if (back) p.ng = -p.ng, p.ns = -p.ns;
+    u.x = std::min(2 * u.x - (back ? 1.0f : 0.0f), kBelowOne);
+  }
+  const Vector3f w = Frame(p.ng).to_world(square_to_cosine_hemisphere(u));
   if (!(dot(p.ng, w) > 0 && dot(p.ns, w) > 0)) return std::nullopt;
   const Spectrum emitted = radiance(p);
   if (emitted.is_black()) return std::nullopt;
   // The cosine of the direction's density is that of the area across the ray.
-  const float density = p.pdf.value * kInvPi;
+  const float density = p.pdf.value * direction_density();
   const Point3f origin = p.position + Vector3f(p.ng) * p.offset;
   return EmissionSample{{origin, w, INFINITY}, emitted / density, density, p};
 }
 
 float AreaLight::emission_density(const Surface& surface, const Vector3f& w) const {
-  if (!(dot(surface.ng, w) > 0 && dot(surface.shading.n, w) > 0)) return 0;
-  return point_pdf(surface).value * kInvPi;
+  const float side = two_sided_ && dot(surface.ng, w) < 0 ? -1.0f : 1.0f;
+  if (!(side * dot(surface.ng, w) > 0 && side * dot(surface.shading.n, w) > 0)) return 0;
+  return point_pdf(surface).value * direction_density();
 }
 
 float AreaLight::direct_density(const EmissionSample& emission, const Point3f& at) const {

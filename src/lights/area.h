@@ -7,11 +7,11 @@
 
 namespace duet {
 
-/// Emits the same radiance into all directions on the side of the shading normal.
+/// Emits the same radiance into all directions on the side of the shading normal, or on both sides.
 class AreaLight final : public SurfaceLight {
  public:
   /// `shape` must outlive the light and stay where it is; its area must not be zero.
-  AreaLight(const Shape& shape, const ColorSlot& radiance);
+  AreaLight(const Shape& shape, const ColorSlot& radiance, bool two_sided = false);
 
   std::optional<LightSample> sample_direct(const Point3f& from, const Point2f& u) const override;
   Spectrum emitted(const Surface& surface, const Vector3f& w) const override;
@@ -36,6 +36,8 @@ class AreaLight final : public SurfaceLight {
     surface,        ///< an analytic shape by its parameters
   };
 
+  /// The density of a direction in which light leaves, per cosine: that of its side, too.
+  float direction_density() const { return two_sided_ ? 0.5f * kInvPi : kInvPi; }
   bool choose_cone();
   bool choose_parallelogram();
   /// The radiance of a point on the side that shines.
@@ -52,6 +54,7 @@ class AreaLight final : public SurfaceLight {
 
   const Shape& shape_;
   ColorSlot radiance_;
+  bool two_sided_;
   Strategy strategy_;
   double area_;
   PdfA uniform_;  ///< 1 / area

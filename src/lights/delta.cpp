@@ -74,7 +74,7 @@ double PointEmitter::power(double) const {
 }
 
 SpotEmitter::SpotEmitter(const Transform& to_world, const Spectrum& intensity, double cutoff,
-                         double beam_width, const Texture* texture)
+                         double beam_width, const Texture* texture, bool smooth)
     : PositionEmitter(to_world(Point3f(0, 0, 0))),
       to_world_(to_world),
       intensity_(intensity),
@@ -83,6 +83,9 @@ SpotEmitter::SpotEmitter(const Transform& to_world, const Spectrum& intensity, d
       cutoff_angle_(float(cutoff)),
       inv_transition_(float(1 / std::max(cutoff_ - beam_width_, 1e-30))),
       uv_scale_(float(0.5 / std::tan(cutoff))),
+      smooth_(smooth),
+      cos_cutoff_(float(std::cos(cutoff))),
+      inv_cosines_(float(1 / std::max(std::cos(beam_width_) - std::cos(cutoff_), 1e-30))),
       span_(float(2 * std::sin(0.5 * cutoff) * std::sin(0.5 * cutoff))),
       density_(float(inverse_determinant(to_world) / (2 * std::numbers::pi * double(span_)))),
       texture_(texture) {}
@@ -96,7 +99,11 @@ inline std::optional<LightSample> SpotEmitter::send(const Vector3f& away) const 
   // By the arc tangent, because the arc cosine knows nothing about narrow cones.
   const float angle = std::atan2(std::sqrt(local.x * local.x + local.y * local.y), local.z);
   if (!(angle < cutoff_angle_)) return std::nullopt;
-  const float falloff = std::min((cutoff_angle_ - angle) * inv_transition_, 1.0f);
+  float falloff = std::min((cutoff_angle_ - angle) * inv_transition_, 1.0f);
+  if (smooth_) {
+    const float t = std::clamp((std::cos(angle) - cos_cutoff_) * inv_cosines_, 0.0f, 1.0f);
+    falloff = t * t * (3 - 2 * t);
+  }
   Spectrum intensity = intensity_ * falloff;
   if (texture_)
     intensity *= texture_->color(at_uv(
@@ -114,9 +121,13 @@ std::optional<EmissionSample> SpotEmitter::sample_emission(const Point2f&,
 double SpotEmitter::power(double) const {
   // 2π ∫ falloff(θ) sin θ dθ
   const double fade = cutoff_ - beam_width_;
-  const double solid_angle =
+  const double linear =
       fade > 1e-9 ? 2 * std::numbers::pi * (1 - (std::sin(cutoff_) - std::sin(beam_width_)) / fade)
                   : 2 * std::numbers::pi * (1 - std::cos(cutoff_));
+  // t²(3 − 2t) of what is linear in the cosine is one half on average.
+  const double even =
+      2 * std::numbers::pi * (1 - 0.5 * (std::cos(beam_width_) + std::cos(cutoff_)));
+  const double solid_angle = smooth_ ? even : linear;
   const Spectrum mean = texture_ ? intensity_ * texture_->average() : intensity_;
   return solid_angle * double(mean.luminance());
 }

@@ -35,13 +35,14 @@ class PointEmitter final : public PositionEmitter {
 };
 
 /// A point that shines into a cone around its +z axis: with full intensity (W/sr) up to the angle
-/// `beam_width`, then fading linearly in the angle until `cutoff`. Radians.
+/// `beam_width`, then fading until `cutoff`: linearly in the angle or, if `smooth`, as t²(3 − 2t)
+/// where t is linear in the angle's cosine. Radians.
 class SpotEmitter final : public PositionEmitter {
  public:
   /// `texture` (or null) multiplies the intensity; the square around the cone at z = 1 is its
   /// domain.
   SpotEmitter(const Transform& to_world, const Spectrum& intensity, double cutoff,
-              double beam_width, const Texture* texture);
+              double beam_width, const Texture* texture, bool smooth = false);
   std::optional<LightSample> sample_direct(const Point3f& from, const Point2f& u) const override;
   double power(double scene_radius) const override;
   /// A direction that is uniform in the cone, before the transform.
@@ -56,7 +57,9 @@ class SpotEmitter final : public PositionEmitter {
   Spectrum intensity_;
   double cutoff_, beam_width_;
   float cutoff_angle_, inv_transition_, uv_scale_;
-  float span_;     ///< 1 − cos of the cutoff angle
+  bool smooth_;
+  float cos_cutoff_, inv_cosines_;  ///< of the smooth transition
+  float span_;                      ///< 1 − cos of the cutoff angle
   float density_;  ///< of directions, where the transform leaves lengths as they are
   const Texture* texture_;
 };

@@ -36,7 +36,8 @@ std::unique_ptr<Camera> SceneBuilder::camera(SensorDescription& d, const Point2i
     case SensorKind::perspective_rdist:
       return std::make_unique<DistortedCamera>(perspective(), d.distortion[0], d.distortion[1]);
     case SensorKind::spherical:
-      return std::make_unique<SphericalCamera>(to_world, film);
+      return std::make_unique<SphericalCamera>(to_world, film,
+                                               d.sphere_mapping == SphereMapping::equal_area);
     case SensorKind::radiancemeter:
       return check_single_pixel(d, film) ? std::make_unique<RadianceMeter>(to_world) : nullptr;
     case SensorKind::irradiancemeter:

@@ -4,6 +4,7 @@
 #include "lights/delta.h"
 #include "lights/sky.h"
 #include "math/angles.h"
+#include "math/equal_area.h"
 #include "scene/builder.h"
 
 namespace duet {
@@ -46,7 +47,7 @@ void SceneBuilder::lights() {
 
 std::unique_ptr<Light> SceneBuilder::make(const Emission& e, const Shape& shape) {
   if (e.directional) return std::make_unique<DirectionalArea>(shape, e.radiance);
-  return std::make_unique<AreaLight>(shape, e.radiance);
+  return std::make_unique<AreaLight>(shape, e.radiance, e.two_sided);
 }
 
 std::unique_ptr<Light> SceneBuilder::make(const PointLight& l, const LightDescription& d) {
@@ -56,7 +57,8 @@ std::unique_ptr<Light> SceneBuilder::make(const PointLight& l, const LightDescri
 std::unique_ptr<Light> SceneBuilder::make(const SpotLight& l, const LightDescription& d) {
   const Texture* image = l.texture ? texture(*l.texture) : nullptr;
   return std::make_unique<SpotEmitter>(Transform(d.to_world), l.intensity,
-                                       l.cutoff_angle * kRadians, l.beam_width * kRadians, image);
+                                       l.cutoff_angle * kRadians, l.beam_width * kRadians, image,
+                                       l.falloff == SpotFalloff::smooth);
 }
 
 std::unique_ptr<Light> SceneBuilder::make(const ProjectorLight& l, const LightDescription& d) {
@@ -96,9 +98,57 @@ std::unique_ptr<Light> SceneBuilder::make(const CollimatedLight& l, const LightD
   return std::make_unique<CollimatedBeam>(Transform(d.to_world), l.power);
 }
 
+std::unique_ptr<Light> SceneBuilder::equal_area_map(const EnvironmentMapLight& l,
+                                                    const LightDescription& d,
+                                                    const BitmapPixels& image) {
+  const int n = image.width();
+  if (image.height() != n) {
+    diagnostics_.error(d.where, "an equal-area map must be a square, not {}x{}", n, image.height());
+    return nullptr;
+  }
+  // Light from above, on a plane; all texels are of the same solid angle.
+  double illuminance = 0;
+  for (int y = 0; y < n; ++y)
+    for (int x = 0; x < n; ++x) {
+      const Vector3f w = square_to_sphere_equal_area(
+          {(float(x) + 0.5f) / float(n), (float(y) + 0.5f) / float(n)});
+      if (w.z > 0) illuminance += double(w.z) * double(image.color(x, y).luminance());
+    }
+  illuminance *= 4 * double(kPi) / (double(n) * n);
+  Spectrum scale = l.tint * float(l.scale);
+  if (l.illuminance && illuminance > 0) scale *= float(*l.illuminance / illuminance);
+
+  // By latitude and longitude, finely enough that the texels keep their edges.
+  constexpr int kLargest = 8192;
+  const int width = std::clamp(n <= kLargest / 4 ? 4 * n : kLargest, 16, kLargest),
+            height = width / 2 + 1;
+  constexpr int kSamples = 4;
+  std::vector<Spectrum> texels(size_t(width) * size_t(height));
+  for (int y = 0; y < height; ++y)
+    for (int x = 0; x < width; ++x) {
+      Spectrum sum;
+      float weight = 0;
+      for (int i = 0; i < kSamples * kSamples; ++i) {
+        const float dx = (float(i % kSamples) + 0.5f) / kSamples,
+                    dy = (float(i / kSamples) + 0.5f) / kSamples - 0.5f;
+        const float theta = std::clamp((float(y) + dy) / float(height - 1), 0.0f, 1.0f) * kPi;
+        const float phi = (float(x) + dx) / float(width) * 2 * kPi;
+        const float share = std::sin(theta) + 1e-6f;
+        const Point2f uv = sphere_to_square_equal_area(
+            {std::cos(phi) * std::sin(theta), std::sin(phi) * std::sin(theta), std::cos(theta)});
+        const auto texel = [&](float t) { return std::clamp(int(t * float(n)), 0, n - 1); };
+        sum += image.color(texel(uv.x), texel(uv.y)) * share;
+        weight += share;
+      }
+      texels[size_t(y) * size_t(width) + size_t(x)] = sum / weight * scale;
+    }
+  return std::make_unique<EnvironmentMap>(width, height, std::move(texels), d.to_world);
+}
+
 std::unique_ptr<Light> SceneBuilder::make(const EnvironmentMapLight& l, const LightDescription& d) {
   const auto image = pixels(l.file, {.gamma = l.gamma}, d.where);
   if (!image) return nullptr;
+  if (l.layout == EnvironmentLayout::equal_area) return equal_area_map(l, d, *image);
   const int width = image->width(), height = image->height();
   if (height < 2 || width >= BilinearDistribution::kMaxWidth) {
     diagnostics_.error(d.where,
@@ -110,7 +160,8 @@ std::unique_ptr<Light> SceneBuilder::make(const EnvironmentMapLight& l, const Li
   std::vector<Spectrum> texels(size_t(width) * size_t(height));
   for (int y = 0; y < height; ++y)
     for (int x = 0; x < width; ++x)
-      texels[size_t(y) * size_t(width) + size_t(x)] = image->color(x, y) * float(l.scale);
+      texels[size_t(y) * size_t(width) + size_t(x)] =
+          image->color(x, y) * (l.tint * float(l.scale));
   // Nobody else reads it as a texture in this form: room for the light's own copy.
   pixels_.clear();
   return std::make_unique<EnvironmentMap>(width, height, std::move(texels), d.to_world);

@@ -79,7 +79,7 @@ class SceneBuilder {
     size_t shape;
     ColorSlot radiance;
     double sampling_weight;
-    bool directional;
+    bool directional, two_sided;
     SourceLocation where;
   };
 
@@ -128,6 +128,8 @@ class SceneBuilder {
   std::unique_ptr<Light> make(const DirectionalLight& l, const LightDescription& d);
   std::unique_ptr<Light> make(const ConstantLight& l, const LightDescription& d);
   std::unique_ptr<Light> make(const EnvironmentMapLight& l, const LightDescription& d);
+  std::unique_ptr<Light> equal_area_map(const EnvironmentMapLight& l, const LightDescription& d,
+                                        const BitmapPixels& image);
   std::unique_ptr<Light> make(const SkyLight& l, const LightDescription& d);
   std::unique_ptr<Light> make(const CollimatedLight& l, const LightDescription& d);
 

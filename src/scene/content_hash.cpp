@@ -114,6 +114,7 @@ class Hasher {
   }
   void add(const FilterDescription& f) {
     add(f.kind), add(f.radius), add(f.stddev), add(f.b), add(f.c), add(f.lobes);
+    add(f.reach_x), add(f.reach_y);
   }
   void add(const MeshAttribute& a) { add(a.name), add(a.channels), add(a.per_face), add(a.data); }
   void add(const TriangleMesh& m) {

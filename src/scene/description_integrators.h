@@ -52,9 +52,11 @@ struct DepthIntegratorDescription {
 struct OcclusionIntegratorDescription {
   int shading_samples = 1;
   double ray_length = 0;  ///< world units; 0: half the radius of a sphere around the scene
+  bool background = true;  ///< the image is white, not black, where the camera sees nothing
   static constexpr auto fields() {
     return plain_fields(&OcclusionIntegratorDescription::shading_samples,
-                        &OcclusionIntegratorDescription::ray_length);
+                        &OcclusionIntegratorDescription::ray_length,
+                        &OcclusionIntegratorDescription::background);
   }
 };
 

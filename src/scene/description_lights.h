@@ -19,15 +19,18 @@ struct PointLight {
   Spectrum intensity{1.0f};
   static constexpr auto fields() { return plain_fields(&PointLight::intensity); }
 };
+/// Between full and no intensity: linear in the angle, or t²(3 − 2t) of the angle's cosine.
+enum class SpotFalloff { linear, smooth };
 /// At the origin of its transform, along +z. Angles in degrees from the axis: full intensity within
-/// beam_width, none beyond cutoff_angle, linear in the angle between.
+/// beam_width, none beyond cutoff_angle.
 struct SpotLight {
   Spectrum intensity{1.0f};
   double cutoff_angle = 20, beam_width = 15;
   std::optional<TextureId> texture;
+  SpotFalloff falloff = SpotFalloff::linear;
   static constexpr auto fields() {
     return plain_fields(&SpotLight::intensity, &SpotLight::cutoff_angle, &SpotLight::beam_width,
-                        &SpotLight::texture);
+                        &SpotLight::texture, &SpotLight::falloff);
   }
 };
 /// A pinhole camera turned around: throws the texture through a frustum along +z.
@@ -50,14 +53,26 @@ struct ConstantLight {
   Spectrum radiance{1.0f};
   static constexpr auto fields() { return plain_fields(&ConstantLight::radiance); }
 };
-/// A latitude–longitude image around the scene, +y up.
+/// How an image covers the sphere of directions around a scene: by latitude and longitude, with the
+/// light's +y up; or as a square of equal areas (math/equal_area.h), with what is there +z up here
+/// +y, so that both have their poles at the same place.
+enum class EnvironmentLayout { latitude_longitude, equal_area };
+/// An image around the scene.
 struct EnvironmentMapLight {
   std::string file;  ///< resolved path
   double scale = 1;
+  Spectrum tint{1.0f};  ///< multiplies the image as `scale` does
+  EnvironmentLayout layout = EnvironmentLayout::latitude_longitude;
+  /// The light is scaled so that a plane that faces its +y would receive this much, multiplied by
+  /// `scale` and `tint`.
+  std::optional<double> illuminance;
   std::optional<double> gamma;  ///< as in BitmapTexture
   static constexpr auto fields() {
     return std::tuple_cat(std::tuple(field(&EnvironmentMapLight::file).names_data()),
-                          plain_fields(&EnvironmentMapLight::scale, &EnvironmentMapLight::gamma));
+                          plain_fields(&EnvironmentMapLight::scale, &EnvironmentMapLight::tint,
+                                       &EnvironmentMapLight::layout,
+                                       &EnvironmentMapLight::illuminance,
+                                       &EnvironmentMapLight::gamma));
   }
 };
 

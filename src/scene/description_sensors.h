@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "image/film.h"
 #include "image/filter.h"
 #include "math/fov.h"
 #include "scene/description_shapes.h"
@@ -44,6 +45,9 @@ constexpr bool has_fov(SensorKind k) {
   return k == SensorKind::perspective || k == SensorKind::thinlens ||
          k == SensorKind::perspective_rdist;
 }
+/// How a spherical camera's image shows the sphere of directions: by latitude and longitude, or by
+/// an octahedron that is folded to a square (math/equal_area.h).
+enum class SphereMapping { latitude_longitude, equal_area };
 enum class PixelFormat { luminance, luminance_alpha, rgb, rgba, xyz, xyza };
 enum class ComponentFormat { half, single };
 
@@ -75,11 +79,12 @@ struct FilmDescription {
   PixelFormat pixel_format = PixelFormat::rgb;
   ComponentFormat component_format = ComponentFormat::half;
   std::optional<ToneMapping> tone_mapping;
+  std::optional<FilmResponse> response;
   static constexpr auto fields() {
     return plain_fields(&FilmDescription::where, &FilmDescription::width, &FilmDescription::height,
                         &FilmDescription::crop, &FilmDescription::filter,
                         &FilmDescription::pixel_format, &FilmDescription::component_format,
-                        &FilmDescription::tone_mapping);
+                        &FilmDescription::tone_mapping, &FilmDescription::response);
   }
 };
 
@@ -107,6 +112,7 @@ struct SensorDescription {
   double near_clip = 1e-2, far_clip = 1e4;
   double aperture_radius = 0, focus_distance = 0;  ///< thinlens, telecentric
   std::array<double, 2> distortion{};              ///< perspective_rdist: of r³ and r⁵
+  SphereMapping sphere_mapping = SphereMapping::latitude_longitude;  ///< spherical
   uint32_t shape = 0;                              ///< irradiancemeter: index in `shapes`
   /// distant: what it averages over; neither is the whole scene.
   std::optional<std::array<double, 3>> target_point;
@@ -123,7 +129,8 @@ struct SensorDescription {
         &SensorDescription::principal_point_offset_x, &SensorDescription::principal_point_offset_y,
         &SensorDescription::near_clip, &SensorDescription::far_clip,
         &SensorDescription::aperture_radius, &SensorDescription::focus_distance,
-        &SensorDescription::distortion, &SensorDescription::shape, &SensorDescription::target_point,
+        &SensorDescription::distortion, &SensorDescription::sphere_mapping,
+        &SensorDescription::shape, &SensorDescription::target_point,
         &SensorDescription::target_shape, &SensorDescription::parts, &SensorDescription::medium,
         &SensorDescription::film, &SensorDescription::sampler);
   }

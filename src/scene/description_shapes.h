@@ -98,9 +98,11 @@ struct AreaEmission {
   double sampling_weight = 1;  ///< as in LightDescription
   /// Light leaves along the normals only; `radiance` is power per unit area.
   bool directional = false;
+  bool two_sided = false;  ///< light leaves on both sides
   static constexpr auto fields() {
     return plain_fields(&AreaEmission::where, &AreaEmission::radiance,
-                        &AreaEmission::sampling_weight, &AreaEmission::directional);
+                        &AreaEmission::sampling_weight, &AreaEmission::directional,
+                        &AreaEmission::two_sided);
   }
 };
 

@@ -28,6 +28,12 @@ std::string direction(const Matrix4& m) {
 }
 
 std::string filter_text(const FilterDescription& f) {
+  if (f.reach_x) {
+    constexpr const char* names[] = {"box",      "tent",       "gaussian",
+                                     "mitchell", "catmullrom", "lanczos"};
+    return fmt::format("{} filter of radius {:g} x {:g}", names[size_t(f.kind)], *f.reach_x,
+                       f.reach_y.value_or(*f.reach_x));
+  }
   switch (f.kind) {
     case FilterKind::box:
       return fmt::format("box filter of radius {:g}", f.radius);

@@ -1,0 +1,269 @@
+#include "pbrt/directives.h"
+
+#include <filesystem>
+
+#include "values/text.h"
+
+namespace duet::pbrt {
+
+namespace {
+
+/// Files that include each other; deeper is a mistake, too.
+constexpr size_t kDeepest = 100;
+/// Blocks within blocks.
+constexpr size_t kMostBlocks = 100000;
+
+}  // namespace
+
+std::span<const Directives::Command> Directives::commands() {
+  using D = Directives;
+  static constexpr Command kCommands[] = {
+      {"Shape", &D::shape, 2},
+      {"AttributeBegin", &D::attribute_begin, 2},
+      {"AttributeEnd", &D::attribute_end, 2},
+      {"ObjectInstance", &D::object_instance, 2},
+      {"Translate", &D::translate},
+      {"Scale", &D::scale},
+      {"Rotate", &D::rotate},
+      {"Transform", &D::transform},
+      {"ConcatTransform", &D::concat_transform},
+      {"Identity", &D::identity},
+      {"LookAt", &D::look_at},
+      {"CoordinateSystem", &D::coordinate_system},
+      {"CoordSysTransform", &D::coord_sys_transform},
+      {"ActiveTransform", &D::active_transform},
+      {"TransformTimes", &D::transform_times, 1},
+      {"TransformBegin", &D::transform_begin, 2},
+      {"TransformEnd", &D::transform_end, 2},
+      {"Attribute", &D::attribute},
+      {"ReverseOrientation", &D::reverse_orientation, 2},
+      {"ObjectBegin", &D::object_begin, 2},
+      {"ObjectEnd", &D::object_end, 2},
+      {"AreaLightSource", &D::area_light, 2},
+      {"LightSource", &D::light, 2},
+      {"Material", &D::material, 2},
+      {"MakeNamedMaterial", &D::make_named_material, 2},
+      {"NamedMaterial", &D::named_material, 2},
+      {"Texture", &D::texture, 2},
+      {"MakeNamedMedium", &D::make_named_medium},
+      {"MediumInterface", &D::medium_interface},
+      {"Camera", &D::camera, 1},
+      {"Film", &D::film, 1},
+      {"Sampler", &D::sampler, 1},
+      {"PixelFilter", &D::filter, 1},
+      {"Filter", &D::filter, 1},
+      {"Integrator", &D::integrator, 1},
+      {"SurfaceIntegrator", &D::integrator, 1},
+      {"Accelerator", &D::accelerator, 1},
+      {"ColorSpace", &D::color_space},
+      {"Option", &D::option, 1},
+      {"Include", &D::include},
+      {"Import", &D::import},
+      {"WorldBegin", &D::world_begin, 1},
+      {"WorldEnd", &D::world_end, 2},
+  };
+  return kCommands;
+}
+
+void Directives::read_main(const std::string& path) {
+  read_file(path, {std::make_shared<const std::string>(path), 0, 0});
+  for (const Saved& s : saved_) {
+    constexpr const char* names[] = {"Attribute", "Transform", "Object"};
+    report().error(s.where, "{0}Begin without {0}End", names[size_t(s.what)]);
+  }
+  if (!in_world_ && !report().has_errors())
+    report().error({std::make_shared<const std::string>(path), 0, 0}, "there is no WorldBegin");
+}
+
+void Directives::read_file(const std::string& path, const SourceLocation& where) {
+  std::error_code error;
+  std::string real = std::filesystem::canonical(path, error).string();
+  if (error) real = path;
+  for (const std::string& open : open_files_)
+    if (open == real) {
+      report().error(where, "the file {} includes itself", in_quotes(path));
+      return;
+    }
+  if (open_files_.size() >= kDeepest) {
+    report().error(where, "more than {} files include each other", kDeepest);
+    return;
+  }
+  open_files_.push_back(real);
+  try {
+    Lexer in(path);
+    read(in);
+  } catch (const ReadError& e) {
+    report().error(where, "{}", e.what());
+  }
+  open_files_.pop_back();
+}
+
+void Directives::read(Lexer& in) {
+  // After a mistake directives are looked for where lines begin.
+  bool lost = false;
+  while (true) {
+    try {
+      const Kind next = in.peek();
+      if (next == Kind::end) return;
+      if (next == Kind::word) {
+        lost = false;
+        directive(in);
+        continue;
+      }
+      if (!lost) report().error(in.where(), "a directive is expected here");
+      lost = true;
+      std::vector<double> ignored;
+      if (next == Kind::string)
+        in.take_string();
+      else if (next == Kind::number)
+        in.take_numbers(ignored);
+      else
+        in.take_bracket();
+    } catch (const SyntaxError& e) {
+      if (!lost) report().error(e.where, "{}", e.message);
+      lost = true;
+      in.skip_to_next_line();
+    }
+  }
+}
+
+void Directives::directive(Lexer& in) {
+  Plugin d;
+  d.where = in.where();
+  d.directive = in.take_word();
+  for (const Command& c : commands())
+    if (c.name == d.directive) {
+      if (!(c.place & (in_world_ ? 2u : 1u)))
+        report().error(d.where, "{} stands {} WorldBegin", c.name, in_world_ ? "before" : "after");
+      (this->*c.run)(in, d);
+      return;
+    }
+  std::vector<std::string> names;
+  for (const Command& c : commands()) names.emplace_back(c.name);
+  report().error(d.where, "there is no directive {}{}", in_quotes(d.directive),
+                 did_you_mean(d.directive, names));
+  // Its arguments mean nothing, then.
+  Report::Mute mute(report());
+  std::vector<double> ignored;
+  while (true) {
+    const Kind next = in.peek();
+    if (next == Kind::string)
+      in.take_string();
+    else if (next == Kind::number)
+      in.take_numbers(ignored), ignored.clear();
+    else if (next == Kind::open || next == Kind::close)
+      in.take_bracket();
+    else
+      return;
+  }
+}
+
+std::vector<double> Directives::take_numbers(Lexer& in, size_t count, const Plugin& d) {
+  std::vector<double> numbers;
+  const bool list = in.peek() == Kind::open;
+  if (list) in.take_bracket();
+  if (in.peek() == Kind::number) in.take_numbers(numbers);
+  if (list) {
+    if (in.peek() != Kind::close) throw SyntaxError{in.where(), "a list without its end"};
+    in.take_bracket();
+  }
+  if (numbers.size() != count)
+    throw SyntaxError{d.where, fmt::format("{} needs {} number{}, not {}", d.directive, count,
+                                           count == 1 ? "" : "s", numbers.size())};
+  return numbers;
+}
+
+std::string Directives::take_string(Lexer& in, const Plugin& d) {
+  if (in.peek() != Kind::string)
+    throw SyntaxError{d.where, fmt::format("{} needs a text in quotes", d.directive)};
+  return in.take_string();
+}
+
+bool Directives::take_plugin(Lexer& in, Plugin& d, std::string_view defaults) {
+  d.name = take_string(in, d);
+  d.parameters = read_parameters(in, state().color_space, report());
+  if (defaults.empty() || !state().defaults) return true;
+  const auto found = state().defaults->find(defaults);
+  if (found == state().defaults->end()) return true;
+  for (const Parameter& p : found->second)
+    if (!d.find(p.name)) d.parameters.push_back(p);
+  return true;
+}
+
+// ---- Blocks ----
+
+void Directives::push(Begun what, const SourceLocation& where) {
+  if (saved_.size() >= kMostBlocks) throw SyntaxError{where, "too many blocks within blocks"};
+  saved_.push_back({what, where, state()});
+}
+
+void Directives::pop(Begun what, const Plugin& d) {
+  if (saved_.empty()) throw SyntaxError{d.where, d.directive + " without its beginning"};
+  const Saved& last = saved_.back();
+  if (last.what != what)
+    report().error(d.where, "{} does not end what began at {}", d.directive,
+                   last.where.to_string());
+  if (what == Begun::transform && reader_.version() == Version::v3)
+    state().ctm = last.state.ctm, state().active = last.state.active;
+  else
+    state() = last.state;
+  saved_.pop_back();
+}
+
+void Directives::attribute_begin(Lexer&, const Plugin& d) {
+  push(Begun::attribute, d.where);
+}
+
+void Directives::attribute_end(Lexer&, const Plugin& d) {
+  pop(Begun::attribute, d);
+}
+
+void Directives::transform_begin(Lexer&, const Plugin& d) {
+  push(Begun::transform, d.where);
+}
+
+void Directives::transform_end(Lexer&, const Plugin& d) {
+  pop(Begun::transform, d);
+}
+
+void Directives::object_begin(Lexer& in, const Plugin& d) {
+  const std::string name = take_string(in, d);
+  push(Begun::object, d.where);
+  reader_.begin_object(name, d.where);
+}
+
+void Directives::object_end(Lexer&, const Plugin& d) {
+  pop(Begun::object, d);
+  reader_.end_object(d.where);
+}
+
+void Directives::object_instance(Lexer& in, const Plugin& d) {
+  reader_.add_instance(take_string(in, d), d.where);
+}
+
+void Directives::world_begin(Lexer&, const Plugin& d) {
+  if (in_world_) return;  // after an error
+  in_world_ = true;
+  coordinate_systems_["world"] = {};
+  state().ctm = {};
+  state().active = 3;
+  (void)d;
+}
+
+void Directives::world_end(Lexer&, const Plugin&) {}
+
+void Directives::include(Lexer& in, const Plugin& d) {
+  const std::string path = reader_.file(take_string(in, d), d.where);
+  if (!path.empty()) read_file(path, d.where);
+}
+
+void Directives::import(Lexer& in, const Plugin& d) {
+  if (!in_world_) report().error(d.where, "Import stands after WorldBegin");
+  const std::string path = reader_.file(take_string(in, d), d.where);
+  if (path.empty()) return;
+  const GraphicsState before = state();
+  read_file(path, d.where);
+  state() = before;
+}
+
+}  // namespace duet::pbrt

@@ -1,0 +1,181 @@
+// Integrators.
+#include "pbrt/records.h"
+#include "pbrt/values.h"
+
+namespace duet::pbrt {
+
+namespace {
+
+using enum Status;
+
+#define DUET_PATH_SPECS                                                               \
+  {"maxdepth", kInteger, "5", "scattering events"},                                   \
+      {"rrthreshold", kNumber, "1", "", 1, inert, Versions::v3},                      \
+      {"lightsampler", kString, "bvh", "", 1, inert},                                 \
+      {"lightsamplestrategy", kString, "spatial", "", 1, inert},                      \
+      {"regularize", kBoolean, "false", "", 1, ignored},                              \
+  {                                                                                   \
+    "pixelbounds", kInteger, "", "", 4, ignored, Versions::v3                         \
+  }
+
+constexpr Spec kPath[] = {DUET_PATH_SPECS};
+constexpr Spec kSimple[] = {DUET_PATH_SPECS,
+                            {"samplebsdf", kBoolean, "true", "", 1, inert},
+                            {"samplelights", kBoolean, "true", "", 1, inert}};
+constexpr Spec kBdpt[] = {DUET_PATH_SPECS,
+                          {"visualizestrategies", kBoolean, "false", "", 1, ignored},
+                          {"visualizeweights", kBoolean, "false", "", 1, ignored}};
+constexpr Spec kMlt[] = {DUET_PATH_SPECS,
+                         {"bootstrapsamples", kInteger, "100000", "", 1, inert},
+                         {"chains", kInteger, "1000", "", 1, inert},
+                         {"mutationsperpixel", kInteger, "100", "", 1, inert},
+                         {"sigma", kNumber, "0.01", "", 1, inert},
+                         {"largestepprobability", kNumber, "0.3", "", 1, inert}};
+constexpr Spec kSppm[] = {DUET_PATH_SPECS,
+                          {"radius", kNumber, "1"},
+                          {"photonsperiteration", kInteger, "-1", "", 1, inert},
+                          {"iterations", kInteger, "64", "", 1, inert},
+                          {"numiterations", kInteger, "64", "", 1, inert},
+                          {"imagewritefrequency", kInteger, "1", "", 1, inert},
+                          {"seed", kInteger, "0", "", 1, inert}};
+constexpr Spec kOcclusion[] = {{"maxdistance", kNumber, "", "default: no limit"},
+                               {"cossample", kBoolean, "true"},
+                               {"nsamples", kInteger, "64", "", 1, done, Versions::v3},
+                               {"pixelbounds", kInteger, "", "", 4, ignored, Versions::v3}};
+constexpr Spec kDirect[] = {DUET_PATH_SPECS, {"strategy", kString, "all", "", 1, inert}};
+
+#undef DUET_PATH_SPECS
+
+/// Whether there is something that light passes straight through: what pbrt does not count.
+bool has_passing_surfaces(const SceneDescription& scene) {
+  for (const MaterialDescription& m : scene.materials)
+    if (m.model.is<NullMaterial>() || m.model.is<MaskMaterial>()) return true;
+  return false;
+}
+
+PathLimits limits(Values& v) {
+  PathLimits limits;
+  // In segments: one more than scattering events.
+  limits.max_depth = std::max(0, v.integer("maxdepth")) + 1;
+  return limits;
+}
+
+void read_volume_path(Values& v, SceneDescription& scene) {
+  scene.integrator.method = VolumePathIntegratorDescription{limits(v)};
+}
+
+/// Takes no notice of media.
+void read_path(Values& v, SceneDescription& scene) {
+  const auto forget = [](std::vector<ShapeDescription>& shapes) {
+    for (ShapeDescription& s : shapes) s.interior = s.exterior = std::nullopt;
+  };
+  forget(scene.shapes);
+  for (ShapeGroupDescription& g : scene.groups) forget(g.shapes);
+  for (LightDescription& l : scene.lights) l.medium.reset();
+  for (SensorDescription& s : scene.sensors) s.medium.reset();
+  scene.media.clear();
+  scene.phases.clear();
+  scene.volumes.clear();
+  if (has_passing_surfaces(scene))
+    scene.integrator.method = VolumePathIntegratorDescription{limits(v)};
+  else
+    scene.integrator.method = PathIntegratorDescription{limits(v)};
+}
+
+void read_simple_volume_path(Values& v, SceneDescription& scene) {
+  for (const ShapeDescription& s : scene.shapes)
+    if (!std::holds_alternative<InstanceShape>(s.geometry) &&
+        !scene.materials[size_t(s.material)].model.is<NullMaterial>()) {
+      v.reader().report().error(v.where(), "simplevolpath allows no surfaces but \"interface\"");
+      return;
+    }
+  read_volume_path(v, scene);
+}
+
+BidirectionalIntegratorDescription bidirectional(Values& v, BidirectionalMethod method) {
+  BidirectionalIntegratorDescription b;
+  b.method = method;
+  b.max_depth = limits(v).max_depth;
+  return b;
+}
+
+void read_bdpt(Values& v, SceneDescription& scene) {
+  scene.integrator.method = bidirectional(v, BidirectionalMethod::bdpt);
+}
+
+void read_mlt(Values& v, SceneDescription& scene) {
+  v.reader().approximate(v.where(), "mlt by bdpt, which has the same mean");
+  read_bdpt(v, scene);
+}
+
+void read_light_path(Values& v, SceneDescription& scene) {
+  scene.integrator.method = bidirectional(v, BidirectionalMethod::ptracer);
+}
+
+void read_sppm(Values& v, SceneDescription& scene) {
+  BidirectionalIntegratorDescription b = bidirectional(v, BidirectionalMethod::ppm);
+  b.radius = v.positive("radius");
+  scene.integrator.method = b;
+}
+
+void read_occlusion(Values& v, SceneDescription& scene) {
+  OcclusionIntegratorDescription o;
+  o.background = false;
+  // Without a limit: further than any scene is wide.
+  o.ray_length = v.has("maxdistance") ? v.positive("maxdistance") : 1e15;
+  if (!v.boolean("cossample"))
+    v.reader().approximate(v.where("cossample"), "occlusion by directions with the cosine");
+  scene.integrator.method = o;
+}
+
+void read_direct(Values& v, SceneDescription& scene) {
+  v.reader().approximate(v.where(),
+                         "directlighting and whitted by paths, which count interreflection by "
+                         "smooth surfaces to any depth that is asked for");
+  PathLimits path = limits(v);
+  (void)path;
+  DirectIntegratorDescription direct;
+  scene.integrator.method = direct;
+}
+
+using ReadIntegrator = void (*)(Values&, SceneDescription&);
+constexpr Record<ReadIntegrator> kIntegrators[] = {
+    {"volpath", Versions::both, done, "", kPath, read_volume_path},
+    {"path", Versions::both, done, "media are not seen, as in pbrt", kPath, read_path},
+    {"simplepath", Versions::v4, done, "as path", kSimple, read_path},
+    {"randomwalk", Versions::v4, done, "as path: the same mean with less noise", kSimple,
+     read_path},
+    {"simplevolpath", Versions::v4, done, "as volpath", kSimple, read_simple_volume_path},
+    {"bdpt", Versions::both, done, "", kBdpt, read_bdpt},
+    {"mlt", Versions::both, approximated, "by bdpt", kMlt, read_mlt},
+    {"lightpath", Versions::v4, done, "", kPath, read_light_path},
+    {"sppm", Versions::both, done, "", kSppm, read_sppm},
+    {"ambientocclusion", Versions::v4, done, "", kOcclusion, read_occlusion},
+    {"ao", Versions::v3, done, "", kOcclusion, read_occlusion},
+    {"directlighting", Versions::v3, approximated, "light of the first surface alone", kDirect,
+     read_direct},
+    {"whitted", Versions::v3, approximated, "light of the first surface alone", kDirect,
+     read_direct},
+    {"function", Versions::v4, refused, "it draws a function, not a scene", {}, nullptr},
+};
+
+}  // namespace
+
+void finish_integrator(Reader& reader) {
+  Plugin standard{"Integrator", reader.version() == Version::v3 ? "path" : "volpath", {}, {}};
+  standard.where = {std::make_shared<const std::string>(reader.scene().file), 0, 0};
+  const Plugin& plugin = reader.integrator ? *reader.integrator : standard;
+  reader.scene().integrator.where = plugin.where;
+  const bool replaced = reader.options().replaces_integrator;
+  const Record<ReadIntegrator>* record = nullptr;
+  {
+    Report::Mute mute(reader.report(), replaced);
+    record = find_record<ReadIntegrator>(reader, plugin, kIntegrators);
+  }
+  if (!record && replaced) record = &kIntegrators[0];
+  if (!record) return;
+  Values v(reader, plugin, record->parameters);
+  record->read(v, reader.scene());
+}
+
+}  // namespace duet::pbrt

@@ -1,0 +1,77 @@
+// The words of pbrt scene files: directives, strings, numbers and brackets.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "base/diagnostics.h"
+
+namespace duet::pbrt {
+
+/// What comes next in a file.
+enum class Kind : uint8_t { end, word, string, number, open, close };
+
+/// What a file says against the rules of its syntax. The reader reports it and goes on.
+struct SyntaxError {
+  SourceLocation where;
+  std::string message;
+};
+
+/// Reads a file, gzipped or not, piece by piece: of its text no more than a block is held.
+class Lexer {
+ public:
+  /// Throws ReadError if there is no such file.
+  explicit Lexer(const std::string& path);
+  /// Reads `text`, which must outlive the lexer; `name` is used in messages.
+  Lexer(std::string name, std::string_view text);
+  ~Lexer();
+  Lexer(const Lexer&) = delete;
+  Lexer& operator=(const Lexer&) = delete;
+
+  /// Skips white space and comments. A character that nothing begins with throws SyntaxError.
+  Kind peek();
+  /// Where what peek() has found begins.
+  SourceLocation where() const;
+
+  // Each takes what peek() has found.
+  std::string take_word();
+  /// The text between quotes. Throws SyntaxError if the file or the line ends before.
+  std::string take_string();
+  /// The numbers that come next, to the end of `values`. Throws SyntaxError at the first that is
+  /// none, or is not finite.
+  void take_numbers(std::vector<double>& values);
+  void take_bracket() { ++next_; }
+
+  /// Goes on behind a syntax error: at the next word that begins a line, or the end.
+  void skip_to_next_line();
+
+ private:
+  struct Source;
+  static constexpr size_t kBlock = size_t(1) << 18;
+  /// The longest number; strings and words may be longer.
+  static constexpr size_t kLongest = 512;
+
+  /// Makes sure that `count` bytes can be seen, as far as there are so many.
+  void need(size_t count) {
+    if (size_t(end_ - next_) < count) refill();
+  }
+  void refill();
+  void new_line(const char* behind) {
+    ++line_;
+    line_start_ = base_ + uint64_t(behind - begin_);
+  }
+  double take_number();
+
+  std::shared_ptr<const std::string> name_;
+  std::unique_ptr<Source> source_;  ///< null when reading from memory or at the end
+  std::vector<char> buffer_;
+  const char *begin_ = nullptr, *next_ = nullptr, *end_ = nullptr;
+  uint64_t base_ = 0;        ///< position in the text of begin_
+  uint64_t line_start_ = 0;  ///< position in the text of the line's first character
+  int line_ = 1;
+};
+
+}  // namespace duet::pbrt

@@ -1,0 +1,246 @@
+// Lights.
+#include <cmath>
+
+#include "math/angles.h"
+#include "pbrt/records.h"
+#include "pbrt/values.h"
+
+namespace duet::pbrt {
+
+namespace {
+
+using enum Status;
+
+/// What a light emits before its scale. v4 brings spectra to luminance 1, but leaves the size of
+/// RGB numbers.
+Spectrum emitted(Values& v, std::string_view name) {
+  const Parameter* p = v.given(name);
+  if (!p) {
+    Parameter one;
+    one.type = Type::rgb;
+    one.numbers = {1, 1, 1};
+    one.color_space = v.reader().state().color_space;
+    return color_from_triple(one, ColorMeaning::emission, v.reader().film_color_space);
+  }
+  const Spectrum color = v.reader().constant_color(*p, ColorMeaning::emission);
+  if (v.reader().version() == Version::v3 || p->type == Type::rgb || p->type == Type::xyz)
+    return color;
+  const float luminance = color.luminance();
+  if (luminance > 0) return color / luminance;
+  v.reader().report().error(p->where, "a light's spectrum must have a luminance above zero");
+  return color;
+}
+
+/// "scale", a colour in v3.
+Spectrum scale_of(Values& v) {
+  const Parameter* p = v.given("scale");
+  if (!p || p->type == Type::number) return Spectrum(float(v.number("scale")));
+  return v.reader().constant_color(*p, ColorMeaning::emission);
+}
+
+/// From the space where the light sits at the origin and shines along +z.
+Matrix4 aimed(const std::array<double, 3>& from, const std::array<double, 3>& to) {
+  std::array<double, 3> d;
+  for (size_t i = 0; i < 3; ++i) d[i] = to[i] - from[i];
+  const bool along_y = std::abs(d[1]) > 0.9 * std::sqrt(d[0] * d[0] + d[1] * d[1] + d[2] * d[2]);
+  const std::array<double, 3> up = along_y ? std::array<double, 3>{1, 0, 0}
+                                           : std::array<double, 3>{0, 1, 0};
+  return Matrix4::look_at(from, to, up).value_or(Matrix4{});
+}
+
+bool differ(Values& v) {
+  if (v.point("from") != v.point("to")) return true;
+  v.reader().report().error(v.where(), "\"from\" and \"to\" are the same point");
+  return false;
+}
+
+void add(Values& v, decltype(LightDescription::model) model, const Matrix4& to_light) {
+  Reader& reader = v.reader();
+  const Matrix4& ctm = reader.state().ctm[0];
+  if (!reader.check_transform(ctm, v.where())) return;
+  LightDescription light;
+  light.where = v.where();
+  light.model = std::move(model);
+  light.motion = reader.motion(v.plugin());
+  light.to_world = light.motion.empty() ? ctm * to_light : to_light;
+  light.medium = reader.state().outside;
+  reader.scene().lights.push_back(std::move(light));
+}
+
+#define DUET_LIGHT_SPECS                                                               \
+  {"scale", Types(kNumber | kColor), "1", "a colour in v3"},                           \
+      {"power", kNumber, "-1", "total power, instead of what the colour says", 1, done, \
+       Versions::v4},                                                                  \
+      {"nsamples", kInteger, "1", "", 1, inert, Versions::v3},                         \
+      {"samples", kInteger, "1", "", 1, inert, Versions::v3}
+
+constexpr Spec kPoint[] = {
+    {"I", kColor, "1", "radiant intensity"}, {"from", kPoint3, "0 0 0"}, DUET_LIGHT_SPECS};
+
+void read_point(Values& v) {
+  Spectrum intensity = emitted(v, "I") * scale_of(v);
+  if (v.has("power")) intensity *= float(v.not_negative("power") / (4 * kPi));
+  const auto p = v.point("from");
+  add(v, PointLight{intensity}, Matrix4::translate(p[0], p[1], p[2]));
+}
+
+constexpr Spec kSpot[] = {{"I", kColor, "1", "radiant intensity along the axis"},
+                          {"from", kPoint3, "0 0 0"},
+                          {"to", kPoint3, "0 0 1"},
+                          {"coneangle", kNumber, "30", "degrees from the axis"},
+                          {"conedeltaangle", kNumber, "5", "over which it fades out"},
+                          DUET_LIGHT_SPECS};
+
+void read_spot(Values& v) {
+  if (!differ(v)) return;
+  const double cone = std::clamp(v.number("coneangle"), 0.01, 180.0);
+  const double full = std::clamp(cone - v.number("conedeltaangle"), 0.0, cone);
+  SpotLight spot;
+  spot.cutoff_angle = cone;
+  spot.beam_width = full;
+  spot.falloff = SpotFalloff::smooth;
+  spot.intensity = emitted(v, "I") * scale_of(v);
+  if (v.has("power")) {
+    const double begin = std::cos(full * kRadians), end = std::cos(cone * kRadians);
+    const double solid_angle = 2 * kPi * ((1 - begin) + (begin - end) / 2);
+    spot.intensity *= float(v.not_negative("power") / solid_angle);
+  }
+  add(v, spot, aimed(v.point("from"), v.point("to")));
+}
+
+constexpr Spec kDistant[] = {{"L", kColor, "1", "irradiance across the direction"},
+                             {"from", kPoint3, "0 0 0"},
+                             {"to", kPoint3, "0 0 1"},
+                             {"illuminance", kNumber, "-1", "", 1, done, Versions::v4},
+                             DUET_LIGHT_SPECS};
+
+void read_distant(Values& v) {
+  if (!differ(v)) return;
+  Spectrum irradiance = emitted(v, "L") * scale_of(v);
+  if (v.has("illuminance")) irradiance *= float(v.not_negative("illuminance"));
+  // The direction alone counts: the transform's stretch does not change the light.
+  const auto from = v.point("from"), to = v.point("to");
+  const Matrix4& ctm = v.reader().state().ctm[0];
+  const Matrix4 placed = ctm * aimed(from, to);
+  const double stretch = std::sqrt(placed[0][2] * placed[0][2] + placed[1][2] * placed[1][2] +
+                                   placed[2][2] * placed[2][2]);
+  if (stretch > 0) irradiance *= float(1 / stretch);
+  add(v, DirectionalLight{irradiance}, aimed(from, to));
+}
+
+constexpr Spec kInfinite[] = {
+    {"L", kColor, "1", "radiance"},
+    {"filename", kString, "", "an equal-area image of the sphere", 1, done, Versions::v4},
+    {"mapname", kString, "", "an image by latitude and longitude", 1, done, Versions::v3},
+    {"illuminance", kNumber, "-1", "of a plane across the light's +z", 1, done, Versions::v4},
+    {"portal", kPoint3, "", "", 4, refused, Versions::v4},
+    DUET_LIGHT_SPECS};
+
+/// From the space of latitude-longitude maps, with +y up, to pbrt's, with +z up: columns of both
+/// turn about the same axis, from the same half plane on.
+Matrix4 z_up() {
+  Matrix4 m;
+  m.m = {{{0, 0, -1, 0}, {1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 0, 1}}};
+  return m;
+}
+
+void read_infinite(Values& v) {
+  const bool v3 = v.reader().version() == Version::v3;
+  const char* name = v3 ? "mapname" : "filename";
+  const Spectrum scale = scale_of(v);
+  if (!v.has(name)) {
+    Spectrum radiance = emitted(v, "L") * scale;
+    if (v.has("illuminance")) radiance *= float(v.not_negative("illuminance") / kPi);
+    add(v, ConstantLight{radiance}, {});
+    return;
+  }
+  EnvironmentMapLight map;
+  map.file = v.file(name);
+  if (map.file.empty()) return;
+  if (!v3 && v.has("L"))
+    v.reader().report().error(v.where("L"), "a light has either \"L\" or a file");
+  map.tint = v3 ? emitted(v, "L") * scale : scale;
+  if (!v3) map.layout = EnvironmentLayout::equal_area;
+  if (v.has("illuminance")) map.illuminance = v.not_negative("illuminance");
+  add(v, map, z_up());
+}
+
+constexpr Spec kGoniometric[] = {
+    {"I", kColor, "1", "multiplies the image"},
+    {"filename", kString, "", "an equal-area image of the sphere", 1, done, Versions::v4},
+    {"mapname", kString, "", "an image by latitude and longitude", 1, refused, Versions::v3},
+    DUET_LIGHT_SPECS};
+
+constexpr Spec kProjection[] = {{"I", kColor, "1", "", 1, done, Versions::v3},
+                                {"filename", kString, "", "", 1, done, Versions::v4},
+                                {"mapname", kString, "", "", 1, done, Versions::v3},
+                                {"fov", kNumber, "90", "degrees, along the image's shorter side"},
+                                DUET_LIGHT_SPECS};
+
+constexpr Record<void (*)(Values&)> kLights[] = {
+    {"point", Versions::both, done, "", kPoint, read_point},
+    {"spot", Versions::both, done, "", kSpot, read_spot},
+    {"distant", Versions::both, done, "", kDistant, read_distant},
+    {"infinite", Versions::both, done, "", kInfinite, read_infinite},
+    {"exinfinite", Versions::v3, done, "", kInfinite, read_infinite},
+    {"goniometric", Versions::both, refused, "lights with an image of their intensity", kGoniometric,
+     nullptr},
+    {"projection", Versions::both, refused, "lights that throw an image", kProjection, nullptr},
+};
+
+constexpr Spec kArea[] = {
+    {"L", kColor, "1", "radiance"},
+    {"twosided", kBoolean, "false"},
+    {"filename", kString, "", "an image over the texture coordinates", 1, done, Versions::v4},
+    DUET_LIGHT_SPECS};
+
+#undef DUET_LIGHT_SPECS
+
+constexpr Record<int> kAreaLights[] = {
+    {"diffuse", Versions::both, done, "", kArea, 1},
+    {"area", Versions::v3, done, "", kArea, 1},
+};
+
+}  // namespace
+
+std::optional<AreaEmission> read_area_light(Reader& reader, const Plugin& plugin,
+                                            const std::function<double()>& area) {
+  const auto* record = find_record<int>(reader, plugin, kAreaLights);
+  if (!record) return std::nullopt;
+  Values v(reader, plugin, record->parameters);
+  AreaEmission emission;
+  emission.where = plugin.where;
+  emission.two_sided = v.boolean("twosided");
+  Spectrum scale = scale_of(v);
+  if (v.has("power")) {
+    if (v.has("filename")) {
+      reader.report().error(v.where("power"), "power with an image is not supported yet");
+      return std::nullopt;
+    }
+    const double sides = emission.two_sided ? 2 : 1;
+    scale *= float(v.not_negative("power") / (kPi * std::max(area(), 1e-30) * sides));
+  }
+  if (!v.has("filename")) {
+    emission.radiance = emitted(v, "L") * scale;
+    return emission;
+  }
+  if (v.has("L")) reader.report().error(v.where("L"), "a light has either \"L\" or a file");
+  BitmapTexture image;
+  image.file = v.file("filename");
+  if (image.file.empty()) return std::nullopt;
+  image.wrap_u = image.wrap_v = WrapMode::clamp;
+  image.to_uv.m = {{{1, 0, 0}, {0, -1, 1}}};
+  const TextureId texture = reader.add_texture(image, plugin.where);
+  emission.radiance =
+      reader.add_texture(ScaledTextureDescription{texture, scale}, plugin.where);
+  return emission;
+}
+
+void read_light(Reader& reader, const Plugin& plugin) {
+  if (const auto* record = find_record<void (*)(Values&)>(reader, plugin, kLights)) {
+    Values values(reader, plugin, record->parameters);
+    record->read(values);
+  }
+}
+
+}  // namespace duet::pbrt

@@ -1,0 +1,155 @@
+// Turns a pbrt scene into a scene description, directive by directive.
+#pragma once
+
+#include <array>
+#include <functional>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <unordered_map>
+#include <utility>
+#include <vector>
+
+#include "pbrt/graphics_state.h"
+#include "pbrt/parameter.h"
+#include "pbrt/pbrt.h"
+#include "scene/description.h"
+#include "values/color.h"
+#include "values/report.h"
+
+namespace duet::pbrt {
+
+/// A mesh file once it was read; the mesh is null after an error.
+struct PlyMesh {
+  std::shared_ptr<const TriangleMesh> mesh;
+  bool own_normals = false;    ///< as in ShapeParts
+  bool is_whole_file = false;  ///< another program makes the same of the file
+};
+
+/// A texture or material by name, and where it was asked for before it was defined.
+using Undefined = std::map<std::string, SourceLocation, std::less<>>;
+
+/// How a shape is given to Reader::add_shape().
+struct ShapeParts {
+  decltype(ShapeDescription::geometry) geometry;
+  /// From the shape's own space, as the description means it, to pbrt's object space.
+  Matrix4 to_object = {};
+  /// Its vertex normals are the file's own: the handedness of the transform does not turn them.
+  bool has_normals = false;
+  /// Whether mirroring transforms turn the description's shape inside out by themselves.
+  bool mirrors = false;
+};
+
+/// What the readers of the plugins share: the description that grows, the graphics state and what
+/// has a name.
+class Reader {
+ public:
+  Reader(const std::string& file, const Options& options, Version version, Report& report);
+
+  /// Reads the main file. What is wrong is reported.
+  void read();
+  SceneDescription take() { return std::move(scene_); }
+
+  SceneDescription& scene() { return scene_; }
+  Report& report() { return report_; }
+  const Options& options() const { return options_; }
+  Version version() const { return version_; }
+  GraphicsState& state() { return state_; }
+
+  /// Records what is rendered differently from what the file says.
+  void approximate(const SourceLocation& where, std::string what);
+  /// The path of a file; "" after an error. Relative names are looked for beside the main file.
+  std::string file(const std::string& name, const SourceLocation& where);
+
+  // ---- Colours (values.cpp) ----
+  Spectrum constant_color(const Parameter& p, ColorMeaning meaning);
+
+  // ---- Named things (names.cpp) ----
+  /// The names of the state (v3) or of the whole file (v4).
+  const NameTables& names() const;
+  NameTables& change_names();
+  /// What the name stands for, or will stand for once it is defined.
+  MaterialId named_material(const std::string& name, const SourceLocation& where);
+  MediumId named_medium(const std::string& name, const SourceLocation& where);
+  void define_material(const std::string& name, MaterialId made, const SourceLocation& where);
+  void define_medium(const std::string& name, MediumDescription medium);
+  /// Reports what was asked for and never defined.
+  void check_names();
+
+  // ---- Materials and textures ----
+  MaterialId add_material(MaterialModel model, const SourceLocation& where);
+  TextureId add_texture(decltype(TextureDescription::model) model, const SourceLocation& where);
+  /// Called for each texture that a plugin refers to.
+  void count_texture() { ++texture_count_; }
+  /// How many there were; what differs before and after reading a material says if it has any.
+  size_t texture_count() const { return texture_count_; }
+  /// Whether the surface described now looks at texture coordinates.
+  bool needs_uv(const Plugin& shape) const;
+  void set_material(MaterialId id);
+  void set_looks_at_uv(MaterialId id, bool looks);
+
+  // ---- Shapes (reader_shapes.cpp) ----
+  /// Adds a shape with what the state says of it: transform, orientation, material, light, media.
+  void add_shape(const Plugin& from, ShapeParts parts);
+  /// Null after an error.
+  const PlyMesh* ply_mesh(const std::string& path, bool needs_uv, const SourceLocation& where);
+  void begin_object(const std::string& name, const SourceLocation& where);
+  void end_object(const SourceLocation& where);
+  void add_instance(const std::string& name, const SourceLocation& where);
+  bool in_object() const { return object_.has_value(); }
+
+  /// The way of what has the state's transform; none if it stands still.
+  Motion motion(const Plugin& what);
+  /// Whether the matrix can be inverted; an error if not.
+  bool check_transform(const Matrix4& m, const SourceLocation& where);
+
+  std::array<double, 2> transform_times{0, 1};
+
+  // ---- What the directives before WorldBegin leave for its end ----
+  std::optional<Plugin> camera, film, filter, sampler, integrator;
+  GraphicsState camera_state;  ///< as it was at Camera
+  /// The film's, and so that in which all colours of the description are.
+  uint8_t film_color_space = 0;
+
+ private:
+  std::string spectrum_file(const std::string& name, const SourceLocation& where);
+  MaterialId with_alpha(const Plugin& shape, MaterialId material);
+
+  std::string file_;
+  const Options& options_;
+  Version version_;
+  Report& report_;
+  SceneDescription scene_;
+  GraphicsState state_;
+  NameTables global_names_;
+  std::map<std::string, MediumId, std::less<>> media_;
+  Undefined undefined_materials_, undefined_media_;
+  size_t texture_count_ = 0;
+  /// Per material: whether it has textures or is anisotropic.
+  std::vector<bool> looks_at_uv_;
+  std::map<std::pair<std::string, bool>, PlyMesh> ply_meshes_;
+  std::unordered_map<std::string, uint32_t> objects_;
+  /// The group that ObjectBegin has begun.
+  std::optional<uint32_t> object_;
+  /// Materials with alpha on shapes, by what they are made of.
+  std::map<std::pair<uint32_t, std::string>, MaterialId> masked_;
+};
+
+// The families of plugins, a file each.
+void read_shape(Reader& reader, const Plugin& plugin);
+/// `area` is that of the surface in the world.
+std::optional<AreaEmission> read_area_light(Reader& reader, const Plugin& plugin,
+                                            const std::function<double()>& area);
+void read_light(Reader& reader, const Plugin& plugin);
+std::optional<MaterialId> read_material(Reader& reader, const Plugin& plugin);
+/// `plugin` has the texture's class as its name; `name` and `kind` ("float" …) precede that.
+void read_texture(Reader& reader, const Plugin& plugin, const std::string& name,
+                  const std::string& kind);
+void read_medium(Reader& reader, const Plugin& plugin);
+/// The sensor and the integrator, from what was said before WorldBegin.
+void finish_camera(Reader& reader);
+void finish_integrator(Reader& reader);
+
+}  // namespace duet::pbrt

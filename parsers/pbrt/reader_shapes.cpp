@@ -1,0 +1,139 @@
+// What surfaces have besides their geometry: transform, orientation, material, light and media.
+#include <cmath>
+
+#include "pbrt/reader.h"
+#include "pbrt/shapes.h"
+#include "pbrt/values.h"
+#include "values/text.h"
+
+namespace duet::pbrt {
+
+void Reader::set_material(MaterialId id) {
+  state_.material = id;
+}
+
+bool Reader::needs_uv(const Plugin& shape) const {
+  return looks_at_uv_[size_t(state_.material)] || shape.find("alpha") ||
+         (state_.area_light && state_.area_light->find("filename"));
+}
+
+void Reader::set_looks_at_uv(MaterialId id, bool looks) {
+  looks_at_uv_[size_t(id)] = looks;
+}
+
+MaterialId Reader::with_alpha(const Plugin& shape, MaterialId material) {
+  const Parameter* given = shape.find("alpha");
+  if (!given || (given->type != Type::number && given->type != Type::texture)) return material;
+  // Everything else about the parameter was checked when the shape was read.
+  Report::Mute mute(report_);
+  Plugin alone{shape.directive, shape.name, shape.where, {*given}};
+  const FloatInput alpha = Values(*this, alone, kShapeSpecs).float_input("alpha");
+  if (const double* constant = std::get_if<double>(&alpha); constant && *constant >= 1)
+    return material;
+  const std::string key = given->strings.empty() ? fmt::format("{}", given->numbers.front())
+                                                 : "\"" + given->strings.front();
+  const auto [entry, is_new] = masked_.try_emplace({uint32_t(material), key}, MaterialId{});
+  if (is_new)
+    entry->second = add_material(MaskMaterial{alpha, material}, shape.where);
+  return entry->second;
+}
+
+void Reader::add_shape(const Plugin& from, ShapeParts parts) {
+  if (!check_transform(state_.ctm[0], from.where)) return;
+  ShapeDescription shape;
+  shape.where = from.where;
+  shape.motion = motion(from);
+  shape.to_world = shape.motion.empty() ? state_.ctm[0] * parts.to_object : parts.to_object;
+  const bool mirrored = state_.ctm[0].determinant3() < 0;
+  // The normal in object space is turned inside out by ReverseOrientation, and the winding of
+  // triangles once more by transforms that mirror.
+  shape.flip_normals = state_.reverse_orientation != (mirrored && !parts.has_normals);
+  if (parts.mirrors)
+    shape.flip_normals =
+        state_.reverse_orientation != (mirrored != ((state_.ctm[0] * parts.to_object).determinant3() < 0));
+  shape.geometry = std::move(parts.geometry);
+  shape.material = with_alpha(from, state_.material);
+  if (state_.inside != state_.outside) {
+    shape.interior = state_.inside;
+    shape.exterior = state_.outside;
+  }
+  if (state_.area_light) {
+    const bool invisible = scene_.materials[size_t(state_.material)].model.is<NullMaterial>();
+    if (object_)
+      report_.warning(from.where, "area lights in objects are ignored, as pbrt does");
+    else if (invisible)
+      report_.warning(from.where, "a surface with the material \"interface\" emits no light");
+    else
+      shape.emission = read_area_light(*this, *state_.area_light, [&] { return world_area(shape); });
+  }
+  auto& list = object_ ? scene_.groups[*object_].shapes : scene_.shapes;
+  list.push_back(std::move(shape));
+}
+
+void Reader::begin_object(const std::string& name, const SourceLocation& where) {
+  if (object_) {
+    report_.error(where, "an object cannot stand in another");
+    return;
+  }
+  if (objects_.contains(name)) {
+    report_.error(where, "there is an object \"{}\" already", in_quotes(name));
+    return;
+  }
+  object_ = uint32_t(scene_.groups.size());
+  objects_[name] = *object_;
+  scene_.groups.push_back({where, {name}, {}});
+}
+
+void Reader::end_object(const SourceLocation& where) {
+  if (!object_) report_.error(where, "ObjectEnd without ObjectBegin");
+  object_.reset();
+}
+
+void Reader::add_instance(const std::string& name, const SourceLocation& where) {
+  if (object_) {
+    report_.error(where, "an object cannot be used in another");
+    return;
+  }
+  const auto found = objects_.find(name);
+  if (found == objects_.end()) {
+    report_.error(where, "there is no object \"{}\"{}", in_quotes(name),
+                  did_you_mean(name, report_.names_for_hint(objects_)));
+    return;
+  }
+  if (!check_transform(state_.ctm[0], where)) return;
+  ShapeDescription shape;
+  shape.where = where;
+  shape.geometry = InstanceShape{found->second};
+  Plugin instance{"ObjectInstance", name, where, {}};
+  shape.motion = motion(instance);
+  if (shape.motion.empty()) shape.to_world = state_.ctm[0];
+  scene_.shapes.push_back(std::move(shape));
+}
+
+double world_area(const ShapeDescription& shape) {
+  const TriangleMesh* mesh = nullptr;
+  TriangleMesh made;
+  if (const auto* m = std::get_if<MeshShape>(&shape.geometry)) {
+    mesh = m->mesh.get();
+  } else {
+    if (std::holds_alternative<SphereShape>(shape.geometry))
+      made = make_sphere(1, -1, 1, 360);
+    else if (std::holds_alternative<CylinderShape>(shape.geometry))
+      made = make_cylinder(1, 0, 1, 360);
+    else
+      made = make_disk(1, 0, 0, 360);
+    mesh = &made;
+  }
+  const Matrix4 to_world =
+      shape.motion.empty() ? shape.to_world
+                           : shape.motion.keyframes().front().pose * shape.to_world;
+  const Transform place(to_world);
+  double area = 0;
+  for (const auto& [a, b, c] : mesh->triangles) {
+    const Point3f p = place(mesh->positions[a]);
+    area += 0.5 * double(length(cross(place(mesh->positions[b]) - p, place(mesh->positions[c]) - p)));
+  }
+  return area;
+}
+
+}  // namespace duet::pbrt

@@ -1,0 +1,58 @@
+// The geometry of pbrt's shapes: how it is made of their parameters.
+#pragma once
+
+#include <array>
+#include <functional>
+#include <span>
+
+#include "geometry/curves.h"
+#include "geometry/mesh.h"
+#include "pbrt/parameter.h"
+#include "scene/description.h"
+
+namespace duet::pbrt {
+
+/// What all shapes have.
+inline constexpr Spec kShapeSpecs[] = {
+    {"alpha", kNumberTexture, "1", "probability that light meets the surface"},
+    {"shadowalpha", kNumberTexture, "", "", 1, Status::ignored, Versions::v3},
+};
+
+/// A point of a surface with its normal, of any length.
+struct GridPoint {
+  Point3f position;
+  Normal3f normal;
+};
+/// Patches between points of a surface given by two parameters from 0 to 1, which become the
+/// texture coordinates.
+TriangleMesh make_grid(int columns, int rows, const std::function<GridPoint(double, double)>& at);
+
+// In pbrt's object space, with its texture coordinates and normals; angles in degrees.
+TriangleMesh make_sphere(double radius, double z_min, double z_max, double phi_max);
+TriangleMesh make_cylinder(double radius, double z_min, double z_max, double phi_max);
+TriangleMesh make_disk(double radius, double inner_radius, double height, double phi_max);
+
+/// A mesh of bilinear patches: corners p00, p10, p01, p11. Patches that are parallelograms become
+/// two triangles, others a grid of them. `normals` and `uvs` are empty or one per position.
+struct PatchMesh {
+  std::vector<Point3f> positions;
+  std::vector<Normal3f> normals;
+  std::vector<Point2f> uvs;
+  std::vector<std::array<uint32_t, 4>> patches;
+};
+/// Appends the patches to a mesh that has normals and texture coordinates, or neither as `with…`
+/// says.
+void append_patches(const PatchMesh& patches, TriangleMesh& mesh);
+
+/// Loop's subdivision with `levels` steps, then the limit positions and normals. Source: Loop,
+/// "Smooth Subdivision Surfaces Based on Triangles", 1987.
+TriangleMesh subdivide_loop(const std::vector<Point3f>& positions,
+                            const std::vector<std::array<uint32_t, 3>>& triangles, int levels);
+
+/// Gives a mesh without texture coordinates those that pbrt has by default, if they are needed.
+void finish_triangles(TriangleMesh& mesh, bool needs_uv);
+
+/// The area of a mesh or analytic shape in the world.
+double world_area(const ShapeDescription& shape);
+
+}  // namespace duet::pbrt

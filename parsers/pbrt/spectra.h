@@ -1,0 +1,59 @@
+// Colours of pbrt files as linear sRGB.
+#pragma once
+
+#include <array>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "math/spectrum.h"
+#include "math/transform.h"
+#include "pbrt/parameter.h"
+#include "values/color.h"
+
+namespace duet::pbrt {
+
+/// RGB colour spaces by the number that Parameter::color_space has.
+struct ColorSpace {
+  std::string_view name;
+  std::array<std::array<double, 2>, 4> xy;  ///< chromaticities of red, green, blue and white
+};
+std::span<const ColorSpace> color_spaces();
+std::optional<uint8_t> find_color_space(std::string_view name);
+
+using Matrix3 = std::array<std::array<double, 3>, 3>;
+Matrix3 operator*(const Matrix3& a, const Matrix3& b);
+/// From a colour space to linear sRGB, without adaptation to another white.
+Matrix3 to_linear_srgb(uint8_t color_space);
+/// From linear sRGB to a colour space.
+Matrix3 from_linear_srgb(uint8_t color_space);
+/// What makes light of the colour of daylight of `kelvin` white (CIE D series; below 4000 K a black
+/// body), by von Kries' rule in the cones' responses of Bradford.
+/// For colours of that space.
+Matrix3 white_balance(double kelvin, uint8_t color_space);
+
+/// A colour that a file gives by RGB or XYZ numbers, in the colour space `working`.
+Spectrum color_from_triple(const Parameter& p, ColorMeaning meaning, uint8_t working);
+/// From linear sRGB to the colour space `working`.
+Spectrum in_working_space(const Spectrum& srgb, uint8_t working);
+
+/// Light of luminance 1 of the chromaticity that a named illuminant has ("stdillum-D65" …).
+std::optional<Spectrum> find_illuminant(std::string_view name);
+/// The refractive index of a named glass at 587.6 nm.
+std::optional<double> find_glass(std::string_view name);
+/// What a name like "metal-Cu-eta" stands for: the real or imaginary part of a metal's index.
+std::optional<Spectrum> find_metal(std::string_view name);
+std::vector<std::string> spectrum_names();
+
+/// The pairs of a parameter; nothing, with a message, if they are none.
+std::optional<std::vector<SpectrumSample>> spectrum_samples(const std::vector<double>& numbers,
+                                                            std::string& why);
+/// The pairs in a file of text, with `#` before comments. Throws ReadError.
+std::vector<SpectrumSample> read_spectrum_file(const std::string& path);
+
+/// The mean over the visible wavelengths, weighed by luminance.
+double mean_value(std::span<const SpectrumSample> samples);
+
+}  // namespace duet::pbrt

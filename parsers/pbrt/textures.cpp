@@ -1,0 +1,282 @@
+// Textures.
+#include <cmath>
+
+#include "pbrt/records.h"
+#include "pbrt/values.h"
+#include "values/text.h"
+
+namespace duet::pbrt {
+
+namespace {
+
+using enum Status;
+
+/// A texture while it is read: of colours, or of numbers.
+struct Request {
+  bool is_color;
+  ColorMeaning meaning = ColorMeaning::reflectance;
+};
+/// Only the one that was asked for counts.
+struct Made {
+  ColorInput color = Spectrum(0.0f);
+  FloatInput number = 0.0;
+};
+
+#define DUET_MAPPING_SPECS                                                              \
+  {"mapping", kString, "uv", "uv; spherical, cylindrical and planar are not supported yet"}, \
+      {"uscale", kNumber, "1"}, {"vscale", kNumber, "1"}, {"udelta", kNumber, "0"},     \
+      {"vdelta", kNumber, "0"}, {"v1", kVector3, "1 0 0"}, {                            \
+    "v2", kVector3, "0 1 0"                                                             \
+  }
+constexpr Types kEither = kColorTexture | kNumberTexture;
+
+/// From the surface's coordinates to the texture's (s, t).
+UvTransform mapping(Values& v) {
+  UvTransform m;
+  const std::string kind = v.string("mapping");
+  if (kind != "uv") {
+    const bool known = kind == "spherical" || kind == "cylindrical" || kind == "planar";
+    v.reader().report().error(v.where("mapping"), "the mapping {} is {}", in_quotes(kind),
+                              known ? "not supported yet" : "unknown");
+  }
+  m.m = {{{v.number("uscale"), 0, v.number("udelta")}, {0, v.number("vscale"), v.number("vdelta")}}};
+  return m;
+}
+
+/// A value of one of the texture's own parameters.
+void read_input(Values& v, const Request& request, std::string_view name, Made& made) {
+  const Parameter* p = v.given(name);
+  if (request.is_color) {
+    if (p && p->type == Type::number)
+      made.color = Spectrum(float(p->numbers.front()));
+    else
+      made.color = v.color_input(name, request.meaning);
+  } else {
+    made.number = v.float_input(name);
+  }
+}
+
+constexpr Spec kConstant[] = {{"value", kEither, "1"}};
+
+void read_constant(Values& v, const Request& request, Made& made) {
+  read_input(v, request, "value", made);
+}
+
+constexpr Spec kImage[] = {
+    {"filename", kString},
+    {"scale", kNumber, "1"},
+    {"invert", kBoolean, "false", "", 1, done, Versions::v4},
+    {"encoding", kString, "", "sRGB, linear or gamma and a number", 1, done, Versions::v4},
+    {"gamma", kBoolean, "", "whether it is sRGB", 1, done, Versions::v3},
+    {"wrap", kString, "repeat", "repeat, black or clamp"},
+    {"filter", kString, "bilinear", "point, or anything else as bilinear", 1, done, Versions::v4},
+    {"maxanisotropy", kNumber, "8", "", 1, inert},
+    {"trilinear", kBoolean, "false", "", 1, inert, Versions::v3},
+    DUET_MAPPING_SPECS};
+
+bool is_png(const std::string& file) {
+  return file.size() > 4 && to_lower(file.substr(file.size() - 4)) == ".png";
+}
+
+void read_encoding(Values& v, BitmapTexture& image) {
+  if (v.reader().version() == Version::v3) {
+    if (v.has("gamma")) image.gamma = v.boolean("gamma") ? -1 : 1;
+    return;
+  }
+  const std::string encoding = v.string("encoding");
+  if (encoding.empty() || !is_png(image.file)) return;  // pbrt reads others by their format
+  double gamma = 0;
+  if (encoding.starts_with("gamma")) gamma = parse_number(encoding.substr(5)).value_or(0);
+  if (encoding == "linear")
+    image.gamma = 1;
+  else if (encoding == "sRGB")
+    image.gamma = -1;
+  else if (gamma > 0)
+    image.gamma = gamma;
+  else
+    v.reader().report().error(v.where("encoding"),
+                              "an encoding is sRGB, linear or gamma and a number, not {}",
+                              in_quotes(encoding));
+}
+
+void read_image(Values& v, const Request& request, Made& made) {
+  Reader& reader = v.reader();
+  if (!v.has("filename")) {
+    reader.report().error(v.where(), "\"string filename\" is needed");
+    return;
+  }
+  BitmapTexture image;
+  image.file = v.file("filename");
+  if (image.file.empty()) return;
+  read_encoding(v, image);
+  if (v.reader().version() == Version::v4 && v.string("filter") == "point")
+    image.filter = TextureFilter::nearest;
+  const std::string wrap = v.string("wrap");
+  if (wrap == "clamp")
+    image.wrap_u = image.wrap_v = WrapMode::clamp;
+  else if (wrap == "black")
+    image.wrap_u = image.wrap_v = WrapMode::zero;
+  else if (wrap != "repeat")
+    reader.report().error(v.where("wrap"), "the wrap mode {} is not supported", in_quotes(wrap));
+  image.to_uv = mapping(v);
+  if (request.is_color && reader.film_color_space != 0)
+    reader.approximate(v.where(), "images in the film's colour space: their own is left out");
+  // Their first row is at t = 1.
+  for (double& x : image.to_uv.m[1]) x = -x;
+  image.to_uv.m[1][2] += 1;
+  TextureId id = reader.add_texture(image, v.where());
+  if (reader.version() == Version::v4 && v.boolean("invert"))
+    reader.report().error(v.where("invert"), "inverted images are not supported yet");
+  if (const double scale = v.number("scale"); scale != 1)
+    id = reader.add_texture(ScaledTextureDescription{id, Spectrum(float(scale))}, v.where());
+  made.color = id;
+  made.number = id;
+}
+
+constexpr Spec kChecks[] = {{"tex1", kEither, "1"},
+                            {"tex2", kEither, "0"},
+                            {"dimension", kInteger, "2"},
+                            {"aamode", kString, "closedform", "", 1, inert, Versions::v3},
+                            DUET_MAPPING_SPECS};
+
+void read_checkerboard(Values& v, const Request& request, Made& made) {
+  Reader& reader = v.reader();
+  if (v.integer("dimension") != 2) {
+    reader.report().error(v.where("dimension"),
+                          "checkerboards in three dimensions are not supported yet");
+    return;
+  }
+  Made first, second;
+  read_input(v, request, "tex1", first);
+  read_input(v, request, "tex2", second);
+  const auto input = [&](const Made& m) -> ColorInput {
+    if (request.is_color) return m.color;
+    if (const double* constant = std::get_if<double>(&m.number)) return Spectrum(float(*constant));
+    return std::get<TextureId>(m.number);
+  };
+  CheckerboardTexture board;
+  board.color0 = input(first);
+  board.color1 = input(second);
+  board.to_uv = mapping(v);
+  // Mitsuba's squares are half as wide.
+  for (auto& row : board.to_uv.m)
+    for (double& x : row) x *= 0.5;
+  const TextureId id = reader.add_texture(board, v.where());
+  made.color = id;
+  made.number = id;
+}
+
+constexpr Spec kScale[] = {{"tex", kEither, "1", "", 1, done, Versions::v4},
+                           {"scale", kNumberTexture, "1", "", 1, done, Versions::v4},
+                           {"tex1", kEither, "1", "", 1, done, Versions::v3},
+                           {"tex2", kEither, "1", "", 1, done, Versions::v3}};
+
+void read_scale(Values& v, const Request& request, Made& made) {
+  Reader& reader = v.reader();
+  const bool v3 = reader.version() == Version::v3;
+  Made a, b;
+  read_input(v, request, v3 ? "tex1" : "tex", a);
+  if (v3) {
+    read_input(v, request, "tex2", b);
+  } else {
+    b.number = v.float_input("scale");
+    if (const double* n = std::get_if<double>(&b.number))
+      b.color = Spectrum(float(*n));
+    else
+      b.color = std::get<TextureId>(b.number);
+  }
+  const auto product = [&](auto& x, auto& y, auto& result) {
+    using Constant = std::variant_alternative_t<0, std::decay_t<decltype(x)>>;
+    const Constant *p = std::get_if<Constant>(&x), *q = std::get_if<Constant>(&y);
+    if (p && q) {
+      result = *p * *q;
+    } else if (p || q) {
+      const Constant factor = p ? *p : *q;
+      const TextureId inner = std::get<TextureId>(p ? y : x);
+      Spectrum scale;
+      if constexpr (std::is_same_v<Constant, double>)
+        scale = Spectrum(float(factor));
+      else
+        scale = factor;
+      result = reader.add_texture(ScaledTextureDescription{inner, scale}, v.where());
+    } else {
+      reader.report().error(v.where(), "the product of two textures is not supported yet");
+    }
+  };
+  if (request.is_color)
+    product(a.color, b.color, made.color);
+  else
+    product(a.number, b.number, made.number);
+}
+
+constexpr Spec kMixTexture[] = {{"tex1", kEither, "0", "", 1, done, Versions::both, "0"},
+                         {"tex2", kEither, "1"},
+                         {"amount", kNumberTexture, "0.5"}};
+
+void read_mix_texture(Values& v, const Request& request, Made& made) {
+  Made a, b;
+  read_input(v, request, "tex1", a);
+  read_input(v, request, "tex2", b);
+  const FloatInput amount = v.float_input("amount");
+  const double* t = std::get_if<double>(&amount);
+  const Spectrum *ca = std::get_if<Spectrum>(&a.color), *cb = std::get_if<Spectrum>(&b.color);
+  const double *na = std::get_if<double>(&a.number), *nb = std::get_if<double>(&b.number);
+  if (t && request.is_color && ca && cb)
+    made.color = lerp(*ca, *cb, float(*t));
+  else if (t && !request.is_color && na && nb)
+    made.number = *na * (1 - *t) + *nb * *t;
+  else
+    v.reader().report().error(v.where(), "a mix of textures is not supported yet");
+}
+
+using ReadTexture = void (*)(Values&, const Request&, Made&);
+constexpr Record<ReadTexture> kTextures[] = {
+    {"constant", Versions::both, done, "", kConstant, read_constant},
+    {"imagemap", Versions::both, done, "never blurred by its distance", kImage, read_image},
+    {"checkerboard", Versions::both, done, "never blurred by its distance", kChecks,
+     read_checkerboard},
+    {"scale", Versions::both, done, "", kScale, read_scale},
+    {"mix", Versions::both, done, "", kMixTexture, read_mix_texture},
+    {"directionmix", Versions::v4, refused, "mixes by direction", {}, nullptr},
+    {"bilerp", Versions::both, refused, "four corners", {}, nullptr},
+    {"dots", Versions::both, refused, "noise", {}, nullptr},
+    {"fbm", Versions::both, refused, "noise", {}, nullptr},
+    {"wrinkled", Versions::both, refused, "noise", {}, nullptr},
+    {"windy", Versions::both, refused, "noise", {}, nullptr},
+    {"marble", Versions::both, refused, "noise", {}, nullptr},
+    {"uv", Versions::v3, refused, "texture coordinates as colours", {}, nullptr},
+    {"ptex", Versions::both, refused, "textures per face: Debian has no library for them", {},
+     nullptr},
+};
+
+#undef DUET_MAPPING_SPECS
+
+}  // namespace
+
+void read_texture(Reader& reader, const Plugin& plugin, const std::string& name,
+                  const std::string& kind) {
+  Request request{kind == "spectrum" || kind == "color"};
+  if (!request.is_color && kind != "float") {
+    reader.report().error(plugin.where, "a texture is of \"spectrum\" or \"float\", not {}",
+                          in_quotes(kind));
+    return;
+  }
+  const auto* record = find_record<ReadTexture>(reader, plugin, kTextures);
+  Made made;
+  if (request.is_color)
+    made.color = Spectrum(0.5f);
+  else
+    made.number = 0.5;
+  if (record) {
+    Values values(reader, plugin, record->parameters);
+    record->read(values, request, made);
+  }
+  // After an error it has a value, too, so that its users are not reported.
+  NameTables& names = reader.change_names();
+  const bool is_new = request.is_color ? names.colors.insert_or_assign(name, made.color).second
+                                       : names.numbers.insert_or_assign(name, made.number).second;
+  if (!is_new && reader.version() == Version::v4)
+    reader.report().error(plugin.where, "there is a texture {} already", in_quotes(name));
+}
+
+}  // namespace duet::pbrt

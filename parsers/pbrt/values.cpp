@@ -1,0 +1,314 @@
+#include "pbrt/values.h"
+
+#include <algorithm>
+#include <stdexcept>
+
+#include "values/text.h"
+
+namespace duet::pbrt {
+
+namespace {
+
+/// How many numbers or strings one value has; 0: any number of them.
+int size_of(const Parameter& p) {
+  switch (p.type) {
+    case Type::point2:
+    case Type::vector2:
+      return 2;
+    case Type::point3:
+    case Type::vector3:
+    case Type::normal:
+    case Type::rgb:
+    case Type::xyz:
+      return 3;
+    case Type::spectrum:
+    case Type::blackbody:
+      return 0;
+    default:
+      return 1;
+  }
+}
+
+std::string names_of(Types types) {
+  std::string text;
+  for (unsigned i = 0; i <= unsigned(Type::texture); ++i)
+    if (types & (1u << i)) text += (text.empty() ? "" : ", ") + std::string(type_name(Type(i)));
+  const size_t last = text.rfind(", ");
+  return last == text.npos ? text : text.replace(last, 2, " or ");
+}
+
+/// A spectrum that is the same over all that can be seen.
+std::optional<double> constant_value(const std::vector<SpectrumSample>& samples) {
+  if (samples.empty() || samples.front().wavelength > 380 || samples.back().wavelength < 780)
+    return std::nullopt;
+  for (const SpectrumSample& s : samples)
+    if (s.value != samples.front().value) return std::nullopt;
+  return samples.front().value;
+}
+
+}  // namespace
+
+Values::Values(Reader& reader, const Plugin& plugin, std::span<const Spec> specs,
+               std::span<const Spec> more)
+    : reader_(reader), plugin_(plugin), specs_(specs), more_(more) {
+  for (const Parameter& p : plugin.parameters) check(p);
+}
+
+void Values::check(const Parameter& p) {
+  Report& report = reader_.report();
+  const Spec* known = nullptr;
+  std::vector<std::string> names;
+  for (const auto list : {specs_, more_})
+    for (const Spec& s : list) {
+      if (!has_version(s.versions, reader_.version())) continue;
+      names.emplace_back(s.name);
+      if (s.name == p.name) known = &s;
+    }
+  if (!known) {
+    report.warning(p.where, "{} \"{}\" has no parameter \"{}\"{}; it is ignored", plugin_.directive,
+                   plugin_.name, in_quotes(p.name), did_you_mean(p.name, names));
+    return;
+  }
+  if (!(known->types & of(p.type))) {
+    report.error(p.where, "parameter \"{}\" must be of type {}, not {}", p.name,
+                 names_of(known->types), type_name(p.type));
+    return;
+  }
+  const size_t values = p.numbers.size() + p.strings.size();
+  const int size = p.type == Type::number && (known->types & of(Type::point2)) ? 2 : size_of(p);
+  if (size > 1 && values % size_t(size) != 0) {
+    report.error(p.where, "parameter \"{}\" is of {} numbers each, but has {}", p.name, size,
+                 values);
+    return;
+  }
+  if (size > 0 && known->count > 0 && values != size_t(size) * size_t(known->count)) {
+    report.error(p.where, "parameter \"{}\" has {} value{} instead of {}", p.name,
+                 values / size_t(size), values == size_t(size) ? "" : "s", known->count);
+    return;
+  }
+  if (known->status == Status::ignored)
+    report.warning(p.where, "parameter \"{}\" is ignored{}{}", p.name,
+                   known->note.empty() ? "" : ": ", known->note);
+  if (known->status == Status::refused) {
+    report.error(p.where, "parameter \"{}\" is not supported{}{}", p.name,
+                 known->note.empty() ? "" : ": ", known->note);
+    return;
+  }
+  if (given(p.name)) {
+    report.error(p.where, "parameter \"{}\" is given twice", p.name);
+    return;
+  }
+  given_.push_back(&p);
+}
+
+const Parameter* Values::given(std::string_view name) const {
+  for (const Parameter* p : given_)
+    if (p->name == name) return p;
+  return nullptr;
+}
+
+const SourceLocation& Values::where(std::string_view name) const {
+  const Parameter* p = given(name);
+  return p ? p->where : plugin_.where;
+}
+
+const Spec& Values::spec(std::string_view name) const {
+  for (const auto list : {specs_, more_})
+    for (const Spec& s : list)
+      if (s.name == name && has_version(s.versions, reader_.version())) return s;
+  throw std::logic_error("no parameter " + std::string(name));
+}
+
+std::string_view Values::preset(std::string_view name) const {
+  const Spec& s = spec(name);
+  return reader_.version() == Version::v3 && !s.preset_v3.empty() ? s.preset_v3 : s.preset;
+}
+
+double Values::number(std::string_view name) {
+  if (const Parameter* p = given(name)) return p->numbers.front();
+  return parse_number(preset(name)).value_or(0);
+}
+
+double Values::positive(std::string_view name) {
+  const double x = number(name);
+  if (x > 0 || !has(name)) return x;
+  reader_.report().error(where(name), "parameter \"{}\" must be greater than zero, not {}", name, x);
+  return std::max(1e-6, parse_number(preset(name)).value_or(1));
+}
+
+double Values::not_negative(std::string_view name) {
+  const double x = number(name);
+  if (x >= 0 || !has(name)) return x;
+  reader_.report().error(where(name), "parameter \"{}\" must not be negative, but is {}", name, x);
+  return std::max(0.0, parse_number(preset(name)).value_or(0));
+}
+
+bool Values::boolean(std::string_view name) {
+  if (const Parameter* p = given(name)) return p->numbers.front() != 0;
+  return preset(name) == "true";
+}
+
+std::string Values::string(std::string_view name) {
+  if (const Parameter* p = given(name)) return p->strings.front();
+  return std::string(preset(name));
+}
+
+std::array<double, 3> Values::point(std::string_view name) {
+  const std::vector<double> all = numbers(name);
+  return all.size() >= 3 ? std::array<double, 3>{all[0], all[1], all[2]} : std::array<double, 3>{};
+}
+
+std::vector<double> Values::numbers(std::string_view name) {
+  if (const Parameter* p = given(name)) return p->numbers;
+  return parse_numbers(preset(name)).value_or(std::vector<double>{});
+}
+
+std::string Values::file(std::string_view name) {
+  const Parameter* p = given(name);
+  return p ? reader_.file(p->strings.front(), p->where) : "";
+}
+
+Spectrum Values::color(std::string_view name, ColorMeaning meaning) {
+  const Parameter* p = given(name);
+  if (!p) {
+    const auto preset_numbers = parse_numbers(preset(name)).value_or(std::vector<double>{0});
+    if (preset_numbers.size() == 3)
+      return {float(preset_numbers[0]), float(preset_numbers[1]), float(preset_numbers[2])};
+    if (const auto metal = find_metal(preset(name))) return *metal;
+    return Spectrum(float(preset_numbers.empty() ? 0 : preset_numbers[0]));
+  }
+  return reader_.constant_color(*p, meaning);
+}
+
+Spectrum Reader::constant_color(const Parameter& p, ColorMeaning meaning) {
+  const auto fail = [&](const std::string& why) {
+    report_.error(p.where, "parameter \"{}\": {}", p.name, why);
+    return Spectrum(0.0f);
+  };
+  if (p.type == Type::rgb || p.type == Type::xyz) {
+    for (const double x : p.numbers)
+      if (meaning == ColorMeaning::reflectance && p.type == Type::rgb && (x < 0 || x > 1))
+        return fail(fmt::format("a reflectance is from 0 to 1, not {}", x));
+    return color_from_triple(p, meaning, film_color_space);
+  }
+  if (p.type == Type::blackbody) {
+    if (p.numbers[0] <= 0) return fail("a black body has a positive temperature");
+    // v3 has a scale behind each temperature.
+    const bool scaled = version_ == Version::v3;
+    if (p.numbers.size() != (scaled ? 2 : 1))
+      return fail(scaled ? "a black body is given by temperature and scale"
+                         : "a black body is given by its temperature");
+    std::vector<SpectrumSample> samples = blackbody_spectrum(p.numbers[0], 1);
+    double peak = 0;
+    // By Wien's law the peak may lie outside of what can be seen.
+    const double wavelength = 2.8977721e6 / p.numbers[0];
+    const double l = wavelength * 1e-9, c = 299792458, k = 1.3806488e-23, h = 6.62606957e-34;
+    peak = 2 * h * c * c / (std::pow(l, 5) * std::expm1(h * c / (l * k * p.numbers[0]))) * 1e-9;
+    for (SpectrumSample& s : samples) s.value *= (scaled ? p.numbers[1] : 1) / peak;
+    return in_working_space(spectrum_to_rgb(samples, meaning), film_color_space);
+  }
+  std::vector<SpectrumSample> samples;
+  if (!p.strings.empty()) {
+    const std::string& name = p.strings.front();
+    if (const auto metal = find_metal(name)) return in_working_space(*metal, film_color_space);
+    if (const auto glass = find_glass(name)) return Spectrum(float(*glass));
+    if (const auto light = find_illuminant(name))
+      return in_working_space(*light, film_color_space);
+    const std::string path = spectrum_file(name, p.where);
+    if (path.empty()) return Spectrum(0.0f);
+    try {
+      samples = read_spectrum_file(path);
+    } catch (const ReadError& e) {
+      return fail(e.what());
+    }
+  } else {
+    std::string why;
+    auto pairs = spectrum_samples(p.numbers, why);
+    if (!pairs) return fail(why);
+    samples = std::move(*pairs);
+  }
+  if (const auto constant = constant_value(samples))
+    return meaning == ColorMeaning::emission
+               ? in_working_space(equal_energy_rgb(*constant), film_color_space)
+               : Spectrum(float(*constant));
+  return in_working_space(spectrum_to_rgb(samples, meaning), film_color_space);
+}
+
+std::string Reader::spectrum_file(const std::string& name, const SourceLocation& where) {
+  const size_t dot = name.rfind('.');
+  if (dot != name.npos) return file(name, where);
+  report_.error(where, "there is no spectrum \"{}\"{}", in_quotes(name),
+                did_you_mean(name, spectrum_names()));
+  return "";
+}
+
+ColorInput Values::color_input(std::string_view name, ColorMeaning meaning) {
+  const Parameter* p = given(name);
+  if (!p || p->type != Type::texture) return color(name, meaning);
+  const auto& known = reader_.names().colors;
+  const auto found = known.find(p->strings.front());
+  if (found != known.end()) {
+    reader_.count_texture();
+    return found->second;
+  }
+  reader_.report().error(p->where, "there is no texture \"{}\" of colours{}",
+                         in_quotes(p->strings.front()),
+                         did_you_mean(p->strings.front(), reader_.report().names_for_hint(known)));
+  return Spectrum(0.5f);
+}
+
+FloatInput Values::float_input(std::string_view name) {
+  const Parameter* p = given(name);
+  if (!p || p->type != Type::texture) return number(name);
+  const auto& known = reader_.names().numbers;
+  const auto found = known.find(p->strings.front());
+  if (found != known.end()) {
+    reader_.count_texture();
+    return found->second;
+  }
+  reader_.report().error(p->where, "there is no texture \"{}\" of numbers{}",
+                         in_quotes(p->strings.front()),
+                         did_you_mean(p->strings.front(), reader_.report().names_for_hint(known)));
+  return 0.5;
+}
+
+double Values::index_of_refraction(std::string_view name) {
+  const Parameter* p = given(name);
+  double eta = number_or_spectrum(p, name);
+  if (eta > 0) return eta;
+  reader_.report().error(where(name), "an index of refraction must be greater than zero");
+  return 1.5;
+}
+
+double Values::number_or_spectrum(const Parameter* p, std::string_view name) {
+  if (!p || p->type == Type::number) return number(name);
+  if (p->type == Type::texture) {
+    const FloatInput input = float_input(name);
+    if (const double* constant = std::get_if<double>(&input)) return *constant;
+    reader_.report().error(p->where, "an index of refraction that is a texture is not supported");
+    return 1.5;
+  }
+  if (p->strings.empty() || find_glass(p->strings.front())) {
+    if (!p->strings.empty())
+      reader_.approximate(p->where, fmt::format("{} without dispersion: its index is that at 587.6 "
+                                                "nm",
+                                                p->strings.front()));
+    else if (p->type == Type::spectrum) {
+      std::string why;
+      const auto samples = spectrum_samples(p->numbers, why);
+      if (!samples) {
+        reader_.report().error(p->where, "parameter \"{}\": {}", p->name, why);
+        return 1.5;
+      }
+      if (const auto constant = constant_value(*samples)) return *constant;
+      reader_.approximate(p->where, "a refractive index without dispersion: the spectrum's mean");
+      return mean_value(*samples);
+    }
+    return p->strings.empty() ? double(reader_.constant_color(*p, ColorMeaning::unbounded).mean())
+                              : *find_glass(p->strings.front());
+  }
+  reader_.approximate(p->where, "a refractive index without dispersion: the spectrum's mean");
+  return double(reader_.constant_color(*p, ColorMeaning::unbounded).mean());
+}
+
+}  // namespace duet::pbrt

@@ -1,0 +1,64 @@
+// The parameters of one plugin, checked against what is known of them.
+#pragma once
+
+#include <array>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "pbrt/reader.h"
+#include "pbrt/spectra.h"
+
+namespace duet::pbrt {
+
+class Values {
+ public:
+  /// Reports what is wrong with the parameters: unknown names, wrong types and counts. Those count
+  /// as not given. The arguments must outlive this.
+  Values(Reader& reader, const Plugin& plugin, std::span<const Spec> specs,
+         std::span<const Spec> more = {});
+
+  Reader& reader() { return reader_; }
+  const Plugin& plugin() const { return plugin_; }
+  const SourceLocation& where() const { return plugin_.where; }
+  /// Of the parameter if it is given, else of the plugin.
+  const SourceLocation& where(std::string_view name) const;
+
+  bool has(std::string_view name) const { return given(name) != nullptr; }
+  const Parameter* given(std::string_view name) const;
+
+  // Each is the preset if the parameter is not given; a parameter without preset is zero or empty.
+  double number(std::string_view name);
+  int integer(std::string_view name) { return int(number(name)); }
+  bool boolean(std::string_view name);
+  std::string string(std::string_view name);
+  std::array<double, 3> point(std::string_view name);
+  std::vector<double> numbers(std::string_view name);
+  /// A number that must be greater than zero, or not less; the preset after an error.
+  double positive(std::string_view name);
+  double not_negative(std::string_view name);
+  /// The path of a file that exists, or "".
+  std::string file(std::string_view name);
+
+  /// A colour or texture. Constant reflectances must be from 0 to 1.
+  ColorInput color_input(std::string_view name, ColorMeaning meaning);
+  Spectrum color(std::string_view name, ColorMeaning meaning);
+  FloatInput float_input(std::string_view name);
+  /// The refractive index of a dielectric: a number, or a spectrum by its mean.
+  double index_of_refraction(std::string_view name);
+
+ private:
+  const Spec& spec(std::string_view name) const;
+  std::string_view preset(std::string_view name) const;
+  void check(const Parameter& p);
+  double number_or_spectrum(const Parameter* p, std::string_view name);
+
+  Reader& reader_;
+  const Plugin& plugin_;
+  std::span<const Spec> specs_, more_;
+  std::vector<const Parameter*> given_;
+};
+
+}  // namespace duet::pbrt
