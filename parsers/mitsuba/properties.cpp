@@ -190,6 +190,14 @@ std::string Properties::string(std::string_view name) {
   return std::string(preset(name));
 }
 
+std::vector<double> Properties::numbers(std::string_view name) {
+  if (!has(name)) return find(name), std::vector<double>();
+  const std::string text = string(name);
+  auto numbers = parse_numbers(text);
+  if (!numbers) error(name, "{} is not a list of numbers", in_quotes(text));
+  return numbers.value_or(std::vector<double>());
+}
+
 Triple Properties::triple(std::string_view name) {
   if (const Property* p = find(name)) {
     if (const Triple* value = std::get_if<Triple>(&p->value)) return *value;

@@ -41,6 +41,8 @@ class Properties {
   double number(std::string_view name);
   std::string string(std::string_view name);
   Triple triple(std::string_view name);
+  /// A list of numbers; empty after an error.
+  std::vector<double> numbers(std::string_view name);
   Matrix4 transform(std::string_view name);
   /// A transform that may change with time: then the result is the identity and `motion` says more.
   Matrix4 transform(std::string_view name, Motion& motion);

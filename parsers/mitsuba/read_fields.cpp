@@ -83,6 +83,10 @@ void FieldReader::read(const FieldFacts& facts, bool& value) {
   value = p_.boolean(facts.name());
 }
 
+void FieldReader::read(const FieldFacts& facts, int& value) {
+  value = p_.integer(facts.name());
+}
+
 void FieldReader::read(const FieldFacts& facts, double& value) {
   if (is_index(facts))
     value = relative_index(s_, p_);
@@ -114,6 +118,39 @@ void FieldReader::read(const FieldFacts& facts, FloatInput& value) {
     value = relative_index(s_, p_);
   else
     value = s_.number_or_texture(p_, facts.name());
+}
+
+void FieldReader::read(const FieldFacts& facts, Spectrum& value) {
+  value = s_.constant_color(p_, facts.name());
+}
+
+void FieldReader::read(const FieldFacts& facts, ColorVolume& value) {
+  value = s_.color_volume(p_, facts.name());
+}
+
+void FieldReader::read(const FieldFacts& facts, UvTransform& value) {
+  if (facts.has_parameter("to_uv") && p_.has("to_uv")) {
+    const Matrix4 m = p_.transform("to_uv");
+    for (int i = 0; i < 2; ++i) value.m[i] = {m[i][0], m[i][1], m[i][3]};
+    for (const char* name : {"uoffset", "voffset", "uscale", "vscale", "uvscale"})
+      if (p_.has(name)) p_.error(name, "both \"to_uv\" and {} are given", in_quotes(name));
+    return;
+  }
+  const double scale = p_.number("uvscale");
+  value.m[0] = {p_.optional_number("uscale").value_or(scale), 0, p_.number("uoffset")};
+  value.m[1] = {0, p_.optional_number("vscale").value_or(scale), p_.number("voffset")};
+}
+
+void FieldReader::read(const FieldFacts& facts, std::optional<TextureId>& value) {
+  value = s_.texture(p_, facts.name());
+}
+
+void FieldReader::read_nested(TextureId& value) {
+  const Node* node = p_.child(PluginKind::texture);
+  if (!node) s_.report().error(p_.node().where, "{} needs a texture", describe(p_.node()));
+  const auto id = node ? s_.texture(*node) : std::nullopt;
+  if (id) value = *id;
+  complete_ = complete_ && id;
 }
 
 void FieldReader::read(const FieldFacts&, Roughness& value) {

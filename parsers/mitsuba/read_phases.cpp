@@ -10,21 +10,15 @@ namespace duet {
 
 namespace {
 
-/// The numbers of a list; empty after an error.
-std::vector<double> number_list(Properties& p, std::string_view name) {
-  if (!p.has(name)) return p.find(name), std::vector<double>();
-  const std::string text = p.string(name);
-  auto numbers = parse_numbers(text);
-  if (!numbers) {
-    p.error(name, "{} is not a list of numbers", in_quotes(text));
-    return {};
-  }
-  for (const double v : *numbers)
+/// A list of numbers that are not negative; empty after an error.
+std::vector<double> weight_list(Properties& p, std::string_view name) {
+  const std::vector<double> numbers = p.numbers(name);
+  for (const double v : numbers)
     if (v < 0) {
       p.error(name, "the value {} is negative", v);
       return {};
     }
-  return *numbers;
+  return numbers;
 }
 
 /// The nested phase functions; nothing after an error.
@@ -58,7 +52,7 @@ void read_rayleigh(SceneReader&, Properties&, PhaseDescription& out) {
 }
 
 void read_tabphase(SceneReader&, Properties& p, PhaseDescription& out) {
-  const auto values = number_list(p, "values");
+  const auto values = weight_list(p, "values");
   const bool usable = values.size() >= 2 && *std::max_element(values.begin(), values.end()) > 0;
   if (usable)
     out.model = TabulatedPhase{values};
@@ -83,7 +77,7 @@ void read_blendphase(SceneReader& s, Properties& p, PhaseDescription& out) {
 
 /// A chain of blends.
 void read_mixturephase(SceneReader& s, Properties& p, PhaseDescription& out) {
-  const auto weights = number_list(p, "weights");
+  const auto weights = weight_list(p, "weights");
   if (weights.empty()) return;
   const auto phases = nested_phases(s, p, weights.size());
   if (!phases) return;

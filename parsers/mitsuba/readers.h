@@ -5,24 +5,6 @@
 
 namespace duet {
 
-// read_textures.cpp
-void read_bitmap(SceneReader&, Properties&, TextureDescription&);
-void read_checkerboard(SceneReader&, Properties&, TextureDescription&);
-void read_mesh_attribute(SceneReader&, Properties&, TextureDescription&);
-void read_vertexcolors(SceneReader&, Properties&, TextureDescription&);
-void read_scale(SceneReader&, Properties&, TextureDescription&);
-void read_gridtexture(SceneReader&, Properties&, TextureDescription&);
-void read_wireframe(SceneReader&, Properties&, TextureDescription&);
-void read_curvature(SceneReader&, Properties&, TextureDescription&);
-void read_volume_texture(SceneReader&, Properties&, TextureDescription&);
-void read_uniform(SceneReader&, Properties&, MeantColor&);
-void read_srgb(SceneReader&, Properties&, MeantColor&);
-void read_d65(SceneReader&, Properties&, MeantColor&);
-void read_rawconstant(SceneReader&, Properties&, MeantColor&);
-void read_irregular(SceneReader&, Properties&, MeantColor&);
-void read_regular(SceneReader&, Properties&, MeantColor&);
-void read_blackbody(SceneReader&, Properties&, MeantColor&);
-
 // read_shapes.cpp
 void read_mesh(SceneReader&, Properties&, ShapeDescription&);
 void read_obj_shape(SceneReader&, Properties&, ShapeList&);

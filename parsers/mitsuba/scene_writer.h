@@ -26,22 +26,20 @@ class SceneWriter {
   std::string unique_id(const std::string& wanted, const std::string& otherwise);
   void lose(std::string what);
 
-  // write_textures.cpp
-  void color(std::string_view name, const ColorInput& input);
-  void number(std::string_view name, const FloatInput& input);
-  void uv_transform(const UvTransform& uv);
   void texture(size_t index);
-  void write_model(const BitmapTexture& t);
-  void write_model(const CheckerboardTexture& t);
-  void write_model(const MeshAttributeTexture& t);
-  void write_model(const GridLinesTexture& t);
-  void write_model(const WireframeTexture& t);
-  void write_model(const CurvatureTexture& t);
-  void write_model(const ScaledTextureDescription& t);
-  void write_model(const VolumeTextureDescription& t);
+  /// The texture; a checkerboard that yields numbers as Mitsuba 3, which exchanges them, has to say
+  /// it.
+  TextureDescription exchanged(size_t index);
 
   // write_fields.cpp: the fields of a plugin; what has no name is nested or not written.
   void fields(const MaterialModel& model);
+  template <HasFields T>
+  void fields(const T& description);
+  /// What is open is the plugin of that description: its fields and what is lost of it.
+  template <HasFields T>
+  void plugin(std::string_view tag, const T& description);
+  void color(std::string_view name, const ColorInput& input);
+  void number(std::string_view name, const FloatInput& input);
   void field(const FieldFacts& facts, const Choice& choice);
   void field(const FieldFacts& facts, bool value);
   void field(const FieldFacts& facts, double value);
@@ -50,6 +48,11 @@ class SceneWriter {
   void field(const FieldFacts& facts, const ColorInput& value);
   void field(const FieldFacts& facts, const std::optional<ColorInput>& value);
   void field(const FieldFacts& facts, const FloatInput& value);
+  void field(const FieldFacts& facts, int value);
+  void field(const FieldFacts& facts, const Spectrum& value);
+  void field(const FieldFacts& facts, const ColorVolume& value);
+  void field(const FieldFacts& facts, const UvTransform& value);
+  void field(const FieldFacts& facts, TextureId value);
   void field(const FieldFacts& facts, const Roughness& value);
   void field(const FieldFacts& facts, const std::optional<Roughness>& value);
   void field(const FieldFacts& facts, MaterialId value);
@@ -102,5 +105,25 @@ class SceneWriter {
   std::set<std::string> ids_;
   std::vector<std::string> texture_ids_, material_ids_, medium_ids_, group_ids_;
 };
+
+template <HasFields T>
+void SceneWriter::fields(const T& description) {
+  for_each_field(description, [&]<class M>(const FieldFacts& facts, const M& value) {
+    if (!facts.given || facts.unwritten || facts.initial) return;
+    if constexpr (std::is_enum_v<M> && !kIsId<M>)
+      field(facts, Choice{size_t(value)});
+    else
+      field(facts, value);
+  });
+}
+
+template <HasFields T>
+void SceneWriter::plugin(std::string_view tag, const T& description) {
+  fields(description);
+  if constexpr (requires { T::kOnlyIn0x; })
+    lose(fmt::format("the {} \"{}\" does not exist in Mitsuba 3", tag, description.name()));
+  if constexpr (requires { description.losses(); })
+    for (std::string& loss : description.losses()) lose(std::move(loss));
+}
 
 }  // namespace duet

@@ -3,7 +3,9 @@
 #include <array>
 
 #include "mitsuba/plugins/bsdfs.h"
+#include "mitsuba/plugins/textures.h"
 #include "mitsuba/vocabulary_tables.h"
+#include "values/text.h"
 
 namespace duet {
 
@@ -150,6 +152,13 @@ std::string_view type_name(ParameterType type) {
   return "";
 }
 
+ParameterList inert_parameters(ParameterType type, std::string_view names, FileVersions versions) {
+  std::vector<Parameter> list;
+  for (const std::string_view name : split_list(names))
+    list.push_back({.name = name, .type = type, .versions = versions, .support = Support::inert});
+  return list;
+}
+
 const Vocabulary& Vocabulary::built_in() {
   static const Vocabulary all = [] {
     Vocabulary v;
@@ -164,7 +173,7 @@ const Vocabulary& Vocabulary::built_in() {
     add(PluginKind::sampler, samplers());
     add(PluginKind::shape, shapes());
     add(PluginKind::bsdf, plugins::bsdfs());
-    add(PluginKind::texture, textures());
+    add(PluginKind::texture, plugins::textures());
     add(PluginKind::emitter, emitters());
     add(PluginKind::medium, media());
     add(PluginKind::phase, phases());
@@ -209,16 +218,19 @@ std::span<const Parameter> common_parameters(PluginKind kind) {
 }
 
 const Parameter* find_parameter(PluginKind kind, const Plugin& plugin, std::string_view name) {
-  for (const std::span<const Parameter> list : {plugin.parameters, common_parameters(kind)})
+  const auto find = [&](const auto& list) -> const Parameter* {
     for (const Parameter& p : list)
       if (p.name == name || has_word(p.aliases, name)) return &p;
-  return nullptr;
+    return nullptr;
+  };
+  const Parameter* own = find(plugin.parameters);
+  return own ? own : find(common_parameters(kind));
 }
 
 std::vector<std::string> parameter_names(PluginKind kind, const Plugin& plugin) {
   std::vector<std::string> names;
-  for (const std::span<const Parameter> list : {plugin.parameters, common_parameters(kind)})
-    for (const Parameter& p : list) names.emplace_back(p.name);
+  for (const Parameter& p : plugin.parameters) names.emplace_back(p.name);
+  for (const Parameter& p : common_parameters(kind)) names.emplace_back(p.name);
   return names;
 }
 

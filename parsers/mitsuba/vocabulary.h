@@ -71,10 +71,36 @@ using PluginReader =
                  ReadInto<FilmDescription>, ReadInto<FilterDescription>,
                  ReadInto<SamplerDescription>, ReadInto<IntegratorDescription>>;
 
+/// The parameters of a plugin, in the order in which they are listed.
+class ParameterList {
+ public:
+  ParameterList() = default;
+  /// Of single parameters and of lists of them.
+  template <class... Parts>
+  ParameterList(const Parts&... parts) {
+    (add(parts), ...);
+  }
+  auto begin() const { return list_.begin(); }
+  auto end() const { return list_.end(); }
+  bool empty() const { return list_.empty(); }
+
+ private:
+  void add(const Parameter& p) { list_.push_back(p); }
+  template <class List>
+  void add(const List& list) {
+    list_.insert(list_.end(), std::begin(list), std::end(list));
+  }
+  std::vector<Parameter> list_;
+};
+
+/// Parameters that change nothing, by their names, which are separated by spaces.
+ParameterList inert_parameters(ParameterType type, std::string_view names,
+                               FileVersions versions = FileVersions::all);
+
 struct Plugin {
   std::string_view name = "";
   FileVersions versions = FileVersions::all;
-  std::span<const Parameter> parameters = {};
+  ParameterList parameters = {};
   PluginReader reader = {};
   std::string_view note = "";
   Support support = Support::done;

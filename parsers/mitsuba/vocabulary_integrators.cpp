@@ -231,7 +231,7 @@ constexpr Parameter kField[] = {
      .required = true},
     {.name = "undefined", .type = number, .note = "0", .support = inert}};
 
-constexpr Plugin kIntegrators[] = {
+const Plugin kIntegrators[] = {
     {"auto", both, kAuto, &read_auto,
      "Duet's own: whichever method suits the scene (docs/auto.md)"},
     {"path", both, kPath, &read_path},
@@ -304,7 +304,7 @@ constexpr Parameter kScene[] = {
     {.name = "allow_thread_reordering", .type = boolean, .versions = v3, .support = inert},
     {.name = "embree_use_robust_intersections", .type = boolean, .versions = v3, .support = inert},
 };
-constexpr Plugin kScenes[] = {{.name = "scene", .parameters = kScene}};
+const Plugin kScenes[] = {{.name = "scene", .parameters = kScene}};
 
 }  // namespace
 

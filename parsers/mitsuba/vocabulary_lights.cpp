@@ -140,7 +140,7 @@ constexpr Parameter kTimedSunsky[] = {kTurbidity,
                                       {.name = "shutter_close", .type = number, .support = inert},
                                       kToWorld};
 
-constexpr Plugin kEmitters[] = {
+const Plugin kEmitters[] = {
     {"area", both, kArea, &read_area, "stands in a shape"},
     {"point", both, kPoint, &read_point},
     {"spot", both, kSpot, &read_spot},

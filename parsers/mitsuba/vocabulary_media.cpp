@@ -85,8 +85,8 @@ constexpr Parameter kHeterogeneous[] = {
     {.name = "step_size", .type = number, .versions = v0, .support = inert},
 };
 
-constexpr Plugin kMedia[] = {{"homogeneous", both, kHomogeneous, &read_homogeneous},
-                             {"heterogeneous", both, kHeterogeneous, &read_heterogeneous}};
+const Plugin kMedia[] = {{"homogeneous", both, kHomogeneous, &read_homogeneous},
+                         {"heterogeneous", both, kHeterogeneous, &read_heterogeneous}};
 
 constexpr Parameter kHg[] = {{"g", number, "0.8", "mean cosine of the deflection"}};
 constexpr Parameter kBlendphase[] = {
@@ -113,7 +113,7 @@ constexpr Parameter kKkay[] = {
 constexpr Parameter kMicroflake[] = {
     {.name = "stddev", .type = number, .note = kNoEffect, .versions = v0, .support = approximated}};
 
-constexpr Plugin kPhases[] = {
+const Plugin kPhases[] = {
     {"isotropic", both, {}, &read_isotropic},
     {"hg", both, kHg, &read_hg},
     {"rayleigh", both, {}, &read_rayleigh},
@@ -165,7 +165,7 @@ constexpr Parameter kVolcache[] = {
     {.name = "memory_limit", .type = integer, .support = inert, .aliases = "cache_size"},
 };
 
-constexpr Plugin kVolumes[] = {
+const Plugin kVolumes[] = {
     {"constvolume", both, kConstvolume, &read_constvolume},
     {"gridvolume", both, kGridvolume, &read_gridvolume},
     {.name = "hgridvolume",
@@ -176,7 +176,7 @@ constexpr Plugin kVolumes[] = {
     {"volcache", v0, kVolcache, &read_volcache, "holds a volume"},
 };
 
-constexpr Plugin kSubsurfaces[] = {
+const Plugin kSubsurfaces[] = {
     {.name = "dipole",
      .versions = v0,
      .note = "light leaves a surface where it entered: use an interior medium with volpath",

@@ -54,7 +54,7 @@ constexpr Parameter kRdist[] = {
     {"kc", string, "0, 0", "radial distortion of third and fifth order"},
     {.name = "focus_distance", .type = number, .support = inert}};
 
-constexpr Plugin kSensors[] = {
+const Plugin kSensors[] = {
     {"perspective", both, kPerspective, &read_perspective},
     {"thinlens", both, kThinlens, &read_thinlens},
     {"orthographic", both, kOrthographic, &read_orthographic},
@@ -94,7 +94,7 @@ constexpr Parameter kLdrfilm[] = {
     {"burn", number, "0", "of Reinhard's operator, from 0 to 1", not_negative},
 };
 
-constexpr Plugin kFilms[] = {
+const Plugin kFilms[] = {
     {"hdrfilm", both, kHdrfilm, &read_hdrfilm},
     {"ldrfilm", v0, kLdrfilm, &read_ldrfilm, "tone mapping is for PNG and JPEG output"},
     {"tiledhdrfilm", v0, kHdrfilm, &read_hdrfilm, "written as any other EXR file"},
@@ -116,14 +116,14 @@ constexpr Parameter kMitchell[] = {
     {.name = "C", .type = number, .preset = "(1/3)", .aliases = "c"}};
 constexpr Parameter kLanczos[] = {{"lobes", integer, "3", "", positive}};
 
-constexpr Plugin kFilters[] = {
+const Plugin kFilters[] = {
     {"box", both, kBox, &read_filter},           {"tent", both, kTent, &read_filter},
     {"gaussian", both, kGaussian, &read_filter}, {"mitchell", both, kMitchell, &read_filter},
     {"catmullrom", both, {}, &read_filter},      {"lanczos", both, kLanczos, &read_filter},
 };
 
 /// A sampler whose place Duet's own takes.
-constexpr Plugin sobol_instead(std::string_view name, FileVersions versions) {
+Plugin sobol_instead(std::string_view name, FileVersions versions) {
   return {.name = name,
           .versions = versions,
           .reader = &read_sampler,
@@ -131,7 +131,7 @@ constexpr Plugin sobol_instead(std::string_view name, FileVersions versions) {
           .support = Support::approximated};
 }
 
-constexpr Plugin kSamplers[] = {
+const Plugin kSamplers[] = {
     {"independent",
      both,
      {},

@@ -139,7 +139,7 @@ constexpr Parameter kHair[] = {
      .support = approximated},
 };
 
-constexpr Plugin kShapes[] = {
+const Plugin kShapes[] = {
     {"obj", both, kObj, &read_obj_shape},
     {"ply", both, kPly, &read_mesh},
     {"serialized", both, kSerialized, &read_mesh},

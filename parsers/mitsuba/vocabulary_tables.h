@@ -7,8 +7,6 @@ namespace duet::vocabulary {
 
 using namespace parameter_words;
 
-// vocabulary_textures.cpp
-std::span<const Plugin> textures();
 // vocabulary_shapes.cpp
 std::span<const Plugin> shapes();
 // vocabulary_lights.cpp

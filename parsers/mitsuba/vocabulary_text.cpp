@@ -80,7 +80,8 @@ std::string joined(std::string_view a, std::string_view b) {
   return std::string(a) + (a.empty() || b.empty() ? "" : "; ") + std::string(b);
 }
 
-std::string parameter_rows(std::span<const Parameter> parameters) {
+template <class List>
+std::string parameter_rows(const List& parameters) {
   std::string out =
       "| Parameter | Type | Default | Files | Status | |\n|---|---|---|---|---|---|\n";
   for (const Parameter& p : parameters)

@@ -18,6 +18,43 @@ void SceneWriter::material(const MaterialDescription& m, const std::string& id) 
   out_.close();
 }
 
+void SceneWriter::texture(size_t index) {
+  const TextureDescription& t = d_.textures[index];
+  out_.open("texture", std::visit([](const auto& m) { return m.name(); }, t.model), {},
+            texture_ids_[index]);
+  std::visit([&](const auto& model) { plugin("texture", model); }, exchanged(index).model);
+  out_.close();
+}
+
+TextureDescription SceneWriter::exchanged(size_t index) {
+  TextureDescription t = d_.textures[index];
+  auto* board = std::get_if<CheckerboardTexture>(&t.model);
+  if (!board || !texture_uses_[index].as_number || board->swap_values) return t;
+  if (texture_uses_[index].as_color)
+    lose("a checkerboard used as colour and as number has its numbers exchanged");
+  else
+    std::swap(board->color0, board->color1);
+  return t;
+}
+
+void SceneWriter::color(std::string_view name, const ColorInput& input) {
+  if (const TextureId* id = std::get_if<TextureId>(&input))
+    return out_.reference(name, texture_id(*id));
+  const Spectrum& s = std::get<Spectrum>(input);
+  // Mitsuba 3 refuses reflectances above 1 as <rgb>, not as numbers.
+  if (s.r == s.g && s.g == s.b)
+    out_.number(name, s.r);
+  else
+    out_.rgb(name, s);
+}
+
+void SceneWriter::number(std::string_view name, const FloatInput& input) {
+  if (const TextureId* id = std::get_if<TextureId>(&input))
+    out_.reference(name, texture_id(*id));
+  else
+    out_.number(name, std::get<double>(input));
+}
+
 void SceneWriter::fields(const MaterialModel& model) {
   model.for_each_field([&](const FieldFacts& facts, const FieldValue& value) {
     if (facts.given) with_value(value, [&](const auto& v) { field(facts, v); });
@@ -63,6 +100,28 @@ void SceneWriter::field(const FieldFacts& facts, const FloatInput& value) {
     number(facts.name(), value);
   }
   if (is_relative_index(facts)) out_.number("ext_ior", 1);
+}
+
+void SceneWriter::field(const FieldFacts& facts, int value) {
+  if (!facts.name().empty()) out_.integer(facts.name(), value);
+}
+
+void SceneWriter::field(const FieldFacts& facts, const Spectrum& value) {
+  color(facts.name(), ColorInput(value));
+}
+
+void SceneWriter::field(const FieldFacts& facts, const ColorVolume& value) {
+  volume(facts.name(), value);
+}
+
+void SceneWriter::field(const FieldFacts&, const UvTransform& uv) {
+  Matrix4 m;
+  for (int i = 0; i < 2; ++i) m[i] = {uv.m[i][0], uv.m[i][1], 0, uv.m[i][2]};
+  out_.transform("to_uv", m);
+}
+
+void SceneWriter::field(const FieldFacts& facts, TextureId value) {
+  out_.reference(facts.name(), texture_id(value));
 }
 
 void SceneWriter::field(const FieldFacts& facts, const Roughness& r) {

@@ -49,7 +49,7 @@ bool SceneBuilder::read_heights(TextureId id, const HeightFieldShape& shape, con
         [&](auto pattern) {
           // As an image, Mitsuba 0.6 shows it before it is moved and scaled.
           if constexpr (requires { pattern.to_uv; }) pattern.to_uv = {};
-          return make(pattern, d.where);
+          return pattern.build(*this, d.where);
         },
         d.model);
     const bool reads_mesh = !std::exchange(shape_textures_, std::move(outer)).empty();

@@ -13,7 +13,7 @@ const Texture* SceneBuilder::texture(TextureId id) {
   const size_t index = size_t(id);
   return once(textures_[index], [&]() -> const Texture* {
     const TextureDescription& d = description_.textures[index];
-    auto made = std::visit([&](const auto& t) { return make(t, d.where); }, d.model);
+    auto made = std::visit([&](const auto& t) { return t.build(*this, d.where); }, d.model);
     if (!made) return nullptr;
     scene_->textures.push_back(std::move(made));
     return scene_->textures.back().get();
@@ -30,51 +30,56 @@ FloatSlot SceneBuilder::slot(const FloatInput& input) {
   return {0.5f, texture(std::get<TextureId>(input))};
 }
 
-std::unique_ptr<Texture> SceneBuilder::make(const BitmapTexture& t, const SourceLocation& where) {
-  auto image = pixels(t.file, {.raw = t.raw, .gamma = t.gamma, .channel = t.channel}, where);
+std::vector<std::string> BitmapTexture::losses() const {
+  std::vector<std::string> lost;
+  if (wrap_u != wrap_v)
+    lost.emplace_back("a texture with different wrap modes in u and v has that of u");
+  if (wrap_u == WrapMode::zero || wrap_u == WrapMode::one)
+    lost.emplace_back("a texture that is zero or one outside of its image is clamped instead");
+  if (gamma) lost.emplace_back("the gamma value of a texture is missing");
+  if (channel != TextureChannel::all)
+    lost.emplace_back("the choice of one channel of a texture is missing");
+  return lost;
+}
+
+std::unique_ptr<Texture> BitmapTexture::build(SceneBuilder& b, const SourceLocation& where) const {
+  auto image = b.pixels(file, {.raw = raw, .gamma = gamma, .channel = channel}, where);
   if (!image) return nullptr;
-  return std::make_unique<Bitmap>(std::move(image), t.filter, t.wrap_u, t.wrap_v, t.to_uv);
+  return std::make_unique<Bitmap>(std::move(image), filter, wrap_u, wrap_v, to_uv);
 }
 
-std::unique_ptr<Texture> SceneBuilder::make(const CheckerboardTexture& t, const SourceLocation&) {
-  const ColorSlot first = slot(t.color0), second = slot(t.color1);
-  return std::make_unique<Checkerboard>(first, second, t.to_uv, t.swap_values);
+std::unique_ptr<Texture> CheckerboardTexture::build(SceneBuilder& b, const SourceLocation&) const {
+  const ColorSlot first = b.slot(color0), second = b.slot(color1);
+  return std::make_unique<Checkerboard>(first, second, to_uv, swap_values);
 }
 
-std::unique_ptr<Texture> SceneBuilder::make(const MeshAttributeTexture& t, const SourceLocation&) {
-  auto made = std::make_unique<MeshAttributeMap>(t.attribute, float(t.scale));
-  shape_textures_.insert(made.get());
-  return made;
+std::unique_ptr<Texture> MeshAttributeTexture::build(SceneBuilder& b, const SourceLocation&) const {
+  return b.on_shapes(std::make_unique<MeshAttributeMap>(attribute, float(scale)));
 }
 
-std::unique_ptr<Texture> SceneBuilder::make(const GridLinesTexture& t, const SourceLocation&) {
-  return std::make_unique<GridTexture>(slot(t.color0), slot(t.color1), float(t.line_width),
-                                       t.to_uv);
+std::unique_ptr<Texture> GridLinesTexture::build(SceneBuilder& b, const SourceLocation&) const {
+  return std::make_unique<GridTexture>(b.slot(color0), b.slot(color1), float(line_width), to_uv);
 }
 
-std::unique_ptr<Texture> SceneBuilder::make(const WireframeTexture& t, const SourceLocation&) {
-  WireframeOptions o{t.interior, t.edge, std::nullopt, float(t.step_width)};
-  if (t.line_width) o.line_width = float(*t.line_width);
-  auto made = std::make_unique<Wireframe>(o);
-  shape_textures_.insert(made.get());
-  return made;
+std::unique_ptr<Texture> WireframeTexture::build(SceneBuilder& b, const SourceLocation&) const {
+  WireframeOptions o{interior, edge, std::nullopt, float(step_width)};
+  if (line_width) o.line_width = float(*line_width);
+  return b.on_shapes(std::make_unique<Wireframe>(o));
 }
 
-std::unique_ptr<Texture> SceneBuilder::make(const CurvatureTexture& t, const SourceLocation&) {
-  auto made = std::make_unique<CurvatureMap>(t.shown, float(t.scale));
-  shape_textures_.insert(made.get());
-  return made;
+std::unique_ptr<Texture> CurvatureTexture::build(SceneBuilder& b, const SourceLocation&) const {
+  return b.on_shapes(std::make_unique<CurvatureMap>(shown, float(scale)));
 }
 
-std::unique_ptr<Texture> SceneBuilder::make(const ScaledTextureDescription& t,
-                                            const SourceLocation&) {
-  const Texture* inner = texture(t.inner);
-  return inner ? std::make_unique<ScaledTexture>(*inner, t.scale) : nullptr;
+std::unique_ptr<Texture> ScaledTextureDescription::build(SceneBuilder& b,
+                                                         const SourceLocation&) const {
+  const Texture* texture = b.texture(inner);
+  return texture ? std::make_unique<ScaledTexture>(*texture, scale) : nullptr;
 }
 
-std::unique_ptr<Texture> SceneBuilder::make(const VolumeTextureDescription& t,
-                                            const SourceLocation&) {
-  return std::make_unique<VolumeTexture>(slot(ColorVolume(t.volume)));
+std::unique_ptr<Texture> VolumeTextureDescription::build(SceneBuilder& b,
+                                                         const SourceLocation&) const {
+  return std::make_unique<VolumeTexture>(b.slot(ColorVolume(volume)));
 }
 
 std::shared_ptr<const BitmapPixels> SceneBuilder::pixels(const std::string& file,

@@ -33,10 +33,22 @@ class SceneBuilder {
   /// Instead of building: texture_value.h.
   std::optional<TextureValue> texture_at_origin(TextureId id);
 
-  // For what builds BSDFs (scene/bsdfs). Null after an error.
+  // For what builds plugins. Null after an error.
   const Material* material(MaterialId id);
+  const Texture* texture(TextureId id);
   ColorSlot slot(const ColorInput& input);
   FloatSlot slot(const FloatInput& input);
+  ColorVolumeSlot slot(const ColorVolume& input);
+  FloatVolumeSlot slot(const FloatVolume& input);
+  std::shared_ptr<const BitmapPixels> pixels(const std::string& file,
+                                             const BitmapDecoding& decoding,
+                                             const SourceLocation& where);
+  /// The texture must be told on which shapes it is used.
+  template <class T>
+  std::unique_ptr<T> on_shapes(std::unique_ptr<T> texture) {
+    shape_textures_.insert(texture.get());
+    return texture;
+  }
   RoughnessOptions roughness(const Roughness& r);
 
   // place.cpp: once the scene is built, to move what is in it. Shapes and instances are numbered as
@@ -71,24 +83,8 @@ class SceneBuilder {
     SourceLocation where;
   };
 
-  // build_textures.cpp
-  const Texture* texture(TextureId id);
-  std::unique_ptr<Texture> make(const BitmapTexture& t, const SourceLocation& where);
-  std::unique_ptr<Texture> make(const CheckerboardTexture& t, const SourceLocation& where);
-  std::unique_ptr<Texture> make(const MeshAttributeTexture& t, const SourceLocation& where);
-  std::unique_ptr<Texture> make(const GridLinesTexture& t, const SourceLocation& where);
-  std::unique_ptr<Texture> make(const WireframeTexture& t, const SourceLocation& where);
-  std::unique_ptr<Texture> make(const CurvatureTexture& t, const SourceLocation& where);
-  std::unique_ptr<Texture> make(const ScaledTextureDescription& t, const SourceLocation& where);
-  std::unique_ptr<Texture> make(const VolumeTextureDescription& t, const SourceLocation& where);
-  std::shared_ptr<const BitmapPixels> pixels(const std::string& file,
-                                             const BitmapDecoding& decoding,
-                                             const SourceLocation& where);
-
   // build_media.cpp
   const GridVolume* volume(VolumeId id);
-  ColorVolumeSlot slot(const ColorVolume& input);
-  FloatVolumeSlot slot(const FloatVolume& input);
   const PhaseFunction* phase(PhaseId id);
   std::unique_ptr<PhaseFunction> make(const IsotropicPhase& f, const SourceLocation& where);
   std::unique_ptr<PhaseFunction> make(const HenyeyGreensteinPhase& f, const SourceLocation& where);

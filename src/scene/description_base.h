@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <string>
+#include <type_traits>
 #include <variant>
 
 #include "base/diagnostics.h"
@@ -16,6 +17,10 @@ enum class MaterialId : uint32_t {};
 enum class VolumeId : uint32_t {};
 enum class PhaseId : uint32_t {};
 enum class MediumId : uint32_t {};
+template <class T>
+inline constexpr bool kIsId =
+    std::is_same_v<T, TextureId> || std::is_same_v<T, MaterialId> || std::is_same_v<T, VolumeId> ||
+    std::is_same_v<T, PhaseId> || std::is_same_v<T, MediumId>;
 
 /// A parameter that is either a constant or a texture.
 using ColorInput = std::variant<Spectrum, TextureId>;

@@ -49,6 +49,12 @@ struct FieldFacts {
   bool optional = false;
   /// Whether it names a file whose content is what it means.
   bool names_data = false;
+  /// Whether Mitsuba 3 has no such parameter, so that the value is not written.
+  bool unwritten = false;
+  /// Whether the value is written only where it is not the initial one of its struct.
+  bool terse = false;
+  /// Whether it is the initial one; known of terse fields only.
+  bool initial = false;
 
   /// As Mitsuba 3 calls it; empty without a name.
   std::string_view name() const {
@@ -102,6 +108,16 @@ struct Field {
     f.facts.names_data = true;
     return f;
   }
+  constexpr Field unwritten() const {
+    Field f = *this;
+    f.facts.unwritten = true;
+    return f;
+  }
+  constexpr Field terse() const {
+    Field f = *this;
+    f.facts.terse = true;
+    return f;
+  }
   constexpr Field optional() const {
     Field f = *this;
     f.facts.optional = true;
@@ -130,19 +146,6 @@ concept HasFields = requires {
 template <HasFields T>
 inline constexpr auto kFields = T::fields();
 
-/// Calls visit(const FieldFacts&, value) with each field, in their order. `value` may be const.
-template <class Value, class Visit>
-void for_each_field(Value& value, Visit&& visit) {
-  using T = std::remove_const_t<Value>;
-  const auto one = [&](const auto& field) {
-    FieldFacts facts = field.facts;
-    facts.parameters = field.parameters;
-    if (field.given_if) facts.given = field.given_if(value);
-    visit(std::as_const(facts), value.*field.member);
-  };
-  std::apply([&](const auto&... fields) { (one(fields), ...); }, kFields<T>);
-}
-
 /// Whether two fields say the same. Shared data may be the same or have the same content.
 template <class M>
 bool same_value(const M& a, const M& b) {
@@ -151,6 +154,20 @@ bool same_value(const M& a, const M& b) {
 template <class M>
 bool same_value(const std::shared_ptr<const M>& a, const std::shared_ptr<const M>& b) {
   return a == b || (a && b && *a == *b);
+}
+
+/// Calls visit(const FieldFacts&, value) with each field, in their order. `value` may be const.
+template <class Value, class Visit>
+void for_each_field(Value& value, Visit&& visit) {
+  using T = std::remove_const_t<Value>;
+  const auto one = [&](const auto& field) {
+    FieldFacts facts = field.facts;
+    facts.parameters = field.parameters;
+    if (field.given_if) facts.given = field.given_if(value);
+    if (facts.terse) facts.initial = same_value(value.*field.member, T{}.*field.member);
+    visit(std::as_const(facts), value.*field.member);
+  };
+  std::apply([&](const auto&... fields) { (one(fields), ...); }, kFields<T>);
 }
 
 template <HasFields T>

@@ -50,10 +50,13 @@ enum class Support : uint8_t {
   refused,  ///< known, never supported: the note says why
 };
 
+inline constexpr std::string_view kInitial = "=";
+
 struct Parameter {
   std::string_view name;  ///< in Mitsuba 3; snake_case
   ParameterType type;
   /// What holds if it is not given, as text. Empty: there is no such value. In parentheses: words.
+  /// kInitial: the value with which the field's member begins.
   std::string_view preset = "";
   std::string_view note = "";
   NumberRange range = NumberRange::any;

@@ -50,15 +50,20 @@ class Marker {
   void input(const T&) {}  // other values name no textures
   void texture(TextureId id, bool TextureUse::*use) {
     if (std::exchange(uses_[size_t(id)].*use, true)) return;
-    const auto& model = scene_.textures[size_t(id)].model;
-    if (const auto* scaled = std::get_if<ScaledTextureDescription>(&model))
-      return texture(scaled->inner, use);
-    if (const auto* lines = std::get_if<GridLinesTexture>(&model))
-      return mark(lines->color0, lines->color1);
-    const auto* board = std::get_if<CheckerboardTexture>(&model);
-    if (!board) return;
-    for (const ColorInput* color : {&board->color0, &board->color1})
-      if (const TextureId* nested = std::get_if<TextureId>(color)) texture(*nested, use);
+    std::visit([&](const auto& model) { nested(model, use); }, scene_.textures[size_t(id)].model);
+  }
+  /// What is nested in a texture is asked for the same, unless the texture makes numbers of
+  /// colours.
+  template <class T>
+  void nested(const T& model, bool TextureUse::*use) {
+    if constexpr (requires { T::kAsksForColors; }) use = &TextureUse::as_color;
+    for_each_field(model, [&](const FieldFacts&, const auto& value) {
+      using M = std::decay_t<decltype(value)>;
+      if constexpr (std::is_same_v<M, TextureId>)
+        texture(value, use);
+      else if constexpr (std::is_same_v<M, ColorInput> || std::is_same_v<M, FloatInput>)
+        if (const TextureId* inner = std::get_if<TextureId>(&value)) texture(*inner, use);
+    });
   }
 
   const SceneDescription& scene_;

@@ -6,8 +6,8 @@
 namespace duet {
 
 enum class CurvatureKind : uint8_t {
-  mean,
   gaussian,
+  mean,
 };
 
 }  // namespace duet

@@ -47,6 +47,13 @@ std::string filter_text(const FilterDescription& f) {
 
 }  // namespace
 
+std::string DescriptionText::value_text(double value) const {
+  return fmt::format("{:.4g}", value);
+}
+std::string DescriptionText::value_text(const Spectrum& value) const {
+  return text(value);
+}
+
 std::string DescriptionText::name(MaterialId id) const {
   const std::string& label = scene_.materials[size_t(id)].label.text;
   return label.empty() ? fmt::format("#{}", size_t(id)) : label;
@@ -107,36 +114,17 @@ std::string DescriptionText::input(const FloatInput& input) const {
 std::string DescriptionText::texture(const TextureDescription& t) const {
   const std::string label = t.label.text.empty() ? "" : t.label.text + ": ";
   return label +
-         std::visit(
-             Overloaded{
-                 [](const BitmapTexture& m) {
-                   return fmt::format("bitmap {}{}", m.file, m.raw ? ", raw" : "");
-                 },
-                 [&](const CheckerboardTexture& m) {
-                   return fmt::format("checkerboard {} and {}", input(m.color0), input(m.color1));
-                 },
-                 [](const MeshAttributeTexture& m) {
-                   return fmt::format("mesh_attribute {}", m.attribute);
-                 },
-                 [&](const GridLinesTexture& m) {
-                   return fmt::format("gridtexture {} and {}", input(m.color0), input(m.color1));
-                 },
-                 [](const WireframeTexture& m) {
-                   return fmt::format("wireframe {} and {}", text(m.interior), text(m.edge));
-                 },
-                 [](const CurvatureTexture& m) {
-                   return fmt::format("{} curvature times {:.4g}",
-                                      m.shown == CurvatureKind::mean ? "mean" : "gaussian",
-                                      m.scale);
-                 },
-                 [&](const ScaledTextureDescription& m) {
-                   return fmt::format("{} times {}", text(m.scale), texture_name(m.inner));
-                 },
-                 [&](const VolumeTextureDescription& m) {
-                   return "volume " + input(ColorVolume(m.volume));
-                 },
-             },
-             t.model);
+         std::visit(Overloaded{
+                        [](const CurvatureTexture& m) {
+                          return fmt::format("{} curvature times {:.4g}",
+                                             CurvatureTexture::kKinds[size_t(m.shown)], m.scale);
+                        },
+                        [&](const ScaledTextureDescription& m) {
+                          return fmt::format("{} times {}", text(m.scale), texture_name(m.inner));
+                        },
+                        [&](const auto& m) { return m.name() + shown_fields(m); },
+                    },
+                    t.model);
 }
 
 std::string DescriptionText::shape_kind(const ShapeDescription& s) const {

@@ -34,6 +34,26 @@ class DescriptionText {
  private:
   std::string texture_name(TextureId id) const;
   std::string phase(PhaseId id) const;
+
+  std::string value_text(double value) const;
+  std::string value_text(const Spectrum& value) const;
+  const std::string& value_text(const std::string& value) const { return value; }
+  std::string value_text(const ColorInput& value) const { return input(value); }
+  std::string value_text(const ColorVolume& value) const { return input(value); }
+  /// The fields that are shown, each after its prefix.
+  template <HasFields T>
+  std::string shown_fields(const T& description) const {
+    std::string line;
+    for_each_field(description, [&]<class M>(const FieldFacts& facts, const M& value) {
+      if (facts.shown.empty() || !facts.given) return;
+      if constexpr (std::is_same_v<M, bool>)
+        line.append(value ? facts.shown : std::string_view());
+      else if constexpr (requires { value_text(value); })
+        line.append(facts.shown).append(value_text(value));
+    });
+    return line;
+  }
+
   const SceneDescription& scene_;
 };
 

@@ -1,0 +1,27 @@
+// Makes a plugin of the vocabulary from a description that states its fields.
+#pragma once
+
+#include "mitsuba/read_fields.h"
+#include "mitsuba/vocabulary.h"
+#include "scene/field_parameters.h"
+
+namespace duet::plugins {
+
+using namespace parameter_words;
+
+/// What `row` leaves open follows from T: its name, its parameters and how it is read into a
+/// Description. `more` are parameters that only files of Mitsuba know; they are listed last.
+template <class T, class Description>
+Plugin plugin_of(Plugin row, const ParameterList& more = {}) {
+  if (row.name.empty()) row.name = T{}.name();
+  if (row.parameters.empty()) row.parameters = ParameterList(parameters_of<T>(), more);
+  if (std::holds_alternative<std::monostate>(row.reader)) row.reader = &read_model<T, Description>;
+  return row;
+}
+
+template <class T>
+Plugin texture(Plugin row = {}, const ParameterList& more = {}) {
+  return plugin_of<T, TextureDescription>(std::move(row), more);
+}
+
+}  // namespace duet::plugins

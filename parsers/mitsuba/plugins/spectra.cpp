@@ -1,0 +1,122 @@
+// The textures of Mitsuba 3 that are the same everywhere.
+#include "mitsuba/plugins/plugin.h"
+#include "mitsuba/plugins/textures.h"
+#include "values/text.h"
+
+namespace duet::plugins {
+
+namespace {
+
+/// Two lists of numbers as a spectrum; nothing after an error.
+std::optional<std::vector<SpectrumSample>> samples(Properties& p, std::string_view name,
+                                                   const std::vector<double>& wavelengths,
+                                                   const std::vector<double>& values) {
+  if (wavelengths.size() != values.size() || values.size() < 2) {
+    p.error(name, "{} wavelengths and {} values make no spectrum", wavelengths.size(),
+            values.size());
+    return std::nullopt;
+  }
+  std::vector<SpectrumSample> result;
+  for (size_t i = 0; i < values.size(); ++i) {
+    if (i > 0 && !(wavelengths[i - 1] < wavelengths[i])) {
+      p.error(name, "the wavelengths of a spectrum must increase");
+      return std::nullopt;
+    }
+    result.push_back({wavelengths[i], values[i]});
+  }
+  return result;
+}
+
+void read_uniform(SceneReader&, Properties& p, MeantColor& out) {
+  out.value = Spectrum(float(p.number("value")));
+}
+
+void read_srgb(SceneReader& s, Properties& p, MeantColor& out) {
+  out.value = s.constant_color(p, "color");
+  if (!p.boolean("unbounded") && out.value.max() > 1)
+    p.error("color",
+            "a component of an \"srgb\" spectrum is greater than 1, but not \"unbounded\"");
+}
+
+void read_d65(SceneReader& s, Properties& p, MeantColor& out) {
+  out.value = s.constant_color(p, "color") * float(p.number("scale"));
+}
+
+void read_rawconstant(SceneReader& s, Properties& p, MeantColor& out) {
+  const Property* value = p.find("value");
+  const Triple* triple = value ? std::get_if<Triple>(&value->value) : nullptr;
+  if (triple)
+    out.value = {float((*triple)[0]), float((*triple)[1]), float((*triple)[2])};
+  else if (value)
+    out.value = s.constant_color(p, "value");
+}
+
+void read_irregular(SceneReader&, Properties& p, MeantColor& out) {
+  const auto wavelengths = p.numbers("wavelengths"), values = p.numbers("values");
+  if (!p.has("wavelengths") || !p.has("values")) return;
+  if (const auto list = samples(p, "values", wavelengths, values))
+    out.value = spectrum_to_rgb(*list, out.meaning);
+}
+
+void read_regular(SceneReader&, Properties& p, MeantColor& out) {
+  const double first = p.number("wavelength_min"), last = p.number("wavelength_max");
+  const auto values = p.numbers("values");
+  if (!p.has("wavelength_min") || !p.has("wavelength_max") || !p.has("values")) return;
+  std::vector<double> wavelengths;
+  for (size_t i = 0; i < values.size(); ++i)
+    wavelengths.push_back(first + (last - first) * double(i) / double(values.size() - 1));
+  if (const auto list = samples(p, "values", wavelengths, values))
+    out.value = spectrum_to_rgb(*list, out.meaning);
+}
+
+void read_blackbody(SceneReader&, Properties& p, MeantColor& out) {
+  if (const auto kelvin = p.optional_number("temperature"))
+    out.value = spectrum_to_rgb(blackbody_spectrum(*kelvin, 1), out.meaning);
+}
+
+constexpr Parameter kRequiredNumbers[] = {
+    {.name = "wavelength_min", .type = number, .required = true},
+    {.name = "wavelength_max", .type = number, .required = true}};
+constexpr Parameter kWavelengths{.name = "wavelengths", .type = string, .required = true};
+constexpr Parameter kValues{.name = "values", .type = string, .required = true};
+constexpr Parameter kValue{"value", number, "1"};
+constexpr const char* kRange = "wavelength_min wavelength_max";
+
+}  // namespace
+
+Plugin uniform() {
+  return {"uniform", v3, {kValue, inert_parameters(number, kRange)}, &read_uniform};
+}
+Plugin srgb() {
+  constexpr Parameter color{.name = "color", .type = ParameterType::unbounded, .required = true};
+  return {"srgb", v3, {color, Parameter{"unbounded", boolean, "false"}}, &read_srgb};
+}
+Plugin d65() {
+  constexpr Parameter color{"color", ParameterType::unbounded, "1"}, scale{"scale", number, "1"};
+  constexpr Parameter value{"value", number, "1", "", any, both, inert};
+  return {.name = "d65",
+          .versions = v3,
+          .parameters = {color, scale, value},
+          .reader = &read_d65,
+          .aliases = "srgb_d65"};
+}
+Plugin rawconstant() {
+  constexpr Parameter value{.name = "value", .type = ParameterType::unbounded, .required = true};
+  return {"rawconstant", v3, value, &read_rawconstant};
+}
+Plugin irregular() {
+  return {"irregular", v3, {kWavelengths, kValues}, &read_irregular};
+}
+Plugin regular() {
+  return {"regular", v3, {kRequiredNumbers, kValues}, &read_regular};
+}
+Plugin blackbody() {
+  constexpr Parameter temperature{.name = "temperature",
+                                  .type = number,
+                                  .note = "in kelvin",
+                                  .range = positive,
+                                  .required = true};
+  return {"blackbody", v3, {temperature, inert_parameters(number, kRange)}, &read_blackbody};
+}
+
+}  // namespace duet::plugins
