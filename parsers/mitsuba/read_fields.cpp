@@ -80,6 +80,19 @@ std::vector<MaterialId> nested_bsdfs(SceneReader& s, Properties& p, size_t least
   return ids.size() == children.size() ? ids : std::vector<MaterialId>();
 }
 
+std::vector<PhaseId> nested_phases(SceneReader& s, Properties& p, size_t count) {
+  const auto children = p.children(PluginKind::phase);
+  if (children.size() != count) {
+    s.report().error(p.node().where, "{} needs {} phase functions, not {}", describe(p.node()),
+                     count, children.size());
+    return {};
+  }
+  std::vector<PhaseId> ids;
+  for (const Properties::Child& child : children)
+    if (const auto id = s.phase(*child.node)) ids.push_back(*id);
+  return ids.size() == count ? ids : std::vector<PhaseId>();
+}
+
 void FieldReader::read(const FieldFacts& facts, bool& value) {
   value = p_.boolean(facts.name());
 }
@@ -127,6 +140,14 @@ void FieldReader::read(const FieldFacts& facts, Spectrum& value) {
 
 void FieldReader::read(const FieldFacts& facts, ColorVolume& value) {
   value = s_.color_volume(p_, facts.name());
+}
+
+void FieldReader::read(const FieldFacts& facts, FloatVolume& value) {
+  value = s_.float_volume(p_, facts.name());
+}
+
+void FieldReader::read(const FieldFacts& facts, Matrix4& value) {
+  value = p_.transform(facts.name());
 }
 
 void FieldReader::read(const FieldFacts& facts, UvTransform& value) {

@@ -63,10 +63,31 @@ void SceneWriter::write() {
   for (const LightDescription& l : d_.lights) light(l);
 }
 
+void SceneWriter::integrator(const IntegratorDescription& i) {
+  const bool layers = !i.aovs.layers.empty() || !i.image;
+  if (layers) {
+    std::string list;
+    for (const AovDescription::Layer& l : i.aovs.layers)
+      list += fmt::format("{}{}:{}", list.empty() ? "" : ", ", l.name, l.kind);
+    out_.open("integrator", "aov");
+    out_.string("aovs", list);
+  }
+  if (i.moments) out_.open("integrator", "moment");
+  if (i.image)
+    std::visit(
+        [this](const auto& method) {
+          out_.open("integrator", method.method_name());
+          plugin("integrator", method);
+          out_.close();
+        },
+        i.method);
+  if (i.moments) out_.close();
+  if (layers) out_.close();
+}
+
 void SceneWriter::fov(double degrees, FovAxis axis) {
-  constexpr std::string_view axes[] = {"x", "y", "diagonal", "smaller", "larger"};
   out_.number("fov", degrees);
-  out_.string("fov_axis", axes[size_t(axis)]);
+  out_.string("fov_axis", kFovAxes[size_t(axis)]);
 }
 
 void SceneWriter::view(const SensorDescription& s) {
@@ -166,53 +187,23 @@ void SceneWriter::filter(const FilterDescription& f) {
   out_.close();
 }
 
-void SceneWriter::sampling_weight(double weight) {
-  if (weight != 1) out_.number("sampling_weight", weight);
-}
-
 void SceneWriter::light(const LightDescription& l) {
-  constexpr std::string_view types[] = {"point",    "spot",   "projector", "directional",
-                                        "constant", "envmap", "sunsky",    "collimated"};
-  static_assert(std::size(types) == std::variant_size_v<decltype(l.model)>);
-  out_.open("emitter", types[l.model.index()]);
-  if (const auto* point = std::get_if<PointLight>(&l.model)) {
-    color("intensity", point->intensity);
-  } else if (const auto* spot = std::get_if<SpotLight>(&l.model)) {
-    color("intensity", spot->intensity);
-    out_.number("cutoff_angle", spot->cutoff_angle);
-    out_.number("beam_width", spot->beam_width);
-    if (spot->texture) out_.reference("texture", texture_id(*spot->texture));
-  } else if (const auto* projector = std::get_if<ProjectorLight>(&l.model)) {
-    color("irradiance", projector->irradiance);
-    out_.number("scale", projector->scale);
-    fov(projector->fov, projector->fov_axis);
-  } else if (const auto* directional = std::get_if<DirectionalLight>(&l.model)) {
-    color("irradiance", directional->irradiance);
-  } else if (const auto* constant = std::get_if<ConstantLight>(&l.model)) {
-    color("radiance", constant->radiance);
-  } else if (const auto* map = std::get_if<EnvironmentMapLight>(&l.model)) {
-    out_.string("filename", map->file);
-    out_.number("scale", map->scale);
-    if (map->gamma) lose("the gamma value of an environment map is missing");
-  } else if (const auto* sky = std::get_if<SkyLight>(&l.model)) {
-    out_.number("turbidity", sky->turbidity);
-    color("albedo", ColorInput(sky->albedo));
-    out_.number("sky_scale", sky->sky_scale);
-    out_.number("sun_scale", sky->sun_scale);
-    out_.number("sun_aperture", sky->sun_aperture);
-    std::array<double, 3> sun{};
+  LightDescription d = l;
+  // The direction to the sun is one in the world.
+  if (auto* sky = std::get_if<SkyLight>(&d.model)) {
+    const std::array<double, 3> local = std::exchange(sky->sun, {});
     for (int i = 0; i < 3; ++i)
-      for (int j = 0; j < 3; ++j) sun[size_t(i)] += l.to_world[i][size_t(j)] * sky->sun[size_t(j)];
-    out_.point("sun_direction", sun);
-    if (sky->stretch != 1 || sky->extend) lose("the sky ends at the horizon");
-    if (sky->disk && sky->sun_scale != 0)
-      lose("the sun has the brightness of Hosek and Wilkie's model, and sets with the horizon");
-  } else if (const auto* beam = std::get_if<CollimatedLight>(&l.model)) {
-    lose("the light \"collimated\" does not exist in Mitsuba 3");
-    color("power", ColorInput(beam->power));
+      for (int j = 0; j < 3; ++j)
+        sky->sun[size_t(i)] += l.to_world[i][size_t(j)] * local[size_t(j)];
   }
+  std::visit(
+      [&](const auto& model) {
+        out_.open("emitter", model.name());
+        plugin("light", model);
+      },
+      d.model);
   if (!std::holds_alternative<ConstantLight>(l.model)) out_.transform("to_world", l.to_world);
-  sampling_weight(l.sampling_weight);
+  if (l.sampling_weight != 1) out_.number("sampling_weight", l.sampling_weight);
   if (l.medium) out_.reference({}, medium_id(*l.medium));
   out_.close();
 }

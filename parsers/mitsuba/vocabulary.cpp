@@ -2,9 +2,9 @@
 
 #include <array>
 
-#include "mitsuba/plugins/bsdfs.h"
-#include "mitsuba/plugins/textures.h"
+#include "mitsuba/plugins/tables.h"
 #include "mitsuba/vocabulary_tables.h"
+#include "scene/field_parameters.h"
 #include "values/text.h"
 
 namespace duet {
@@ -23,12 +23,10 @@ constexpr Parameter kBsdfCommon[] = {{.name = "ensure_energy_conservation",
                                       .note = "scales reflectances above 1 down",
                                       .versions = v0}};
 constexpr Parameter kShapeCommon[] = {
-    {"to_world", transform, "", kMovable},
+    {"to_world", transform, "", plugins::kMovable},
     {.name = "silhouette_sampling_weight", .type = number, .versions = v3, .support = inert}};
-constexpr Parameter kEmitterCommon[] = {
-    {"sampling_weight", number, "1", "share in the choice of a light", not_negative}};
 constexpr Parameter kSensorCommon[] = {
-    {"to_world", transform, "", kMovable},
+    {"to_world", transform, "", plugins::kMovable},
     {"near_clip", number, "0.01", "", positive},
     {"far_clip", number, "10000", "", positive},
     {"shutter_open", number, "0", "when light is gathered from what moves"},
@@ -165,8 +163,8 @@ const Vocabulary& Vocabulary::built_in() {
     const auto add = [&](PluginKind kind, const auto& plugins) {
       v.plugins_[size_t(kind)].assign(plugins.begin(), plugins.end());
     };
-    add(PluginKind::scene, scenes());
-    add(PluginKind::integrator, integrators());
+    add(PluginKind::scene, plugins::scenes());
+    add(PluginKind::integrator, plugins::integrators());
     add(PluginKind::sensor, sensors());
     add(PluginKind::film, films());
     add(PluginKind::rfilter, rfilters());
@@ -174,11 +172,11 @@ const Vocabulary& Vocabulary::built_in() {
     add(PluginKind::shape, shapes());
     add(PluginKind::bsdf, plugins::bsdfs());
     add(PluginKind::texture, plugins::textures());
-    add(PluginKind::emitter, emitters());
-    add(PluginKind::medium, media());
-    add(PluginKind::phase, phases());
-    add(PluginKind::volume, volumes());
-    add(PluginKind::subsurface, subsurfaces());
+    add(PluginKind::emitter, plugins::emitters());
+    add(PluginKind::medium, plugins::media());
+    add(PluginKind::phase, plugins::phases());
+    add(PluginKind::volume, plugins::volumes());
+    add(PluginKind::subsurface, plugins::subsurfaces());
     return v;
   }();
   return all;
@@ -196,25 +194,20 @@ std::vector<std::string> Vocabulary::names(PluginKind kind) const {
   return names;
 }
 
-std::span<const Parameter> common_parameters(PluginKind kind) {
-  switch (kind) {
-    case PluginKind::bsdf:
-      return kBsdfCommon;
-    case PluginKind::shape:
-      return kShapeCommon;
-    case PluginKind::emitter:
-      return kEmitterCommon;
-    case PluginKind::sensor:
-      return kSensorCommon;
-    case PluginKind::film:
-      return kFilmCommon;
-    case PluginKind::sampler:
-      return kSamplerCommon;
-    case PluginKind::integrator:
-      return kIntegratorCommon;
-    default:
-      return {};
-  }
+const ParameterList& common_parameters(PluginKind kind) {
+  static const std::array<ParameterList, kPluginKinds> lists = [] {
+    std::array<ParameterList, kPluginKinds> all;
+    const auto list = [&](PluginKind k) -> ParameterList& { return all[size_t(k)]; };
+    list(PluginKind::bsdf) = kBsdfCommon;
+    list(PluginKind::shape) = kShapeCommon;
+    list(PluginKind::emitter) = parameter<LightDescription>("sampling_weight");
+    list(PluginKind::sensor) = kSensorCommon;
+    list(PluginKind::film) = kFilmCommon;
+    list(PluginKind::sampler) = kSamplerCommon;
+    list(PluginKind::integrator) = kIntegratorCommon;
+    return all;
+  }();
+  return lists[size_t(kind)];
 }
 
 const Parameter* find_parameter(PluginKind kind, const Plugin& plugin, std::string_view name) {

@@ -65,9 +65,8 @@ void SceneWriter::shape(const ShapeDescription& s, const std::string& id, std::s
   if (s.interior) out_.reference("interior", medium_id(*s.interior));
   if (s.exterior) out_.reference("exterior", medium_id(*s.exterior));
   if (s.emission) {
-    out_.open("emitter", s.emission->directional ? "directionalarea" : "area");
-    color("radiance", s.emission->radiance);
-    sampling_weight(s.emission->sampling_weight);
+    out_.open("emitter", s.emission->name());
+    fields(*s.emission);
     out_.close();
   }
   meters(s);

@@ -14,7 +14,7 @@
 #include "math/motion.h"
 #include "math/transform.h"
 #include "scene/description_base.h"
-#include "scene/field.h"
+#include "scene/emission_parameters.h"
 
 namespace duet {
 
@@ -100,10 +100,13 @@ struct AreaEmission {
   bool directional = false;
   bool two_sided = false;  ///< light leaves on both sides
   static constexpr auto fields() {
-    return plain_fields(&AreaEmission::where, &AreaEmission::radiance,
-                        &AreaEmission::sampling_weight, &AreaEmission::directional,
-                        &AreaEmission::two_sided);
+    using namespace parameter_words;
+    using A = AreaEmission;
+    return std::tuple(field(&A::where), field(&A::radiance, kRadiance),
+                      field(&A::sampling_weight, kSamplingWeight).terse(), field(&A::directional),
+                      field(&A::two_sided));
   }
+  const char* name() const { return directional ? "directionalarea" : "area"; }
 };
 
 struct ShapeDescription {

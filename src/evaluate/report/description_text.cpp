@@ -79,18 +79,20 @@ std::string DescriptionText::input(const ColorVolume& input) const {
 }
 
 std::string DescriptionText::phase(PhaseId id) const {
+  const auto text_of = [this](const auto& model) {
+    std::vector<std::string> nested;
+    for_each_field(model, [&]<class M>(const FieldFacts&, const M& value) {
+      if constexpr (std::is_same_v<M, PhaseId>) nested.push_back(phase(value));
+    });
+    const std::string line = model.name() + shown_fields(model);
+    return nested.empty() ? line : fmt::format("{} [{}]", line, fmt::join(nested, "; "));
+  };
   return std::visit(
       Overloaded{
-          [](const IsotropicPhase&) { return std::string("isotropic"); },
-          [](const HenyeyGreensteinPhase& f) { return fmt::format("hg, g {:.4g}", f.g); },
-          [](const RayleighPhase&) { return std::string("rayleigh"); },
           [](const TabulatedPhase& f) {
             return fmt::format("tabphase of {} values", f.values.size());
           },
-          [](const SggxPhase&) { return std::string("sggx"); },
-          [this](const BlendPhase& f) {
-            return fmt::format("blendphase [{}; {}]", phase(f.first), phase(f.second));
-          },
+          text_of,
       },
       scene_.phases[size_t(id)].model);
 }
