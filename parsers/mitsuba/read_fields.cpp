@@ -101,13 +101,16 @@ void FieldReader::read(const FieldFacts& facts, int& value) {
   value = p_.integer(facts.name());
 }
 
+void FieldReader::read(const FieldFacts& facts, uint64_t& value) {
+  value = uint64_t(p_.integer(facts.name()));
+}
+
 void FieldReader::read(const FieldFacts& facts, double& value) {
   if (is_index(facts))
     value = relative_index(s_, p_);
-  else if (p_.preset(facts.name()).empty())
-    value = p_.optional_number(facts.name()).value_or(value);
-  else
-    value = p_.number(facts.name());
+  else  // a default in words is what the value begins with
+    value = p_.optional_number(facts.name())
+                .value_or(parse_number(p_.preset(facts.name())).value_or(value));
 }
 
 void FieldReader::read(const FieldFacts& facts, std::optional<double>& value) {

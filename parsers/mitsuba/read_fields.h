@@ -34,6 +34,7 @@ class FieldReader {
   void read_nested(TextureId& value);
   void read(const FieldFacts& facts, bool& value);
   void read(const FieldFacts& facts, int& value);
+  void read(const FieldFacts& facts, uint64_t& value);
   void read(const FieldFacts& facts, double& value);
   void read(const FieldFacts& facts, std::optional<double>& value);
   void read(const FieldFacts& facts, std::string& value);

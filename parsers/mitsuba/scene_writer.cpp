@@ -85,105 +85,29 @@ void SceneWriter::integrator(const IntegratorDescription& i) {
   if (layers) out_.close();
 }
 
-void SceneWriter::fov(double degrees, FovAxis axis) {
-  out_.number("fov", degrees);
-  out_.string("fov_axis", kFovAxes[size_t(axis)]);
-}
-
 void SceneWriter::view(const SensorDescription& s) {
-  if (s.shutter != std::array<double, 2>{}) {
-    out_.number("shutter_open", s.shutter[0]);
-    out_.number("shutter_close", s.shutter[1]);
-  }
-  if (s.kind == SensorKind::irradiancemeter) return;
-  out_.transform("to_world", s.to_world);
-  if (has_fov(s.kind) || s.kind == SensorKind::orthographic || s.kind == SensorKind::telecentric) {
-    out_.number("near_clip", s.near_clip);
-    out_.number("far_clip", s.far_clip);
-  }
-  if (has_fov(s.kind)) fov(s.fov, s.fov_axis);
-  if (s.kind == SensorKind::perspective) {
-    out_.number("principal_point_offset_x", s.principal_point_offset_x);
-    out_.number("principal_point_offset_y", s.principal_point_offset_y);
-  }
-  if (s.kind == SensorKind::thinlens || s.kind == SensorKind::telecentric) {
-    out_.number("aperture_radius", s.aperture_radius);
-    out_.number("focus_distance", s.focus_distance);
-  }
-  if (s.kind == SensorKind::perspective_rdist)
-    out_.string("kc", fmt::format("{}, {}", s.distortion[0], s.distortion[1]));
-  if (s.target_point) out_.point("target", *s.target_point);
+  out_.open("sensor", s.name());
+  plugin("sensor", s);
   for (const ShapeDescription& target : s.target_shape) shape(target, "", "target");
   for (const SensorDescription& part : s.parts) {
-    out_.open("sensor", sensor_name(part.kind));
     view(part);
     out_.close();
   }
-  if (s.kind == SensorKind::telecentric || s.kind == SensorKind::perspective_rdist ||
-      s.kind == SensorKind::spherical || s.kind == SensorKind::fluencemeter)
-    lose(fmt::format("the sensor \"{}\" does not exist in Mitsuba 3", sensor_name(s.kind)));
 }
 
 void SceneWriter::sensor(const SensorDescription& s) {
-  out_.open("sensor", sensor_name(s.kind));
   view(s);
   if (s.medium) out_.reference({}, medium_id(*s.medium));
-  film(s.film);
+  out_.open("film", "hdrfilm");
+  plugin("film", s.film);
+  out_.close();
   const bool known = s.sampler.name == "independent" || s.sampler.name == "stratified" ||
                      s.sampler.name == "multijitter" || s.sampler.name == "orthogonal" ||
                      s.sampler.name == "ldsampler";
   if (!known) lose(fmt::format("the sampler \"{}\" is \"ldsampler\" instead", s.sampler.name));
   out_.open("sampler", known ? s.sampler.name : "ldsampler");
-  out_.integer("sample_count", s.sampler.sample_count);
-  out_.integer("seed", int64_t(s.sampler.seed));
+  fields(s.sampler);
   out_.close();
-  out_.close();
-}
-
-void SceneWriter::film(const FilmDescription& f) {
-  constexpr std::string_view pixels[] = {"luminance", "luminance_alpha", "rgb", "rgba", "xyz",
-                                         "xyza"};
-  out_.open("film", "hdrfilm");
-  out_.integer("width", f.width);
-  out_.integer("height", f.height);
-  if (f.crop) {
-    out_.integer("crop_offset_x", f.crop->x);
-    out_.integer("crop_offset_y", f.crop->y);
-    out_.integer("crop_width", f.crop->width);
-    out_.integer("crop_height", f.crop->height);
-  }
-  out_.string("pixel_format", pixels[size_t(f.pixel_format)]);
-  out_.string("component_format",
-              f.component_format == ComponentFormat::half ? "float16" : "float32");
-  if (f.tone_mapping) lose("the tone mapping of \"ldrfilm\" is missing");
-  filter(f.filter);
-  out_.close();
-}
-
-void SceneWriter::filter(const FilterDescription& f) {
-  constexpr std::string_view filters[] = {"box",      "tent",       "gaussian",
-                                          "mitchell", "catmullrom", "lanczos"};
-  out_.open("rfilter", filters[size_t(f.kind)]);
-  switch (f.kind) {
-    case FilterKind::box:
-      if (f.radius != 0.5) lose("the radius of a box filter is missing");
-      break;
-    case FilterKind::tent:
-      out_.number("radius", f.radius);
-      break;
-    case FilterKind::gaussian:
-      out_.number("stddev", f.stddev);
-      break;
-    case FilterKind::mitchell:
-      out_.number("B", f.b);
-      out_.number("C", f.c);
-      break;
-    case FilterKind::catmullrom:
-      break;
-    case FilterKind::lanczos:
-      out_.integer("lobes", f.lobes);
-      break;
-  }
   out_.close();
 }
 

@@ -57,8 +57,12 @@ class SceneWriter {
   void field(const FieldFacts& facts, const Matrix4& value);
   void field(const FieldFacts& facts, const std::optional<TextureId>& value);
   void field(const FieldFacts& facts, const std::array<double, 3>& value);
-  void field(const FieldFacts&, const std::optional<SunDisk>&) {}
-  void field(const FieldFacts&, const std::vector<uint8_t>&) {}
+  void field(const FieldFacts& facts, uint64_t value);
+  void field(const FieldFacts& facts, const std::optional<std::array<double, 3>>& value);
+  /// Two parameters, or one that is a list.
+  void field(const FieldFacts& facts, const std::array<double, 2>& value);
+  void field(const FieldFacts& facts, const std::optional<CropWindow>& value);
+  void field(const FieldFacts& facts, const FilterDescription& value);
   void field(const FieldFacts& facts, const UvTransform& value);
   void field(const FieldFacts&, PhaseId value) { phase(value); }
   void field(const FieldFacts& facts, TextureId value);
@@ -66,10 +70,11 @@ class SceneWriter {
   void field(const FieldFacts& facts, const std::optional<Roughness>& value);
   void field(const FieldFacts& facts, MaterialId value);
   void field(const FieldFacts& facts, const MaterialShares& value);
+  /// What has no form in a file.
   template <class T>
-  void field(const FieldFacts&, const std::shared_ptr<const T>&) {}
-  void field(const FieldFacts&, const SourceLocation&) {}
-  void field(const FieldFacts&, const Label&) {}
+  void field(const FieldFacts& facts, const T&) {
+    if (!facts.name().empty()) lose(fmt::format("the parameter \"{}\" is missing", facts.name()));
+  }
 
   void volume(std::string_view name, VolumeId id);
   void volume(std::string_view name, const ColorVolume& input);
@@ -79,11 +84,8 @@ class SceneWriter {
   // scene_writer.cpp
   void integrator(const IntegratorDescription& i);
   void sensor(const SensorDescription& s);
-  /// What the sensor is, without its film and sampler.
+  /// Opens what the sensor is, without its film and sampler.
   void view(const SensorDescription& s);
-  void film(const FilmDescription& f);
-  void filter(const FilterDescription& f);
-  void fov(double degrees, FovAxis axis);
   void light(const LightDescription& l);
 
   // write_shapes.cpp
@@ -91,7 +93,6 @@ class SceneWriter {
   /// The irradiance meters on a shape of the scene; none on others.
   void meters(const ShapeDescription& s);
   void mesh(const MeshShape& m);
-  void height_field(const HeightFieldShape& f);
 
   const std::string& texture_id(TextureId id) const { return texture_ids_[size_t(id)]; }
   const std::string& medium_id(MediumId id) const { return medium_ids_[size_t(id)]; }

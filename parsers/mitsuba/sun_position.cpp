@@ -8,7 +8,7 @@
 namespace duet {
 
 SunAngles sun_angles(const SunTime& time, const SunPlace& place) {
-  constexpr double pi = std::numbers::pi, radians = kRadians;
+  constexpr double radians = kRadians;
   // Days since noon of the first of January 2000, universal time.
   const double hours = time.hour - place.timezone + (time.minute + time.second / 60) / 60;
   const long early = (time.month - 14) / 12;  // −1 in January and February

@@ -3,7 +3,6 @@
 #include <array>
 
 #include "mitsuba/plugins/tables.h"
-#include "mitsuba/vocabulary_tables.h"
 #include "scene/field_parameters.h"
 #include "values/text.h"
 
@@ -11,7 +10,7 @@ namespace duet {
 
 namespace {
 
-using namespace vocabulary;
+using namespace parameter_words;
 
 constexpr std::array<std::string_view, kPluginKinds> kTags{
     "scene", "integrator", "sensor",  "film",   "rfilter", "sampler", "shape",
@@ -25,39 +24,7 @@ constexpr Parameter kBsdfCommon[] = {{.name = "ensure_energy_conservation",
 constexpr Parameter kShapeCommon[] = {
     {"to_world", transform, "", plugins::kMovable},
     {.name = "silhouette_sampling_weight", .type = number, .versions = v3, .support = inert}};
-constexpr Parameter kSensorCommon[] = {
-    {"to_world", transform, "", plugins::kMovable},
-    {"near_clip", number, "0.01", "", positive},
-    {"far_clip", number, "10000", "", positive},
-    {"shutter_open", number, "0", "when light is gathered from what moves"},
-    {"shutter_close", number, "0", "not before the shutter opens"}};
-constexpr Parameter kFilmCommon[] = {
-    {"width", integer, "768", "in pixels", size},
-    {"height", integer, "576", "in pixels", size},
-    {"crop_offset_x", integer, "0", "", not_negative},
-    {"crop_offset_y", integer, "0", "", not_negative},
-    {"crop_width", integer, "(width)", "", size},
-    {"crop_height", integer, "(height)", "", size},
-    {.name = "banner", .type = boolean, .preset = "false", .support = ignored},
-    {.name = "high_quality_edges", .type = boolean, .preset = "false", .support = ignored},
-    {.name = "sample_border",
-     .type = boolean,
-     .preset = "false",
-     .note = "as if it were false",
-     .versions = v3,
-     .support = approximated},
-    {.name = "attach_log", .type = boolean, .preset = "false", .versions = v0, .support = ignored},
-    {.name = "compensate", .type = boolean, .versions = v3, .support = inert}};
-constexpr Parameter kSamplerCommon[] = {
-    {"sample_count", integer, "4", "per pixel", positive},
-    {"seed", integer, "0", "", not_negative},
-    {.name = "jitter", .type = boolean, .preset = "true", .versions = v3, .support = ignored},
-    {.name = "dimension", .type = integer, .versions = v0, .support = inert},
-    {.name = "scramble", .type = integer, .versions = v0, .support = ignored}};
-constexpr Parameter kIntegratorCommon[] = {
-    {.name = "timeout", .type = number, .preset = "-1", .versions = v3, .support = ignored},
-    {.name = "block_size", .type = integer, .versions = v3, .support = inert},
-    {.name = "samples_per_pass", .type = integer, .versions = v3, .support = inert}};
+constexpr Parameter kTimeout{"timeout", number, "-1", "", any, v3, ignored};
 
 /// Whether `name` is one of the words of `words`.
 bool has_word(std::string_view words, std::string_view name) {
@@ -165,11 +132,11 @@ const Vocabulary& Vocabulary::built_in() {
     };
     add(PluginKind::scene, plugins::scenes());
     add(PluginKind::integrator, plugins::integrators());
-    add(PluginKind::sensor, sensors());
-    add(PluginKind::film, films());
-    add(PluginKind::rfilter, rfilters());
-    add(PluginKind::sampler, samplers());
-    add(PluginKind::shape, shapes());
+    add(PluginKind::sensor, plugins::sensors());
+    add(PluginKind::film, plugins::films());
+    add(PluginKind::rfilter, plugins::rfilters());
+    add(PluginKind::sampler, plugins::samplers());
+    add(PluginKind::shape, plugins::shapes());
     add(PluginKind::bsdf, plugins::bsdfs());
     add(PluginKind::texture, plugins::textures());
     add(PluginKind::emitter, plugins::emitters());
@@ -201,10 +168,11 @@ const ParameterList& common_parameters(PluginKind kind) {
     list(PluginKind::bsdf) = kBsdfCommon;
     list(PluginKind::shape) = kShapeCommon;
     list(PluginKind::emitter) = parameter<LightDescription>("sampling_weight");
-    list(PluginKind::sensor) = kSensorCommon;
-    list(PluginKind::film) = kFilmCommon;
-    list(PluginKind::sampler) = kSamplerCommon;
-    list(PluginKind::integrator) = kIntegratorCommon;
+    list(PluginKind::sensor) = plugins::sensor_parameters();
+    list(PluginKind::film) = plugins::film_parameters();
+    list(PluginKind::sampler) = plugins::sampler_parameters();
+    list(PluginKind::integrator) = {kTimeout,
+                                    inert_parameters(integer, "block_size samples_per_pass", v3)};
     return all;
   }();
   return lists[size_t(kind)];

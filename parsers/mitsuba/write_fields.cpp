@@ -1,5 +1,6 @@
 // The fields of a plugin as Mitsuba 3 writes them, or would.
 #include "mitsuba/scene_writer.h"
+#include "scene/filter_fields.h"
 
 namespace duet {
 
@@ -178,6 +179,36 @@ void SceneWriter::field(const FieldFacts& facts, const std::optional<TextureId>&
 
 void SceneWriter::field(const FieldFacts& facts, const std::array<double, 3>& value) {
   out_.point(facts.name(), value);
+}
+
+void SceneWriter::field(const FieldFacts& facts, uint64_t value) {
+  out_.integer(facts.name(), int64_t(value));
+}
+
+void SceneWriter::field(const FieldFacts& facts,
+                        const std::optional<std::array<double, 3>>& value) {
+  if (value) field(facts, *value);
+}
+
+void SceneWriter::field(const FieldFacts& facts, const std::array<double, 2>& value) {
+  if (facts.parameters.size() == 2)
+    for (size_t i = 0; i < 2; ++i) out_.number(facts.parameters[i].name, value[i]);
+  else
+    out_.string(facts.name(), fmt::format("{}, {}", value[0], value[1]));
+}
+
+void SceneWriter::field(const FieldFacts& facts, const std::optional<CropWindow>& value) {
+  if (!value) return;
+  const int numbers[] = {value->x, value->y, value->width, value->height};
+  for (size_t i = 0; i < 4; ++i) out_.integer(facts.parameters[i].name, numbers[i]);
+}
+
+void SceneWriter::field(const FieldFacts&, const FilterDescription& value) {
+  with_filter(value, [&](const auto& filter) {
+    out_.open("rfilter", filter.name());
+    plugin("filter", filter);
+    out_.close();
+  });
 }
 
 void SceneWriter::field(const FieldFacts&, const UvTransform& uv) {

@@ -11,11 +11,21 @@ inline constexpr const char* kMovable = "in 0.x also an `<animation>`";
 
 std::vector<Plugin> scenes();
 std::vector<Plugin> integrators();
+std::vector<Plugin> sensors();
+std::vector<Plugin> films();
+std::vector<Plugin> rfilters();
+std::vector<Plugin> samplers();
+std::vector<Plugin> shapes();
 std::vector<Plugin> emitters();
 std::vector<Plugin> phases();
 std::vector<Plugin> media();
 std::vector<Plugin> subsurfaces();
 std::vector<Plugin> volumes();
+
+// The parameters that all plugins of a kind have.
+ParameterList sensor_parameters();
+ParameterList film_parameters();
+ParameterList sampler_parameters();
 
 /// A plugin that is known, and never supported.
 inline Plugin refused_plugin(std::string_view name, FileVersions versions, std::string_view why,
