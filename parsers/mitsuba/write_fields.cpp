@@ -146,7 +146,7 @@ void SceneWriter::field(const FieldFacts& facts, int value) {
 }
 
 void SceneWriter::field(const FieldFacts& facts, const Spectrum& value) {
-  color(facts.name(), ColorInput(value));
+  if (!facts.name().empty()) color(facts.name(), ColorInput(value));
 }
 
 void SceneWriter::field(const FieldFacts& facts, const ColorVolume& value) {

@@ -18,7 +18,7 @@ namespace {
 std::vector<uint8_t> good_file() {
   const duet::test::TemporaryDirectory directory;
   const std::string path = directory.path("a.nvdb");
-  nanovdb::GridBuilder<float, nanovdb::FpN> builder(0.0f, nanovdb::GridClass::FogVolume);
+  nanovdb::GridBuilder<float> builder(0.0f, nanovdb::GridClass::FogVolume);
   auto values = builder.getAccessor();
   for (int i = 0; i < 20; ++i) values.setValue({i - 9, i * i % 7, -i}, float(i));
   nanovdb::io::writeGrid(path, builder.getHandle(1.0, nanovdb::Vec3d(0), "density"));

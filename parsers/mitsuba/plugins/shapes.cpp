@@ -182,17 +182,39 @@ Parameter flip_normals() {
   return {"flip_normals", boolean, "false", "turns the surface inside out"};
 }
 
+namespace {
+
+Plugin hair_shape() {
+  constexpr Parameter threshold{
+      "angle_threshold", number, "1", "nothing is simplified", any, both, inert};
+  constexpr Parameter reduction{"reduction", number, "0",         "all hairs stay",
+                                fraction,    both,   approximated};
+  return {"hair",
+          v0,
+          {Parameter{.name = "filename", .type = file, .note = "text or binary", .required = true},
+           Parameter{"radius", number, "0.025", "in world space", positive}, threshold, reduction},
+          &read_hair_shape,
+          "segments meet in spheres; cannot emit light"};
+}
+
+Plugin heightfield() {
+  constexpr Parameter image{"filename", file, "", "an image: its luminance is the height"};
+  return {"heightfield",
+          v0,
+          {image, parameters_of<HeightFieldShape>(), flip_normals()},
+          &read_heightfield,
+          "a triangle mesh; may hold a texture (bitmap, checkerboard, gridtexture or scale of one) "
+          "instead of naming an image, and a reconstruction filter"};
+}
+
+}  // namespace
+
 std::vector<Plugin> shapes() {
   const Parameter flip = flip_normals();
   // These surfaces are flat anyway.
   const ParameterList flat(flip, inert_parameters(boolean, "face_normals"));
   constexpr Parameter watertight{"watertight", boolean, "true", "it always is", any, both, inert};
   constexpr Parameter grid{"grid", string, "", "only exists in Python", any, both, refused};
-  constexpr Parameter image{"filename", file, "", "an image: its luminance is the height"};
-  constexpr Parameter threshold{
-      "angle_threshold", number, "1", "nothing is simplified", any, both, inert};
-  constexpr Parameter reduction{"reduction", number, "0",         "all hairs stay",
-                                fraction,    both,   approximated};
   return {
       obj(),
       ply(),
@@ -230,18 +252,8 @@ std::vector<Plugin> shapes() {
       refused_plugin("deformable", v0, "shapes move, but keep their form: use a mesh", "filename"),
       ellipsoids(),
       ellipsoidsmesh(),
-      {"hair",
-       v0,
-       {Parameter{.name = "filename", .type = file, .note = "text or binary", .required = true},
-        Parameter{"radius", number, "0.025", "in world space", positive}, threshold, reduction},
-       &read_hair_shape,
-       "segments meet in spheres; cannot emit light"},
-      {"heightfield",
-       v0,
-       {image, parameters_of<HeightFieldShape>(), flip},
-       &read_heightfield,
-       "a triangle mesh; may hold a texture (bitmap, checkerboard, gridtexture or scale of one) "
-       "instead of naming an image, and a reconstruction filter"},
+      hair_shape(),
+      heightfield(),
       {"linearcurve", v3, parameters_of<CurvesShape>(), &read_curves_shape, "cannot emit light"},
       merge(),
   };
