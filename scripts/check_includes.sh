@@ -2,7 +2,8 @@
 # Fails if an #include goes against the dependencies of the modules:
 #   app -> evaluate -> {integrators, parsers}; integrators -> transport -> scene
 #       -> {materials, lights, media, cameras} -> textures -> {geometry, image} -> math -> base
-#   parsers -> scene/description.h, scene/texture_uses.h and scene/texture_value.h (of a description),
+#   parsers -> scene/description.h and, of a description, scene/field_parameters.h, scene/filter_fields.h,
+#              scene/texture_uses.h and scene/texture_value.h,
 #              geometry/mesh.h, geometry/curves.h, materials/measured_table.h, media/volume_grid.h,
 #              math, base and parsers
 # A module may include itself and every module further right; modules in braces do not see each other.
@@ -32,6 +33,7 @@ find src parsers -name '*.h' -o -name '*.cpp' | sort | xargs awk '
     ok = to == module || level[to] < level[module]
     if (module == "parsers" && to != "parsers")
       ok = to == "math" || to == "base" || target == "scene/description.h" ||
+           target == "scene/field_parameters.h" || target == "scene/filter_fields.h" ||
            target == "scene/texture_uses.h" || target == "scene/texture_value.h" ||
            target == "geometry/mesh.h" || target == "geometry/curves.h" ||
            target == "materials/measured_table.h" || target == "media/volume_grid.h"

@@ -80,6 +80,19 @@ std::vector<MaterialId> nested_bsdfs(SceneReader& s, Properties& p, size_t least
   return ids.size() == children.size() ? ids : std::vector<MaterialId>();
 }
 
+std::vector<PhaseId> nested_phases(SceneReader& s, Properties& p, size_t count) {
+  const auto children = p.children(PluginKind::phase);
+  if (children.size() != count) {
+    s.report().error(p.node().where, "{} needs {} phase functions, not {}", describe(p.node()),
+                     count, children.size());
+    return {};
+  }
+  std::vector<PhaseId> ids;
+  for (const Properties::Child& child : children)
+    if (const auto id = s.phase(*child.node)) ids.push_back(*id);
+  return ids.size() == count ? ids : std::vector<PhaseId>();
+}
+
 void FieldReader::read(const FieldFacts& facts, bool& value) {
   value = p_.boolean(facts.name());
 }
@@ -88,13 +101,16 @@ void FieldReader::read(const FieldFacts& facts, int& value) {
   value = p_.integer(facts.name());
 }
 
+void FieldReader::read(const FieldFacts& facts, uint64_t& value) {
+  value = uint64_t(p_.integer(facts.name()));
+}
+
 void FieldReader::read(const FieldFacts& facts, double& value) {
   if (is_index(facts))
     value = relative_index(s_, p_);
-  else if (p_.preset(facts.name()).empty())
-    value = p_.optional_number(facts.name()).value_or(value);
-  else
-    value = p_.number(facts.name());
+  else  // a default in words is what the value begins with
+    value = p_.optional_number(facts.name())
+                .value_or(parse_number(p_.preset(facts.name())).value_or(value));
 }
 
 void FieldReader::read(const FieldFacts& facts, std::optional<double>& value) {
@@ -127,6 +143,14 @@ void FieldReader::read(const FieldFacts& facts, Spectrum& value) {
 
 void FieldReader::read(const FieldFacts& facts, ColorVolume& value) {
   value = s_.color_volume(p_, facts.name());
+}
+
+void FieldReader::read(const FieldFacts& facts, FloatVolume& value) {
+  value = s_.float_volume(p_, facts.name());
+}
+
+void FieldReader::read(const FieldFacts& facts, Matrix4& value) {
+  value = p_.transform(facts.name());
 }
 
 void FieldReader::read(const FieldFacts& facts, UvTransform& value) {

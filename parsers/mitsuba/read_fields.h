@@ -34,6 +34,7 @@ class FieldReader {
   void read_nested(TextureId& value);
   void read(const FieldFacts& facts, bool& value);
   void read(const FieldFacts& facts, int& value);
+  void read(const FieldFacts& facts, uint64_t& value);
   void read(const FieldFacts& facts, double& value);
   void read(const FieldFacts& facts, std::optional<double>& value);
   void read(const FieldFacts& facts, std::string& value);
@@ -42,11 +43,14 @@ class FieldReader {
   void read(const FieldFacts& facts, FloatInput& value);
   void read(const FieldFacts& facts, Spectrum& value);
   void read(const FieldFacts& facts, ColorVolume& value);
+  void read(const FieldFacts& facts, FloatVolume& value);
   void read(const FieldFacts& facts, UvTransform& value);
+  void read(const FieldFacts& facts, Matrix4& value);
   void read(const FieldFacts& facts, std::optional<TextureId>& value);
   void read(const FieldFacts& facts, Roughness& value);
   void read(const FieldFacts& facts, std::optional<Roughness>& value);
-  void read(const FieldFacts&, std::shared_ptr<const MeasuredTable>&) {}  // by the plugin
+  template <class M>
+  void read(const FieldFacts&, M&) {}  // by the plugin
 
   SceneReader& s_;
   Properties& p_;
@@ -61,13 +65,6 @@ bool read_values(SceneReader& s, Properties& p, T& description) {
   return reader.is_complete();
 }
 
-/// Reads what its fields say into a plugin of a kind whose description holds one as its `model`.
-template <class T, class Description>
-void read_model(SceneReader& s, Properties& p, Description& out) {
-  T model;
-  if (read_values(s, p, model)) out.model = std::move(model);
-}
-
 /// Index of the inside over that of the outside; an error for a rough interface without difference.
 double relative_index(SceneReader& s, Properties& p);
 /// The roughness of an interface; zero becomes small, and what is negative is an error.
@@ -76,22 +73,37 @@ Roughness read_roughness(SceneReader& s, Properties& p);
 /// `most` of them.
 std::vector<MaterialId> nested_bsdfs(SceneReader& s, Properties& p, size_t least, size_t most);
 
-/// The fields that are nested BSDFs, in their order; false after an error.
+/// The same for phase functions: there must be `count`.
+std::vector<PhaseId> nested_phases(SceneReader& s, Properties& p, size_t count);
+
+/// The fields that are nested BSDFs or phase functions, in their order; false after an error.
 template <class T>
-bool read_nested(SceneReader& s, Properties& p, T& bsdf) {
-  std::vector<MaterialId*> fields;
+bool read_nested(SceneReader& s, Properties& p, T& description) {
+  std::vector<MaterialId*> bsdfs;
+  std::vector<PhaseId*> phases;
   size_t least = 0;
-  for_each_field(bsdf, [&](const FieldFacts& facts, auto& value) {
-    if constexpr (std::is_same_v<decltype(value), MaterialId&>) {
-      fields.push_back(&value);
+  for_each_field(description, [&]<class M>(const FieldFacts& facts, M& value) {
+    if constexpr (std::is_same_v<M, PhaseId>) phases.push_back(&value);
+    if constexpr (std::is_same_v<M, MaterialId>) {
+      bsdfs.push_back(&value);
       least += !facts.optional;
     }
   });
-  if (fields.empty()) return true;
-  const std::vector<MaterialId> ids = nested_bsdfs(s, p, least, fields.size());
-  if (ids.empty()) return false;
-  for (size_t i = 0; i < fields.size(); ++i) *fields[i] = ids[std::min(i, ids.size() - 1)];
-  return true;
+  const auto assign = [](const auto& fields, const auto& ids) {
+    for (size_t i = 0; i < fields.size() && !ids.empty(); ++i)
+      *fields[i] = ids[std::min(i, ids.size() - 1)];
+    return fields.empty() || !ids.empty();
+  };
+  if (!phases.empty()) return assign(phases, nested_phases(s, p, phases.size()));
+  if (bsdfs.empty()) return true;
+  return assign(bsdfs, nested_bsdfs(s, p, least, bsdfs.size()));
+}
+
+/// Reads what its fields say into a plugin of a kind whose description holds one as its `model`.
+template <class T, class Description>
+void read_model(SceneReader& s, Properties& p, Description& out) {
+  T model;
+  if (read_values(s, p, model) && read_nested(s, p, model)) out.model = std::move(model);
 }
 
 }  // namespace duet

@@ -2,8 +2,7 @@
 #include <cmath>
 #include <map>
 
-#include "mitsuba/mesh_options.h"
-#include "mitsuba/readers.h"
+#include "mitsuba/plugins/shapes.h"
 #include "mitsuba/scene_files.h"
 #include "mitsuba/scene_reader.h"
 #include "values/text.h"
@@ -125,7 +124,7 @@ MaterialLibrary* SceneReader::material_library(const std::string& name, const st
   return entry->second.get();
 }
 
-void read_obj_shape(SceneReader& s, Properties& p, ShapeList& out) {
+void plugins::read_obj_shape(SceneReader& s, Properties& p, ShapeList& out) {
   ShapeDescription shape;
   shape.where = p.node().where;
   shape.label = {p.node().id};

@@ -268,10 +268,12 @@ void SceneReader::check_scene(const NodeTree& tree, bool have_integrator) {
   }
   const LightDescription* environment = nullptr;
   for (const LightDescription& light : description_.lights) {
-    if (!std::holds_alternative<ConstantLight>(light.model) &&
-        !std::holds_alternative<EnvironmentMapLight>(light.model) &&
-        !std::holds_alternative<SkyLight>(light.model))
-      continue;
+    const auto is_environment = []<class T>(const T&) {
+      return requires {
+        T::kIsEnvironment;
+      };
+    };
+    if (!std::visit(is_environment, light.model)) continue;
     if (environment)
       report_.error(light.where, "a scene can have one environment only; another is at {}",
                     environment->where.to_string());

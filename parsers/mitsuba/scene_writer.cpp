@@ -63,156 +63,71 @@ void SceneWriter::write() {
   for (const LightDescription& l : d_.lights) light(l);
 }
 
-void SceneWriter::fov(double degrees, FovAxis axis) {
-  constexpr std::string_view axes[] = {"x", "y", "diagonal", "smaller", "larger"};
-  out_.number("fov", degrees);
-  out_.string("fov_axis", axes[size_t(axis)]);
+void SceneWriter::integrator(const IntegratorDescription& i) {
+  const bool layers = !i.aovs.layers.empty() || !i.image;
+  if (layers) {
+    std::string list;
+    for (const AovDescription::Layer& l : i.aovs.layers)
+      list += fmt::format("{}{}:{}", list.empty() ? "" : ", ", l.name, l.kind);
+    out_.open("integrator", "aov");
+    out_.string("aovs", list);
+  }
+  if (i.moments) out_.open("integrator", "moment");
+  if (i.image)
+    std::visit(
+        [this](const auto& method) {
+          out_.open("integrator", method.method_name());
+          plugin("integrator", method);
+          out_.close();
+        },
+        i.method);
+  if (i.moments) out_.close();
+  if (layers) out_.close();
 }
 
 void SceneWriter::view(const SensorDescription& s) {
-  if (s.shutter != std::array<double, 2>{}) {
-    out_.number("shutter_open", s.shutter[0]);
-    out_.number("shutter_close", s.shutter[1]);
-  }
-  if (s.kind == SensorKind::irradiancemeter) return;
-  out_.transform("to_world", s.to_world);
-  if (has_fov(s.kind) || s.kind == SensorKind::orthographic || s.kind == SensorKind::telecentric) {
-    out_.number("near_clip", s.near_clip);
-    out_.number("far_clip", s.far_clip);
-  }
-  if (has_fov(s.kind)) fov(s.fov, s.fov_axis);
-  if (s.kind == SensorKind::perspective) {
-    out_.number("principal_point_offset_x", s.principal_point_offset_x);
-    out_.number("principal_point_offset_y", s.principal_point_offset_y);
-  }
-  if (s.kind == SensorKind::thinlens || s.kind == SensorKind::telecentric) {
-    out_.number("aperture_radius", s.aperture_radius);
-    out_.number("focus_distance", s.focus_distance);
-  }
-  if (s.kind == SensorKind::perspective_rdist)
-    out_.string("kc", fmt::format("{}, {}", s.distortion[0], s.distortion[1]));
-  if (s.target_point) out_.point("target", *s.target_point);
+  out_.open("sensor", s.name());
+  plugin("sensor", s);
   for (const ShapeDescription& target : s.target_shape) shape(target, "", "target");
   for (const SensorDescription& part : s.parts) {
-    out_.open("sensor", sensor_name(part.kind));
     view(part);
     out_.close();
   }
-  if (s.kind == SensorKind::telecentric || s.kind == SensorKind::perspective_rdist ||
-      s.kind == SensorKind::spherical || s.kind == SensorKind::fluencemeter)
-    lose(fmt::format("the sensor \"{}\" does not exist in Mitsuba 3", sensor_name(s.kind)));
 }
 
 void SceneWriter::sensor(const SensorDescription& s) {
-  out_.open("sensor", sensor_name(s.kind));
   view(s);
   if (s.medium) out_.reference({}, medium_id(*s.medium));
-  film(s.film);
+  out_.open("film", "hdrfilm");
+  plugin("film", s.film);
+  out_.close();
   const bool known = s.sampler.name == "independent" || s.sampler.name == "stratified" ||
                      s.sampler.name == "multijitter" || s.sampler.name == "orthogonal" ||
                      s.sampler.name == "ldsampler";
   if (!known) lose(fmt::format("the sampler \"{}\" is \"ldsampler\" instead", s.sampler.name));
   out_.open("sampler", known ? s.sampler.name : "ldsampler");
-  out_.integer("sample_count", s.sampler.sample_count);
-  out_.integer("seed", int64_t(s.sampler.seed));
+  fields(s.sampler);
   out_.close();
   out_.close();
-}
-
-void SceneWriter::film(const FilmDescription& f) {
-  constexpr std::string_view pixels[] = {"luminance", "luminance_alpha", "rgb", "rgba", "xyz",
-                                         "xyza"};
-  out_.open("film", "hdrfilm");
-  out_.integer("width", f.width);
-  out_.integer("height", f.height);
-  if (f.crop) {
-    out_.integer("crop_offset_x", f.crop->x);
-    out_.integer("crop_offset_y", f.crop->y);
-    out_.integer("crop_width", f.crop->width);
-    out_.integer("crop_height", f.crop->height);
-  }
-  out_.string("pixel_format", pixels[size_t(f.pixel_format)]);
-  out_.string("component_format",
-              f.component_format == ComponentFormat::half ? "float16" : "float32");
-  if (f.tone_mapping) lose("the tone mapping of \"ldrfilm\" is missing");
-  filter(f.filter);
-  out_.close();
-}
-
-void SceneWriter::filter(const FilterDescription& f) {
-  constexpr std::string_view filters[] = {"box",      "tent",       "gaussian",
-                                          "mitchell", "catmullrom", "lanczos"};
-  out_.open("rfilter", filters[size_t(f.kind)]);
-  switch (f.kind) {
-    case FilterKind::box:
-      if (f.radius != 0.5) lose("the radius of a box filter is missing");
-      break;
-    case FilterKind::tent:
-      out_.number("radius", f.radius);
-      break;
-    case FilterKind::gaussian:
-      out_.number("stddev", f.stddev);
-      break;
-    case FilterKind::mitchell:
-      out_.number("B", f.b);
-      out_.number("C", f.c);
-      break;
-    case FilterKind::catmullrom:
-      break;
-    case FilterKind::lanczos:
-      out_.integer("lobes", f.lobes);
-      break;
-  }
-  out_.close();
-}
-
-void SceneWriter::sampling_weight(double weight) {
-  if (weight != 1) out_.number("sampling_weight", weight);
 }
 
 void SceneWriter::light(const LightDescription& l) {
-  constexpr std::string_view types[] = {"point",    "spot",   "projector", "directional",
-                                        "constant", "envmap", "sunsky",    "collimated"};
-  static_assert(std::size(types) == std::variant_size_v<decltype(l.model)>);
-  out_.open("emitter", types[l.model.index()]);
-  if (const auto* point = std::get_if<PointLight>(&l.model)) {
-    color("intensity", point->intensity);
-  } else if (const auto* spot = std::get_if<SpotLight>(&l.model)) {
-    color("intensity", spot->intensity);
-    out_.number("cutoff_angle", spot->cutoff_angle);
-    out_.number("beam_width", spot->beam_width);
-    if (spot->texture) out_.reference("texture", texture_id(*spot->texture));
-  } else if (const auto* projector = std::get_if<ProjectorLight>(&l.model)) {
-    color("irradiance", projector->irradiance);
-    out_.number("scale", projector->scale);
-    fov(projector->fov, projector->fov_axis);
-  } else if (const auto* directional = std::get_if<DirectionalLight>(&l.model)) {
-    color("irradiance", directional->irradiance);
-  } else if (const auto* constant = std::get_if<ConstantLight>(&l.model)) {
-    color("radiance", constant->radiance);
-  } else if (const auto* map = std::get_if<EnvironmentMapLight>(&l.model)) {
-    out_.string("filename", map->file);
-    out_.number("scale", map->scale);
-    if (map->gamma) lose("the gamma value of an environment map is missing");
-  } else if (const auto* sky = std::get_if<SkyLight>(&l.model)) {
-    out_.number("turbidity", sky->turbidity);
-    color("albedo", ColorInput(sky->albedo));
-    out_.number("sky_scale", sky->sky_scale);
-    out_.number("sun_scale", sky->sun_scale);
-    out_.number("sun_aperture", sky->sun_aperture);
-    std::array<double, 3> sun{};
+  LightDescription d = l;
+  // The direction to the sun is one in the world.
+  if (auto* sky = std::get_if<SkyLight>(&d.model)) {
+    const std::array<double, 3> local = std::exchange(sky->sun, {});
     for (int i = 0; i < 3; ++i)
-      for (int j = 0; j < 3; ++j) sun[size_t(i)] += l.to_world[i][size_t(j)] * sky->sun[size_t(j)];
-    out_.point("sun_direction", sun);
-    if (sky->stretch != 1 || sky->extend) lose("the sky ends at the horizon");
-    if (sky->disk && sky->sun_scale != 0)
-      lose("the sun has the brightness of Hosek and Wilkie's model, and sets with the horizon");
-  } else if (const auto* beam = std::get_if<CollimatedLight>(&l.model)) {
-    lose("the light \"collimated\" does not exist in Mitsuba 3");
-    color("power", ColorInput(beam->power));
+      for (int j = 0; j < 3; ++j)
+        sky->sun[size_t(i)] += l.to_world[i][size_t(j)] * local[size_t(j)];
   }
+  std::visit(
+      [&](const auto& model) {
+        out_.open("emitter", model.name());
+        plugin("light", model);
+      },
+      d.model);
   if (!std::holds_alternative<ConstantLight>(l.model)) out_.transform("to_world", l.to_world);
-  sampling_weight(l.sampling_weight);
+  if (l.sampling_weight != 1) out_.number("sampling_weight", l.sampling_weight);
   if (l.medium) out_.reference({}, medium_id(*l.medium));
   out_.close();
 }

@@ -51,48 +51,48 @@ class SceneWriter {
   void field(const FieldFacts& facts, int value);
   void field(const FieldFacts& facts, const Spectrum& value);
   void field(const FieldFacts& facts, const ColorVolume& value);
+  void field(const FieldFacts& facts, const FloatVolume& value);
+  void field(const FieldFacts& facts, const std::variant<std::array<double, 6>, VolumeId>& value);
+  void field(const FieldFacts& facts, const std::vector<double>& value);
+  void field(const FieldFacts& facts, const Matrix4& value);
+  void field(const FieldFacts& facts, const std::optional<TextureId>& value);
+  void field(const FieldFacts& facts, const std::array<double, 3>& value);
+  void field(const FieldFacts& facts, uint64_t value);
+  void field(const FieldFacts& facts, const std::optional<std::array<double, 3>>& value);
+  /// Two parameters, or one that is a list.
+  void field(const FieldFacts& facts, const std::array<double, 2>& value);
+  void field(const FieldFacts& facts, const std::optional<CropWindow>& value);
+  void field(const FieldFacts& facts, const FilterDescription& value);
   void field(const FieldFacts& facts, const UvTransform& value);
+  void field(const FieldFacts&, PhaseId value) { phase(value); }
   void field(const FieldFacts& facts, TextureId value);
   void field(const FieldFacts& facts, const Roughness& value);
   void field(const FieldFacts& facts, const std::optional<Roughness>& value);
   void field(const FieldFacts& facts, MaterialId value);
   void field(const FieldFacts& facts, const MaterialShares& value);
-  void field(const FieldFacts&, const std::shared_ptr<const MeasuredTable>&) {}
+  /// What has no form in a file.
+  template <class T>
+  void field(const FieldFacts& facts, const T&) {
+    if (!facts.name().empty()) lose(fmt::format("the parameter \"{}\" is missing", facts.name()));
+  }
 
-  // write_media.cpp
   void volume(std::string_view name, VolumeId id);
   void volume(std::string_view name, const ColorVolume& input);
   void phase(PhaseId id);
   void medium(const MediumDescription& m, const std::string& id);
 
-  // write_integrators.cpp
-  void integrator(const IntegratorDescription& i);
-  void write_limits(const PathLimits& m);
-  void write_path(std::string_view type, const PathLimits& m);
-  void write_method(const PathIntegratorDescription& m);
-  void write_method(const VolumePathIntegratorDescription& m);
-  void write_method(const DirectIntegratorDescription& m);
-  void write_method(const DepthIntegratorDescription& m);
-  void write_method(const OcclusionIntegratorDescription& m);
-  void write_method(const BidirectionalIntegratorDescription& m);
-  void write_method(const AutoIntegratorDescription& m);
-
   // scene_writer.cpp
+  void integrator(const IntegratorDescription& i);
   void sensor(const SensorDescription& s);
-  /// What the sensor is, without its film and sampler.
+  /// Opens what the sensor is, without its film and sampler.
   void view(const SensorDescription& s);
-  void film(const FilmDescription& f);
-  void filter(const FilterDescription& f);
-  void fov(double degrees, FovAxis axis);
   void light(const LightDescription& l);
-  void sampling_weight(double weight);
 
   // write_shapes.cpp
   void shape(const ShapeDescription& s, const std::string& id, std::string_view name = {});
   /// The irradiance meters on a shape of the scene; none on others.
   void meters(const ShapeDescription& s);
   void mesh(const MeshShape& m);
-  void height_field(const HeightFieldShape& f);
 
   const std::string& texture_id(TextureId id) const { return texture_ids_[size_t(id)]; }
   const std::string& medium_id(MediumId id) const { return medium_ids_[size_t(id)]; }

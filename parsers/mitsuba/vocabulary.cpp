@@ -2,16 +2,15 @@
 
 #include <array>
 
-#include "mitsuba/plugins/bsdfs.h"
-#include "mitsuba/plugins/textures.h"
-#include "mitsuba/vocabulary_tables.h"
+#include "mitsuba/plugins/tables.h"
+#include "scene/field_parameters.h"
 #include "values/text.h"
 
 namespace duet {
 
 namespace {
 
-using namespace vocabulary;
+using namespace parameter_words;
 
 constexpr std::array<std::string_view, kPluginKinds> kTags{
     "scene", "integrator", "sensor",  "film",   "rfilter", "sampler", "shape",
@@ -23,43 +22,9 @@ constexpr Parameter kBsdfCommon[] = {{.name = "ensure_energy_conservation",
                                       .note = "scales reflectances above 1 down",
                                       .versions = v0}};
 constexpr Parameter kShapeCommon[] = {
-    {"to_world", transform, "", kMovable},
+    {"to_world", transform, "", plugins::kMovable},
     {.name = "silhouette_sampling_weight", .type = number, .versions = v3, .support = inert}};
-constexpr Parameter kEmitterCommon[] = {
-    {"sampling_weight", number, "1", "share in the choice of a light", not_negative}};
-constexpr Parameter kSensorCommon[] = {
-    {"to_world", transform, "", kMovable},
-    {"near_clip", number, "0.01", "", positive},
-    {"far_clip", number, "10000", "", positive},
-    {"shutter_open", number, "0", "when light is gathered from what moves"},
-    {"shutter_close", number, "0", "not before the shutter opens"}};
-constexpr Parameter kFilmCommon[] = {
-    {"width", integer, "768", "in pixels", size},
-    {"height", integer, "576", "in pixels", size},
-    {"crop_offset_x", integer, "0", "", not_negative},
-    {"crop_offset_y", integer, "0", "", not_negative},
-    {"crop_width", integer, "(width)", "", size},
-    {"crop_height", integer, "(height)", "", size},
-    {.name = "banner", .type = boolean, .preset = "false", .support = ignored},
-    {.name = "high_quality_edges", .type = boolean, .preset = "false", .support = ignored},
-    {.name = "sample_border",
-     .type = boolean,
-     .preset = "false",
-     .note = "as if it were false",
-     .versions = v3,
-     .support = approximated},
-    {.name = "attach_log", .type = boolean, .preset = "false", .versions = v0, .support = ignored},
-    {.name = "compensate", .type = boolean, .versions = v3, .support = inert}};
-constexpr Parameter kSamplerCommon[] = {
-    {"sample_count", integer, "4", "per pixel", positive},
-    {"seed", integer, "0", "", not_negative},
-    {.name = "jitter", .type = boolean, .preset = "true", .versions = v3, .support = ignored},
-    {.name = "dimension", .type = integer, .versions = v0, .support = inert},
-    {.name = "scramble", .type = integer, .versions = v0, .support = ignored}};
-constexpr Parameter kIntegratorCommon[] = {
-    {.name = "timeout", .type = number, .preset = "-1", .versions = v3, .support = ignored},
-    {.name = "block_size", .type = integer, .versions = v3, .support = inert},
-    {.name = "samples_per_pass", .type = integer, .versions = v3, .support = inert}};
+constexpr Parameter kTimeout{"timeout", number, "-1", "", any, v3, ignored};
 
 /// Whether `name` is one of the words of `words`.
 bool has_word(std::string_view words, std::string_view name) {
@@ -165,20 +130,20 @@ const Vocabulary& Vocabulary::built_in() {
     const auto add = [&](PluginKind kind, const auto& plugins) {
       v.plugins_[size_t(kind)].assign(plugins.begin(), plugins.end());
     };
-    add(PluginKind::scene, scenes());
-    add(PluginKind::integrator, integrators());
-    add(PluginKind::sensor, sensors());
-    add(PluginKind::film, films());
-    add(PluginKind::rfilter, rfilters());
-    add(PluginKind::sampler, samplers());
-    add(PluginKind::shape, shapes());
+    add(PluginKind::scene, plugins::scenes());
+    add(PluginKind::integrator, plugins::integrators());
+    add(PluginKind::sensor, plugins::sensors());
+    add(PluginKind::film, plugins::films());
+    add(PluginKind::rfilter, plugins::rfilters());
+    add(PluginKind::sampler, plugins::samplers());
+    add(PluginKind::shape, plugins::shapes());
     add(PluginKind::bsdf, plugins::bsdfs());
     add(PluginKind::texture, plugins::textures());
-    add(PluginKind::emitter, emitters());
-    add(PluginKind::medium, media());
-    add(PluginKind::phase, phases());
-    add(PluginKind::volume, volumes());
-    add(PluginKind::subsurface, subsurfaces());
+    add(PluginKind::emitter, plugins::emitters());
+    add(PluginKind::medium, plugins::media());
+    add(PluginKind::phase, plugins::phases());
+    add(PluginKind::volume, plugins::volumes());
+    add(PluginKind::subsurface, plugins::subsurfaces());
     return v;
   }();
   return all;
@@ -196,25 +161,21 @@ std::vector<std::string> Vocabulary::names(PluginKind kind) const {
   return names;
 }
 
-std::span<const Parameter> common_parameters(PluginKind kind) {
-  switch (kind) {
-    case PluginKind::bsdf:
-      return kBsdfCommon;
-    case PluginKind::shape:
-      return kShapeCommon;
-    case PluginKind::emitter:
-      return kEmitterCommon;
-    case PluginKind::sensor:
-      return kSensorCommon;
-    case PluginKind::film:
-      return kFilmCommon;
-    case PluginKind::sampler:
-      return kSamplerCommon;
-    case PluginKind::integrator:
-      return kIntegratorCommon;
-    default:
-      return {};
-  }
+const ParameterList& common_parameters(PluginKind kind) {
+  static const std::array<ParameterList, kPluginKinds> lists = [] {
+    std::array<ParameterList, kPluginKinds> all;
+    const auto list = [&](PluginKind k) -> ParameterList& { return all[size_t(k)]; };
+    list(PluginKind::bsdf) = kBsdfCommon;
+    list(PluginKind::shape) = kShapeCommon;
+    list(PluginKind::emitter) = parameter<LightDescription>("sampling_weight");
+    list(PluginKind::sensor) = plugins::sensor_parameters();
+    list(PluginKind::film) = plugins::film_parameters();
+    list(PluginKind::sampler) = plugins::sampler_parameters();
+    list(PluginKind::integrator) = {kTimeout,
+                                    inert_parameters(integer, "block_size samples_per_pass", v3)};
+    return all;
+  }();
+  return lists[size_t(kind)];
 }
 
 const Parameter* find_parameter(PluginKind kind, const Plugin& plugin, std::string_view name) {

@@ -110,7 +110,7 @@ struct Plugin {
 };
 
 /// The parameters that all plugins of a kind have.
-std::span<const Parameter> common_parameters(PluginKind kind);
+const ParameterList& common_parameters(PluginKind kind);
 /// The parameter of that name or alias (in snake_case); null if the plugin has none.
 const Parameter* find_parameter(PluginKind kind, const Plugin& plugin, std::string_view name);
 std::vector<std::string> parameter_names(PluginKind kind, const Plugin& plugin);

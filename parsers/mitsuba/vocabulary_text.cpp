@@ -80,8 +80,7 @@ std::string joined(std::string_view a, std::string_view b) {
   return std::string(a) + (a.empty() || b.empty() ? "" : "; ") + std::string(b);
 }
 
-template <class List>
-std::string parameter_rows(const List& parameters) {
+std::string parameter_rows(const ParameterList& parameters) {
   std::string out =
       "| Parameter | Type | Default | Files | Status | |\n|---|---|---|---|---|---|\n";
   for (const Parameter& p : parameters)
@@ -132,7 +131,7 @@ std::string compatibility_section(PluginKind kind, const Vocabulary& vocabulary)
         fmt::format("| {} | {} | {} | {} |\n", code(p.name), versions_name(p.versions),
                     support_name(p.support), joined(joined(cell(p.note), also(p.aliases)), others));
   }
-  if (const auto common = common_parameters(kind); !common.empty())
+  if (const auto& common = common_parameters(kind); !common.empty())
     out += "\nParameters of all of them:\n\n" + parameter_rows(common);
   for (const Plugin& p : vocabulary.plugins(kind))
     if (!p.parameters.empty())

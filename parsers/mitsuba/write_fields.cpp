@@ -1,5 +1,6 @@
 // The fields of a plugin as Mitsuba 3 writes them, or would.
 #include "mitsuba/scene_writer.h"
+#include "scene/filter_fields.h"
 
 namespace duet {
 
@@ -55,6 +56,44 @@ void SceneWriter::number(std::string_view name, const FloatInput& input) {
     out_.number(name, std::get<double>(input));
 }
 
+void SceneWriter::volume(std::string_view name, VolumeId id) {
+  const VolumeDescription& v = d_.volumes[size_t(id)];
+  if (!v.file.empty() || v.grid->node_count() != 1 || v.grid->channels == 6) {
+    out_.open("volume", v.name(), name);
+    plugin("volume", v);
+    return out_.close();
+  }
+  const std::vector<float>& c = v.grid->values;
+  out_.open("volume", "constvolume", name);
+  color("value", ColorInput(v.grid->channels == 1 ? Spectrum(c[0]) : Spectrum(c[0], c[1], c[2])));
+  out_.transform("to_world", v.to_world);
+  out_.close();
+}
+
+void SceneWriter::volume(std::string_view name, const ColorVolume& input) {
+  if (const VolumeId* id = std::get_if<VolumeId>(&input)) return volume(name, *id);
+  // Mitsuba 3 takes a plain <rgb> here for a reflectance, and refuses what is above 1.
+  out_.open("volume", "constvolume", name);
+  color("value", ColorInput(std::get<Spectrum>(input)));
+  out_.close();
+}
+
+void SceneWriter::phase(PhaseId id) {
+  std::visit(
+      [&](const auto& model) {
+        out_.open("phase", model.name());
+        plugin("phase", model);
+        out_.close();
+      },
+      d_.phases[size_t(id)].model);
+}
+
+void SceneWriter::medium(const MediumDescription& m, const std::string& id) {
+  out_.open("medium", m.name(), {}, id);
+  fields(m);
+  out_.close();
+}
+
 void SceneWriter::fields(const MaterialModel& model) {
   model.for_each_field([&](const FieldFacts& facts, const FieldValue& value) {
     if (facts.given) with_value(value, [&](const auto& v) { field(facts, v); });
@@ -107,11 +146,69 @@ void SceneWriter::field(const FieldFacts& facts, int value) {
 }
 
 void SceneWriter::field(const FieldFacts& facts, const Spectrum& value) {
-  color(facts.name(), ColorInput(value));
+  if (!facts.name().empty()) color(facts.name(), ColorInput(value));
 }
 
 void SceneWriter::field(const FieldFacts& facts, const ColorVolume& value) {
   volume(facts.name(), value);
+}
+
+void SceneWriter::field(const FieldFacts& facts, const FloatVolume& value) {
+  if (const VolumeId* grid = std::get_if<VolumeId>(&value))
+    volume(facts.name(), *grid);
+  else
+    out_.number(facts.name(), std::get<double>(value));
+}
+
+void SceneWriter::field(const FieldFacts& facts,
+                        const std::variant<std::array<double, 6>, VolumeId>& value) {
+  if (const VolumeId* grid = std::get_if<VolumeId>(&value)) volume(facts.name(), *grid);
+}
+
+void SceneWriter::field(const FieldFacts& facts, const std::vector<double>& value) {
+  out_.string(facts.name(), fmt::format("{}", fmt::join(value, ", ")));
+}
+
+void SceneWriter::field(const FieldFacts& facts, const Matrix4& value) {
+  out_.transform(facts.name(), value);
+}
+
+void SceneWriter::field(const FieldFacts& facts, const std::optional<TextureId>& value) {
+  if (value) field(facts, *value);
+}
+
+void SceneWriter::field(const FieldFacts& facts, const std::array<double, 3>& value) {
+  out_.point(facts.name(), value);
+}
+
+void SceneWriter::field(const FieldFacts& facts, uint64_t value) {
+  out_.integer(facts.name(), int64_t(value));
+}
+
+void SceneWriter::field(const FieldFacts& facts,
+                        const std::optional<std::array<double, 3>>& value) {
+  if (value) field(facts, *value);
+}
+
+void SceneWriter::field(const FieldFacts& facts, const std::array<double, 2>& value) {
+  if (facts.parameters.size() == 2)
+    for (size_t i = 0; i < 2; ++i) out_.number(facts.parameters[i].name, value[i]);
+  else
+    out_.string(facts.name(), fmt::format("{}, {}", value[0], value[1]));
+}
+
+void SceneWriter::field(const FieldFacts& facts, const std::optional<CropWindow>& value) {
+  if (!value) return;
+  const int numbers[] = {value->x, value->y, value->width, value->height};
+  for (size_t i = 0; i < 4; ++i) out_.integer(facts.parameters[i].name, numbers[i]);
+}
+
+void SceneWriter::field(const FieldFacts&, const FilterDescription& value) {
+  with_filter(value, [&](const auto& filter) {
+    out_.open("rfilter", filter.name());
+    plugin("filter", filter);
+    out_.close();
+  });
 }
 
 void SceneWriter::field(const FieldFacts&, const UvTransform& uv) {

@@ -15,45 +15,22 @@ void SceneWriter::mesh(const MeshShape& m) {
     lose("\"max_smooth_angle\" does not exist in Mitsuba 3: normals are those of the file");
 }
 
-void SceneWriter::height_field(const HeightFieldShape& f) {
-  lose("the shape \"heightfield\" does not exist in Mitsuba 3");
-  out_.reference({}, texture_id(f.heights));
-  out_.number("scale", f.scale);
-  out_.integer("width", f.width);
-  out_.integer("height", f.height);
-  out_.boolean("shading_normals", f.shading_normals);
-  filter(f.filter);
-}
-
 void SceneWriter::meters(const ShapeDescription& s) {
   for (const SensorDescription& meter : d_.sensors)
     if (meter.kind == SensorKind::irradiancemeter && &d_.shapes[meter.shape] == &s) sensor(meter);
 }
 
 void SceneWriter::shape(const ShapeDescription& s, const std::string& id, std::string_view name) {
-  constexpr std::string_view types[] = {
-      "",         "rectangle", "cube",    "sphere",      "disk",
-      "cylinder", "instance",  "sdfgrid", "linearcurve", "heightfield"};
-  static_assert(std::size(types) == std::variant_size_v<decltype(s.geometry)>);
-  const MeshShape* m = std::get_if<MeshShape>(&s.geometry);
-  const CurvesShape* tubes = std::get_if<CurvesShape>(&s.geometry);
-  const bool splines = tubes && tubes->curves->kind == CurveKind::bspline;
-  out_.open("shape",
-            m         ? std::string_view(m->source.plugin)
-            : splines ? "bsplinecurve"
-                      : types[s.geometry.index()],
-            name, id);
-  if (m) mesh(*m);
-  if (tubes) {
-    out_.string("filename", tubes->file);
-    if (!tubes->curves->outside_only)
-      lose("the hair of Mitsuba 0.6 has to be written as a file of curves with their radius");
-  }
-  if (const auto* sdf = std::get_if<SdfGridShape>(&s.geometry)) {
-    out_.string("filename", sdf->file);
-    if (sdf->grid && !sdf->grid->smooth_normals) out_.string("normals", "analytic");
-  }
-  if (const auto* field = std::get_if<HeightFieldShape>(&s.geometry)) height_field(*field);
+  const auto geometry = [&]<class T>(const T& g) {
+    out_.open("shape", g.name(), name, id);
+    if constexpr (std::is_same_v<T, MeshShape>)
+      mesh(g);
+    else
+      plugin("shape", g);
+    if constexpr (std::is_same_v<T, SdfGridShape>)
+      if (g.grid && !g.grid->smooth_normals) out_.string("normals", "analytic");
+  };
+  std::visit(geometry, s.geometry);
   out_.transform("to_world", s.to_world);
   if (const auto* instance = std::get_if<InstanceShape>(&s.geometry)) {
     out_.reference({}, group_ids_[instance->group]);
@@ -65,9 +42,8 @@ void SceneWriter::shape(const ShapeDescription& s, const std::string& id, std::s
   if (s.interior) out_.reference("interior", medium_id(*s.interior));
   if (s.exterior) out_.reference("exterior", medium_id(*s.exterior));
   if (s.emission) {
-    out_.open("emitter", s.emission->directional ? "directionalarea" : "area");
-    color("radiance", s.emission->radiance);
-    sampling_weight(s.emission->sampling_weight);
+    out_.open("emitter", s.emission->name());
+    plugin("emitter", *s.emission);
     out_.close();
   }
   meters(s);

@@ -24,10 +24,6 @@ namespace {
 
 using Method = decltype(IntegratorDescription::method);
 
-/// In the order of BidirectionalMethod.
-constexpr std::array<const char*, 6> kBidirectionalNames{"ptracer", "bdpt", "reuse",
-                                                         "ppm",     "bpm",  "vcm"};
-
 /// The method of that name with its presets; nothing if there is none. Layers alone come from
 /// camera rays, which any method that starts at the camera has.
 std::optional<Method> find_method(const std::string& name) {
@@ -38,8 +34,9 @@ std::optional<Method> find_method(const std::string& name) {
   if (name == "direct") return DirectIntegratorDescription{};
   if (name == "depth") return DepthIntegratorDescription{};
   if (name == "ao") return OcclusionIntegratorDescription{};
-  for (size_t i = 0; i < kBidirectionalNames.size(); ++i)
-    if (name == kBidirectionalNames[i])
+  constexpr auto& methods = BidirectionalIntegratorDescription::kMethods;
+  for (size_t i = 0; i < std::size(methods); ++i)
+    if (name == methods[i])
       return BidirectionalIntegratorDescription{.method = BidirectionalMethod(i)};
   return std::nullopt;
 }
@@ -167,20 +164,7 @@ void apply_override(IntegratorDescription& integrator, const IntegratorOverride&
 
 std::string integrator_name(const IntegratorDescription& integrator) {
   if (!integrator.image) return "aov";
-  struct Name {
-    const char* operator()(const PathIntegratorDescription&) const { return "path"; }
-    const char* operator()(const DirectIntegratorDescription&) const { return "direct"; }
-    const char* operator()(const DepthIntegratorDescription&) const { return "depth"; }
-    const char* operator()(const OcclusionIntegratorDescription&) const { return "ao"; }
-    const char* operator()(const VolumePathIntegratorDescription& d) const {
-      return d.name == VolumePathName::volpath ? "volpath" : "volpathmis";
-    }
-    const char* operator()(const AutoIntegratorDescription&) const { return "auto"; }
-    const char* operator()(const BidirectionalIntegratorDescription& d) const {
-      return kBidirectionalNames[size_t(d.method)];
-    }
-  };
-  return std::visit(Name{}, integrator.method);
+  return std::visit([](const auto& m) { return std::string(m.method_name()); }, integrator.method);
 }
 
 std::string integrator_parameters(const IntegratorDescription& integrator) {

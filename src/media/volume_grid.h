@@ -20,7 +20,7 @@ struct VolumeGrid {
 };
 
 /// How a value between nodes is found.
-enum class VolumeFilter : unsigned char { nearest, trilinear };
+enum class VolumeFilter : unsigned char { trilinear, nearest };
 /// Which node stands for one beyond the border.
 enum class VolumeWrap : unsigned char { clamp, repeat, mirror };
 

@@ -33,7 +33,7 @@ void SceneBuilder::lights() {
   for (const LightDescription& d : description_.lights) {
     if (!check_transform(d.to_world, d.where)) continue;
     shape_textures_.clear();
-    auto light = std::visit([&](const auto& l) { return make(l, d); }, d.model);
+    auto light = std::visit([&](const auto& l) { return l.build(*this, d); }, d.model);
     if (!shape_textures_.empty())
       diagnostics_.error(d.where, "this light has no shape, which a texture of it reads");
     if (!light) continue;
@@ -50,68 +50,123 @@ std::unique_ptr<Light> SceneBuilder::make(const Emission& e, const Shape& shape)
   return std::make_unique<AreaLight>(shape, e.radiance, e.two_sided);
 }
 
-std::unique_ptr<Light> SceneBuilder::make(const PointLight& l, const LightDescription& d) {
-  return std::make_unique<PointEmitter>(Transform(d.to_world)(Point3f(0, 0, 0)), l.intensity);
+void PointLight::count(SceneFeatures& f) const {
+  ++f.point_lights;
 }
 
-std::unique_ptr<Light> SceneBuilder::make(const SpotLight& l, const LightDescription& d) {
-  const Texture* image = l.texture ? texture(*l.texture) : nullptr;
-  return std::make_unique<SpotEmitter>(Transform(d.to_world), l.intensity,
-                                       l.cutoff_angle * kRadians, l.beam_width * kRadians, image,
-                                       l.falloff == SpotFalloff::smooth);
+LightPointer PointLight::build(SceneBuilder&, const LightDescription& d) const {
+  return std::make_unique<PointEmitter>(Transform(d.to_world)(Point3f(0, 0, 0)), intensity);
 }
 
-std::unique_ptr<Light> SceneBuilder::make(const ProjectorLight& l, const LightDescription& d) {
-  const ColorSlot irradiance = slot(l.irradiance);
-  const Point2i size = irradiance.texture ? irradiance.texture->resolution() : Point2i{1, 1};
+std::vector<std::string> SpotLight::losses() const {
+  if (falloff == SpotFalloff::linear) return {};
+  return {"the edge of a spot light is linear in the angle"};
+}
+
+void SpotLight::count(SceneFeatures& f) const {
+  ++f.spot_lights;
+}
+
+LightPointer SpotLight::build(SceneBuilder& b, const LightDescription& d) const {
+  const Texture* image = texture ? b.texture(*texture) : nullptr;
+  return std::make_unique<SpotEmitter>(Transform(d.to_world), intensity, cutoff_angle * kRadians,
+                                       beam_width * kRadians, image,
+                                       falloff == SpotFalloff::smooth);
+}
+
+void ProjectorLight::count(SceneFeatures& f) const {
+  ++f.projectors;
+}
+
+LightPointer ProjectorLight::build(SceneBuilder& b, const LightDescription& d) const {
+  const ColorSlot slot = b.slot(irradiance);
+  const Point2i size = slot.texture ? slot.texture->resolution() : Point2i{1, 1};
   const double aspect = double(size.x) / size.y;
-  return std::make_unique<ProjectorEmitter>(Transform(d.to_world), irradiance, float(l.scale),
-                                            horizontal_fov(l.fov, l.fov_axis, aspect), aspect);
+  return std::make_unique<ProjectorEmitter>(Transform(d.to_world), slot, float(scale),
+                                            horizontal_fov(fov, fov_axis, aspect), aspect);
 }
 
-std::unique_ptr<Light> SceneBuilder::make(const DirectionalLight& l, const LightDescription& d) {
-  return std::make_unique<DirectionalEmitter>(Transform(d.to_world), l.irradiance);
+void DirectionalLight::count(SceneFeatures& f) const {
+  ++f.directional_lights;
 }
 
-std::unique_ptr<Light> SceneBuilder::make(const ConstantLight& l, const LightDescription&) {
-  return std::make_unique<ConstantEnvironment>(l.radiance);
+LightPointer DirectionalLight::build(SceneBuilder&, const LightDescription& d) const {
+  return std::make_unique<DirectionalEmitter>(Transform(d.to_world), irradiance);
 }
 
-std::unique_ptr<Light> SceneBuilder::make(const SkyLight& l, const LightDescription& d) {
+void ConstantLight::count(SceneFeatures& f) const {
+  f.constant_environment = true;
+}
+
+LightPointer ConstantLight::build(SceneBuilder&, const LightDescription&) const {
+  return std::make_unique<ConstantEnvironment>(radiance);
+}
+
+std::vector<std::string> SkyLight::losses() const {
+  std::vector<std::string> lost;
+  if (stretch != 1 || extend) lost.emplace_back("the sky ends at the horizon");
+  if (disk && sun_scale != 0)
+    lost.emplace_back(
+        "the sun has the brightness of Hosek and Wilkie's model, and sets with the horizon");
+  return lost;
+}
+
+void SkyLight::count(SceneFeatures& f) const {
+  f.sky = true;
+}
+
+LightPointer SkyLight::build(SceneBuilder&, const LightDescription& d) const {
   SkyOptions o;
-  o.turbidity = l.turbidity;
-  o.albedo = l.albedo;
-  o.sun = {float(l.sun[0]), float(l.sun[1]), float(l.sun[2])};
-  o.sky_scale = l.sky_scale;
-  o.sun_scale = l.sun_scale;
-  o.sun_aperture = l.sun_aperture;
-  if (l.disk) {
-    const auto& to = l.disk->direction;
-    o.disk = {{float(to[0]), float(to[1]), float(to[2])}, l.disk->irradiance};
+  o.turbidity = turbidity;
+  o.albedo = albedo;
+  o.sun = {float(sun[0]), float(sun[1]), float(sun[2])};
+  o.sky_scale = sky_scale;
+  o.sun_scale = sun_scale;
+  o.sun_aperture = sun_aperture;
+  if (disk) {
+    const auto& to = disk->direction;
+    o.disk = {{float(to[0]), float(to[1]), float(to[2])}, disk->irradiance};
   }
-  o.stretch = l.stretch;
-  o.extend = l.extend;
+  o.stretch = stretch;
+  o.extend = extend;
   return std::make_unique<Sky>(o, d.to_world);
 }
 
-std::unique_ptr<Light> SceneBuilder::make(const CollimatedLight& l, const LightDescription& d) {
-  return std::make_unique<CollimatedBeam>(Transform(d.to_world), l.power);
+void CollimatedLight::count(SceneFeatures& f) const {
+  ++f.beams;
 }
 
-std::unique_ptr<Light> SceneBuilder::equal_area_map(const EnvironmentMapLight& l,
-                                                    const LightDescription& d,
-                                                    const BitmapPixels& image) {
+LightPointer CollimatedLight::build(SceneBuilder&, const LightDescription& d) const {
+  return std::make_unique<CollimatedBeam>(Transform(d.to_world), power);
+}
+
+std::vector<std::string> EnvironmentMapLight::losses() const {
+  std::vector<std::string> lost;
+  if (gamma) lost.emplace_back("the gamma value of an environment map is missing");
+  if (tint != Spectrum(1.0f)) lost.emplace_back("the tint of an environment map is missing");
+  if (illuminance) lost.emplace_back("the illuminance of an environment map is missing");
+  if (layout == EnvironmentLayout::equal_area)
+    lost.emplace_back(
+        "an environment map of equal areas is taken for one by latitude and longitude");
+  return lost;
+}
+
+namespace {
+
+LightPointer equal_area_map(SceneBuilder& b, const EnvironmentMapLight& l,
+                            const LightDescription& d, const BitmapPixels& image) {
   const int n = image.width();
   if (image.height() != n) {
-    diagnostics_.error(d.where, "an equal-area map must be a square, not {}x{}", n, image.height());
+    b.diagnostics().error(d.where, "an equal-area map must be a square, not {}x{}", n,
+                          image.height());
     return nullptr;
   }
   // Light from above, on a plane; all texels are of the same solid angle.
   double illuminance = 0;
   for (int y = 0; y < n; ++y)
     for (int x = 0; x < n; ++x) {
-      const Vector3f w = square_to_sphere_equal_area(
-          {(float(x) + 0.5f) / float(n), (float(y) + 0.5f) / float(n)});
+      const Vector3f w =
+          square_to_sphere_equal_area({(float(x) + 0.5f) / float(n), (float(y) + 0.5f) / float(n)});
       if (w.z > 0) illuminance += double(w.z) * double(image.color(x, y).luminance());
     }
   illuminance *= 4 * double(kPi) / (double(n) * n);
@@ -145,25 +200,30 @@ std::unique_ptr<Light> SceneBuilder::equal_area_map(const EnvironmentMapLight& l
   return std::make_unique<EnvironmentMap>(width, height, std::move(texels), d.to_world);
 }
 
-std::unique_ptr<Light> SceneBuilder::make(const EnvironmentMapLight& l, const LightDescription& d) {
-  const auto image = pixels(l.file, {.gamma = l.gamma}, d.where);
+}  // namespace
+
+void EnvironmentMapLight::count(SceneFeatures& f) const {
+  f.environment_map = true;
+}
+
+LightPointer EnvironmentMapLight::build(SceneBuilder& b, const LightDescription& d) const {
+  const auto image = b.pixels(file, {.gamma = gamma}, d.where);
   if (!image) return nullptr;
-  if (l.layout == EnvironmentLayout::equal_area) return equal_area_map(l, d, *image);
+  if (layout == EnvironmentLayout::equal_area) return equal_area_map(b, *this, d, *image);
   const int width = image->width(), height = image->height();
   if (height < 2 || width >= BilinearDistribution::kMaxWidth) {
-    diagnostics_.error(d.where,
-                       "an environment map of {}x{} pixels; it needs two rows and fewer than {} "
-                       "columns",
-                       width, height, BilinearDistribution::kMaxWidth);
+    b.diagnostics().error(d.where,
+                          "an environment map of {}x{} pixels; it needs two rows and fewer than {} "
+                          "columns",
+                          width, height, BilinearDistribution::kMaxWidth);
     return nullptr;
   }
   std::vector<Spectrum> texels(size_t(width) * size_t(height));
   for (int y = 0; y < height; ++y)
     for (int x = 0; x < width; ++x)
-      texels[size_t(y) * size_t(width) + size_t(x)] =
-          image->color(x, y) * (l.tint * float(l.scale));
-  // Nobody else reads it as a texture in this form: room for the light's own copy.
-  pixels_.clear();
+      texels[size_t(y) * size_t(width) + size_t(x)] = image->color(x, y) * (tint * float(scale));
+  // Room for the light's own copy.
+  b.drop_pixels();
   return std::make_unique<EnvironmentMap>(width, height, std::move(texels), d.to_world);
 }
 

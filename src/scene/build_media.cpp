@@ -55,59 +55,74 @@ const PhaseFunction* SceneBuilder::phase(PhaseId id) {
   const size_t index = size_t(id);
   return once(phases_[index], [&]() -> const PhaseFunction* {
     const PhaseDescription& d = description_.phases[index];
-    auto made = std::visit([&](const auto& f) { return make(f, d.where); }, d.model);
+    auto made = std::visit([&](const auto& f) { return f.build(*this, d.where); }, d.model);
     if (!made) return nullptr;
     scene_->phases.push_back(std::move(made));
     return scene_->phases.back().get();
   });
 }
 
-std::unique_ptr<PhaseFunction> SceneBuilder::make(const IsotropicPhase&, const SourceLocation&) {
+PhasePointer IsotropicPhase::build(SceneBuilder&, const SourceLocation&) const {
   return std::make_unique<Isotropic>();
 }
 
-std::unique_ptr<PhaseFunction> SceneBuilder::make(const HenyeyGreensteinPhase& f,
-                                                  const SourceLocation&) {
-  return std::make_unique<HenyeyGreenstein>(float(f.g));
+PhasePointer HenyeyGreensteinPhase::build(SceneBuilder&, const SourceLocation&) const {
+  return std::make_unique<HenyeyGreenstein>(float(g));
 }
 
-std::unique_ptr<PhaseFunction> SceneBuilder::make(const RayleighPhase&, const SourceLocation&) {
+PhasePointer RayleighPhase::build(SceneBuilder&, const SourceLocation&) const {
   return std::make_unique<Rayleigh>();
 }
 
-std::unique_ptr<PhaseFunction> SceneBuilder::make(const TabulatedPhase& f, const SourceLocation&) {
-  return std::make_unique<Tabulated>(f.values);
+PhasePointer TabulatedPhase::build(SceneBuilder&, const SourceLocation&) const {
+  return std::make_unique<Tabulated>(values);
 }
 
-std::unique_ptr<PhaseFunction> SceneBuilder::make(const SggxPhase& f, const SourceLocation& where) {
-  MatrixVolume matrix;
-  if (const auto* constant = std::get_if<std::array<double, 6>>(&f.matrix)) {
-    for (size_t i = 0; i < 6; ++i) matrix.constant[i] = float((*constant)[i]);
-    return std::make_unique<Sggx>(matrix);
+std::vector<std::string> SggxPhase::losses() const {
+  if (std::holds_alternative<VolumeId>(matrix)) return {};
+  return {"a constant matrix of \"sggx\" is missing"};
+}
+
+PhasePointer SggxPhase::build(SceneBuilder& b, const SourceLocation& where) const {
+  MatrixVolume made;
+  if (const auto* constant = std::get_if<std::array<double, 6>>(&matrix)) {
+    for (size_t i = 0; i < 6; ++i) made.constant[i] = float((*constant)[i]);
+    return std::make_unique<Sggx>(made);
   }
-  const VolumeId id = std::get<VolumeId>(f.matrix);
-  const VolumeGrid& grid = *description_.volumes[size_t(id)].grid;
+  const VolumeId id = std::get<VolumeId>(matrix);
+  const VolumeGrid& grid = b.grid(id);
   if (grid.channels != 6) {
-    diagnostics_.error(where, "the parameter \"S\" needs a volume with 6 channels, not {}",
-                       grid.channels);
+    b.diagnostics().error(where, "the parameter \"S\" needs a volume with 6 channels, not {}",
+                          grid.channels);
     return nullptr;
   }
   if (is_constant(grid))
-    std::copy_n(grid.values.begin(), 6, matrix.constant.begin());
-  else if (!(matrix.grid = volume(id)))
+    std::copy_n(grid.values.begin(), 6, made.constant.begin());
+  else if (!(made.grid = b.volume(id)))
     return nullptr;
-  return std::make_unique<Sggx>(matrix);
+  return std::make_unique<Sggx>(made);
 }
 
-std::unique_ptr<PhaseFunction> SceneBuilder::make(const BlendPhase& f,
-                                                  const SourceLocation& where) {
-  const PhaseFunction *first = phase(f.first), *second = phase(f.second);
-  if (!first || !second) return nullptr;
-  if (first->is_microflake() || second->is_microflake()) {
-    diagnostics_.error(where, "microflakes (\"sggx\") cannot be blended");
+PhasePointer BlendPhase::build(SceneBuilder& b, const SourceLocation& where) const {
+  const PhaseFunction *one = b.phase(first), *other = b.phase(second);
+  if (!one || !other) return nullptr;
+  if (one->is_microflake() || other->is_microflake()) {
+    b.diagnostics().error(where, "microflakes (\"sggx\") cannot be blended");
     return nullptr;
   }
-  return std::make_unique<BlendedPhase>(slot(f.weight), *first, *second);
+  return std::make_unique<BlendedPhase>(b.slot(weight), *one, *other);
+}
+
+std::vector<std::string> VolumeDescription::losses() const {
+  std::vector<std::string> lost;
+  if (file.empty()) lost.emplace_back("a grid that does not come from a file is missing");
+  if (!is_float32)
+    lost.emplace_back("Mitsuba 3 reads only volume files with 32-bit floating-point numbers");
+  if (nodes_on_faces)
+    lost.emplace_back(
+        "the nodes of a grid lie half a cell inside its box, which nothing is cut off "
+        "at");
+  return lost;
 }
 
 uint32_t SceneBuilder::medium(std::optional<MediumId> id) {

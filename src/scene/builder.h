@@ -38,11 +38,16 @@ class SceneBuilder {
   const Texture* texture(TextureId id);
   ColorSlot slot(const ColorInput& input);
   FloatSlot slot(const FloatInput& input);
+  const GridVolume* volume(VolumeId id);
+  const VolumeGrid& grid(VolumeId id) const { return *description_.volumes[size_t(id)].grid; }
+  const PhaseFunction* phase(PhaseId id);
   ColorVolumeSlot slot(const ColorVolume& input);
   FloatVolumeSlot slot(const FloatVolume& input);
   std::shared_ptr<const BitmapPixels> pixels(const std::string& file,
                                              const BitmapDecoding& decoding,
                                              const SourceLocation& where);
+  /// Forgets the images that it has read: nobody else reads this one in this form.
+  void drop_pixels() { pixels_.clear(); }
   /// The texture must be told on which shapes it is used.
   template <class T>
   std::unique_ptr<T> on_shapes(std::unique_ptr<T> texture) {
@@ -84,14 +89,6 @@ class SceneBuilder {
   };
 
   // build_media.cpp
-  const GridVolume* volume(VolumeId id);
-  const PhaseFunction* phase(PhaseId id);
-  std::unique_ptr<PhaseFunction> make(const IsotropicPhase& f, const SourceLocation& where);
-  std::unique_ptr<PhaseFunction> make(const HenyeyGreensteinPhase& f, const SourceLocation& where);
-  std::unique_ptr<PhaseFunction> make(const RayleighPhase& f, const SourceLocation& where);
-  std::unique_ptr<PhaseFunction> make(const TabulatedPhase& f, const SourceLocation& where);
-  std::unique_ptr<PhaseFunction> make(const SggxPhase& f, const SourceLocation& where);
-  std::unique_ptr<PhaseFunction> make(const BlendPhase& f, const SourceLocation& where);
   /// The index of the medium in the scene; kNone for none or after an error.
   uint32_t medium(std::optional<MediumId> id);
   std::unique_ptr<Medium> make(const MediumDescription& m);
@@ -122,16 +119,6 @@ class SceneBuilder {
   void lights();
   std::unique_ptr<Light> make(const Emission& e, const Shape& shape);
   void add_light(std::unique_ptr<Light> light, double sampling_weight);
-  std::unique_ptr<Light> make(const PointLight& l, const LightDescription& d);
-  std::unique_ptr<Light> make(const SpotLight& l, const LightDescription& d);
-  std::unique_ptr<Light> make(const ProjectorLight& l, const LightDescription& d);
-  std::unique_ptr<Light> make(const DirectionalLight& l, const LightDescription& d);
-  std::unique_ptr<Light> make(const ConstantLight& l, const LightDescription& d);
-  std::unique_ptr<Light> make(const EnvironmentMapLight& l, const LightDescription& d);
-  std::unique_ptr<Light> equal_area_map(const EnvironmentMapLight& l, const LightDescription& d,
-                                        const BitmapPixels& image);
-  std::unique_ptr<Light> make(const SkyLight& l, const LightDescription& d);
-  std::unique_ptr<Light> make(const CollimatedLight& l, const LightDescription& d);
 
   // build_cameras.cpp
   std::unique_ptr<Camera> camera(SensorDescription& d, const Point2i& film);

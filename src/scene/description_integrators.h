@@ -3,6 +3,8 @@
 
 #include <cstdint>
 #include <string>
+#include <string_view>
+#include <tuple>
 #include <variant>
 #include <vector>
 
@@ -11,6 +13,29 @@
 
 namespace duet {
 
+namespace parameter_words {
+inline constexpr Parameter kRrDepth{"rr_depth", integer, kInitial, "where Russian roulette begins",
+                                    positive};
+inline constexpr Parameter kHideEmitters{"hide_emitters", boolean, kInitial,
+                                         "lights cannot be seen directly"};
+inline constexpr Parameter kStrictNormals{
+    "strict_normals", boolean, kInitial, "drop paths whose shading and geometric normals disagree"};
+/// Of methods that Mitsuba 3 has, too, but without it.
+inline constexpr Parameter kStrictNormals0x{
+    "strict_normals",
+    boolean,
+    kInitial,
+    "drop paths whose shading and geometric normals disagree",
+    any,
+    v0};
+constexpr Parameter max_depth_parameter(
+    std::string_view note = "longest path in segments; -1: no limit") {
+  return {"max_depth", integer, kInitial, note, depth};
+}
+}  // namespace parameter_words
+
+// What is known of a method stands in its struct, as for textures (description_textures.h).
+
 /// What all methods that trace paths of any length share.
 struct PathLimits {
   int max_depth = -1;  ///< longest path in segments; −1 is no limit
@@ -18,12 +43,28 @@ struct PathLimits {
   bool hide_emitters = false;
   /// Ignore directions that the shading and the geometric normal see on different sides.
   bool strict_normals = false;
+
+  static constexpr auto limits(const Parameter& max_depth) {
+    using namespace parameter_words;
+    using L = PathLimits;
+    return std::tuple(field(&L::max_depth, max_depth), field(&L::rr_depth, kRrDepth),
+                      field(&L::hide_emitters, kHideEmitters));
+  }
   static constexpr auto fields() {
-    return plain_fields(&PathLimits::max_depth, &PathLimits::rr_depth, &PathLimits::hide_emitters,
-                        &PathLimits::strict_normals);
+    using namespace parameter_words;
+    return std::tuple_cat(
+        limits(max_depth_parameter()),
+        std::tuple(field(&PathLimits::strict_normals, kStrictNormals0x).unwritten()));
+  }
+  std::vector<std::string> losses() const { return without_strict_normals(strict_normals); }
+  static std::vector<std::string> without_strict_normals(bool strict) {
+    if (!strict) return {};
+    return {"\"strict_normals\" does not exist in Mitsuba 3"};
   }
 };
-struct PathIntegratorDescription : PathLimits {};
+struct PathIntegratorDescription : PathLimits {
+  static constexpr const char* method_name() { return "path"; }
+};
 /// Mitsuba's two names for path tracing through media; Duet has one method for both.
 enum class VolumePathName { volpath, volpathmis };
 /// Its segments are between points where light is scattered: what passes straight through a surface
@@ -31,32 +72,68 @@ enum class VolumePathName { volpath, volpathmis };
 struct VolumePathIntegratorDescription : PathLimits {
   VolumePathName name = VolumePathName::volpath;
   static constexpr auto fields() {
-    return std::tuple_cat(PathLimits::fields(),
-                          plain_fields(&VolumePathIntegratorDescription::name));
+    using namespace parameter_words;
+    using D = VolumePathIntegratorDescription;
+    return std::tuple_cat(
+        limits(max_depth_parameter("longest path in segments; surfaces that light passes straight "
+                                   "do not count; -1: no limit")),
+        std::tuple(field(&PathLimits::strict_normals, kStrictNormals0x).unwritten(),
+                   field(&D::name)));
+  }
+  const char* method_name() const {
+    return name == VolumePathName::volpath ? "volpath" : "volpathmis";
   }
 };
 struct DirectIntegratorDescription {
   int emitter_samples = 1, bsdf_samples = 1;
   bool hide_emitters = false, strict_normals = false;
   static constexpr auto fields() {
-    return plain_fields(
-        &DirectIntegratorDescription::emitter_samples, &DirectIntegratorDescription::bsdf_samples,
-        &DirectIntegratorDescription::hide_emitters, &DirectIntegratorDescription::strict_normals);
+    using namespace parameter_words;
+    using enum ParameterType;
+    using D = DirectIntegratorDescription;
+    return std::tuple(
+        field(&D::emitter_samples, Parameter{.name = "emitter_samples",
+                                             .type = integer,
+                                             .preset = kInitial,
+                                             .range = not_negative,
+                                             .aliases = "luminaire_samples"})
+            .read_by_plugin(),
+        field(&D::bsdf_samples, Parameter{"bsdf_samples", integer, kInitial, "", not_negative})
+            .read_by_plugin(),
+        field(&D::hide_emitters, kHideEmitters),
+        field(&D::strict_normals, kStrictNormals0x).unwritten());
+  }
+  static constexpr const char* method_name() { return "direct"; }
+  std::vector<std::string> losses() const {
+    return PathLimits::without_strict_normals(strict_normals);
   }
 };
 struct DepthIntegratorDescription {
   static constexpr auto fields() { return std::tuple(); }
+  static constexpr const char* method_name() { return "depth"; }
 };
 
 /// Ambient occlusion.
 struct OcclusionIntegratorDescription {
   int shading_samples = 1;
-  double ray_length = 0;  ///< world units; 0: half the radius of a sphere around the scene
+  double ray_length = 0;   ///< world units; 0: half the radius of a sphere around the scene
   bool background = true;  ///< the image is white, not black, where the camera sees nothing
   static constexpr auto fields() {
-    return plain_fields(&OcclusionIntegratorDescription::shading_samples,
-                        &OcclusionIntegratorDescription::ray_length,
-                        &OcclusionIntegratorDescription::background);
+    using namespace parameter_words;
+    using enum ParameterType;
+    using D = OcclusionIntegratorDescription;
+    return std::tuple(
+        field(&D::shading_samples, Parameter{"shading_samples", integer, kInitial, "", size}),
+        field(&D::ray_length, Parameter{"ray_length", number, "-1",
+                                        "not above 0: half the radius of a sphere around the "
+                                        "scene"}),
+        field(&D::background));
+  }
+  static constexpr const char* method_name() { return "ao"; }
+  std::vector<std::string> losses() const {
+    std::vector<std::string> lost{"Mitsuba 3 has no integrator \"ao\""};
+    if (!background) lost.emplace_back("the background of ambient occlusion is white");
+    return lost;
   }
 };
 
@@ -83,26 +160,92 @@ struct BidirectionalIntegratorDescription {
   /// vcm: the parts of the image in which it merges (transport/merge_mask.h), as chosen by `auto`;
   /// empty: all of it.
   std::vector<uint8_t> merge_parts = {};
+
+  static constexpr std::string_view kMethods[] = {"ptracer", "bdpt", "reuse", "ppm", "bpm", "vcm"};
+  static constexpr std::string_view kWeights[] = {"exact", "thesis", "thesis"},
+                                    kReadings[] = {"b", "a", "b"};
+  bool is(BidirectionalMethod m) const { return method == m; }
+  bool connects() const { return is(BidirectionalMethod::bdpt) || is(BidirectionalMethod::vcm); }
+  bool merges() const { return method >= BidirectionalMethod::ppm; }
+
   static constexpr auto fields() {
-    return plain_fields(
-        &BidirectionalIntegratorDescription::method, &BidirectionalIntegratorDescription::max_depth,
-        &BidirectionalIntegratorDescription::rr_depth,
-        &BidirectionalIntegratorDescription::hide_emitters,
-        &BidirectionalIntegratorDescription::strict_normals,
-        &BidirectionalIntegratorDescription::light_paths,
-        &BidirectionalIntegratorDescription::connections,
-        &BidirectionalIntegratorDescription::light_image,
-        &BidirectionalIntegratorDescription::radius, &BidirectionalIntegratorDescription::alpha,
-        &BidirectionalIntegratorDescription::max_eye_depth,
-        &BidirectionalIntegratorDescription::max_light_depth,
-        &BidirectionalIntegratorDescription::weights,
-        &BidirectionalIntegratorDescription::continue_probability,
-        &BidirectionalIntegratorDescription::merge_parts);
+    using namespace parameter_words;
+    using enum ParameterType;
+    using D = BidirectionalIntegratorDescription;
+    using enum BidirectionalMethod;
+    constexpr auto reuses = [](const D& d) { return d.is(reuse); };
+    constexpr auto merging = [](const D& d) { return d.merges(); };
+    return std::tuple(
+        field(&D::method), field(&D::max_depth, max_depth_parameter()),
+        field(&D::rr_depth, kRrDepth), field(&D::hide_emitters, kHideEmitters),
+        field(&D::strict_normals, kStrictNormals).when([](const D& d) { return !d.is(ptracer); }),
+        field(&D::light_paths,
+              Parameter{"light_paths", number, kInitial,
+                        "light sub-paths for each pixel; 0: 1/4 for bdpt and vcm, 1 for the others",
+                        not_negative})
+            .when([](const D& d) { return !d.is(ptracer) || d.light_paths != 0; }),
+        field(
+            &D::connections,
+            Parameter{"connections", integer, kInitial,
+                      "light vertices for each eye vertex; -1: those of one light sub-path", depth})
+            .when([](const D& d) { return d.connects(); }),
+        field(&D::light_image,
+              Parameter{"light_image", boolean, kInitial, "connect light vertices to the camera"})
+            .when([](const D& d) { return d.is(bdpt); }),
+        field(&D::radius, Parameter{.name = "radius",
+                                    .type = number,
+                                    .preset = kInitial,
+                                    .note = "of merging in the first iteration, in world units; 0: "
+                                            "from the size of a pixel",
+                                    .range = not_negative,
+                                    .aliases = "initial_radius"})
+            .when(merging),
+        field(&D::alpha,
+              Parameter{"alpha", number, kInitial,
+                        "how fast the radius shrinks; 0: the method's default", fraction})
+            .when(merging),
+        field(&D::max_eye_depth, Parameter{"max_eye_depth", integer, kInitial,
+                                           "longest eye sub-path in segments", not_negative})
+            .when(reuses),
+        field(&D::max_light_depth, Parameter{"max_light_depth", integer, kInitial,
+                                             "longest light sub-path in segments", not_negative})
+            .when(reuses),
+        field(&D::weights, Parameter{"weights", string, kInitial,
+                                     "exact, or those of the thesis, which are biased "
+                                     "(docs/mis.md)"})
+            .words(kWeights)
+            .read_by_plugin()
+            .when(reuses),
+        field(&D::weights, Parameter{"thesis_reading", string, kInitial,
+                                     "a or b, what the weights of the thesis are taken to mean"})
+            .words(kReadings)
+            .read_by_plugin()
+            .when([](const D& d) { return d.is(reuse) && d.weights != ReuseWeights::exact; }),
+        field(&D::continue_probability,
+              Parameter{"continue_probability", number, kInitial,
+                        "that an eye sub-path goes on beyond its limit", probability})
+            .when(reuses),
+        field(&D::merge_parts));
+  }
+  std::string_view method_name() const { return kMethods[size_t(method)]; }
+  std::vector<std::string> losses() const {
+    if (!is(BidirectionalMethod::ptracer))
+      return {"only Duet reads the integrator \"" + std::string(method_name()) + "\""};
+    if (light_paths == 0) return {};
+    return {"only Duet reads \"light_paths\" of the integrator \"ptracer\""};
   }
 };
 
 /// Whichever method suits the scene.
-struct AutoIntegratorDescription : PathLimits {};
+struct AutoIntegratorDescription : PathLimits {
+  static constexpr auto fields() {
+    using namespace parameter_words;
+    return std::tuple_cat(limits(max_depth_parameter()),
+                          std::tuple(field(&PathLimits::strict_normals, kStrictNormals)));
+  }
+  static constexpr const char* method_name() { return "auto"; }
+  static std::vector<std::string> losses() { return {"only Duet reads the integrator \"auto\""}; }
+};
 
 /// Layers by their Mitsuba name and the name they get in the file.
 struct AovDescription {

@@ -2,22 +2,39 @@
 #pragma once
 
 #include <array>
+#include <memory>
 #include <optional>
 #include <string>
 #include <variant>
+#include <vector>
 
-#include "math/fov.h"
 #include "math/motion.h"
 #include "math/transform.h"
 #include "scene/description_base.h"
-#include "scene/field.h"
+#include "scene/emission_parameters.h"
+#include "scene/fov_fields.h"
 
 namespace duet {
+
+class Light;
+class SceneBuilder;
+struct LightDescription;
+struct SceneFeatures;
+using LightPointer = std::unique_ptr<Light>;
+
+// What is known of a light stands in its struct, as for textures (description_textures.h);
+// count() counts it among what decides which method suits a scene. A scene has one environment at
+// most.
 
 /// Radiant intensity in all directions, W/sr.
 struct PointLight {
   Spectrum intensity{1.0f};
-  static constexpr auto fields() { return plain_fields(&PointLight::intensity); }
+  static constexpr auto fields() {
+    return std::tuple(field(&PointLight::intensity, parameter_words::kIntensity));
+  }
+  static constexpr const char* name() { return "point"; }
+  void count(SceneFeatures& f) const;
+  LightPointer build(SceneBuilder& b, const LightDescription& d) const;
 };
 /// Between full and no intensity: linear in the angle, or t²(3 − 2t) of the angle's cosine.
 enum class SpotFalloff { linear, smooth };
@@ -29,9 +46,23 @@ struct SpotLight {
   std::optional<TextureId> texture;
   SpotFalloff falloff = SpotFalloff::linear;
   static constexpr auto fields() {
-    return plain_fields(&SpotLight::intensity, &SpotLight::cutoff_angle, &SpotLight::beam_width,
-                        &SpotLight::texture, &SpotLight::falloff);
+    using namespace parameter_words;
+    using enum ParameterType;
+    using L = SpotLight;
+    return std::tuple(
+        field(&L::intensity, kIntensity),
+        field(&L::cutoff_angle, Parameter{"cutoff_angle", number, kInitial,
+                                          "no light beyond this angle from the axis", degrees}),
+        field(&L::beam_width, Parameter{"beam_width", number, "(3/4 cutoff_angle)",
+                                        "full intensity within this angle", not_negative})
+            .read_by_plugin(),
+        field(&L::texture, Parameter{"texture", texture, "", "multiplies the intensity"}),
+        field(&L::falloff));
   }
+  static constexpr const char* name() { return "spot"; }
+  std::vector<std::string> losses() const;
+  void count(SceneFeatures& f) const;
+  LightPointer build(SceneBuilder& b, const LightDescription& d) const;
 };
 /// A pinhole camera turned around: throws the texture through a frustum along +z.
 struct ProjectorLight {
@@ -40,18 +71,36 @@ struct ProjectorLight {
   double fov = 45;
   FovAxis fov_axis = FovAxis::x;
   static constexpr auto fields() {
-    return plain_fields(&ProjectorLight::irradiance, &ProjectorLight::scale, &ProjectorLight::fov,
-                        &ProjectorLight::fov_axis);
+    using namespace parameter_words;
+    using enum ParameterType;
+    using L = ProjectorLight;
+    return std::tuple_cat(
+        std::tuple(field(&L::irradiance, kIrradiance), field(&L::scale, kLightScale)),
+        fov_fields(&L::fov, &L::fov_axis, "either this or focal_length"));
   }
+  static constexpr const char* name() { return "projector"; }
+  void count(SceneFeatures& f) const;
+  LightPointer build(SceneBuilder& b, const LightDescription& d) const;
 };
 /// Irradiance on a plane across the direction +z.
 struct DirectionalLight {
   Spectrum irradiance{1.0f};
-  static constexpr auto fields() { return plain_fields(&DirectionalLight::irradiance); }
+  static constexpr auto fields() {
+    return std::tuple(field(&DirectionalLight::irradiance, parameter_words::kIrradiance));
+  }
+  static constexpr const char* name() { return "directional"; }
+  void count(SceneFeatures& f) const;
+  LightPointer build(SceneBuilder& b, const LightDescription& d) const;
 };
 struct ConstantLight {
   Spectrum radiance{1.0f};
-  static constexpr auto fields() { return plain_fields(&ConstantLight::radiance); }
+  static constexpr auto fields() {
+    return std::tuple(field(&ConstantLight::radiance, parameter_words::kRadiance));
+  }
+  static constexpr const char* name() { return "constant"; }
+  static constexpr bool kIsEnvironment = true;
+  void count(SceneFeatures& f) const;
+  LightPointer build(SceneBuilder& b, const LightDescription& d) const;
 };
 /// How an image covers the sphere of directions around a scene: by latitude and longitude, with the
 /// light's +y up; or as a square of equal areas (math/equal_area.h), with what is there +z up here
@@ -68,12 +117,26 @@ struct EnvironmentMapLight {
   std::optional<double> illuminance;
   std::optional<double> gamma;  ///< as in BitmapTexture
   static constexpr auto fields() {
-    return std::tuple_cat(std::tuple(field(&EnvironmentMapLight::file).names_data()),
-                          plain_fields(&EnvironmentMapLight::scale, &EnvironmentMapLight::tint,
-                                       &EnvironmentMapLight::layout,
-                                       &EnvironmentMapLight::illuminance,
-                                       &EnvironmentMapLight::gamma));
+    using namespace parameter_words;
+    using enum ParameterType;
+    using L = EnvironmentMapLight;
+    return std::tuple(
+        field(&L::file, Parameter{.name = "filename", .type = file, .required = true}).names_data(),
+        field(&L::scale, Parameter{.name = "scale",
+                                   .type = number,
+                                   .preset = kInitial,
+                                   .range = not_negative,
+                                   .aliases = "intensity_scale"}),
+        field(&L::tint), field(&L::layout), field(&L::illuminance),
+        field(&L::gamma,
+              Parameter{"gamma", number, "(of the file)", "1: linear, -1: sRGB", any, v0})
+            .unwritten());
   }
+  static constexpr const char* name() { return "envmap"; }
+  static constexpr bool kIsEnvironment = true;
+  std::vector<std::string> losses() const;
+  void count(SceneFeatures& f) const;
+  LightPointer build(SceneBuilder& b, const LightDescription& d) const;
 };
 
 /// A sun whose brightness the file's version decides; the horizon does not cut it.
@@ -93,16 +156,53 @@ struct SkyLight {
   std::optional<SunDisk> disk;   ///< 0.x: instead of Hosek and Wilkie's sun
   double stretch = 1;            ///< 0.x: how far the sky is drawn beyond the horizon
   bool extend = false;           ///< 0.x: the horizon goes on below
+  /// How they are read depends on the plugin.
   static constexpr auto fields() {
-    return plain_fields(&SkyLight::turbidity, &SkyLight::albedo, &SkyLight::sun,
-                        &SkyLight::sky_scale, &SkyLight::sun_scale, &SkyLight::sun_aperture,
-                        &SkyLight::disk, &SkyLight::stretch, &SkyLight::extend);
+    using namespace parameter_words;
+    using enum ParameterType;
+    using L = SkyLight;
+    return std::tuple(
+        field(&L::turbidity, Parameter{"turbidity", number, kInitial, "of the air, from 1 to 10"}),
+        field(&L::albedo, Parameter{.name = "albedo",
+                                    .type = reflectance,
+                                    .preset = kInitial,
+                                    .note = "of the ground",
+                                    .preset_0x = "0.2"}),
+        field(&L::sky_scale,
+              Parameter{"sky_scale", number, kInitial,
+                        "multiplies the light of the sky; in 0.x instead of scale", not_negative}),
+        field(&L::sun_scale,
+              Parameter{"sun_scale", number, kInitial,
+                        "multiplies the light of the sun; in 0.x instead of scale", not_negative}),
+        field(&L::sun_aperture, Parameter{"sun_aperture", number, kInitial, "in degrees", any, v3}),
+        field(&L::sun, Parameter{"sun_direction", point, "", "either this or time and place"}),
+        field(&L::disk),
+        field(&L::stretch, Parameter{"stretch", number, kInitial,
+                                     "draws the sky below the horizon, up to 2", any, v0})
+            .unwritten(),
+        field(&L::extend,
+              Parameter{"extend", boolean, kInitial, "the horizon goes on below", any, v0})
+            .unwritten());
   }
+  static constexpr const char* name() { return "sunsky"; }
+  static constexpr bool kIsEnvironment = true;
+  std::vector<std::string> losses() const;
+  void count(SceneFeatures& f) const;
+  LightPointer build(SceneBuilder& b, const LightDescription& d) const;
 };
 /// A thin beam along +z, in watts.
 struct CollimatedLight {
   Spectrum power{1.0f};
-  static constexpr auto fields() { return plain_fields(&CollimatedLight::power); }
+  static constexpr auto fields() {
+    using namespace parameter_words;
+    using enum ParameterType;
+    return std::tuple(
+        field(&CollimatedLight::power, Parameter{"power", emission, kInitial, "in watts"}));
+  }
+  static constexpr const char* name() { return "collimated"; }
+  static constexpr bool kOnlyIn0x = true;
+  void count(SceneFeatures& f) const;
+  LightPointer build(SceneBuilder& b, const LightDescription& d) const;
 };
 
 struct LightDescription {
@@ -117,10 +217,11 @@ struct LightDescription {
   double sampling_weight = 1;
   std::optional<MediumId> medium;  ///< that the light stands in
   static constexpr auto fields() {
-    return plain_fields(&LightDescription::where, &LightDescription::label,
-                        &LightDescription::model, &LightDescription::to_world,
-                        &LightDescription::motion, &LightDescription::sampling_weight,
-                        &LightDescription::medium);
+    using L = LightDescription;
+    return std::tuple(field(&L::where), field(&L::label), field(&L::model), field(&L::to_world),
+                      field(&L::motion),
+                      field(&L::sampling_weight, parameter_words::kSamplingWeight),
+                      field(&L::medium));
   }
 };
 

@@ -14,6 +14,9 @@
 
 namespace duet {
 
+class PhaseFunction;
+class SceneBuilder;
+
 /// A parameter that is either the same everywhere or varies in space.
 using ColorVolume = std::variant<Spectrum, VolumeId>;
 using FloatVolume = std::variant<double, VolumeId>;
@@ -31,42 +34,106 @@ struct VolumeDescription {
   VolumeWrap wrap = VolumeWrap::clamp;
   /// The outermost nodes lie on the cube's faces (0.x), not half a cell inside them (3.x).
   bool nodes_on_faces = false;
+
+  static constexpr std::string_view kFilters[] = {"trilinear", "nearest"};
+  static constexpr std::string_view kWraps[] = {"clamp", "repeat", "mirror"};
   static constexpr auto fields() {
+    using namespace parameter_words;
+    using enum ParameterType;
+    using P = Parameter;
     using V = VolumeDescription;
-    return plain_fields(&V::grid, &V::to_world, &V::filter, &V::wrap, &V::nodes_on_faces);
+    return std::tuple(
+        field(&V::file, P{.name = "filename", .type = file, .required = true}).not_compared(),
+        field(&V::grid), field(&V::to_world, P{"to_world", transform}),
+        field(&V::filter, P{"filter_type", string, kInitial, "trilinear or nearest", any, v3})
+            .words(kFilters)
+            .terse(),
+        field(&V::wrap, P{"wrap_mode", string, kInitial, "clamp, repeat or mirror", any, v3})
+            .words(kWraps)
+            .terse(),
+        field(&V::nodes_on_faces));
   }
+  static constexpr const char* name() { return "gridvolume"; }
+  std::vector<std::string> losses() const;
 };
+
+using PhasePointer = std::unique_ptr<PhaseFunction>;
+
+// What is known of a phase function stands in its struct, as for textures
+// (description_textures.h).
 
 struct IsotropicPhase {
   static constexpr auto fields() { return std::tuple(); }
+  static constexpr const char* name() { return "isotropic"; }
+  PhasePointer build(SceneBuilder& b, const SourceLocation& where) const;
 };
 /// Henyey & Greenstein 1941; g is the mean cosine of the deflection.
 struct HenyeyGreensteinPhase {
   double g = 0.8;
-  static constexpr auto fields() { return plain_fields(&HenyeyGreensteinPhase::g); }
+  static constexpr auto fields() {
+    using namespace parameter_words;
+    using enum ParameterType;
+    return std::tuple(field(&HenyeyGreensteinPhase::g,
+                            Parameter{"g", number, kInitial, "mean cosine of the deflection"})
+                          .shown(", g "));
+  }
+  static constexpr const char* name() { return "hg"; }
+  PhasePointer build(SceneBuilder& b, const SourceLocation& where) const;
 };
 struct RayleighPhase {
   static constexpr auto fields() { return std::tuple(); }
+  static constexpr const char* name() { return "rayleigh"; }
+  PhasePointer build(SceneBuilder& b, const SourceLocation& where) const;
 };
 /// Values at equidistant cosines of the deflection from −1 (back) to 1 (straight on), linear in
 /// between; of any scale.
 struct TabulatedPhase {
   std::vector<double> values;
-  static constexpr auto fields() { return plain_fields(&TabulatedPhase::values); }
+  static constexpr auto fields() {
+    using namespace parameter_words;
+    using enum ParameterType;
+    return std::tuple(
+        field(&TabulatedPhase::values,
+              Parameter{.name = "values",
+                        .type = string,
+                        .note = "at equidistant cosines of the deflection from -1 to 1",
+                        .required = true})
+            .read_by_plugin());
+  }
+  static constexpr const char* name() { return "tabphase"; }
+  PhasePointer build(SceneBuilder& b, const SourceLocation& where) const;
 };
 /// Microflakes whose normals are those of an ellipsoid, given by the matrix xx, yy, zz, xy, xz, yz
 /// (Heitz et al. 2015). Scales the extinction by the flakes' projected area.
 struct SggxPhase {
   std::variant<std::array<double, 6>, VolumeId> matrix = std::array<double, 6>{1, 1, 1, 0, 0, 0};
-  static constexpr auto fields() { return plain_fields(&SggxPhase::matrix); }
+  static constexpr auto fields() {
+    using namespace parameter_words;
+    using enum ParameterType;
+    return std::tuple(field(&SggxPhase::matrix, Parameter{.name = "S",
+                                                          .type = volume_only,
+                                                          .note = "6 channels: xx, yy, zz, xy, xz, "
+                                                                  "yz",
+                                                          .required = true})
+                          .read_by_plugin());
+  }
+  static constexpr const char* name() { return "sggx"; }
+  std::vector<std::string> losses() const;
+  PhasePointer build(SceneBuilder& b, const SourceLocation& where) const;
 };
 /// (1 − weight) · first + weight · second.
 struct BlendPhase {
   FloatVolume weight = 0.5;
   PhaseId first{}, second{};
   static constexpr auto fields() {
-    return plain_fields(&BlendPhase::weight, &BlendPhase::first, &BlendPhase::second);
+    using namespace parameter_words;
+    using enum ParameterType;
+    return std::tuple(field(&BlendPhase::weight, Parameter{"weight", number_or_volume, kInitial,
+                                                           "share of the second phase function"}),
+                      field(&BlendPhase::first), field(&BlendPhase::second));
   }
+  static constexpr const char* name() { return "blendphase"; }
+  PhasePointer build(SceneBuilder& b, const SourceLocation& where) const;
 };
 
 struct PhaseDescription {
@@ -89,9 +156,24 @@ struct MediumDescription {
   double scale = 1;
   PhaseId phase{};
   static constexpr auto fields() {
-    return plain_fields(&MediumDescription::where, &MediumDescription::label,
-                        &MediumDescription::sigma_t, &MediumDescription::albedo,
-                        &MediumDescription::scale, &MediumDescription::phase);
+    using namespace parameter_words;
+    using enum ParameterType;
+    using M = MediumDescription;
+    return std::tuple(
+        field(&M::where), field(&M::label),
+        field(&M::sigma_t,
+              Parameter{"sigma_t", coefficient, kInitial, "extinction per unit of length"}),
+        field(&M::albedo, Parameter{"albedo", albedo, kInitial, "share of it that is scattered"}),
+        field(&M::scale, Parameter{.name = "scale",
+                                   .type = number,
+                                   .preset = kInitial,
+                                   .note = "multiplies the extinction",
+                                   .range = not_negative,
+                                   .aliases = "density_multiplier size_multiplier"}),
+        field(&M::phase));
+  }
+  const char* name() const {
+    return std::holds_alternative<VolumeId>(sigma_t) ? "heterogeneous" : "homogeneous";
   }
 };
 

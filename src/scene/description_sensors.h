@@ -8,8 +8,8 @@
 
 #include "image/film.h"
 #include "image/filter.h"
-#include "math/fov.h"
 #include "scene/description_shapes.h"
+#include "scene/fov_fields.h"
 
 namespace duet {
 
@@ -45,6 +45,10 @@ constexpr bool has_fov(SensorKind k) {
   return k == SensorKind::perspective || k == SensorKind::thinlens ||
          k == SensorKind::perspective_rdist;
 }
+/// Whether it has a lens, which focuses at one distance.
+constexpr bool has_lens(SensorKind k) {
+  return k == SensorKind::thinlens || k == SensorKind::telecentric;
+}
 /// How a spherical camera's image shows the sphere of directions: by latitude and longitude, or by
 /// an octahedron that is folded to a square (math/equal_area.h).
 enum class SphereMapping { latitude_longitude, equal_area };
@@ -66,8 +70,17 @@ struct ToneMapping {
   double exposure = 0;          ///< in stops
   double key = 0.18, burn = 0;  ///< Reinhard's operator
   static constexpr auto fields() {
-    return plain_fields(&ToneMapping::reinhard, &ToneMapping::gamma, &ToneMapping::exposure,
-                        &ToneMapping::key, &ToneMapping::burn);
+    using namespace parameter_words;
+    using enum ParameterType;
+    using T = ToneMapping;
+    return std::tuple(
+        field(&T::reinhard, Parameter{"tonemap_method", string, "gamma", "gamma or reinhard"})
+            .read_by_plugin(),
+        field(&T::gamma, Parameter{"gamma", number, kInitial, "-1: sRGB"}),
+        field(&T::exposure, Parameter{"exposure", number, kInitial, "in stops"}),
+        field(&T::key, Parameter{"key", number, kInitial, "of Reinhard's operator", positive}),
+        field(&T::burn, Parameter{"burn", number, kInitial, "of Reinhard's operator, from 0 to 1",
+                                  not_negative}));
   }
 };
 
@@ -80,11 +93,38 @@ struct FilmDescription {
   ComponentFormat component_format = ComponentFormat::half;
   std::optional<ToneMapping> tone_mapping;
   std::optional<FilmResponse> response;
+
+  static constexpr std::string_view kPixelFormats[] = {
+      "luminance", "luminance_alpha", "rgb", "rgba", "xyz", "xyza"};
+  static constexpr std::string_view kComponentFormats[] = {"float16", "float32"};
   static constexpr auto fields() {
-    return plain_fields(&FilmDescription::where, &FilmDescription::width, &FilmDescription::height,
-                        &FilmDescription::crop, &FilmDescription::filter,
-                        &FilmDescription::pixel_format, &FilmDescription::component_format,
-                        &FilmDescription::tone_mapping, &FilmDescription::response);
+    using namespace parameter_words;
+    using enum ParameterType;
+    using F = FilmDescription;
+    return std::tuple(
+        field(&F::where),
+        field(&F::width, Parameter{"width", integer, kInitial, "in pixels", size}).read_by_plugin(),
+        field(&F::height, Parameter{"height", integer, kInitial, "in pixels", size})
+            .read_by_plugin(),
+        field(&F::crop, Parameter{"crop_offset_x", integer, "0", "", not_negative},
+              Parameter{"crop_offset_y", integer, "0", "", not_negative},
+              Parameter{"crop_width", integer, "(width)", "", size},
+              Parameter{"crop_height", integer, "(height)", "", size}),
+        field(&F::pixel_format, Parameter{"pixel_format", string, kInitial,
+                                          "luminance, luminance_alpha, rgb, rgba, xyz, xyza"})
+            .words(kPixelFormats)
+            .read_by_plugin(),
+        field(&F::component_format, Parameter{"component_format", string, kInitial,
+                                              "float16 or float32; uint32 becomes float32"})
+            .words(kComponentFormats)
+            .read_by_plugin(),
+        field(&F::filter), field(&F::tone_mapping), field(&F::response));
+  }
+  std::vector<std::string> losses() const {
+    std::vector<std::string> lost;
+    if (tone_mapping) lost.emplace_back("the tone mapping of \"ldrfilm\" is missing");
+    if (response) lost.emplace_back("the response of a film is missing");
+    return lost;
   }
 };
 
@@ -93,8 +133,13 @@ struct SamplerDescription {
   int sample_count = 4;
   uint64_t seed = 0;
   static constexpr auto fields() {
-    return plain_fields(&SamplerDescription::name, &SamplerDescription::sample_count,
-                        &SamplerDescription::seed);
+    using namespace parameter_words;
+    using enum ParameterType;
+    using S = SamplerDescription;
+    return std::tuple(field(&S::name),
+                      field(&S::sample_count,
+                            Parameter{"sample_count", integer, kInitial, "per pixel", positive}),
+                      field(&S::seed, Parameter{"seed", integer, kInitial, "", not_negative}));
   }
 };
 
@@ -113,7 +158,7 @@ struct SensorDescription {
   double aperture_radius = 0, focus_distance = 0;  ///< thinlens, telecentric
   std::array<double, 2> distortion{};              ///< perspective_rdist: of r³ and r⁵
   SphereMapping sphere_mapping = SphereMapping::latitude_longitude;  ///< spherical
-  uint32_t shape = 0;                              ///< irradiancemeter: index in `shapes`
+  uint32_t shape = 0;  ///< irradiancemeter: index in `shapes`
   /// distant: what it averages over; neither is the whole scene.
   std::optional<std::array<double, 3>> target_point;
   std::vector<ShapeDescription> target_shape;  ///< none or one
@@ -121,18 +166,64 @@ struct SensorDescription {
   std::optional<MediumId> medium;              ///< that the sensor stands in
   FilmDescription film;
   SamplerDescription sampler;
+
   static constexpr auto fields() {
-    return plain_fields(
-        &SensorDescription::where, &SensorDescription::label, &SensorDescription::kind,
-        &SensorDescription::to_world, &SensorDescription::motion, &SensorDescription::shutter,
-        &SensorDescription::fov, &SensorDescription::fov_axis,
-        &SensorDescription::principal_point_offset_x, &SensorDescription::principal_point_offset_y,
-        &SensorDescription::near_clip, &SensorDescription::far_clip,
-        &SensorDescription::aperture_radius, &SensorDescription::focus_distance,
-        &SensorDescription::distortion, &SensorDescription::sphere_mapping,
-        &SensorDescription::shape, &SensorDescription::target_point,
-        &SensorDescription::target_shape, &SensorDescription::parts, &SensorDescription::medium,
-        &SensorDescription::film, &SensorDescription::sampler);
+    using namespace parameter_words;
+    using enum ParameterType;
+    using S = SensorDescription;
+    constexpr auto clips = [](const S& s) {
+      return has_fov(s.kind) || s.kind == SensorKind::orthographic ||
+             s.kind == SensorKind::telecentric;
+    };
+    constexpr auto with_fov = [](const S& s) { return has_fov(s.kind); };
+    constexpr auto pinhole = [](const S& s) { return s.kind == SensorKind::perspective; };
+    constexpr auto lens = [](const S& s) { return has_lens(s.kind); };
+    const auto fov_and_axis =
+        fov_fields(&S::fov, &S::fov_axis, "in degrees; either this or focal_length");
+    return std::tuple(
+        field(&S::where), field(&S::label), field(&S::kind),
+        field(&S::shutter,
+              Parameter{"shutter_open", number, "0", "when light is gathered from what moves"},
+              Parameter{"shutter_close", number, "0", "not before the shutter opens"})
+            .terse(),
+        // One that stands in a shape is where that is.
+        field(&S::to_world, Parameter{"to_world", transform}).read_by_plugin().when([](const S& s) {
+          return s.kind != SensorKind::irradiancemeter;
+        }),
+        field(&S::motion),
+        field(&S::near_clip, Parameter{"near_clip", number, kInitial, "", positive}).when(clips),
+        field(&S::far_clip, Parameter{"far_clip", number, kInitial, "", positive}).when(clips),
+        std::get<0>(fov_and_axis).when(with_fov), std::get<1>(fov_and_axis).when(with_fov),
+        field(&S::principal_point_offset_x,
+              Parameter{"principal_point_offset_x", number, kInitial, "in image widths"})
+            .when(pinhole),
+        field(&S::principal_point_offset_y,
+              Parameter{"principal_point_offset_y", number, kInitial, "in image heights"})
+            .when(pinhole),
+        field(&S::aperture_radius, Parameter{"aperture_radius", number, kInitial, "", not_negative})
+            .when(lens),
+        field(&S::focus_distance,
+              Parameter{"focus_distance", number, "(far_clip)", "along the axis", positive})
+            .when(lens)
+            .read_by_plugin(),
+        field(&S::distortion,
+              Parameter{"kc", string, "0, 0", "radial distortion of third and fifth order"})
+            .when([](const S& s) { return s.kind == SensorKind::perspective_rdist; }),
+        field(&S::sphere_mapping), field(&S::shape),
+        field(&S::target_point, Parameter{"target", point, "(the scene)",
+                                          "a point or a shape over which radiance is averaged"}),
+        field(&S::target_shape), field(&S::parts), field(&S::medium), field(&S::film),
+        field(&S::sampler));
+  }
+  const char* name() const { return sensor_name(kind); }
+  std::vector<std::string> losses() const {
+    std::vector<std::string> lost;
+    if (kind == SensorKind::telecentric || kind == SensorKind::perspective_rdist ||
+        kind == SensorKind::spherical || kind == SensorKind::fluencemeter)
+      lost.push_back("the sensor \"" + std::string(name()) + "\" does not exist in Mitsuba 3");
+    if (sphere_mapping == SphereMapping::equal_area)
+      lost.emplace_back("the image of a spherical camera is one by latitude and longitude");
+    return lost;
   }
 };
 

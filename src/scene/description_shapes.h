@@ -14,7 +14,7 @@
 #include "math/motion.h"
 #include "math/transform.h"
 #include "scene/description_base.h"
-#include "scene/field.h"
+#include "scene/emission_parameters.h"
 
 namespace duet {
 
@@ -37,37 +37,66 @@ struct MeshShape {
   std::shared_ptr<const TriangleMesh> mesh;
   MeshSource source;
   static constexpr auto fields() { return plain_fields(&MeshShape::mesh, &MeshShape::source); }
+  const std::string& name() const { return source.plugin; }
 };
 struct RectangleShape {
   static constexpr auto fields() { return std::tuple(); }
+  static constexpr const char* name() { return "rectangle"; }
 };
 struct CubeShape {
   static constexpr auto fields() { return std::tuple(); }
+  static constexpr const char* name() { return "cube"; }
 };
 /// Unit shapes; a centre, radius or end points are part of `to_world`.
 struct SphereShape {
   static constexpr auto fields() { return std::tuple(); }
+  static constexpr const char* name() { return "sphere"; }
 };
 struct DiskShape {
   static constexpr auto fields() { return std::tuple(); }
+  static constexpr const char* name() { return "disk"; }
 };
 struct CylinderShape {
   static constexpr auto fields() { return std::tuple(); }
+  static constexpr const char* name() { return "cylinder"; }
 };
 /// A surface of zero distance.
 struct SdfGridShape {
   std::shared_ptr<const SdfGrid> grid;
   std::string file;
   static constexpr auto fields() {
-    return std::tuple(field(&SdfGridShape::grid), field(&SdfGridShape::file).not_compared());
+    using namespace parameter_words;
+    using enum ParameterType;
+    return std::tuple(field(&SdfGridShape::grid),
+                      field(&SdfGridShape::file, Parameter{"filename", string, "",
+                                                           "a volume with one channel: distances"})
+                          .not_compared()
+                          .shown(" "));
   }
+  static constexpr const char* name() { return "sdfgrid"; }
 };
 /// Tubes, in the shape's own space; `to_world` moves their points but leaves the radii.
 struct CurvesShape {
   std::shared_ptr<const CurveSet> curves;
   std::string file;
   static constexpr auto fields() {
-    return std::tuple(field(&CurvesShape::curves), field(&CurvesShape::file).not_compared());
+    using namespace parameter_words;
+    using enum ParameterType;
+    return std::tuple(
+        field(&CurvesShape::curves),
+        field(&CurvesShape::file,
+              Parameter{.name = "filename",
+                        .type = ParameterType::file,
+                        .note = "a point and a radius per line, an empty line between curves",
+                        .required = true})
+            .not_compared());
+  }
+  const char* name() const {
+    return curves && curves->kind == CurveKind::bspline ? "bsplinecurve" : "linearcurve";
+  }
+  std::vector<std::string> losses() const {
+    if (!curves || curves->outside_only) return {};
+    return {"the hair of Mitsuba 0.6 has to be written as a file of curves with their radius"};
   }
 };
 /// Bilinear patches over the square from (−1, −1) to (1, 1), facing +z, between heights that are
@@ -80,15 +109,30 @@ struct HeightFieldShape {
   /// Makes a number of heights that is one more than a power of two along either side.
   FilterDescription filter{.kind = FilterKind::lanczos, .lobes = 2};
   static constexpr auto fields() {
-    return plain_fields(&HeightFieldShape::heights, &HeightFieldShape::scale,
-                        &HeightFieldShape::width, &HeightFieldShape::height,
-                        &HeightFieldShape::shading_normals, &HeightFieldShape::filter);
+    using namespace parameter_words;
+    using enum ParameterType;
+    using H = HeightFieldShape;
+    return std::tuple(
+        field(&H::heights).read_by_plugin(),
+        field(&H::scale, Parameter{"scale", number, kInitial, "multiplies the heights"}),
+        field(&H::width, Parameter{"width", integer, kInitial,
+                                   "columns of a texture that is no image, with height", size})
+            .read_by_plugin(),
+        field(&H::height, Parameter{"height", integer, kInitial,
+                                    "rows of a texture that is no image, with width", size})
+            .read_by_plugin(),
+        field(&H::shading_normals, Parameter{"shading_normals", boolean, kInitial,
+                                             "smooth, not those of each bilinear patch"}),
+        field(&H::filter));
   }
+  static constexpr const char* name() { return "heightfield"; }
+  static constexpr bool kOnlyIn0x = true;
 };
 /// A copy of SceneDescription::groups[group].
 struct InstanceShape {
   uint32_t group = 0;
   static constexpr auto fields() { return plain_fields(&InstanceShape::group); }
+  static constexpr const char* name() { return "instance"; }
 };
 
 /// Radiance of a surface that emits.
@@ -100,9 +144,16 @@ struct AreaEmission {
   bool directional = false;
   bool two_sided = false;  ///< light leaves on both sides
   static constexpr auto fields() {
-    return plain_fields(&AreaEmission::where, &AreaEmission::radiance,
-                        &AreaEmission::sampling_weight, &AreaEmission::directional,
-                        &AreaEmission::two_sided);
+    using namespace parameter_words;
+    using A = AreaEmission;
+    return std::tuple(field(&A::where), field(&A::radiance, kRadiance),
+                      field(&A::sampling_weight, kSamplingWeight).terse(), field(&A::directional),
+                      field(&A::two_sided));
+  }
+  const char* name() const { return directional ? "directionalarea" : "area"; }
+  std::vector<std::string> losses() const {
+    if (!two_sided) return {};
+    return {"light leaves a surface on one side only"};
   }
 };
 

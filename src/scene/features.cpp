@@ -27,7 +27,8 @@ class Survey {
     }
     group_ = nullptr;
     for (const ShapeDescription& s : scene.shapes) add(s, features_.bounds);
-    for (const LightDescription& l : scene.lights) std::visit(*this, l.model);
+    for (const LightDescription& l : scene.lights)
+      std::visit([&](const auto& light) { light.count(features_); }, l.model);
     for (const SensorDescription& s : scene.sensors) {
       features_.depth_of_field |= s.aperture_radius > 0;
       add(s.medium);
@@ -35,16 +36,6 @@ class Survey {
     features_.textures = scene.textures.size();
   }
   SceneFeatures result() const { return features_; }
-
-  // Lights.
-  void operator()(const PointLight&) { ++features_.point_lights; }
-  void operator()(const SpotLight&) { ++features_.spot_lights; }
-  void operator()(const ProjectorLight&) { ++features_.projectors; }
-  void operator()(const DirectionalLight&) { ++features_.directional_lights; }
-  void operator()(const ConstantLight&) { features_.constant_environment = true; }
-  void operator()(const EnvironmentMapLight&) { features_.environment_map = true; }
-  void operator()(const SkyLight&) { features_.sky = true; }
-  void operator()(const CollimatedLight&) { ++features_.beams; }
 
  private:
   struct Group {

@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <deque>
 #include <stdexcept>
 #include <string>
@@ -63,6 +64,19 @@ const Parameter& parameter(std::string_view name) {
   for (const Parameter& p : parameters_of<T>())
     if (p.name == name) return p;
   throw std::out_of_range("no field has this parameter");
+}
+
+/// Those of them whose names are listed, separated by spaces, in that order; throws
+/// std::out_of_range where there is none.
+template <HasFields T>
+std::vector<Parameter> parameters_of(std::string_view names) {
+  std::vector<Parameter> list;
+  while (!names.empty()) {
+    const size_t end = std::min(names.find(' '), names.size());
+    list.push_back(parameter<T>(names.substr(0, end)));
+    names.remove_prefix(std::min(end + 1, names.size()));
+  }
+  return list;
 }
 
 }  // namespace duet

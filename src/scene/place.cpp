@@ -42,7 +42,7 @@ void SceneBuilder::place_light(uint32_t index, const Matrix4& to_world) {
     static_cast<EnvironmentMap&>(*light).turn(to_world);
     return;
   }
-  light = std::visit([&](const auto& l) { return make(l, d); }, d.model);
+  light = std::visit([&](const auto& l) { return l.build(*this, d); }, d.model);
   if (light->kind() == LightKind::environment)
     scene_->environment = static_cast<const EnvironmentLight*>(light.get());
 }

@@ -23,16 +23,10 @@ class Marker {
     });
   }
 
-  void model(const PointLight&) {}
-  void model(const SpotLight& l) {
-    if (l.texture) mark(ColorInput(*l.texture));
+  template <HasFields T>
+  void model(const T& light) {
+    for_each_field(light, [&](const FieldFacts&, const auto& value) { input(value); });
   }
-  void model(const ProjectorLight& l) { mark(l.irradiance); }
-  void model(const DirectionalLight&) {}
-  void model(const ConstantLight&) {}
-  void model(const EnvironmentMapLight&) {}
-  void model(const SkyLight&) {}
-  void model(const CollimatedLight&) {}
 
  private:
   void input(const ColorInput& i) {
@@ -41,6 +35,7 @@ class Marker {
   void input(const FloatInput& i) {
     if (const TextureId* id = std::get_if<TextureId>(&i)) texture(*id, &TextureUse::as_number);
   }
+  void input(TextureId id) { texture(id, &TextureUse::as_color); }
   void input(const Roughness& r) { mark(r.alpha_u, r.alpha_v); }
   template <class T>
   void input(const std::optional<T>& value) {

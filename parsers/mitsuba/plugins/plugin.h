@@ -10,12 +10,15 @@ namespace duet::plugins {
 using namespace parameter_words;
 
 /// What `row` leaves open follows from T: its name, its parameters and how it is read into a
-/// Description. `more` are parameters that only files of Mitsuba know; they are listed last.
+/// Description, if that has a model. `more` are parameters that only files of Mitsuba know; they
+/// are listed last.
 template <class T, class Description>
 Plugin plugin_of(Plugin row, const ParameterList& more = {}) {
   if (row.name.empty()) row.name = T{}.name();
   if (row.parameters.empty()) row.parameters = ParameterList(parameters_of<T>(), more);
-  if (std::holds_alternative<std::monostate>(row.reader)) row.reader = &read_model<T, Description>;
+  if constexpr (requires(Description & d, T model) { d.model = model; })
+    if (std::holds_alternative<std::monostate>(row.reader))
+      row.reader = &read_model<T, Description>;
   return row;
 }
 

@@ -79,18 +79,20 @@ std::string DescriptionText::input(const ColorVolume& input) const {
 }
 
 std::string DescriptionText::phase(PhaseId id) const {
+  const auto text_of = [this](const auto& model) {
+    std::vector<std::string> nested;
+    for_each_field(model, [&]<class M>(const FieldFacts&, const M& value) {
+      if constexpr (std::is_same_v<M, PhaseId>) nested.push_back(phase(value));
+    });
+    const std::string line = model.name() + shown_fields(model);
+    return nested.empty() ? line : fmt::format("{} [{}]", line, fmt::join(nested, "; "));
+  };
   return std::visit(
       Overloaded{
-          [](const IsotropicPhase&) { return std::string("isotropic"); },
-          [](const HenyeyGreensteinPhase& f) { return fmt::format("hg, g {:.4g}", f.g); },
-          [](const RayleighPhase&) { return std::string("rayleigh"); },
           [](const TabulatedPhase& f) {
             return fmt::format("tabphase of {} values", f.values.size());
           },
-          [](const SggxPhase&) { return std::string("sggx"); },
-          [this](const BlendPhase& f) {
-            return fmt::format("blendphase [{}; {}]", phase(f.first), phase(f.second));
-          },
+          text_of,
       },
       scene_.phases[size_t(id)].model);
 }
@@ -139,20 +141,12 @@ std::string DescriptionText::shape_kind(const ShapeDescription& s) const {
           [](const MeshShape& m) {
             return m.source.plugin.empty() ? std::string("mesh") : m.source.plugin;
           },
-          [](const RectangleShape&) { return std::string("rectangle"); },
-          [](const CubeShape&) { return std::string("cube"); },
-          [](const SphereShape&) { return std::string("sphere"); },
-          [](const DiskShape&) { return std::string("disk"); },
-          [](const CylinderShape&) { return std::string("cylinder"); },
-          [](const SdfGridShape& m) { return "sdfgrid " + m.file; },
           [](const CurvesShape& m) {
-            return fmt::format(
-                "{} ({}, {} segments)",
-                m.curves->kind == CurveKind::bspline ? "bsplinecurve" : "linearcurve",
-                file_name(m.file), m.curves->segments.size());
+            return fmt::format("{} ({}, {} segments)", m.name(), file_name(m.file),
+                               m.curves->segments.size());
           },
           [this](const HeightFieldShape& m) { return "heightfield of " + texture_name(m.heights); },
-          [](const InstanceShape&) { return std::string("instance"); },
+          [this](const auto& m) { return m.name() + shown_fields(m); },
       },
       s.geometry);
 }
@@ -178,9 +172,8 @@ std::string DescriptionText::shape(const ShapeDescription& s) const {
 }
 
 std::string DescriptionText::area_light(const ShapeDescription& s) const {
-  return fmt::format("{} on {}{}: {}", s.emission->directional ? "directionalarea" : "area",
-                     shape_kind(s), s.label.text.empty() ? "" : " " + s.label.text,
-                     input(s.emission->radiance));
+  return fmt::format("{} on {}{}: {}", s.emission->name(), shape_kind(s),
+                     s.label.text.empty() ? "" : " " + s.label.text, input(s.emission->radiance));
 }
 
 std::string DescriptionText::light(const LightDescription& l) const {
@@ -221,14 +214,14 @@ std::string DescriptionText::light(const LightDescription& l) const {
 }
 
 std::string DescriptionText::sensor(const SensorDescription& s) const {
-  constexpr const char* axes[] = {"x", "y", "diagonal", "smaller", "larger"};
   const Matrix4 m = s.motion.at(s.shutter[0]) * s.to_world;
   std::string t = fmt::format("{} {} {}", sensor_name(s.kind), place(m), direction(m));
   if (s.kind == SensorKind::batch) t = fmt::format("batch of {} sensors", s.parts.size());
   if (s.kind == SensorKind::irradiancemeter)
     t = "irradiancemeter on " + shape_kind(scene_.shapes[s.shape]);
-  if (has_fov(s.kind)) t += fmt::format(", fov {:.4g} along {}", s.fov, axes[size_t(s.fov_axis)]);
-  if (s.kind == SensorKind::thinlens || s.kind == SensorKind::telecentric)
+  if (has_fov(s.kind))
+    t += fmt::format(", fov {:.4g} along {}", s.fov, kFovAxes[size_t(s.fov_axis)]);
+  if (has_lens(s.kind))
     t += fmt::format(", aperture radius {:g}, focus at {:g}", s.aperture_radius, s.focus_distance);
   if (s.kind == SensorKind::perspective_rdist)
     t += fmt::format(", distortion {:g} and {:g}", s.distortion[0], s.distortion[1]);

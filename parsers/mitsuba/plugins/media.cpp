@@ -1,12 +1,10 @@
-// Media and the volumes in them.
-#include <memory>
-
-#include "mitsuba/readers.h"
-#include "mitsuba/scene_reader.h"
+// Media, whose coefficients 0.x states in other ways.
+#include "mitsuba/plugins/plugin.h"
+#include "mitsuba/plugins/tables.h"
 #include "values/medium_presets.h"
 #include "values/text.h"
 
-namespace duet {
+namespace duet::plugins {
 
 namespace {
 
@@ -37,13 +35,13 @@ void read_preset(Properties& p, Spectrum& sigma_s, Spectrum& sigma_a, Spectrum& 
   g = preset->g;
 }
 
-bool any(Properties& p, std::string_view a, std::string_view b) {
+bool has_any(Properties& p, std::string_view a, std::string_view b) {
   return p.has(a) || p.has(b);
 }
 
 /// A coefficient that is constant; `otherwise` if the file does not give it.
-Spectrum coefficient(SceneReader& s, Properties& p, std::string_view name,
-                     const Spectrum& otherwise) {
+Spectrum constant_coefficient(SceneReader& s, Properties& p, std::string_view name,
+                              const Spectrum& otherwise) {
   if (!p.has(name)) return otherwise;
   const ColorVolume value = s.color_volume(p, name);
   if (const Spectrum* constant = std::get_if<Spectrum>(&value)) return *constant;
@@ -74,7 +72,7 @@ void make_monochromatic(Properties& p, Spectrum& sigma_s, Spectrum& sigma_a) {
 
 /// Mitsuba 0.x: coefficients in pairs, or a material's.
 void read_coefficients(SceneReader& s, Properties& p, MediumDescription& out) {
-  const bool pair = any(p, "sigma_s", "sigma_a"), other_pair = any(p, "sigma_t", "albedo");
+  const bool pair = has_any(p, "sigma_s", "sigma_a"), other_pair = has_any(p, "sigma_t", "albedo");
   if (pair && other_pair)
     p.error(p.has("sigma_a") ? "sigma_a" : "sigma_s",
             "either \"sigmaS\" and \"sigmaA\" or \"sigmaT\" and \"albedo\" can be given");
@@ -83,15 +81,15 @@ void read_coefficients(SceneReader& s, Properties& p, MediumDescription& out) {
   Spectrum sigma_s, sigma_a, g;
   read_preset(p, sigma_s, sigma_a, g);
   if (pair) {
-    sigma_s = coefficient(s, p, "sigma_s", sigma_s);
-    sigma_a = coefficient(s, p, "sigma_a", sigma_a);
+    sigma_s = constant_coefficient(s, p, "sigma_s", sigma_s);
+    sigma_a = constant_coefficient(s, p, "sigma_a", sigma_a);
   } else if (other_pair) {
     const Spectrum sum = sigma_s + sigma_a;
-    const Spectrum sigma_t = coefficient(s, p, "sigma_t", sum);
-    sigma_s = sigma_t * coefficient(s, p, "albedo", quotient(sigma_s, sum));
+    const Spectrum sigma_t = constant_coefficient(s, p, "sigma_t", sum);
+    sigma_s = sigma_t * constant_coefficient(s, p, "albedo", quotient(sigma_s, sum));
     sigma_a = sigma_t - sigma_s;
   }
-  g = coefficient(s, p, "g", g);
+  g = constant_coefficient(s, p, "g", g);
   if (!(g.max() < 1)) p.error("g", "the anisotropy must be less than 1");
   // Anisotropy is not modelled here, only that light which goes straight on is not scattered.
   sigma_s *= Spectrum(1) - g;
@@ -121,20 +119,10 @@ VolumeId extinction_box(SceneReader& s, Properties& p, const Spectrum& value) {
   return s.add_volume(std::move(v));
 }
 
-Matrix4 box_to_world(const VolumeGrid& grid) {
-  const auto& a = grid.lower;
-  const auto& b = grid.upper;
-  return Matrix4::translate(double(a[0]), double(a[1]), double(a[2])) *
-         Matrix4::scale(double(b[0]) - double(a[0]), double(b[1]) - double(a[1]),
-                        double(b[2]) - double(a[2]));
-}
-
-}  // namespace
-
 void read_homogeneous(SceneReader& s, Properties& p, MediumDescription& out) {
   out.scale = p.number("scale");
   // Files that use the coefficients of 0.x mean them, whatever their version says.
-  if (p.is_0x() || any(p, "sigma_s", "sigma_a") || any(p, "material", "g") ||
+  if (p.is_0x() || has_any(p, "sigma_s", "sigma_a") || has_any(p, "material", "g") ||
       p.boolean("monochromatic")) {
     read_coefficients(s, p, out);
   } else {
@@ -161,53 +149,65 @@ void read_heterogeneous(SceneReader& s, Properties& p, MediumDescription& out) {
   out.phase = phase_of(s, p);
 }
 
-void read_constvolume(SceneReader& s, Properties& p, MeantVolume& out) {
-  p.transform("to_world");  // of interest to extinction_box() only
-  const Property* value = p.find("value");
-  if (const Triple* triple = value ? std::get_if<Triple>(&value->value) : nullptr) {
-    out.value = Spectrum(float((*triple)[0]), float((*triple)[1]), float((*triple)[2]));
-    return;
-  }
-  out.value = s.color_volume(p, "value");
+constexpr Parameter kHomogeneous0x[] = {
+    {"sigma_a", coefficient, "(of the material)",
+     "absorption; with sigma_s instead of sigma_t and albedo", any, v0},
+    {"sigma_s", coefficient, "(of the material)", "scattering", any, v0},
+    {"material", string, "skin1", "coefficients by the name of a material", any, v0},
+    {"g", coefficient, "(of the material)", "scattering counts 1 - g times", any, v0}};
+constexpr Parameter kMonochromatic[] = {
+    {"strategy", string, "balance",
+     "balance, single, maximum or manual; matters to monochromatic only", any, v0},
+    {"channel", integer, "(of least extinction)", "0 to 2; matters to monochromatic only", any, v0},
+    {"monochromatic", boolean, "false",
+     "with strategy single: all channels are like the one chosen", any, v0}};
+constexpr Parameter kDensity{"density", coefficient, "", "the same in 0.x", any, v0};
+constexpr Parameter kOrientation{"orientation",
+                                 coefficient,
+                                 "",
+                                 "has no effect: phase functions that need it are approximated",
+                                 any,
+                                 v0,
+                                 approximated};
+
+Parameter of_material(std::string_view name) {
+  Parameter p = parameter<MediumDescription>(name);
+  p.preset_0x = "(of the material)";
+  return p;
 }
 
-void read_gridvolume(SceneReader& s, Properties& p, MeantVolume& out) {
-  VolumeDescription v;
-  v.where = p.node().where;
-  v.label = {p.node().id};
-  v.file = s.file(p, "filename");
-  v.to_world = p.transform("to_world");
-  v.filter = p.choice<VolumeFilter>(
-      "filter_type", {{"trilinear", VolumeFilter::trilinear}, {"nearest", VolumeFilter::nearest}});
-  v.wrap = p.choice<VolumeWrap>("wrap_mode", {{"clamp", VolumeWrap::clamp},
-                                              {"repeat", VolumeWrap::repeat},
-                                              {"mirror", VolumeWrap::mirror}});
-  v.nodes_on_faces = p.is_0x();
-  const bool use_box = p.boolean("use_grid_bbox");
-  const bool own_box = p.has("min") && p.has("max");
-  VolumeGrid box;
-  const Triple lower = p.triple("min"), upper = p.triple("max");
-  for (size_t i = 0; i < 3 && own_box; ++i) {
-    box.lower[i] = float(lower[i]), box.upper[i] = float(upper[i]);
-    if (!(box.upper[i] > box.lower[i])) p.error("max", "the box from \"min\" to \"max\" is flat");
-  }
-  if (v.file.empty()) return;
-  v.grid = s.volume_grid(v.file, p.where("filename"), v.is_float32);
-  if (!v.grid) return;
-  if (own_box)
-    v.to_world = v.to_world * box_to_world(box);
-  else if (p.is_0x() || use_box)
-    v.to_world = v.to_world * box_to_world(*v.grid);
-  out.value = s.add_volume(std::move(v));
+}  // namespace
+
+std::vector<Plugin> media() {
+  const auto of_medium = [](std::string_view name) { return parameter<MediumDescription>(name); };
+  // How light is sampled, which does not change what it does.
+  const ParameterList sampling =
+      inert_parameters(boolean, "sample_emitters has_spectral_extinction", v3);
+  return {
+      {"homogeneous",
+       both,
+       {of_material("sigma_t"), of_material("albedo"), kHomogeneous0x, of_medium("scale"), sampling,
+        kMonochromatic, inert_parameters(number, "sampling_density medium_sampling_weight", v0)},
+       &read_homogeneous},
+      {"heterogeneous",
+       both,
+       {of_medium("sigma_t"), kDensity, of_medium("albedo"), kOrientation, of_medium("scale"),
+        sampling, inert_parameters(string, "method", v0),
+        inert_parameters(number, "step_size", v0)},
+       &read_heterogeneous},
+  };
 }
 
-void read_volcache(SceneReader& s, Properties& p, MeantVolume& out) {
-  const Node* nested = p.child(PluginKind::volume);
-  if (!nested) {
-    s.report().error(p.node().where, "{} needs a volume", describe(p.node()));
-    return;
-  }
-  if (const auto value = s.volume(*nested, out.meaning)) out.value = *value;
+std::vector<Plugin> subsurfaces() {
+  constexpr const char* why =
+      "light leaves a surface where it entered: use an interior medium with volpath";
+  return {refused_plugin(
+              "dipole", v0, why,
+              "material sigma_s sigma_a sigma_t albedo int_ior ext_ior scale irr_samples quality"),
+          refused_plugin("singlescatter", v0, why,
+                         "fast_single_scatter fast_single_scatter_samples "
+                         "single_scatter_shadow_rays single_scatter_transmittance "
+                         "single_scatter_depth")};
 }
 
-}  // namespace duet
+}  // namespace duet::plugins

@@ -3,18 +3,18 @@
 
 #include "math/polar.h"
 #include "mesh/ellipsoids.h"
-#include "mitsuba/readers.h"
-#include "mitsuba/scene_reader.h"
+#include "mitsuba/plugins/plugin.h"
+#include "mitsuba/plugins/shapes.h"
 #include "values/text.h"
 
-namespace duet {
+namespace duet::plugins {
+
+namespace {
 
 void read_merge(SceneReader& s, Properties& p, ShapeList& out) {
   for (const Properties::Child& child : p.children(PluginKind::shape))
     s.shape(*child.node, out.shapes, false);
 }
-
-namespace {
 
 using Rotation = std::array<std::array<double, 3>, 3>;
 
@@ -42,8 +42,6 @@ Matrix4 placed(const Ellipsoid& e, double scale, const Matrix4& to_world, const 
   return m;
 }
 
-}  // namespace
-
 void read_ellipsoids_shape(SceneReader& s, Properties& p, ShapeList& out) {
   const std::string file = s.file(p, "filename");
   const Matrix4 to_world = p.transform("to_world");
@@ -67,4 +65,42 @@ void read_ellipsoids_shape(SceneReader& s, Properties& p, ShapeList& out) {
   }
 }
 
-}  // namespace duet
+ParameterList ellipsoid_parameters(const ParameterList& shell) {
+  constexpr const char* python = "only exists in Python";
+  const auto in_python = [](std::string_view name) {
+    return Parameter{name, string, "", python, any, both, refused};
+  };
+  return {Parameter{.name = "filename", .type = file, .note = "a PLY file", .required = true},
+          Parameter{"scale_factor", number, "1", "multiplies the radii", positive},
+          Parameter{"extent", number, "3", "multiplies the radii too", positive},
+          Parameter{"extent_adaptive_clamping", boolean, "", "these are surfaces here", any, both,
+                    refused},
+          shell,
+          in_python("data"),
+          in_python("centers"),
+          in_python("scales"),
+          in_python("quaternions")};
+}
+
+}  // namespace
+
+Plugin merge() {
+  return {.name = "merge",
+          .versions = v3,
+          .reader = &read_merge,
+          .note = "holds shapes, which stay as they are"};
+}
+
+Plugin ellipsoids() {
+  return {"ellipsoids", v3, ellipsoid_parameters({}), &read_ellipsoids_shape,
+          "from files, without attributes and texture coordinates; cannot emit light"};
+}
+
+Plugin ellipsoidsmesh() {
+  constexpr Parameter shell{"shell", string, "",          "ellipsoids are exact, not meshes",
+                            any,     both,   approximated};
+  return {"ellipsoidsmesh", v3,          ellipsoid_parameters(shell), &read_ellipsoids_shape,
+          "as ellipsoids",  approximated};
+}
+
+}  // namespace duet::plugins

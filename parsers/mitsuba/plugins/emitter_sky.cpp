@@ -3,12 +3,12 @@
 #include <numbers>
 #include <span>
 
-#include "mitsuba/readers.h"
-#include "mitsuba/scene_reader.h"
+#include "mitsuba/plugins/emitters.h"
+#include "mitsuba/plugins/plugin.h"
 #include "mitsuba/sun_position.h"
 #include "mitsuba/sun_radiance.h"
 
-namespace duet {
+namespace duet::plugins {
 
 namespace {
 
@@ -62,14 +62,22 @@ std::optional<Triple> given_direction(Properties& p) {
   return std::nullopt;
 }
 
+/// A direction in the world as one in the sky's own space.
+Triple seen_from_sky(const Triple& direction, const Matrix4& to_world) {
+  const auto to_local = to_world.inverse();
+  if (!to_local) return direction;
+  Triple d;
+  for (int i = 0; i < 3; ++i) {
+    const auto& row = (*to_local)[i];
+    d[size_t(i)] = row[0] * direction[0] + row[1] * direction[1] + row[2] * direction[2];
+  }
+  return d;
+}
+
 void warn_below_horizon(SceneReader& s, Properties& p, const SkyLight& sky) {
   if (sky.sun[2] < 0)
     s.report().warning(p.node().where, "the sun is below the horizon: {} is dark",
                        describe(p.node()));
-}
-
-void read_common(Properties& p, LightDescription& out) {
-  out.sampling_weight = p.number("sampling_weight");
 }
 
 /// x to the north, z up, where azimuths run to the east by south: as in Mitsuba 3.
@@ -107,13 +115,7 @@ void read_0x(SceneReader& s, Properties& p, SkyLight& sky, LightDescription& out
   // With y up: x to the east and −z to the north.
   Triple y_up_sun;
   if (const auto given = given_direction(p)) {
-    // The direction is one of the world.
-    y_up_sun = *given;
-    if (const auto to_local = out.to_world.inverse())
-      for (int i = 0; i < 3; ++i) {
-        const auto& row = (*to_local)[i];
-        y_up_sun[size_t(i)] = row[0] * (*given)[0] + row[1] * (*given)[1] + row[2] * (*given)[2];
-      }
+    y_up_sun = seen_from_sky(*given, out.to_world);
   } else {
     const SunAngles a = read_time_and_place(p);
     const double r = std::sin(a.zenith);
@@ -122,7 +124,7 @@ void read_0x(SceneReader& s, Properties& p, SkyLight& sky, LightDescription& out
   sky.sun = {y_up_sun[0], -y_up_sun[2], y_up_sun[1]};
   if (sky.sun[2] < 0) s.report().error(p.node().where, "the sun is below the horizon");
   out.to_world = out.to_world * y_up();
-  read_common(p, out);
+  read_weight(p, out);
 }
 
 void read_stretch(Properties& p, SkyLight& sky) {
@@ -152,7 +154,7 @@ LightDescription directional_sun(const SunDisk& disk, double scale, const LightD
       d[size_t(i)] -= sky.to_world[i][size_t(j)] * disk.direction[size_t(j)];
   LightDescription out = sky;
   out.model = DirectionalLight{disk.irradiance * float(scale)};
-  out.to_world = along(d).value_or(Matrix4{});
+  out.to_world = light_along(d).value_or(Matrix4{});
   return out;
 }
 
@@ -168,8 +170,6 @@ std::optional<double> read_sun_aperture(Properties& p) {
             aperture);
   return aperture;
 }
-
-}  // namespace
 
 void read_sky(SceneReader& s, Properties& p, LightDescription& out) {
   SkyLight sky;
@@ -196,8 +196,6 @@ void read_sun(SceneReader& s, Properties& p, LightDescription& out) {
   }
 }
 
-namespace {
-
 void read_sunsky_0x(SceneReader& s, Properties& p, LightDescription& out) {
   SkyLight sky;
   read_air(s, p, sky);
@@ -217,21 +215,14 @@ void read_sunsky_0x(SceneReader& s, Properties& p, LightDescription& out) {
   out.model = sky;
 }
 
-}  // namespace
-
 void read_sunsky(SceneReader& s, Properties& p, LightDescription& out) {
   if (p.is_0x()) return read_sunsky_0x(s, p, out);
   SkyLight sky;
   read_sky_3x(s, p, sky);
   out.to_world = p.transform("to_world");
-  read_common(p, out);
+  read_weight(p, out);
   if (const auto given = given_direction(p)) {
-    sky.sun = *given;
-    if (const auto to_local = out.to_world.inverse())
-      for (int i = 0; i < 3; ++i) {
-        const auto& row = (*to_local)[i];
-        sky.sun[size_t(i)] = row[0] * (*given)[0] + row[1] * (*given)[1] + row[2] * (*given)[2];
-      }
+    sky.sun = seen_from_sky(*given, out.to_world);
   } else {
     sky.sun = direction_3x(read_time_and_place(p));
   }
@@ -243,7 +234,7 @@ void read_timed_sunsky(SceneReader& s, Properties& p, LightDescription& out) {
   SkyLight sky;
   read_sky_3x(s, p, sky);
   out.to_world = p.transform("to_world");
-  read_common(p, out);
+  read_weight(p, out);
   SunTime time;
   time.year = p.integer("start_year");
   time.month = p.integer("start_month");
@@ -256,18 +247,60 @@ void read_timed_sunsky(SceneReader& s, Properties& p, LightDescription& out) {
   out.model = sky;
 }
 
-void read_collimated(SceneReader& s, Properties& p, LightDescription& out) {
-  out.model = CollimatedLight{s.constant_color(p, "power")};
-  out.to_world = p.transform("to_world", out.motion);
-  out.sampling_weight = p.number("sampling_weight");
-  if (const Node* medium = p.child(PluginKind::medium)) out.medium = s.medium(*medium);
+constexpr Parameter kToWorld{"to_world", transform};
+constexpr Parameter kTime[] = {
+    {"year", integer, "2010"}, {"month", integer, "7"},
+    {"day", integer, "10"},    {"hour", number, "15", "of the time zone"},
+    {"minute", number, "0"},   {"second", number, "0"}};
+constexpr Parameter kPlace[] = {{"latitude", number, "35.6894", "degrees north"},
+                                {"longitude", number, "139.6917", "degrees east"},
+                                {"timezone", number, "9", "hours ahead of universal time"}};
+constexpr Parameter kComplexSun{"complex_sun", boolean, "false",     "as if it were false",
+                                any,           v3,      approximated};
+constexpr Parameter kSunRadiusScale{
+    "sun_radius_scale", number, "1", "the irradiance stays; 0: a directional light",
+    not_negative,       v0};
+constexpr Parameter kSunTurbidity{"turbidity", number, "3", "of the air", not_negative};
+constexpr Parameter kSunStretch{
+    "stretch", number, "1", "multiplies the sun's angle from the zenith", any, v0};
+constexpr Parameter kSkyResolution{
+    "resolution", integer, "",   "nothing is rasterised; 0.6 blurs the sun over some texels",
+    any,          v0,      inert};
+constexpr Parameter kStart[] = {
+    {"start_year", integer, "2025"}, {"start_month", integer, "1"}, {"start_day", integer, "1"}};
+
+}  // namespace
+
+std::vector<Plugin> skies() {
+  const auto of_sky = [](std::string_view name) { return parameter<SkyLight>(name); };
+  const ParameterList air(of_sky("turbidity"), of_sky("albedo"));
+  const ParameterList below(of_sky("stretch"), of_sky("extend"));
+  const ParameterList scales(of_sky("sun_scale"), of_sky("sky_scale"), of_sky("sun_aperture"),
+                             kComplexSun);
+  const Parameter sun = of_sky("sun_direction"), scale = parameter<ProjectorLight>("scale");
+  return {
+      {"sunsky",
+       both,
+       {air, kTime, kPlace, sun, scales, below, kSunRadiusScale, kSkyResolution, scale, kToWorld},
+       &read_sunsky,
+       "Hosek and Wilkie; in 0.x the sun is that of Preetham, Shirley and Smits"},
+      {"timed_sunsky",
+       v3,
+       {air, kStart, inert_parameters(integer, "end_year end_month end_day"),
+        Parameter{"window_start_time", number, "7", "hour of the day"},
+        inert_parameters(number, "window_end_time"), kPlace, scales,
+        inert_parameters(number, "shutter_open shutter_close"), kToWorld},
+       &read_timed_sunsky,
+       "at the start of the time",
+       approximated},
+      {"sky", v0, {air, kTime, kPlace, sun, below, kSkyResolution, scale, kToWorld}, &read_sky},
+      {"sun",
+       v0,
+       {kSunTurbidity, kTime, kPlace, sun, kSunStretch, kSunRadiusScale, kSkyResolution, scale,
+        kToWorld},
+       &read_sun,
+       "Preetham, Shirley and Smits"},
+  };
 }
 
-void read_directionalarea(SceneReader& s, Properties& p, AreaEmission& out) {
-  out.radiance = s.color(p, "radiance");
-  out.sampling_weight = p.number("sampling_weight");
-  out.directional = true;
-  p.child(PluginKind::medium);
-}
-
-}  // namespace duet
+}  // namespace duet::plugins

@@ -1,12 +1,10 @@
-// Sensors that measure, and those that only Mitsuba 0.6 has.
+// Sensors that measure.
 #include <cmath>
 
-#include "mitsuba/focal_length.h"
-#include "mitsuba/readers.h"
-#include "mitsuba/sensor_parts.h"
-#include "values/text.h"
+#include "mitsuba/plugins/plugin.h"
+#include "mitsuba/plugins/sensors.h"
 
-namespace duet {
+namespace duet::plugins {
 
 namespace {
 
@@ -21,7 +19,7 @@ Matrix4 look_along(Properties& p, const Triple& origin, const Triple& direction)
 }
 
 /// Mitsuba 0.6 only has to_world.
-void check_not_both(Properties& p, std::string_view name) {
+void check_no_to_world(Properties& p, std::string_view name) {
   if (p.has(name) && p.has("to_world"))
     p.error(name, "either \"{}\" or \"to_world\" can be given", name);
 }
@@ -44,13 +42,11 @@ void read_target(SceneReader& s, Properties& p, SensorDescription& out) {
   out.target_shape.clear();
 }
 
-}  // namespace
-
 void read_radiancemeter(SceneReader& s, Properties& p, SensorDescription& out) {
   out.kind = SensorKind::radiancemeter;
   read_sensor(s, p, out);
-  check_not_both(p, "origin");
-  check_not_both(p, "direction");
+  check_no_to_world(p, "origin");
+  check_no_to_world(p, "direction");
   if (p.has("origin") != p.has("direction"))
     p.error(p.has("origin") ? "origin" : "direction",
             "\"origin\" and \"direction\" are given together or not at all");
@@ -65,45 +61,13 @@ void read_irradiancemeter(SceneReader& s, Properties& p, SensorDescription& out)
     p.error("to_world", "{} stands where its shape is: it has no transform", describe(p.node()));
 }
 
-void read_fluencemeter(SceneReader& s, Properties& p, SensorDescription& out) {
-  out.kind = SensorKind::fluencemeter;
-  read_sensor(s, p, out);
-  check_rigid(p, out);
-}
-
 void read_distant(SceneReader& s, Properties& p, SensorDescription& out) {
   out.kind = SensorKind::distant;
   read_sensor(s, p, out);
-  check_not_both(p, "direction");
+  check_no_to_world(p, "direction");
   const Triple direction = p.triple("direction");
   if (p.has("direction")) out.to_world = look_along(p, {0, 0, 0}, direction);
   read_target(s, p, out);
-}
-
-void read_spherical(SceneReader& s, Properties& p, SensorDescription& out) {
-  out.kind = SensorKind::spherical;
-  read_sensor(s, p, out);
-  check_rigid(p, out);
-}
-
-void read_telecentric(SceneReader& s, Properties& p, SensorDescription& out) {
-  out.kind = SensorKind::telecentric;
-  read_sensor(s, p, out);
-  out.aperture_radius = p.number("aperture_radius");
-  out.focus_distance = p.optional_number("focus_distance").value_or(out.far_clip);
-}
-
-void read_perspective_rdist(SceneReader& s, Properties& p, SensorDescription& out) {
-  out.kind = SensorKind::perspective_rdist;
-  read_sensor(s, p, out);
-  check_rigid(p, out);
-  std::tie(out.fov, out.fov_axis) = read_fov(p);
-  const std::string text = p.string("kc");
-  const auto numbers = parse_numbers(text);
-  if (numbers && numbers->size() == 2)
-    out.distortion = {(*numbers)[0], (*numbers)[1]};
-  else if (!numbers || !numbers->empty())
-    p.error("kc", "{} are not two coefficients of distortion", in_quotes(text));
 }
 
 void read_batch(SceneReader& s, Properties& p, SensorDescription& out) {
@@ -126,4 +90,25 @@ void read_batch(SceneReader& s, Properties& p, SensorDescription& out) {
     s.report().error(p.node().where, "{} needs a sensor", describe(p.node()));
 }
 
-}  // namespace duet
+}  // namespace
+
+std::vector<Plugin> meters(const Parameter& response) {
+  return {
+      {"radiancemeter",
+       both,
+       {Parameter{"origin", point, "", "with direction, instead of to_world", any, v3},
+        Parameter{"direction", point, "", "of the ray", any, v3}, response},
+       &read_radiancemeter,
+       "one pixel"},
+      {"irradiancemeter", both, response, &read_irradiancemeter, "stands in a shape"},
+      {"distant",
+       v3,
+       {Parameter{"direction", point, "", "of the rays; either this or to_world, whose +z it is"},
+        parameter<SensorDescription>("target"), response},
+       &read_distant,
+       "one pixel"},
+      {"batch", v3, response, &read_batch, "holds sensors, side by side on its film"},
+  };
+}
+
+}  // namespace duet::plugins

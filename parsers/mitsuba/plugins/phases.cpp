@@ -2,11 +2,10 @@
 #include <algorithm>
 #include <cmath>
 
-#include "mitsuba/readers.h"
-#include "mitsuba/scene_reader.h"
-#include "values/text.h"
+#include "mitsuba/plugins/plugin.h"
+#include "mitsuba/plugins/tables.h"
 
-namespace duet {
+namespace duet::plugins {
 
 namespace {
 
@@ -21,34 +20,11 @@ std::vector<double> weight_list(Properties& p, std::string_view name) {
   return numbers;
 }
 
-/// The nested phase functions; nothing after an error.
-std::optional<std::vector<PhaseId>> nested_phases(SceneReader& s, Properties& p, size_t count) {
-  const auto children = p.children(PluginKind::phase);
-  if (children.size() != count) {
-    s.report().error(p.node().where, "{} needs {} phase functions, not {}", describe(p.node()),
-                     count, children.size());
-    return std::nullopt;
-  }
-  std::vector<PhaseId> phases;
-  for (const Properties::Child& c : children)
-    if (const auto id = s.phase(*c.node)) phases.push_back(*id);
-  return phases.size() == count ? std::optional(phases) : std::nullopt;
-}
-
-}  // namespace
-
-void read_isotropic(SceneReader&, Properties&, PhaseDescription& out) {
-  out.model = IsotropicPhase{};
-}
-
-void read_hg(SceneReader&, Properties& p, PhaseDescription& out) {
-  const double g = p.number("g");
-  if (!(std::abs(g) < 1)) p.error("g", "the anisotropy lies between -1 and 1, unlike {}", g);
-  out.model = HenyeyGreensteinPhase{g};
-}
-
-void read_rayleigh(SceneReader&, Properties&, PhaseDescription& out) {
-  out.model = RayleighPhase{};
+void read_hg(SceneReader& s, Properties& p, PhaseDescription& out) {
+  HenyeyGreensteinPhase hg;
+  read_values(s, p, hg);
+  if (!(std::abs(hg.g) < 1)) p.error("g", "the anisotropy lies between -1 and 1, unlike {}", hg.g);
+  out.model = hg;
 }
 
 void read_tabphase(SceneReader&, Properties& p, PhaseDescription& out) {
@@ -69,18 +45,12 @@ void read_sggx(SceneReader& s, Properties& p, PhaseDescription& out) {
     p.error("S", "the matrix of {} is a volume with 6 channels", describe(p.node()));
 }
 
-void read_blendphase(SceneReader& s, Properties& p, PhaseDescription& out) {
-  const FloatVolume weight = s.float_volume(p, "weight");
-  if (const auto phases = nested_phases(s, p, 2))
-    out.model = BlendPhase{weight, (*phases)[0], (*phases)[1]};
-}
-
 /// A chain of blends.
 void read_mixturephase(SceneReader& s, Properties& p, PhaseDescription& out) {
   const auto weights = weight_list(p, "weights");
   if (weights.empty()) return;
   const auto phases = nested_phases(s, p, weights.size());
-  if (!phases) return;
+  if (phases.empty()) return;
   double rest = 0;
   for (const double w : weights) rest += w;
   if (!(std::abs(rest - 1) < 1e-3))
@@ -91,11 +61,11 @@ void read_mixturephase(SceneReader& s, Properties& p, PhaseDescription& out) {
     return;
   }
   // From the last: each blend holds those behind it.
-  PhaseId last = phases->back();
+  PhaseId last = phases.back();
   double behind = weights.back();
   for (size_t i = weights.size() - 1; i-- > 0;) {
     const double sum = behind + weights[i];
-    BlendPhase blend{sum > 0 ? behind / sum : 0.0, (*phases)[i], last};
+    BlendPhase blend{sum > 0 ? behind / sum : 0.0, phases[i], last};
     behind = sum;
     if (i == 0) {
       out.model = blend;
@@ -114,4 +84,40 @@ void read_fibre_phase(SceneReader& s, Properties& p, PhaseDescription& out) {
   out.model = IsotropicPhase{};
 }
 
-}  // namespace duet
+template <class T>
+Plugin phase(Plugin row = {}) {
+  return plugin_of<T, PhaseDescription>(std::move(row));
+}
+
+/// A parameter of a plugin that is approximated by another, which has no such parameter.
+constexpr Parameter without_effect(std::string_view name) {
+  return {name, number, "", "has no effect", any, v0, approximated};
+}
+
+}  // namespace
+
+std::vector<Plugin> phases() {
+  return {
+      phase<IsotropicPhase>(),
+      phase<HenyeyGreensteinPhase>({.reader = &read_hg}),
+      phase<RayleighPhase>(),
+      phase<BlendPhase>({.versions = v3, .note = "holds two phase functions"}),
+      phase<SggxPhase>({.versions = v3, .reader = &read_sggx, .note = "see `sggx-flakes` below"}),
+      phase<TabulatedPhase>({.versions = v3, .reader = &read_tabphase}),
+      {"kkay",
+       v0,
+       {without_effect("ks"), without_effect("kd"), without_effect("exponent")},
+       &read_fibre_phase,
+       "by isotropic",
+       approximated},
+      {"microflake", v0, without_effect("stddev"), &read_fibre_phase, "by isotropic", approximated},
+      {"mixturephase", v0,
+       Parameter{.name = "weights",
+                 .type = string,
+                 .note = "one for each phase function",
+                 .required = true},
+       &read_mixturephase, "holds phase functions"},
+  };
+}
+
+}  // namespace duet::plugins

@@ -1,0 +1,132 @@
+// Lights on surfaces and elsewhere.
+#include "mitsuba/plugins/emitters.h"
+
+#include <cmath>
+
+#include "mitsuba/focal_length.h"
+#include "mitsuba/plugins/plugin.h"
+#include "mitsuba/plugins/tables.h"
+
+namespace duet::plugins {
+
+void read_weight(Properties& p, LightDescription& out) {
+  out.sampling_weight = p.number("sampling_weight");
+}
+
+std::optional<Matrix4> light_along(const Triple& direction) {
+  // Turning the light around its direction changes nothing: any "up" will do.
+  const bool mostly_x = std::abs(direction[0]) > std::abs(direction[1]);
+  return Matrix4::look_at({0, 0, 0}, direction, mostly_x ? Triple{0, 1, 0} : Triple{1, 0, 0});
+}
+
+namespace {
+
+template <bool kDirectional>
+void read_area(SceneReader& s, Properties& p, AreaEmission& out) {
+  read_values(s, p, out);
+  out.directional = kDirectional;
+  // Rays that leave a surface know what is beyond it.
+  p.child(PluginKind::medium);
+}
+
+/// What its fields say, where it stands, and what all lights that are no surfaces have.
+template <class T>
+void read_light(SceneReader& s, Properties& p, LightDescription& out) {
+  read_model<T>(s, p, out);
+  if constexpr (!std::is_same_v<T, ConstantLight>)
+    out.to_world = p.transform("to_world", out.motion);
+  read_weight(p, out);
+  if (const Node* medium = p.child(PluginKind::medium)) out.medium = s.medium(*medium);
+}
+
+void check_not_both_places(Properties& p, std::string_view name) {
+  if (p.has(name) && p.has("to_world"))
+    p.error("to_world", "either \"{}\" or \"to_world\" can be given", name);
+}
+
+void read_point(SceneReader& s, Properties& p, LightDescription& out) {
+  check_not_both_places(p, "position");
+  Triple position = p.triple("position");
+  read_light<PointLight>(s, p, out);
+  const Matrix4& m = out.to_world;
+  if (p.has("to_world")) position = {m[0][3], m[1][3], m[2][3]};
+  out.to_world = Matrix4::translate(position[0], position[1], position[2]);
+}
+
+void read_spot(SceneReader& s, Properties& p, LightDescription& out) {
+  read_light<SpotLight>(s, p, out);
+  SpotLight& light = std::get<SpotLight>(out.model);
+  light.beam_width = p.optional_number("beam_width").value_or(0.75 * light.cutoff_angle);
+  // In Mitsuba 3 the light is even as far as it reaches, then.
+  if (!p.is_0x()) light.beam_width = std::min(light.beam_width, light.cutoff_angle);
+  if (light.beam_width > light.cutoff_angle)
+    p.error("beam_width", "the beam width {} is greater than the cutoff angle {}", light.beam_width,
+            light.cutoff_angle);
+}
+
+void read_projector(SceneReader& s, Properties& p, LightDescription& out) {
+  read_light<ProjectorLight>(s, p, out);
+  ProjectorLight& light = std::get<ProjectorLight>(out.model);
+  std::tie(light.fov, light.fov_axis) = read_fov(p);
+}
+
+void read_directional(SceneReader& s, Properties& p, LightDescription& out) {
+  check_not_both_places(p, "direction");
+  read_light<DirectionalLight>(s, p, out);
+  if (!p.has("direction")) return;
+  if (const auto m = light_along(p.triple("direction")))
+    out.to_world = *m;
+  else
+    p.error("direction", "the direction of a light cannot be zero");
+}
+
+void read_envmap(SceneReader& s, Properties& p, LightDescription& out) {
+  read_light<EnvironmentMapLight>(s, p, out);
+  check_gamma(p, std::get<EnvironmentMapLight>(out.model).gamma);
+}
+
+constexpr Parameter kMovablePlace{"to_world", transform, "", kMovable};
+
+/// A light whose place is its last parameter.
+template <class T>
+Plugin light(Plugin row = {}, const ParameterList& more = {}) {
+  if (std::holds_alternative<std::monostate>(row.reader)) row.reader = &read_light<T>;
+  return plugin_of<T, LightDescription>(std::move(row), {more, kMovablePlace});
+}
+
+}  // namespace
+
+std::vector<Plugin> emitters() {
+  const auto of_map = [](std::string_view name) { return parameter<EnvironmentMapLight>(name); };
+  const Parameter radiance = parameter<AreaEmission>("radiance");
+  std::vector<Plugin> all{
+      {"area", both, radiance, &read_area<false>, "stands in a shape"},
+      light<PointLight>({.reader = &read_point},
+                        Parameter{"position", point, "0 0 0", "either this or to_world"}),
+      light<SpotLight>({.reader = &read_spot}),
+      light<ProjectorLight>({.versions = v3, .reader = &read_projector}),
+      light<DirectionalLight>(
+          {.reader = &read_directional},
+          Parameter{"direction", point, "", "either this or to_world, whose +z it is"}),
+      {"constant",
+       both,
+       {parameters_of<ConstantLight>(), inert_parameters(transform, "to_world")},
+       &read_light<ConstantLight>},
+      {"envmap",
+       both,
+       {of_map("filename"), of_map("scale"), kMovablePlace, of_map("gamma"),
+        inert_parameters(boolean, "cache", v0), inert_parameters(boolean, "mis_compensation", v3)},
+       &read_envmap},
+      {"directionalarea", v3, radiance, &read_area<true>,
+       "stands in a shape; only methods that walk from lights carry it"},
+      light<CollimatedLight>(
+          {.versions = v0, .note = "only methods that walk from lights carry it"}),
+  };
+  for (Plugin& sky : skies()) all.push_back(std::move(sky));
+  all.push_back(refused_plugin("volumelight", v3,
+                               "a volume that emits is not computed, nor is it in Mitsuba 3.9",
+                               "radiance to_world"));
+  return all;
+}
+
+}  // namespace duet::plugins

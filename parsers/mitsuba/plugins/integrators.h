@@ -1,0 +1,45 @@
+// What the files about integrators share.
+#pragma once
+
+#include "mitsuba/plugins/plugin.h"
+
+namespace duet::plugins {
+
+/// Methods that trace sub-paths from the lights, too (integrator_bidirectional.cpp).
+std::vector<Plugin> bidirectional_integrators();
+/// Integrators that another method stands in for (integrator_substitutes.cpp).
+std::vector<Plugin> substituted_integrators();
+/// Those that make layers of other integrators (integrator_layers.cpp).
+Plugin aov();
+Plugin moment();
+Plugin field_integrator();
+Plugin multichannel();
+
+/// Says that another method is run instead.
+void note_substitute(SceneReader& s, const Properties& p, std::string_view method,
+                     std::string_view why = "");
+/// The integrator that stands in `p`; null after an error.
+const Node* nested_integrator(SceneReader& s, Properties& p);
+
+template <class T>
+void read_method(SceneReader& s, Properties& p, IntegratorDescription& out) {
+  T method;
+  read_values(s, p, method);
+  out.method = std::move(method);
+}
+
+/// A method by what its description says; `more` are parameters that change nothing.
+template <class T>
+Plugin method(Plugin row, const ParameterList& more = {}) {
+  if (row.parameters.empty()) row.parameters = {parameters_of<T>(), more};
+  if (std::holds_alternative<std::monostate>(row.reader)) row.reader = &read_method<T>;
+  return row;
+}
+
+/// A parameter with another default in 0.x files.
+inline Parameter with_preset_0x(Parameter p, std::string_view preset) {
+  p.preset_0x = preset;
+  return p;
+}
+
+}  // namespace duet::plugins

@@ -1,0 +1,152 @@
+// Cameras, and the other sensors.
+#include "mitsuba/plugins/sensors.h"
+
+#include <cmath>
+
+#include "math/angles.h"
+#include "mitsuba/focal_length.h"
+#include "mitsuba/plugins/plugin.h"
+#include "mitsuba/plugins/tables.h"
+#include "values/text.h"
+
+namespace duet {
+
+double diagonal_fov(double focal_length) {
+  const double diagonal = std::sqrt(36.0 * 36 + 24 * 24);
+  return 2 * std::atan(diagonal / (2 * focal_length)) * kDegrees;
+}
+
+std::pair<double, FovAxis> read_fov(Properties& p) {
+  if (p.has("fov")) {
+    if (p.has("focal_length"))
+      p.error("focal_length", "either \"fov\" or \"focal_length\" can be given");
+    const FovAxis axis = FovAxis(p.choice("fov_axis", kFovAxes));
+    return {p.optional_number("fov").value_or(45), axis};
+  }
+  const std::string text = p.string("focal_length");
+  std::string_view number = trim(text);
+  if (number.ends_with("mm")) number.remove_suffix(2);
+  const auto length = parse_number(number);
+  if (!length || !(*length > 0))
+    p.error("focal_length", "{} is not a focal length of the form \"50mm\"", in_quotes(text));
+  return {diagonal_fov(length && *length > 0 ? *length : 50), FovAxis::diagonal};
+}
+
+}  // namespace duet
+
+namespace duet::plugins {
+
+namespace {
+
+bool is_rigid(const Matrix4& m) {
+  for (int i = 0; i < 3; ++i)
+    for (int j = i; j < 3; ++j) {
+      const double product = m[i][0] * m[j][0] + m[i][1] * m[j][1] + m[i][2] * m[j][2];
+      if (std::abs(product - (i == j ? 1 : 0)) > 1e-3) return false;
+    }
+  return true;
+}
+
+/// An error if the transform, at any time, does more than turn, mirror and move: cameras have no
+/// size.
+void check_rigid(Properties& p, const SensorDescription& sensor) {
+  bool rigid = is_rigid(sensor.to_world);
+  for (const Keyframe& k : sensor.motion.keyframes()) rigid &= is_rigid(k.pose);
+  if (!rigid) p.error("to_world", "the transform of {} must not scale", describe(p.node()));
+}
+
+}  // namespace
+
+void read_sensor(SceneReader& s, Properties& p, SensorDescription& out) {
+  out.where = p.node().where;
+  out.label = {p.node().id};
+  out.to_world = p.transform("to_world", out.motion);
+  out.shutter = {p.number("shutter_open"), p.number("shutter_close")};
+  if (out.shutter[0] > out.shutter[1])
+    p.error(p.has("shutter_close") ? "shutter_close" : "shutter_open",
+            "the shutter closes at {}, before it opens at {}", out.shutter[1], out.shutter[0]);
+  read_values(s, p, out);
+  if (out.near_clip >= out.far_clip)
+    p.error(p.has("far_clip") ? "far_clip" : "near_clip",
+            "the near clip distance {} is not smaller than the far one {}", out.near_clip,
+            out.far_clip);
+  if (const Node* medium = p.child(PluginKind::medium)) out.medium = s.medium(*medium);
+  out.film.where = p.node().where;
+  if (const Node* film = p.child(PluginKind::film)) {
+    out.film.where = film->where;
+    s.read_into(*film, out.film);
+  }
+  if (const Node* sampler = p.child(PluginKind::sampler)) s.read_into(*sampler, out.sampler);
+}
+
+namespace {
+
+/// Cameras by their fields. Those of parallel rays may be scaled: it is the size of their image.
+template <SensorKind kKind>
+void read_camera(SceneReader& s, Properties& p, SensorDescription& out) {
+  out.kind = kKind;
+  read_sensor(s, p, out);
+  if (kKind != SensorKind::orthographic && kKind != SensorKind::telecentric) check_rigid(p, out);
+  if (has_fov(kKind)) std::tie(out.fov, out.fov_axis) = read_fov(p);
+  if (has_lens(kKind))
+    out.focus_distance = p.optional_number("focus_distance").value_or(out.far_clip);
+}
+
+void read_perspective_rdist(SceneReader& s, Properties& p, SensorDescription& out) {
+  read_camera<SensorKind::perspective_rdist>(s, p, out);
+  const std::string text = p.string("kc");
+  const auto numbers = parse_numbers(text);
+  if (numbers && numbers->size() == 2)
+    out.distortion = {(*numbers)[0], (*numbers)[1]};
+  else if (!numbers || !numbers->empty())
+    p.error("kc", "{} are not two coefficients of distortion", in_quotes(text));
+}
+
+constexpr Parameter kResponse{.name = "srf",
+                              .type = ParameterType::texture,
+                              .note = "light is computed as red, green and blue, not by wavelength",
+                              .versions = v3,
+                              .support = refused};
+
+ParameterList of_sensor(std::string_view names) {
+  return parameters_of<SensorDescription>(names);
+}
+
+}  // namespace
+
+std::vector<Plugin> sensors() {
+  const ParameterList fov = of_sensor("fov fov_axis focal_length");
+  const ParameterList no_focus = inert_parameters(number, "focus_distance");
+  constexpr Parameter aperture{
+      .name = "aperture_radius", .type = number, .range = not_negative, .required = true};
+  std::vector<Plugin> all{
+      {"perspective",
+       both,
+       {fov, of_sensor("principal_point_offset_x principal_point_offset_y"), no_focus, kResponse},
+       &read_camera<SensorKind::perspective>},
+      {"thinlens",
+       both,
+       {fov, aperture, of_sensor("focus_distance"), kResponse},
+       &read_camera<SensorKind::thinlens>},
+      {"orthographic", both, {no_focus, kResponse}, &read_camera<SensorKind::orthographic>},
+  };
+  for (Plugin& meter : meters(kResponse)) all.push_back(std::move(meter));
+  for (Plugin& camera : std::vector<Plugin>{
+           {.name = "fluencemeter",
+  .versions = v0,
+  .reader = &read_camera<SensorKind::fluencemeter>,
+  .note = "one pixel"},
+           {.name = "spherical", .versions = v0, .reader = &read_camera<SensorKind::spherical>},
+           {"telecentric", v0, of_sensor("aperture_radius focus_distance"),
+            &read_camera<SensorKind::telecentric>},
+           {"perspective_rdist", v0, {fov, of_sensor("kc"), no_focus}, &read_perspective_rdist}})
+    all.push_back(std::move(camera));
+  return all;
+}
+
+ParameterList sensor_parameters() {
+  return {Parameter{"to_world", transform, "", kMovable},
+          of_sensor("near_clip far_clip shutter_open shutter_close")};
+}
+
+}  // namespace duet::plugins

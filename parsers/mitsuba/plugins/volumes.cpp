@@ -1,0 +1,92 @@
+// Volumes.
+#include "mitsuba/plugins/plugin.h"
+#include "mitsuba/plugins/tables.h"
+
+namespace duet::plugins {
+
+namespace {
+
+Matrix4 box_to_world(const VolumeGrid& grid) {
+  const auto& a = grid.lower;
+  const auto& b = grid.upper;
+  return Matrix4::translate(double(a[0]), double(a[1]), double(a[2])) *
+         Matrix4::scale(double(b[0]) - double(a[0]), double(b[1]) - double(a[1]),
+                        double(b[2]) - double(a[2]));
+}
+
+void read_constvolume(SceneReader& s, Properties& p, MeantVolume& out) {
+  p.transform("to_world");  // of interest to extinction_box() only
+  const Property* value = p.find("value");
+  if (const Triple* triple = value ? std::get_if<Triple>(&value->value) : nullptr) {
+    out.value = Spectrum(float((*triple)[0]), float((*triple)[1]), float((*triple)[2]));
+    return;
+  }
+  out.value = s.color_volume(p, "value");
+}
+
+void read_gridvolume(SceneReader& s, Properties& p, MeantVolume& out) {
+  VolumeDescription v;
+  v.where = p.node().where;
+  v.label = {p.node().id};
+  read_values(s, p, v);
+  v.nodes_on_faces = p.is_0x();
+  const bool use_box = p.boolean("use_grid_bbox");
+  const bool own_box = p.has("min") && p.has("max");
+  VolumeGrid box;
+  const Triple lower = p.triple("min"), upper = p.triple("max");
+  for (size_t i = 0; i < 3 && own_box; ++i) {
+    box.lower[i] = float(lower[i]), box.upper[i] = float(upper[i]);
+    if (!(box.upper[i] > box.lower[i])) p.error("max", "the box from \"min\" to \"max\" is flat");
+  }
+  if (v.file.empty()) return;
+  v.grid = s.volume_grid(v.file, p.where("filename"), v.is_float32);
+  if (!v.grid) return;
+  if (own_box)
+    v.to_world = v.to_world * box_to_world(box);
+  else if (p.is_0x() || use_box)
+    v.to_world = v.to_world * box_to_world(*v.grid);
+  out.value = s.add_volume(std::move(v));
+}
+
+void read_volcache(SceneReader& s, Properties& p, MeantVolume& out) {
+  const Node* nested = p.child(PluginKind::volume);
+  if (!nested) {
+    s.report().error(p.node().where, "{} needs a volume", describe(p.node()));
+    return;
+  }
+  if (const auto value = s.volume(*nested, out.meaning)) out.value = *value;
+}
+
+constexpr Parameter kConstvolume[] = {
+    {"value", coefficient, "1"},
+    {"to_world", transform, "",
+     "places the box that a heterogeneous medium of constant extinction fills in 3.x"}};
+constexpr Parameter kBoxes[] = {
+    {"use_grid_bbox", boolean, "false", "place the grid in the box of the file; 0.x always does",
+     any, v3},
+    {"min", point, "0 0 0", "with max: another box than the file's", any, v0},
+    {"max", point, "1 1 1", "", any, v0}};
+
+}  // namespace
+
+std::vector<Plugin> volumes() {
+  return {
+      {"constvolume", both, kConstvolume, &read_constvolume},
+      {"gridvolume",
+       both,
+       {parameters_of<VolumeDescription>(), kBoxes, inert_parameters(boolean, "raw accel", v3),
+        inert_parameters(number, "max_value", v3), inert_parameters(boolean, "send_data", v0)},
+       &read_gridvolume},
+      refused_plugin("hgridvolume", v0, "grids of grids are not read",
+                     "filename prefix postfix to_world"),
+      {"volcache",
+       v0,
+       {inert_parameters(integer, "block_size"), inert_parameters(number, "voxel_width"),
+        Parameter{
+            .name = "memory_limit", .type = integer, .support = inert, .aliases = "cache_size"}},
+       &read_volcache,
+       "holds a volume"},
+  };
+}
+
+}  // namespace duet::plugins

@@ -1,0 +1,67 @@
+// Reconstruction filters by their kinds, with the parameters that each has.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "image/filter.h"
+#include "scene/field.h"
+
+namespace duet {
+
+inline constexpr const char* kFilterNames[] = {"box",      "tent",       "gaussian",
+                                               "mitchell", "catmullrom", "lanczos"};
+
+template <FilterKind kKind>
+struct FilterOf : FilterDescription {
+  FilterOf() : FilterDescription{.kind = kKind, .radius = kKind == FilterKind::tent ? 1.0 : 0.5} {}
+  explicit FilterOf(const FilterDescription& f) : FilterDescription(f) {}
+
+  static constexpr auto fields() {
+    using namespace parameter_words;
+    using enum ParameterType;
+    using F = FilterDescription;
+    if constexpr (kKind == FilterKind::box)
+      return std::tuple(
+          field(&F::radius, Parameter{"radius", number, kInitial, "", positive, v0}).unwritten());
+    else if constexpr (kKind == FilterKind::tent)
+      return std::tuple(field(&F::radius, Parameter{"radius", number, kInitial, "", positive}));
+    else if constexpr (kKind == FilterKind::gaussian)
+      return std::tuple(field(&F::stddev, Parameter{"stddev", number, kInitial, "", positive}));
+    else if constexpr (kKind == FilterKind::mitchell)
+      return std::tuple(
+          field(&F::b, Parameter{.name = "B", .type = number, .preset = "(1/3)", .aliases = "b"}),
+          field(&F::c, Parameter{.name = "C", .type = number, .preset = "(1/3)", .aliases = "c"}));
+    else if constexpr (kKind == FilterKind::lanczos)
+      return std::tuple(field(&F::lobes, Parameter{"lobes", integer, kInitial, "", positive}));
+    else
+      return std::tuple();
+  }
+  static constexpr const char* name() { return kFilterNames[size_t(kKind)]; }
+  std::vector<std::string> losses() const {
+    if (kKind != FilterKind::box || radius == 0.5) return {};
+    return {"the radius of a box filter is missing"};
+  }
+};
+
+/// visit(FilterOf<kind>) with the filter.
+template <class Visit>
+void with_filter(const FilterDescription& f, Visit&& visit) {
+  using enum FilterKind;
+  switch (f.kind) {
+    case box:
+      return visit(FilterOf<box>(f));
+    case tent:
+      return visit(FilterOf<tent>(f));
+    case gaussian:
+      return visit(FilterOf<gaussian>(f));
+    case mitchell:
+      return visit(FilterOf<mitchell>(f));
+    case catmullrom:
+      return visit(FilterOf<catmullrom>(f));
+    case lanczos:
+      return visit(FilterOf<lanczos>(f));
+  }
+}
+
+}  // namespace duet
