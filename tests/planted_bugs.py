@@ -186,4 +186,13 @@ MUTATIONS = [
      "kMostCoarse = 4096;", "kMostCoarse = size_t(1) << 30;", "each of 2^25 equal weights*"),
     ("two renders move a scene at the same time", "src/scene/scene_motion.cpp",
      "if (holder != std::this_thread::get_id())", "if (motion == nullptr)", "a scene that moves is refused*"),
+    ("light in a layer is joined with its walk twice", "src/materials/layer_walk.cpp",
+     "const float share = light_.delta ? 1 : light_.pdf / (light_.pdf + e.pdf);", "const float share = 1;",
+     "where light goes is where*"),
+    ("all points of a layered surface share one estimate", "src/materials/layered_material.cpp",
+     "m.seed = hash_of(s.position);", "m.seed = 0;", "an estimate is the same*"),
+    ("light meets the base under a coat once too often", "src/materials/coated_diffuse.cpp",
+     "(max_depth + 1) / 2", "(max_depth + 2) / 2", "the closed form is the mean*"),
+    ("all octaves of noise are equally strong", "src/textures/noise.cpp",
+     "amplitude *= roughness;", "", "octaves are summed*"),
 ]

@@ -73,7 +73,12 @@ void Uber::add_components(const Surface& s, BsdfBuilder& builder) const {
   });
   builder.with_share(glossy / all, [&](BsdfBuilder& b) {
     const float scale = all / glossy;
-    b.add(RoughDielectricModel{o.roughness(s), eta, gr * scale, gt * scale});
+    const RoughDielectricModel interface_model{o.roughness(s), eta, gr * scale, gt * scale};
+    // A surface that nothing passes is the same from both sides.
+    if (b.wo().z < 0 && gt.is_black())
+      b.flipped([&](BsdfBuilder& below) { below.add(interface_model); });
+    else
+      b.add(interface_model);
   });
   builder.with_share(specular / all, [&](BsdfBuilder& b) {
     const float scale = all / specular;

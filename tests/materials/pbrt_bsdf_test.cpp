@@ -224,6 +224,20 @@ TEST_SUITE("BSDFs of pbrt") {
       }
   }
 
+  TEST_CASE("uber: what lets no light pass looks the same from both sides") {
+    const TestMaterial plastic(R"({"type": "uber", "alpha": 0.3})");
+    for (const Vector3f& from : kDirections)
+      for (const Vector3f& to : kDirections) {
+        const auto value = [&](float side) {
+          const Vector3f o = normalize(Vector3f(from.x, from.y, from.z * side));
+          const Vector3f i = normalize(Vector3f(to.x, to.y, to.z * side));
+          return plastic->bind(flat_surface(), o).eval(i, Transport::radiance).value.g;
+        };
+        CHECK(value(1) == doctest::Approx(value(-1)).epsilon(1e-5));
+        CHECK((value(1) > 0) == (from.z * to.z > 0));
+      }
+  }
+
   TEST_CASE("uber: the sum of its lobes") {
     const TestMaterial sum(R"({"type": "uber", "distribution": "ggx_correlated", "alpha": 0.3,
       "diffuse_reflectance": 0.4, "diffuse_transmittance": 0.2, "glossy_reflectance": 0.8,

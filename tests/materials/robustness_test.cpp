@@ -69,6 +69,23 @@ std::vector<json> descriptions() {
       }
       out.push_back({{"type", "principled"}, {"metallic", 1}});
       out.back().update(principled);
+      for (const float thickness : {0.0f, 100.0f})
+        for (const float albedo : {0.0f, 1.0f}) {
+          const json coat{
+              {"eta", eta}, {"alpha", alpha}, {"thickness", thickness}, {"albedo", albedo}};
+          out.push_back({{"type", "coateddiffuse"}, {"reflectance", 1}});
+          out.back().update(coat);
+          out.push_back({{"type", "coatedconductor"}, {"conductor_alpha", alpha}, {"g", 1}});
+          out.back().update(coat);
+        }
+      out.push_back({{"type", "substrate"}, {"alpha_u", alpha}, {"alpha_v", 0.3f}});
+      out.push_back({{"type", "uber"},
+                     {"distribution", "ggx_correlated"},
+                     {"alpha", alpha},
+                     {"eta", eta},
+                     {"glossy_transmittance", 1},
+                     {"specular_transmittance", 1},
+                     {"opacity", 0.5f}});
     }
   }
   out.push_back({{"type", "diffuse"}});
@@ -115,6 +132,7 @@ std::vector<json> descriptions() {
 float largest_weight(const json& bsdf) {
   if (mentions(bsdf, "type", "hair")) return kInfinity;
   const std::string type = bsdf["type"];
+  if (type.starts_with("coated")) return kInfinity;
   if (type == "diffuse" || type == "null" || type.ends_with("dielectric") ||
       type.ends_with("conductor"))
     // Beckmann's masking is an approximation in values, but exact in densities.

@@ -10,7 +10,8 @@ namespace duet {
 /// Any of: diffuse reflection and transmission, glossy reflection and transmission at a rough
 /// dielectric interface, specular reflection and refraction at a smooth one; and `opacity` per
 /// colour, which multiplies all of these and lets the rest of the light pass straight through. The
-/// interfaces' Fresnel terms are those of `eta`. From below, all is the same with 1 / eta.
+/// interfaces' Fresnel terms are those of `eta`. From below, all is the same with 1 / eta; glossy
+/// reflection without transmission is the same with `eta`, too.
 ///
 /// With the right colours black this is pbrt-v3's plastic, uber and translucent, and pbrt-v4's
 /// diffusetransmission. Source: Pharr, Jakob, Humphreys, "Physically Based Rendering", 3rd ed.,
