@@ -172,7 +172,8 @@ void SceneWriter::sampling_weight(double weight) {
 
 void SceneWriter::light(const LightDescription& l) {
   constexpr std::string_view types[] = {"point",    "spot",   "projector", "directional",
-                                        "constant", "envmap", "sunsky",    "collimated"};
+                                        "constant", "envmap", "sunsky",    "collimated",
+                                        "goniometric"};
   static_assert(std::size(types) == std::variant_size_v<decltype(l.model)>);
   out_.open("emitter", types[l.model.index()]);
   if (const auto* point = std::get_if<PointLight>(&l.model)) {
@@ -182,9 +183,11 @@ void SceneWriter::light(const LightDescription& l) {
     out_.number("cutoff_angle", spot->cutoff_angle);
     out_.number("beam_width", spot->beam_width);
     if (spot->texture) out_.reference("texture", texture_id(*spot->texture));
+    if (spot->falloff != SpotFalloff::linear) lose("the spot light fades linearly in the angle");
   } else if (const auto* projector = std::get_if<ProjectorLight>(&l.model)) {
     color("irradiance", projector->irradiance);
     out_.number("scale", projector->scale);
+    if (projector->is_intensity) lose("the projector's image is irradiance, not intensity");
     fov(projector->fov, projector->fov_axis);
   } else if (const auto* directional = std::get_if<DirectionalLight>(&l.model)) {
     color("irradiance", directional->irradiance);
@@ -193,6 +196,10 @@ void SceneWriter::light(const LightDescription& l) {
   } else if (const auto* map = std::get_if<EnvironmentMapLight>(&l.model)) {
     out_.string("filename", map->file);
     out_.number("scale", map->scale);
+    if (map->tint != Spectrum(1.0f)) lose("the colour of an environment map is missing");
+    if (map->illuminance) lose("the illuminance of an environment map is missing");
+    if (map->layout == EnvironmentLayout::equal_area)
+      lose("the image of an environment map is one of equal areas");
     if (map->gamma) lose("the gamma value of an environment map is missing");
   } else if (const auto* sky = std::get_if<SkyLight>(&l.model)) {
     out_.number("turbidity", sky->turbidity);
@@ -210,6 +217,9 @@ void SceneWriter::light(const LightDescription& l) {
   } else if (const auto* beam = std::get_if<CollimatedLight>(&l.model)) {
     lose("the light \"collimated\" does not exist in Mitsuba 3");
     color("power", ColorInput(beam->power));
+  } else if (const auto* image = std::get_if<GoniometricLight>(&l.model)) {
+    lose("the light \"goniometric\" does not exist in Mitsuba 3");
+    out_.string("filename", image->file);
   }
   if (!std::holds_alternative<ConstantLight>(l.model)) out_.transform("to_world", l.to_world);
   sampling_weight(l.sampling_weight);

@@ -7,8 +7,8 @@
 namespace duet {
 
 /// The share of directions, weighted by the cosine, in which nothing is nearer than a length; one
-/// where the camera sees nothing, unless that is to be black. No light and no material counts, and surfaces are looked at from
-/// the side of their normal. Source: Zhukov, Iones & Kronin, "An Ambient Light Illumination Model",
+/// where the camera sees nothing, unless that is to be black. No light and no material counts, and
+/// surfaces are looked at from the side of their normal. Source: Zhukov, Iones & Kronin, "An Ambient Light Illumination Model",
 /// 1998.
 class OcclusionIntegrator final : public CameraIntegrator {
  public:

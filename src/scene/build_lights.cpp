@@ -66,7 +66,23 @@ std::unique_ptr<Light> SceneBuilder::make(const ProjectorLight& l, const LightDe
   const Point2i size = irradiance.texture ? irradiance.texture->resolution() : Point2i{1, 1};
   const double aspect = double(size.x) / size.y;
   return std::make_unique<ProjectorEmitter>(Transform(d.to_world), irradiance, float(l.scale),
-                                            horizontal_fov(l.fov, l.fov_axis, aspect), aspect);
+                                            horizontal_fov(l.fov, l.fov_axis, aspect), aspect,
+                                            l.is_intensity);
+}
+
+std::unique_ptr<Light> SceneBuilder::make(const GoniometricLight& l, const LightDescription& d) {
+  const auto image = pixels(l.file, {}, d.where);
+  if (!image) return nullptr;
+  const int n = image->width();
+  if (image->height() != n) {
+    diagnostics_.error(d.where, "an equal-area map must be a square, not {}x{}", n,
+                       image->height());
+    return nullptr;
+  }
+  std::vector<Spectrum> texels;
+  for (int y = 0; y < n; ++y)
+    for (int x = 0; x < n; ++x) texels.push_back(image->color(x, y) * l.scale);
+  return std::make_unique<GoniometricEmitter>(Transform(d.to_world), n, std::move(texels));
 }
 
 std::unique_ptr<Light> SceneBuilder::make(const DirectionalLight& l, const LightDescription& d) {

@@ -132,6 +132,7 @@ class SceneBuilder {
                                         const BitmapPixels& image);
   std::unique_ptr<Light> make(const SkyLight& l, const LightDescription& d);
   std::unique_ptr<Light> make(const CollimatedLight& l, const LightDescription& d);
+  std::unique_ptr<Light> make(const GoniometricLight& l, const LightDescription& d);
 
   // build_cameras.cpp
   std::unique_ptr<Camera> camera(SensorDescription& d, const Point2i& film);

@@ -39,9 +39,21 @@ struct ProjectorLight {
   double scale = 1;
   double fov = 45;
   FovAxis fov_axis = FovAxis::x;
+  /// The texture is radiant intensity; else it is what falls on a plane, over π.
+  bool is_intensity = false;
   static constexpr auto fields() {
     return plain_fields(&ProjectorLight::irradiance, &ProjectorLight::scale, &ProjectorLight::fov,
-                        &ProjectorLight::fov_axis);
+                        &ProjectorLight::fov_axis, &ProjectorLight::is_intensity);
+  }
+};
+/// Radiant intensity in all directions by an image that is a square of equal areas
+/// (math/equal_area.h), without interpolation.
+struct GoniometricLight {
+  std::string file;  ///< resolved path
+  Spectrum scale{1.0f};
+  static constexpr auto fields() {
+    return std::tuple_cat(std::tuple(field(&GoniometricLight::file).names_data()),
+                          plain_fields(&GoniometricLight::scale));
   }
 };
 /// Irradiance on a plane across the direction +z.
@@ -109,7 +121,7 @@ struct LightDescription {
   SourceLocation where;
   Label label;
   std::variant<PointLight, SpotLight, ProjectorLight, DirectionalLight, ConstantLight,
-               EnvironmentMapLight, SkyLight, CollimatedLight>
+               EnvironmentMapLight, SkyLight, CollimatedLight, GoniometricLight>
       model;
   Matrix4 to_world;
   Motion motion;  ///< as in ShapeDescription; environments only turn

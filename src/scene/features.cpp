@@ -45,6 +45,7 @@ class Survey {
   void operator()(const EnvironmentMapLight&) { features_.environment_map = true; }
   void operator()(const SkyLight&) { features_.sky = true; }
   void operator()(const CollimatedLight&) { ++features_.beams; }
+  void operator()(const GoniometricLight&) { ++features_.point_lights; }
 
  private:
   struct Group {

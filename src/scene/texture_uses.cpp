@@ -33,6 +33,7 @@ class Marker {
   void model(const EnvironmentMapLight&) {}
   void model(const SkyLight&) {}
   void model(const CollimatedLight&) {}
+  void model(const GoniometricLight&) {}
 
  private:
   void input(const ColorInput& i) {
