@@ -194,7 +194,10 @@ void read_goniometric(Values& v) {
   light.scale = emitted(v, "I") * scale_of(v);
   if (v.has("power"))
     v.reader().report().error(v.where("power"), "power with an image is not supported yet");
-  add(v, light, {});
+  // The image has the light's +y in its middle.
+  Matrix4 swap;
+  swap.m = {{{1, 0, 0, 0}, {0, 0, 1, 0}, {0, 1, 0, 0}, {0, 0, 0, 1}}};
+  add(v, light, swap);
 }
 
 void read_projection(Values& v) {
