@@ -129,6 +129,10 @@ void FieldReader::read(const FieldFacts& facts, ColorVolume& value) {
   value = s_.color_volume(p_, facts.name());
 }
 
+void FieldReader::read(const FieldFacts& facts, Matrix4& value) {
+  value = p_.transform(facts.name());
+}
+
 void FieldReader::read(const FieldFacts& facts, UvTransform& value) {
   if (facts.has_parameter("to_uv") && p_.has("to_uv")) {
     const Matrix4 m = p_.transform("to_uv");

@@ -43,6 +43,7 @@ class FieldReader {
   void read(const FieldFacts& facts, Spectrum& value);
   void read(const FieldFacts& facts, ColorVolume& value);
   void read(const FieldFacts& facts, UvTransform& value);
+  void read(const FieldFacts& facts, Matrix4& value);
   void read(const FieldFacts& facts, std::optional<TextureId>& value);
   void read(const FieldFacts& facts, Roughness& value);
   void read(const FieldFacts& facts, std::optional<Roughness>& value);

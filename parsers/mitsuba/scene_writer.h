@@ -52,6 +52,7 @@ class SceneWriter {
   void field(const FieldFacts& facts, const Spectrum& value);
   void field(const FieldFacts& facts, const ColorVolume& value);
   void field(const FieldFacts& facts, const UvTransform& value);
+  void field(const FieldFacts& facts, const Matrix4& value);
   void field(const FieldFacts& facts, TextureId value);
   void field(const FieldFacts& facts, const Roughness& value);
   void field(const FieldFacts& facts, const std::optional<Roughness>& value);

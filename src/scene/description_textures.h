@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "scene/description_base.h"
+#include "scene/description_pbrt_textures.h"
 #include "scene/uv_field.h"
 #include "textures/bitmap_options.h"
 #include "textures/curvature_kind.h"
@@ -234,7 +235,9 @@ struct TextureDescription {
   Label label;
   std::variant<BitmapTexture, CheckerboardTexture, MeshAttributeTexture, GridLinesTexture,
                WireframeTexture, CurvatureTexture, ScaledTextureDescription,
-               VolumeTextureDescription>
+               VolumeTextureDescription, NoiseTextureDescription, SolidCheckerboardDescription,
+               MappedTextureDescription, MixDescription, ProductDescription,
+               DirectionMixDescription, FunctionDescription, BilerpDescription, DotsDescription>
       model;
   static constexpr auto fields() {
     return plain_fields(&TextureDescription::where, &TextureDescription::label,

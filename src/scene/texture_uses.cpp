@@ -62,8 +62,10 @@ class Marker {
       using M = std::decay_t<decltype(value)>;
       if constexpr (std::is_same_v<M, TextureId>)
         texture(value, use);
-      else if constexpr (std::is_same_v<M, ColorInput> || std::is_same_v<M, FloatInput>)
+      else if constexpr (std::is_same_v<M, ColorInput>) {
         if (const TextureId* inner = std::get_if<TextureId>(&value)) texture(*inner, use);
+      } else if constexpr (std::is_same_v<M, FloatInput>)
+        input(value);
     });
   }
 

@@ -40,6 +40,8 @@ void read_wireframe(SceneReader& s, Properties& p, TextureDescription& out) {
 }  // namespace
 
 std::vector<Plugin> textures() {
+  constexpr const char *kPbrt = "Duet's own, that of pbrt",
+                       *kInSpace = "Duet's own, that of pbrt; looked up in the world";
   return {
       bitmap(),
       texture<CheckerboardTexture>({.reader = &read_checkerboard}),
@@ -64,6 +66,16 @@ std::vector<Plugin> textures() {
            .note =
                "on meshes and cubes, other shapes are all interior; instances show the lines of "
                "the mesh before it is placed"}),
+      texture<BilerpDescription>({.note = kPbrt}),
+      texture<DirectionMixDescription>({.note = kPbrt}),
+      texture<DotsDescription>({.note = kPbrt}),
+      texture<FunctionDescription>({.note = "Duet's own; holds a texture"}),
+      texture<MappedTextureDescription>(
+          {.note = "Duet's own; holds a texture that is looked up by a mapping of the world"}),
+      texture<MixDescription>({.note = kPbrt}),
+      texture<NoiseTextureDescription>({.note = kInSpace}),
+      texture<ProductDescription>({.note = "Duet's own, pbrt's `scale`"}),
+      texture<SolidCheckerboardDescription>({.note = kInSpace}),
   };
 }
 

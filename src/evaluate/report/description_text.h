@@ -39,6 +39,7 @@ class DescriptionText {
   std::string value_text(const Spectrum& value) const;
   const std::string& value_text(const std::string& value) const { return value; }
   std::string value_text(const ColorInput& value) const { return input(value); }
+  std::string value_text(const FloatInput& value) const { return input(value); }
   std::string value_text(const ColorVolume& value) const { return input(value); }
   /// The fields that are shown, each after its prefix.
   template <HasFields T>
