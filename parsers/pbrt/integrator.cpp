@@ -1,6 +1,7 @@
 // Integrators.
 #include "pbrt/records.h"
 #include "pbrt/values.h"
+#include "pbrt/vocabulary.h"
 
 namespace duet::pbrt {
 
@@ -8,14 +9,13 @@ namespace {
 
 using enum Status;
 
-#define DUET_PATH_SPECS                                                               \
-  {"maxdepth", kInteger, "5", "scattering events"},                                   \
-      {"rrthreshold", kNumber, "1", "", 1, inert, Versions::v3},                      \
-      {"lightsampler", kString, "bvh", "", 1, inert},                                 \
-      {"lightsamplestrategy", kString, "spatial", "", 1, inert},                      \
-      {"regularize", kBoolean, "false", "", 1, ignored},                              \
-  {                                                                                   \
-    "pixelbounds", kInteger, "", "", 4, ignored, Versions::v3                         \
+#define DUET_PATH_SPECS                                          \
+  {"maxdepth", kInteger, "5", "scattering events"},              \
+      {"rrthreshold", kNumber, "1", "", 1, inert, Versions::v3}, \
+      {"lightsampler", kString, "bvh", "", 1, inert},            \
+      {"lightsamplestrategy", kString, "spatial", "", 1, inert}, \
+      {"regularize", kBoolean, "false", "", 1, ignored}, {       \
+    "pixelbounds", kInteger, "", "", 4, ignored, Versions::v3    \
   }
 
 constexpr Spec kPath[] = {DUET_PATH_SPECS};
@@ -176,6 +176,10 @@ void finish_integrator(Reader& reader) {
   if (!record) return;
   Values v(reader, plugin, record->parameters);
   record->read(v, reader.scene());
+}
+
+void list_integrators(std::vector<Row>& rows) {
+  list(rows, "Integrator", kIntegrators);
 }
 
 }  // namespace duet::pbrt

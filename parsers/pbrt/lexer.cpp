@@ -150,7 +150,8 @@ double Lexer::take_number() {
   if (error == std::errc() || out_of_range) {
     // Too small to be represented is zero.
     const std::string_view text(first, size_t(stop - first));
-    const bool tiny = out_of_range && (text.find("e-") != text.npos || text.find("E-") != text.npos);
+    const bool tiny =
+        out_of_range && (text.find("e-") != text.npos || text.find("E-") != text.npos);
     if (tiny) x = 0;
     if ((stop == end_ || ends(*stop)) && (!out_of_range || tiny) && std::isfinite(float(x))) {
       next_ = stop;

@@ -4,6 +4,7 @@
 #include "math/angles.h"
 #include "pbrt/records.h"
 #include "pbrt/values.h"
+#include "pbrt/vocabulary.h"
 
 namespace duet::pbrt {
 
@@ -49,8 +50,8 @@ Matrix4 aimed(const std::array<double, 3>& from, const std::array<double, 3>& to
   std::array<double, 3> d;
   for (size_t i = 0; i < 3; ++i) d[i] = to[i] - from[i];
   const bool along_y = std::abs(d[1]) > 0.9 * std::sqrt(d[0] * d[0] + d[1] * d[1] + d[2] * d[2]);
-  const std::array<double, 3> up = along_y ? std::array<double, 3>{1, 0, 0}
-                                           : std::array<double, 3>{0, 1, 0};
+  const std::array<double, 3> up =
+      along_y ? std::array<double, 3>{1, 0, 0} : std::array<double, 3>{0, 1, 0};
   return Matrix4::look_at(from, to, up).value_or(Matrix4{});
 }
 
@@ -73,12 +74,13 @@ void add(Values& v, decltype(LightDescription::model) model, const Matrix4& to_l
   reader.scene().lights.push_back(std::move(light));
 }
 
-#define DUET_LIGHT_SPECS                                                               \
-  {"scale", Types(kNumber | kColor), "1", "a colour in v3"},                           \
-      {"power", kNumber, "-1", "total power, instead of what the colour says", 1, done, \
-       Versions::v4},                                                                  \
-      {"nsamples", kInteger, "1", "", 1, inert, Versions::v3},                         \
-      {"samples", kInteger, "1", "", 1, inert, Versions::v3}
+#define DUET_LIGHT_SPECS                                                              \
+  {"scale", Types(kNumber | kColor), "1", "a colour in v3"},                          \
+      {"power", kNumber, "-1",        "total power, instead of what the colour says", \
+       1,       done,    Versions::v4},                                               \
+      {"nsamples", kInteger, "1", "", 1, inert, Versions::v3}, {                      \
+    "samples", kInteger, "1", "", 1, inert, Versions::v3                              \
+  }
 
 constexpr Spec kPoint[] = {
     {"I", kColor, "1", "radiant intensity"}, {"from", kPoint3, "0 0 0"}, DUET_LIGHT_SPECS};
@@ -217,8 +219,7 @@ void read_projection(Values& v) {
     v.reader().report().error(v.where("power"), "power with an image is not supported yet");
   ProjectorLight light;
   const TextureId texture = v.reader().add_texture(image, v.where());
-  light.irradiance =
-      v.reader().add_texture(ScaledTextureDescription{texture, scale}, v.where());
+  light.irradiance = v.reader().add_texture(ScaledTextureDescription{texture, scale}, v.where());
   light.is_intensity = true;
   light.fov = v.number("fov");
   light.fov_axis = FovAxis::smaller;
@@ -281,8 +282,7 @@ std::optional<AreaEmission> read_area_light(Reader& reader, const Plugin& plugin
   image.wrap_u = image.wrap_v = WrapMode::clamp;
   image.to_uv.m = {{{1, 0, 0}, {0, -1, 1}}};
   const TextureId texture = reader.add_texture(image, plugin.where);
-  emission.radiance =
-      reader.add_texture(ScaledTextureDescription{texture, scale}, plugin.where);
+  emission.radiance = reader.add_texture(ScaledTextureDescription{texture, scale}, plugin.where);
   return emission;
 }
 
@@ -291,6 +291,11 @@ void read_light(Reader& reader, const Plugin& plugin) {
     Values values(reader, plugin, record->parameters);
     record->read(values);
   }
+}
+
+void list_lights(std::vector<Row>& rows) {
+  list(rows, "LightSource", kLights);
+  list(rows, "AreaLightSource", kAreaLights);
 }
 
 }  // namespace duet::pbrt

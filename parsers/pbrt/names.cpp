@@ -31,6 +31,8 @@ void Reader::define_material(const std::string& name, MaterialId made,
     const MaterialId awaited = names().materials.at(name);
     scene_.materials[size_t(awaited)] = scene_.materials[size_t(made)];
     looks_at_uv_[size_t(awaited)] = uses_uv;
+    if (const auto own = interiors_.find(made); own != interiors_.end())
+      report_.error(where, "a material with a medium must be defined before it is used");
     return;
   }
   const auto [entry, is_new] = change_names().materials.insert_or_assign(name, made);

@@ -10,12 +10,12 @@ namespace duet::pbrt {
 namespace {
 
 constexpr std::pair<std::string_view, Type> kTypes[] = {
-    {"integer", Type::integer},     {"float", Type::number},    {"bool", Type::boolean},
-    {"string", Type::string},       {"point2", Type::point2},   {"vector2", Type::vector2},
-    {"point3", Type::point3},       {"vector3", Type::vector3}, {"normal", Type::normal},
-    {"rgb", Type::rgb},             {"xyz", Type::xyz},         {"blackbody", Type::blackbody},
-    {"spectrum", Type::spectrum},   {"texture", Type::texture}, {"point", Type::point3},
-    {"vector", Type::vector3},      {"color", Type::rgb},       {"normal3", Type::normal},
+    {"integer", Type::integer},   {"float", Type::number},    {"bool", Type::boolean},
+    {"string", Type::string},     {"point2", Type::point2},   {"vector2", Type::vector2},
+    {"point3", Type::point3},     {"vector3", Type::vector3}, {"normal", Type::normal},
+    {"rgb", Type::rgb},           {"xyz", Type::xyz},         {"blackbody", Type::blackbody},
+    {"spectrum", Type::spectrum}, {"texture", Type::texture}, {"point", Type::point3},
+    {"vector", Type::vector3},    {"color", Type::rgb},       {"normal3", Type::normal},
     {"int", Type::integer},
 };
 
@@ -55,8 +55,8 @@ class ValueReader {
       case Kind::word: {
         const std::string word = in_.take_word();
         if (p_.type != Type::boolean)
-          throw SyntaxError{where,
-                            fmt::format("a value of \"{}\" cannot be {}", p_.name, in_quotes(word))};
+          throw SyntaxError{
+              where, fmt::format("a value of \"{}\" cannot be {}", p_.name, in_quotes(word))};
         boolean(word, where);
         break;
       }

@@ -132,7 +132,8 @@ double Values::number(std::string_view name) {
 double Values::positive(std::string_view name) {
   const double x = number(name);
   if (x > 0 || !has(name)) return x;
-  reader_.report().error(where(name), "parameter \"{}\" must be greater than zero, not {}", name, x);
+  reader_.report().error(where(name), "parameter \"{}\" must be greater than zero, not {}", name,
+                         x);
   return std::max(1e-6, parse_number(preset(name)).value_or(1));
 }
 
@@ -212,8 +213,7 @@ Spectrum Reader::constant_color(const Parameter& p, ColorMeaning meaning) {
     const std::string& name = p.strings.front();
     if (const auto metal = find_metal(name)) return in_working_space(*metal, film_color_space);
     if (const auto glass = find_glass(name)) return Spectrum(float(*glass));
-    if (const auto light = find_illuminant(name))
-      return in_working_space(*light, film_color_space);
+    if (const auto light = find_illuminant(name)) return in_working_space(*light, film_color_space);
     const std::string path = spectrum_file(name, p.where);
     if (path.empty()) return Spectrum(0.0f);
     try {

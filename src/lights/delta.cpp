@@ -2,9 +2,9 @@
 
 #include <numbers>
 
+#include "math/angles.h"
 #include "math/equal_area.h"
 #include "math/warp.h"
-#include "math/angles.h"
 
 namespace duet {
 
@@ -218,8 +218,7 @@ inline std::optional<LightSample> GoniometricEmitter::send(const Vector3f& away)
             y = std::clamp(int(uv.y * float(n_)), 0, n_ - 1);
   const uint32_t texel = uint32_t(y) * uint32_t(n_) + uint32_t(x);
   return from_point(position_, away, texels_[texel],
-                    density_ * choice_.probability(texel) *
-                        cubed_ratio(length_squared(away), l2));
+                    density_ * choice_.probability(texel) * cubed_ratio(length_squared(away), l2));
 }
 
 std::optional<EmissionSample> GoniometricEmitter::sample_emission(const Point2f& position,

@@ -126,8 +126,8 @@ std::unique_ptr<Light> SceneBuilder::equal_area_map(const EnvironmentMapLight& l
   double illuminance = 0;
   for (int y = 0; y < n; ++y)
     for (int x = 0; x < n; ++x) {
-      const Vector3f w = square_to_sphere_equal_area(
-          {(float(x) + 0.5f) / float(n), (float(y) + 0.5f) / float(n)});
+      const Vector3f w =
+          square_to_sphere_equal_area({(float(x) + 0.5f) / float(n), (float(y) + 0.5f) / float(n)});
       if (w.z > 0) illuminance += double(w.z) * double(image.color(x, y).luminance());
     }
   illuminance *= 4 * double(kPi) / (double(n) * n);

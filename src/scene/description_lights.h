@@ -80,11 +80,11 @@ struct EnvironmentMapLight {
   std::optional<double> illuminance;
   std::optional<double> gamma;  ///< as in BitmapTexture
   static constexpr auto fields() {
-    return std::tuple_cat(std::tuple(field(&EnvironmentMapLight::file).names_data()),
-                          plain_fields(&EnvironmentMapLight::scale, &EnvironmentMapLight::tint,
-                                       &EnvironmentMapLight::layout,
-                                       &EnvironmentMapLight::illuminance,
-                                       &EnvironmentMapLight::gamma));
+    return std::tuple_cat(
+        std::tuple(field(&EnvironmentMapLight::file).names_data()),
+        plain_fields(&EnvironmentMapLight::scale, &EnvironmentMapLight::tint,
+                     &EnvironmentMapLight::layout, &EnvironmentMapLight::illuminance,
+                     &EnvironmentMapLight::gamma));
   }
 };
 

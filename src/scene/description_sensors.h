@@ -113,7 +113,7 @@ struct SensorDescription {
   double aperture_radius = 0, focus_distance = 0;  ///< thinlens, telecentric
   std::array<double, 2> distortion{};              ///< perspective_rdist: of r³ and r⁵
   SphereMapping sphere_mapping = SphereMapping::latitude_longitude;  ///< spherical
-  uint32_t shape = 0;                              ///< irradiancemeter: index in `shapes`
+  uint32_t shape = 0;  ///< irradiancemeter: index in `shapes`
   /// distant: what it averages over; neither is the whole scene.
   std::optional<std::array<double, 3>> target_point;
   std::vector<ShapeDescription> target_shape;  ///< none or one
