@@ -147,7 +147,7 @@ void read_filter(Reader& reader, FilmDescription& film) {
   if (!record) {
     std::vector<std::string> names;
     for (const auto& r : kFilters) names.emplace_back(r.name);
-    reader.report().error(plugin.where, "there is no {} \"{}\"{}", plugin.directive,
+    reader.report().error(plugin.where, "there is no {} {}{}", plugin.directive,
                           in_quotes(plugin.name), did_you_mean(plugin.name, names));
     return;
   }

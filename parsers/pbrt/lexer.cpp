@@ -98,7 +98,7 @@ Kind Lexer::peek() {
     const SourceLocation place = where();
     const std::string shown = in_quotes(std::string_view(next_, 1));
     ++next_;
-    throw SyntaxError{place, fmt::format("the character \"{}\" cannot stand here", shown)};
+    throw SyntaxError{place, fmt::format("the character {} cannot stand here", shown)};
   }
 }
 
@@ -162,7 +162,7 @@ double Lexer::take_number() {
   while (stop != end_ && !ends(*stop)) ++stop;
   const SourceLocation place = where();
   const std::string_view text(next_, size_t(stop - next_));
-  std::string message = fmt::format("\"{}\" is not a number", in_quotes(text));
+  std::string message = fmt::format("{} is not a number", in_quotes(text));
   if (out_of_range) message += " that single precision can hold";
   next_ = stop;
   throw SyntaxError{place, message};

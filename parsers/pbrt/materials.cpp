@@ -107,8 +107,10 @@ MaterialId with_bumps(Values& v, MaterialId material) {
 }  // namespace
 
 std::optional<MaterialId> read_material(Reader& reader, const Plugin& plugin) {
-  const auto table = reader.version() == Version::v3 ? materials_v3() : materials_v4();
-  const Record<ReadMaterial>* record = find_record(reader, plugin, table);
+  const bool is_v3 = reader.version() == Version::v3;
+  const auto table = is_v3 ? materials_v3() : materials_v4(),
+             others = is_v3 ? materials_v4() : materials_v3();
+  const Record<ReadMaterial>* record = find_record(reader, plugin, table, others);
   if (!record) return std::nullopt;
   if (record->status == Status::approximated)
     reader.approximate(plugin.where, fmt::format("material {}: {}", record->name, record->note));

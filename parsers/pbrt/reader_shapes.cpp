@@ -89,7 +89,7 @@ void Reader::begin_object(const std::string& name, const SourceLocation& where) 
     return;
   }
   if (objects_.contains(name)) {
-    report_.error(where, "there is an object \"{}\" already", in_quotes(name));
+    report_.error(where, "there is an object {} already", in_quotes(name));
     return;
   }
   object_ = uint32_t(scene_.groups.size());
@@ -109,7 +109,7 @@ void Reader::add_instance(const std::string& name, const SourceLocation& where) 
   }
   const auto found = objects_.find(name);
   if (found == objects_.end()) {
-    report_.error(where, "there is no object \"{}\"{}", in_quotes(name),
+    report_.error(where, "there is no object {}{}", in_quotes(name),
                   did_you_mean(name, report_.names_for_hint(objects_)));
     return;
   }

@@ -243,8 +243,4 @@ std::vector<SpectrumSample> read_spectrum_file(const std::string& path) {
   }
 }
 
-double mean_value(std::span<const SpectrumSample> samples) {
-  return double(spectrum_to_rgb(samples, ColorMeaning::emission).luminance());
-}
-
 }  // namespace duet::pbrt
