@@ -6,8 +6,8 @@
 #include <span>
 #include <vector>
 
-#include "values/color.h"
 #include "math/angles.h"
+#include "values/color.h"
 
 namespace duet {
 
@@ -73,8 +73,7 @@ double transmittance(double wavelength, double turbidity, double mass) {
 
 Spectrum sun_irradiance_0x(double turbidity, double zenith) {
   // Kasten's formula.
-  const double mass =
-      1 / (std::cos(zenith) + 0.15 * std::pow(93.885 - zenith * kDegrees, -1.253));
+  const double mass = 1 / (std::cos(zenith) + 0.15 * std::pow(93.885 - zenith * kDegrees, -1.253));
   std::vector<SpectrumSample> radiance{{kFirst - kStep, 0}};
   for (double w = kFirst; w <= kLast; w += kStep)
     radiance.push_back({w, 10 * kSun(w) * transmittance(w, turbidity, mass)});

@@ -217,10 +217,6 @@ void SceneWriter::field(const FieldFacts&, const UvTransform& uv) {
   out_.transform("to_uv", m);
 }
 
-void SceneWriter::field(const FieldFacts& facts, const Matrix4& value) {
-  out_.transform(facts.name(), value);
-}
-
 void SceneWriter::field(const FieldFacts& facts, TextureId value) {
   out_.reference(facts.name(), texture_id(value));
 }

@@ -6,6 +6,7 @@
 #include "pbrt/film.h"
 #include "pbrt/records.h"
 #include "pbrt/values.h"
+#include "pbrt/vocabulary.h"
 
 namespace duet::pbrt {
 
@@ -18,18 +19,20 @@ struct Window {
   double x0, x1, y0, y1;
 };
 
-#define DUET_CAMERA_SPECS                                                     \
-  {"shutteropen", kNumber, "0"}, {"shutterclose", kNumber, "1"},              \
-      {"frameaspectratio", kNumber, "", "width over height; default: of the film"}, \
-  {                                                                           \
-    "screenwindow", kNumber, "", "left, right, bottom and top", 4             \
+#define DUET_CAMERA_SPECS                                                             \
+  {"shutteropen", kNumber, "0"}, {"shutterclose", kNumber, "1"},                      \
+      {"frameaspectratio", kNumber, "", "width over height; default: of the film"}, { \
+    "screenwindow", kNumber, "", "left, right, bottom and top", 4                     \
   }
-#define DUET_LENS_SPECS \
-  {"lensradius", kNumber, "0"}, { "focaldistance", kNumber, "1e6" }
+#define DUET_LENS_SPECS             \
+  {"lensradius", kNumber, "0"}, {   \
+    "focaldistance", kNumber, "1e6" \
+  }
 
 constexpr Spec kPerspective[] = {{"fov", kNumber, "90", "degrees, along the film's shorter side"},
                                  {"halffov", kNumber, "", "", 1, done, Versions::v3},
-                                 DUET_LENS_SPECS, DUET_CAMERA_SPECS};
+                                 DUET_LENS_SPECS,
+                                 DUET_CAMERA_SPECS};
 constexpr Spec kOrthographic[] = {DUET_LENS_SPECS, DUET_CAMERA_SPECS};
 constexpr Spec kSpherical[] = {
     {"mapping", kString, "equalarea", "equalarea or equirectangular", 1, done, Versions::v4},
@@ -41,8 +44,8 @@ Window window(Values& v, const FilmDescription& film) {
     if (w[0] < w[1] && w[2] < w[3]) return {w[0], w[1], w[2], w[3]};
     v.reader().report().error(v.where("screenwindow"), "the screen window is empty");
   }
-  const double aspect = v.has("frameaspectratio") ? v.positive("frameaspectratio")
-                                                  : double(film.width) / film.height;
+  const double aspect =
+      v.has("frameaspectratio") ? v.positive("frameaspectratio") : double(film.width) / film.height;
   if (aspect > 1) return {-aspect, aspect, -1, 1};
   return {-1, 1, -1 / aspect, 1 / aspect};
 }
@@ -61,7 +64,8 @@ void place(SensorDescription& sensor, Reader& reader, const Matrix4& to_camera) 
     return;
   }
   sensor.to_world = to_camera;
-  sensor.motion = Motion({{reader.transform_times[0], ctm[0]}, {reader.transform_times[1], ctm[1]}});
+  sensor.motion =
+      Motion({{reader.transform_times[0], ctm[0]}, {reader.transform_times[1], ctm[1]}});
 }
 
 /// Rays begin at the camera and go on.
@@ -91,7 +95,8 @@ void read_perspective(Values& v, SensorDescription& sensor) {
     sensor.aperture_radius = radius;
     sensor.focus_distance = v.positive("focaldistance");
     if (stretch != 1)
-      report.error(v.where("lensradius"), "a lens with pixels that are not square is not supported");
+      report.error(v.where("lensradius"),
+                   "a lens with pixels that are not square is not supported");
   }
   no_clipping(sensor);
   place(sensor, v.reader(), Matrix4::scale(-1, stretch, 1));
@@ -205,6 +210,11 @@ void finish_camera(Reader& reader) {
   sensor.shutter = {open, close};
   sensor.medium = reader.camera_state.outside;
   reader.scene().sensors.push_back(std::move(sensor));
+}
+
+void list_cameras(std::vector<Row>& rows) {
+  list(rows, "Camera", kCameras);
+  list(rows, "Sampler", kSamplers);
 }
 
 }  // namespace duet::pbrt

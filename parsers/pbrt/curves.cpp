@@ -27,10 +27,9 @@ std::array<P3, 4> cubic_bezier(const std::vector<P3>& p, size_t first, bool bspl
     return {mix({{1.0 / 6, at(0)}, {4.0 / 6, at(1)}, {1.0 / 6, at(2)}}),
             mix({{2.0 / 3, at(1)}, {1.0 / 3, at(2)}}), mix({{1.0 / 3, at(1)}, {2.0 / 3, at(2)}}),
             mix({{1.0 / 6, at(1)}, {4.0 / 6, at(2)}, {1.0 / 6, at(3)}})};
-  const std::array<P3, 3> q =
-      bspline ? std::array<P3, 3>{mix({{0.5, at(0)}, {0.5, at(1)}}), at(1),
-                                  mix({{0.5, at(1)}, {0.5, at(2)}})}
-              : std::array<P3, 3>{at(0), at(1), at(2)};
+  const std::array<P3, 3> q = bspline ? std::array<P3, 3>{mix({{0.5, at(0)}, {0.5, at(1)}}), at(1),
+                                                          mix({{0.5, at(1)}, {0.5, at(2)}})}
+                                      : std::array<P3, 3>{at(0), at(1), at(2)};
   return {q[0], mix({{1.0 / 3, q[0]}, {2.0 / 3, q[1]}}), mix({{2.0 / 3, q[1]}, {1.0 / 3, q[2]}}),
           q[2]};
 }
@@ -50,8 +49,7 @@ CurveSet make_tubes(const CurvePoints& c) {
   CurveSet set;
   set.kind = CurveKind::bspline;
   const size_t degree = size_t(c.degree);
-  const size_t segments =
-      c.bspline ? c.points.size() - degree : (c.points.size() - 1) / degree;
+  const size_t segments = c.bspline ? c.points.size() - degree : (c.points.size() - 1) / degree;
   for (size_t s = 0; s < segments; ++s) {
     const auto b = cubic_bezier(c.points, c.bspline ? s : s * degree, c.bspline, c.degree);
     // The uniform B-spline that is the same polynomial between its inner points.

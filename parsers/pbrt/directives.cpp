@@ -179,15 +179,14 @@ std::string Directives::take_string(Lexer& in, const Plugin& d) {
   return in.take_string();
 }
 
-bool Directives::take_plugin(Lexer& in, Plugin& d, std::string_view defaults) {
+void Directives::take_plugin(Lexer& in, Plugin& d, std::string_view defaults) {
   d.name = take_string(in, d);
   d.parameters = read_parameters(in, state().color_space, report());
-  if (defaults.empty() || !state().defaults) return true;
+  if (defaults.empty() || !state().defaults) return;
   const auto found = state().defaults->find(defaults);
-  if (found == state().defaults->end()) return true;
+  if (found == state().defaults->end()) return;
   for (const Parameter& p : found->second)
     if (!d.find(p.name)) d.parameters.push_back(p);
-  return true;
 }
 
 // ---- Blocks ----
@@ -241,13 +240,12 @@ void Directives::object_instance(Lexer& in, const Plugin& d) {
   reader_.add_instance(take_string(in, d), d.where);
 }
 
-void Directives::world_begin(Lexer&, const Plugin& d) {
+void Directives::world_begin(Lexer&, const Plugin&) {
   if (in_world_) return;  // after an error
   in_world_ = true;
   coordinate_systems_["world"] = {};
   state().ctm = {};
   state().active = 3;
-  (void)d;
 }
 
 void Directives::world_end(Lexer&, const Plugin&) {}

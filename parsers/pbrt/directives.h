@@ -41,8 +41,8 @@ class Directives {
   // What follows a directive.
   std::vector<double> take_numbers(Lexer& in, size_t count, const Plugin& d);
   std::string take_string(Lexer& in, const Plugin& d);
-  /// A name and parameters; false after an error.
-  bool take_plugin(Lexer& in, Plugin& d, std::string_view defaults = "");
+  /// A name and parameters, with those that `Attribute` has set for a kind of plugin.
+  void take_plugin(Lexer& in, Plugin& d, std::string_view defaults = "");
 
   // Transforms (transform_directives.cpp)
   void identity(Lexer& in, const Plugin& d);

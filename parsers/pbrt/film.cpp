@@ -5,6 +5,7 @@
 
 #include "pbrt/records.h"
 #include "pbrt/values.h"
+#include "pbrt/vocabulary.h"
 
 namespace duet::pbrt {
 
@@ -12,16 +13,16 @@ namespace {
 
 using enum Status;
 
-#define DUET_FILM_SPECS                                                                    \
-  {"xresolution", kInteger, "1280", "", 1, done, Versions::both, "640"},                   \
-      {"yresolution", kInteger, "720", "", 1, done, Versions::both, "480"},                \
-      {"cropwindow", kNumber, "", "left, right, top and bottom, as shares", 4},            \
-      {"pixelbounds", kInteger, "", "the same in pixels", 4},                              \
-      {"filename", kString, "", "", 1, inert}, {"diagonal", kNumber, "35", "", 1, inert},  \
-      {"maxcomponentvalue", kNumber, "", "bright samples are not cut", 1, ignored},        \
+#define DUET_FILM_SPECS                                                                            \
+  {"xresolution", kInteger, "1280", "", 1, done, Versions::both, "640"},                           \
+      {"yresolution", kInteger, "720", "", 1, done, Versions::both, "480"},                        \
+      {"cropwindow", kNumber, "", "left, right, top and bottom, as shares", 4},                    \
+      {"pixelbounds", kInteger, "", "the same in pixels", 4},                                      \
+      {"filename", kString, "", "", 1, inert}, {"diagonal", kNumber, "35", "", 1, inert},          \
+      {"maxcomponentvalue", kNumber, "", "bright samples are not cut", 1, ignored},                \
       {"maxsampleluminance", kNumber, "", "bright samples are not cut", 1, ignored, Versions::v3}, \
-  {                                                                                        \
-    "savefp16", kBoolean, "true", "half or single precision in EXR files"                  \
+  {                                                                                                \
+    "savefp16", kBoolean, "true", "half or single precision in EXR files"                          \
   }
 
 constexpr Spec kRgbFilm[] = {
@@ -43,10 +44,10 @@ constexpr Spec kImageFilm[] = {DUET_FILM_SPECS, {"scale", kNumber, "1"}};
 #undef DUET_FILM_SPECS
 
 constexpr std::string_view kSensors[] = {
-    "canon_eos_100d",      "canon_eos_1dx_mkii", "canon_eos_200d_mkii", "canon_eos_200d",
-    "canon_eos_5d",        "canon_eos_5d_mkii",  "canon_eos_5d_mkiii",  "canon_eos_5d_mkiv",
-    "canon_eos_5ds",       "canon_eos_m",        "hasselblad_l1d_20c",  "nikon_d810",
-    "nikon_d850",          "sony_ilce_6400",     "sony_ilce_7m3",       "sony_ilce_7rm3",
+    "canon_eos_100d", "canon_eos_1dx_mkii", "canon_eos_200d_mkii", "canon_eos_200d",
+    "canon_eos_5d",   "canon_eos_5d_mkii",  "canon_eos_5d_mkiii",  "canon_eos_5d_mkiv",
+    "canon_eos_5ds",  "canon_eos_m",        "hasselblad_l1d_20c",  "nikon_d810",
+    "nikon_d850",     "sony_ilce_6400",     "sony_ilce_7m3",       "sony_ilce_7rm3",
     "sony_ilce_9"};
 
 /// What the film makes of colours: exposure, white balance and its colour space.
@@ -111,11 +112,10 @@ constexpr Record<int> kFilms[] = {
     {"image", Versions::v3, done, "", kImageFilm, 1},
 };
 
-#define DUET_RADIUS_SPECS(preset)                                               \
-  {"xradius", kNumber, preset}, {"yradius", kNumber, preset},                   \
-      {"xwidth", kNumber, preset, "", 1, done, Versions::v3},                   \
-  {                                                                             \
-    "ywidth", kNumber, preset, "", 1, done, Versions::v3                        \
+#define DUET_RADIUS_SPECS(preset)                               \
+  {"xradius", kNumber, preset}, {"yradius", kNumber, preset},   \
+      {"xwidth", kNumber, preset, "", 1, done, Versions::v3}, { \
+    "ywidth", kNumber, preset, "", 1, done, Versions::v3        \
   }
 
 constexpr Spec kBox[] = {DUET_RADIUS_SPECS("0.5")};
@@ -147,7 +147,7 @@ void read_filter(Reader& reader, FilmDescription& film) {
   if (!record) {
     std::vector<std::string> names;
     for (const auto& r : kFilters) names.emplace_back(r.name);
-    reader.report().error(plugin.where, "there is no {} \"{}\"{}", plugin.directive,
+    reader.report().error(plugin.where, "there is no {} {}{}", plugin.directive,
                           in_quotes(plugin.name), did_you_mean(plugin.name, names));
     return;
   }
@@ -205,6 +205,11 @@ void read_film(Reader& reader, FilmDescription& film, double exposure_time) {
     film.component_format = ComponentFormat::single;
   read_crop(v, film);
   read_response(v, film, exposure_time);
+}
+
+void list_films(std::vector<Row>& rows) {
+  list(rows, "Film", kFilms);
+  list(rows, "PixelFilter", kFilters);
 }
 
 }  // namespace duet::pbrt

@@ -1,6 +1,7 @@
 // Integrators.
 #include "pbrt/records.h"
 #include "pbrt/values.h"
+#include "pbrt/vocabulary.h"
 
 namespace duet::pbrt {
 
@@ -8,14 +9,13 @@ namespace {
 
 using enum Status;
 
-#define DUET_PATH_SPECS                                                               \
-  {"maxdepth", kInteger, "5", "scattering events"},                                   \
-      {"rrthreshold", kNumber, "1", "", 1, inert, Versions::v3},                      \
-      {"lightsampler", kString, "bvh", "", 1, inert},                                 \
-      {"lightsamplestrategy", kString, "spatial", "", 1, inert},                      \
-      {"regularize", kBoolean, "false", "", 1, ignored},                              \
-  {                                                                                   \
-    "pixelbounds", kInteger, "", "", 4, ignored, Versions::v3                         \
+#define DUET_PATH_SPECS                                          \
+  {"maxdepth", kInteger, "5", "scattering events"},              \
+      {"rrthreshold", kNumber, "1", "", 1, inert, Versions::v3}, \
+      {"lightsampler", kString, "bvh", "", 1, inert},            \
+      {"lightsamplestrategy", kString, "spatial", "", 1, inert}, \
+      {"regularize", kBoolean, "false", "", 1, ignored}, {       \
+    "pixelbounds", kInteger, "", "", 4, ignored, Versions::v3    \
   }
 
 constexpr Spec kPath[] = {DUET_PATH_SPECS};
@@ -104,7 +104,6 @@ void read_bdpt(Values& v, SceneDescription& scene) {
 }
 
 void read_mlt(Values& v, SceneDescription& scene) {
-  v.reader().approximate(v.where(), "mlt by bdpt, which has the same mean");
   read_bdpt(v, scene);
 }
 
@@ -128,14 +127,8 @@ void read_occlusion(Values& v, SceneDescription& scene) {
   scene.integrator.method = o;
 }
 
-void read_direct(Values& v, SceneDescription& scene) {
-  v.reader().approximate(v.where(),
-                         "directlighting and whitted by paths, which count interreflection by "
-                         "smooth surfaces to any depth that is asked for");
-  PathLimits path = limits(v);
-  (void)path;
-  DirectIntegratorDescription direct;
-  scene.integrator.method = direct;
+void read_direct(Values&, SceneDescription& scene) {
+  scene.integrator.method = DirectIntegratorDescription{};
 }
 
 using ReadIntegrator = void (*)(Values&, SceneDescription&);
@@ -143,19 +136,19 @@ constexpr Record<ReadIntegrator> kIntegrators[] = {
     {"volpath", Versions::both, done, "", kPath, read_volume_path},
     {"path", Versions::both, done, "media are not seen, as in pbrt", kPath, read_path},
     {"simplepath", Versions::v4, done, "as path", kSimple, read_path},
-    {"randomwalk", Versions::v4, done, "as path: the same mean with less noise", kSimple,
-     read_path},
+    {"randomwalk", Versions::v4, approximated, "as path, which sees lights without extent, too",
+     kSimple, read_path},
     {"simplevolpath", Versions::v4, done, "as volpath", kSimple, read_simple_volume_path},
     {"bdpt", Versions::both, done, "", kBdpt, read_bdpt},
-    {"mlt", Versions::both, approximated, "by bdpt", kMlt, read_mlt},
+    {"mlt", Versions::both, approximated, "by bdpt, which has the same mean", kMlt, read_mlt},
     {"lightpath", Versions::v4, done, "", kPath, read_light_path},
     {"sppm", Versions::both, done, "", kSppm, read_sppm},
     {"ambientocclusion", Versions::v4, done, "", kOcclusion, read_occlusion},
     {"ao", Versions::v3, done, "", kOcclusion, read_occlusion},
-    {"directlighting", Versions::v3, approximated, "light of the first surface alone", kDirect,
-     read_direct},
-    {"whitted", Versions::v3, approximated, "light of the first surface alone", kDirect,
-     read_direct},
+    {"directlighting", Versions::v3, approximated,
+     "without what smooth surfaces reflect and refract", kDirect, read_direct},
+    {"whitted", Versions::v3, approximated, "without what smooth surfaces reflect and refract",
+     kDirect, read_direct},
     {"function", Versions::v4, refused, "it draws a function, not a scene", {}, nullptr},
 };
 
@@ -174,8 +167,14 @@ void finish_integrator(Reader& reader) {
   }
   if (!record && replaced) record = &kIntegrators[0];
   if (!record) return;
+  if (record->status == approximated && !replaced)
+    reader.approximate(plugin.where, fmt::format("integrator {}: {}", record->name, record->note));
   Values v(reader, plugin, record->parameters);
   record->read(v, reader.scene());
+}
+
+void list_integrators(std::vector<Row>& rows) {
+  list(rows, "Integrator", kIntegrators);
 }
 
 }  // namespace duet::pbrt

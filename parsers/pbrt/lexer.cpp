@@ -98,7 +98,7 @@ Kind Lexer::peek() {
     const SourceLocation place = where();
     const std::string shown = in_quotes(std::string_view(next_, 1));
     ++next_;
-    throw SyntaxError{place, fmt::format("the character \"{}\" cannot stand here", shown)};
+    throw SyntaxError{place, fmt::format("the character {} cannot stand here", shown)};
   }
 }
 
@@ -150,7 +150,8 @@ double Lexer::take_number() {
   if (error == std::errc() || out_of_range) {
     // Too small to be represented is zero.
     const std::string_view text(first, size_t(stop - first));
-    const bool tiny = out_of_range && (text.find("e-") != text.npos || text.find("E-") != text.npos);
+    const bool tiny =
+        out_of_range && (text.find("e-") != text.npos || text.find("E-") != text.npos);
     if (tiny) x = 0;
     if ((stop == end_ || ends(*stop)) && (!out_of_range || tiny) && std::isfinite(float(x))) {
       next_ = stop;
@@ -161,7 +162,7 @@ double Lexer::take_number() {
   while (stop != end_ && !ends(*stop)) ++stop;
   const SourceLocation place = where();
   const std::string_view text(next_, size_t(stop - next_));
-  std::string message = fmt::format("\"{}\" is not a number", in_quotes(text));
+  std::string message = fmt::format("{} is not a number", in_quotes(text));
   if (out_of_range) message += " that single precision can hold";
   next_ = stop;
   throw SyntaxError{place, message};

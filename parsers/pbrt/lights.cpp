@@ -4,6 +4,7 @@
 #include "math/angles.h"
 #include "pbrt/records.h"
 #include "pbrt/values.h"
+#include "pbrt/vocabulary.h"
 
 namespace duet::pbrt {
 
@@ -25,7 +26,13 @@ Spectrum emitted(Values& v, std::string_view name) {
   const Spectrum color = v.reader().constant_color(*p, ColorMeaning::emission);
   if (v.reader().version() == Version::v3 || p->type == Type::rgb || p->type == Type::xyz)
     return color;
-  const float luminance = color.luminance();
+  const Matrix3 to_srgb = to_linear_srgb(v.reader().film_color_space);
+  const auto& rows = to_srgb;
+  const auto channel = [&](size_t i) {
+    return float(rows[i][0] * double(color.r) + rows[i][1] * double(color.g) +
+                 rows[i][2] * double(color.b));
+  };
+  const float luminance = Spectrum(channel(0), channel(1), channel(2)).luminance();
   if (luminance > 0) return color / luminance;
   v.reader().report().error(p->where, "a light's spectrum must have a luminance above zero");
   return color;
@@ -43,8 +50,8 @@ Matrix4 aimed(const std::array<double, 3>& from, const std::array<double, 3>& to
   std::array<double, 3> d;
   for (size_t i = 0; i < 3; ++i) d[i] = to[i] - from[i];
   const bool along_y = std::abs(d[1]) > 0.9 * std::sqrt(d[0] * d[0] + d[1] * d[1] + d[2] * d[2]);
-  const std::array<double, 3> up = along_y ? std::array<double, 3>{1, 0, 0}
-                                           : std::array<double, 3>{0, 1, 0};
+  const std::array<double, 3> up =
+      along_y ? std::array<double, 3>{1, 0, 0} : std::array<double, 3>{0, 1, 0};
   return Matrix4::look_at(from, to, up).value_or(Matrix4{});
 }
 
@@ -67,12 +74,13 @@ void add(Values& v, decltype(LightDescription::model) model, const Matrix4& to_l
   reader.scene().lights.push_back(std::move(light));
 }
 
-#define DUET_LIGHT_SPECS                                                               \
-  {"scale", Types(kNumber | kColor), "1", "a colour in v3"},                           \
-      {"power", kNumber, "-1", "total power, instead of what the colour says", 1, done, \
-       Versions::v4},                                                                  \
-      {"nsamples", kInteger, "1", "", 1, inert, Versions::v3},                         \
-      {"samples", kInteger, "1", "", 1, inert, Versions::v3}
+#define DUET_LIGHT_SPECS                                                              \
+  {"scale", Types(kNumber | kColor), "1", "a colour in v3"},                          \
+      {"power", kNumber, "-1",        "total power, instead of what the colour says", \
+       1,       done,    Versions::v4},                                               \
+      {"nsamples", kInteger, "1", "", 1, inert, Versions::v3}, {                      \
+    "samples", kInteger, "1", "", 1, inert, Versions::v3                              \
+  }
 
 constexpr Spec kPoint[] = {
     {"I", kColor, "1", "radiant intensity"}, {"from", kPoint3, "0 0 0"}, DUET_LIGHT_SPECS};
@@ -177,15 +185,58 @@ constexpr Spec kProjection[] = {{"I", kColor, "1", "", 1, done, Versions::v3},
                                 {"fov", kNumber, "90", "degrees, along the image's shorter side"},
                                 DUET_LIGHT_SPECS};
 
+void read_goniometric(Values& v) {
+  if (!v.has("filename")) {
+    v.reader().report().error(v.where(), "\"string filename\" is needed");
+    return;
+  }
+  GoniometricLight light;
+  light.file = v.file("filename");
+  if (light.file.empty()) return;
+  light.scale = emitted(v, "I") * scale_of(v);
+  if (v.has("power"))
+    v.reader().report().error(v.where("power"), "power with an image is not supported yet");
+  // The image has the light's +y in its middle.
+  Matrix4 swap;
+  swap.m = {{{1, 0, 0, 0}, {0, 0, 1, 0}, {0, 1, 0, 0}, {0, 0, 0, 1}}};
+  add(v, light, swap);
+}
+
+void read_projection(Values& v) {
+  const char* name = v.reader().version() == Version::v3 ? "mapname" : "filename";
+  if (!v.has(name)) {
+    v.reader().report().error(v.where(), "\"string {}\" is needed", name);
+    return;
+  }
+  BitmapTexture image;
+  image.file = v.file(name);
+  if (image.file.empty()) return;
+  image.filter = TextureFilter::nearest;
+  image.wrap_u = image.wrap_v = WrapMode::clamp;
+  Spectrum scale = scale_of(v);
+  if (v.reader().version() == Version::v3) scale *= emitted(v, "I");
+  if (v.has("power"))
+    v.reader().report().error(v.where("power"), "power with an image is not supported yet");
+  ProjectorLight light;
+  const TextureId texture = v.reader().add_texture(image, v.where());
+  light.irradiance = v.reader().add_texture(ScaledTextureDescription{texture, scale}, v.where());
+  light.is_intensity = true;
+  light.fov = v.number("fov");
+  light.fov_axis = FovAxis::smaller;
+  if (!(light.fov > 0 && light.fov < 180))
+    v.reader().report().error(v.where("fov"), "a field of view lies between 0 and 180 degrees");
+  // Its +x is at the image's right.
+  add(v, light, Matrix4::scale(-1, 1, 1));
+}
+
 constexpr Record<void (*)(Values&)> kLights[] = {
     {"point", Versions::both, done, "", kPoint, read_point},
     {"spot", Versions::both, done, "", kSpot, read_spot},
     {"distant", Versions::both, done, "", kDistant, read_distant},
     {"infinite", Versions::both, done, "", kInfinite, read_infinite},
     {"exinfinite", Versions::v3, done, "", kInfinite, read_infinite},
-    {"goniometric", Versions::both, refused, "lights with an image of their intensity", kGoniometric,
-     nullptr},
-    {"projection", Versions::both, refused, "lights that throw an image", kProjection, nullptr},
+    {"goniometric", Versions::both, done, "", kGoniometric, read_goniometric},
+    {"projection", Versions::both, done, "", kProjection, read_projection},
 };
 
 constexpr Spec kArea[] = {
@@ -231,8 +282,7 @@ std::optional<AreaEmission> read_area_light(Reader& reader, const Plugin& plugin
   image.wrap_u = image.wrap_v = WrapMode::clamp;
   image.to_uv.m = {{{1, 0, 0}, {0, -1, 1}}};
   const TextureId texture = reader.add_texture(image, plugin.where);
-  emission.radiance =
-      reader.add_texture(ScaledTextureDescription{texture, scale}, plugin.where);
+  emission.radiance = reader.add_texture(ScaledTextureDescription{texture, scale}, plugin.where);
   return emission;
 }
 
@@ -241,6 +291,11 @@ void read_light(Reader& reader, const Plugin& plugin) {
     Values values(reader, plugin, record->parameters);
     record->read(values);
   }
+}
+
+void list_lights(std::vector<Row>& rows) {
+  list(rows, "LightSource", kLights);
+  list(rows, "AreaLightSource", kAreaLights);
 }
 
 }  // namespace duet::pbrt

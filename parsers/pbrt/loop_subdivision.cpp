@@ -128,13 +128,12 @@ void refine(std::vector<Point3f>& positions, std::vector<Triangle>& triangles) {
     }
   std::map<Edge, uint32_t> middle;
   for (const auto& [e, across] : opposite) {
-    const Vector3f ends =
-        (positions[e.first] - Point3f(0)) + (positions[e.second] - Point3f(0));
+    const Vector3f ends = (positions[e.first] - Point3f(0)) + (positions[e.second] - Point3f(0));
     Vector3f p = ends * 0.5f;
     if (across.second == 2)
-      p = ends * 0.375f + ((positions[across.first[0]] - Point3f(0)) +
-                           (positions[across.first[1]] - Point3f(0))) *
-                              0.125f;
+      p = ends * 0.375f +
+          ((positions[across.first[0]] - Point3f(0)) + (positions[across.first[1]] - Point3f(0))) *
+              0.125f;
     middle[e] = uint32_t(result.size());
     result.push_back(Point3f(0) + p);
   }

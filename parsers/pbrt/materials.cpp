@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "pbrt/vocabulary.h"
+
 namespace duet::pbrt {
 
 MaterialId two_sided(Values& v, MaterialId nested) {
@@ -26,9 +28,10 @@ std::optional<Roughness> read_roughness(Values& v, std::string_view name, std::s
     if (const double* constant = std::get_if<double>(&input))
       return remap ? remapped_roughness(*constant, version) : std::max(*constant, 0.0);
     if (!remap) return input;
-    v.reader().report().error(v.where(used),
-                              "a texture of roughness with \"remaproughness\" is not supported yet");
-    return 0.1;
+    const TextureFunction function =
+        version == Version::v4 ? TextureFunction::root : TextureFunction::v3_roughness;
+    return v.reader().add_texture(FunctionDescription{std::get<TextureId>(input), function},
+                                  v.where(used));
   };
   Roughness r;
   r.distribution = MicrofacetDistribution::ggx_correlated;
@@ -104,8 +107,10 @@ MaterialId with_bumps(Values& v, MaterialId material) {
 }  // namespace
 
 std::optional<MaterialId> read_material(Reader& reader, const Plugin& plugin) {
-  const auto table = reader.version() == Version::v3 ? materials_v3() : materials_v4();
-  const Record<ReadMaterial>* record = find_record(reader, plugin, table);
+  const bool is_v3 = reader.version() == Version::v3;
+  const auto table = is_v3 ? materials_v3() : materials_v4(),
+             others = is_v3 ? materials_v4() : materials_v3();
+  const Record<ReadMaterial>* record = find_record(reader, plugin, table, others);
   if (!record) return std::nullopt;
   if (record->status == Status::approximated)
     reader.approximate(plugin.where, fmt::format("material {}: {}", record->name, record->note));
@@ -113,9 +118,16 @@ std::optional<MaterialId> read_material(Reader& reader, const Plugin& plugin) {
   Values v(reader, plugin, record->parameters, kMaterialSpecs);
   auto made = record->read(v);
   if (!made) return std::nullopt;
+  const MaterialId plain = *made;
   made = with_bumps(v, *made);
+  if (*made != plain) reader.share_interior(plain, *made);
   reader.set_looks_at_uv(*made, reader.texture_count() != textures);
   return made;
+}
+
+void list_materials(std::vector<Row>& rows) {
+  list(rows, "Material", materials_v4(), kMaterialSpecs);
+  list(rows, "Material", materials_v3(), kMaterialSpecs);
 }
 
 }  // namespace duet::pbrt

@@ -28,6 +28,9 @@ std::optional<Roughness> read_roughness(Values& v, std::string_view name = "roug
                                         std::string_view name_v = "vroughness");
 /// The input times a constant.
 ColorInput scaled(Values& v, const ColorInput& input, const Spectrum& scale);
+/// The medium behind a surface that the parameters of a subsurface material say; nothing after an
+/// error.
+std::optional<MediumDescription> read_subsurface_medium(Values& v, double eta);
 /// Reflection by a diffuse share, transmission by another.
 MaterialId diffuse_both_ways(Values& v, const ColorInput& reflectance,
                              const ColorInput& transmittance);

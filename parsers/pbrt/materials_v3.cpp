@@ -9,9 +9,9 @@ namespace {
 
 using enum Status;
 
-#define DUET_ROUGHNESS_SPECS(preset)                                       \
-  {"roughness", kNumberTexture, preset}, {"uroughness", kNumberTexture},   \
-      {"vroughness", kNumberTexture}, {                                    \
+#define DUET_ROUGHNESS_SPECS(preset)                                                             \
+  {"roughness", kNumberTexture, preset}, {"uroughness", kNumberTexture},                         \
+      {"vroughness", kNumberTexture}, {                                                          \
     "remaproughness", kBoolean, "true", "a polynomial of the roughness's logarithm is its alpha" \
   }
 
@@ -85,9 +85,8 @@ Roughness rough(Values& v) {
   return {.distribution = MicrofacetDistribution::ggx_correlated, .alpha_u = 1e-3, .alpha_v = 1e-3};
 }
 
-constexpr Spec kPlastic[] = {{"Kd", kColorTexture, "0.25"},
-                             {"Ks", kColorTexture, "0.25"},
-                             DUET_ROUGHNESS_SPECS("0.1")};
+constexpr Spec kPlastic[] = {
+    {"Kd", kColorTexture, "0.25"}, {"Ks", kColorTexture, "0.25"}, DUET_ROUGHNESS_SPECS("0.1")};
 
 std::optional<MaterialId> read_plastic(Values& v) {
   UberMaterial m;
@@ -97,14 +96,10 @@ std::optional<MaterialId> read_plastic(Values& v) {
   return v.reader().add_material(m, v.where());
 }
 
-constexpr Spec kUber[] = {{"Kd", kColorTexture, "0.25"},
-                          {"Ks", kColorTexture, "0.25"},
-                          {"Kr", kColorTexture, "0"},
-                          {"Kt", kColorTexture, "0"},
-                          {"opacity", kColorTexture, "1"},
-                          {"eta", kNumberTexture, "1.5"},
-                          {"index", kNumberTexture, "1.5"},
-                          DUET_ROUGHNESS_SPECS("0.1")};
+constexpr Spec kUber[] = {{"Kd", kColorTexture, "0.25"},    {"Ks", kColorTexture, "0.25"},
+                          {"Kr", kColorTexture, "0"},       {"Kt", kColorTexture, "0"},
+                          {"opacity", kColorTexture, "1"},  {"eta", kNumberTexture, "1.5"},
+                          {"index", kNumberTexture, "1.5"}, DUET_ROUGHNESS_SPECS("0.1")};
 
 std::optional<MaterialId> read_uber(Values& v) {
   UberMaterial m;
@@ -164,10 +159,10 @@ std::optional<MaterialId> read_substrate(Values& v) {
   return two_sided(v, v.reader().add_material(m, v.where()));
 }
 
-constexpr Spec kOldMix[] = {{"namedmaterial1", kString},
-                         {"namedmaterial2", kString},
-                         {"amount", Types(kColorTexture | kNumberTexture), "0.5",
-                          "share of the first"}};
+constexpr Spec kOldMix[] = {
+    {"namedmaterial1", kString},
+    {"namedmaterial2", kString},
+    {"amount", Types(kColorTexture | kNumberTexture), "0.5", "share of the first"}};
 
 std::optional<MaterialId> read_old_mix(Values& v) {
   if (!v.has("namedmaterial1") || !v.has("namedmaterial2")) {
@@ -215,9 +210,17 @@ constexpr Record<ReadMaterial> kOldMaterials[] = {
     {"translucent", Versions::v3, done, "", kTranslucent, read_translucent},
     {"hair", Versions::v3, refused, "hair of v3", {}, nullptr},
     {"disney", Versions::v3, refused, "Disney's model", {}, nullptr},
-    {"subsurface", Versions::v3, refused, "light that leaves elsewhere than it enters", {},
+    {"subsurface",
+     Versions::v3,
+     refused,
+     "light that leaves elsewhere than it enters",
+     {},
      nullptr},
-    {"kdsubsurface", Versions::v3, refused, "light that leaves elsewhere than it enters", {},
+    {"kdsubsurface",
+     Versions::v3,
+     refused,
+     "light that leaves elsewhere than it enters",
+     {},
      nullptr},
     {"fourier", Versions::v3, refused, "tables of Fourier coefficients", {}, nullptr},
 };

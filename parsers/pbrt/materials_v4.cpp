@@ -12,9 +12,9 @@ using enum Status;
 
 constexpr Types kIndex = kNumber | of(Type::spectrum);
 
-#define DUET_ROUGHNESS_SPECS                                                         \
+#define DUET_ROUGHNESS_SPECS                                                          \
   {"roughness", kNumberTexture, "0"}, {"uroughness", kNumberTexture, "0"},            \
-      {"vroughness", kNumberTexture, "0"}, {                                         \
+      {"vroughness", kNumberTexture, "0"}, {                                          \
     "remaproughness", kBoolean, "true", "the square root of a roughness is its alpha" \
   }
 
@@ -143,19 +143,19 @@ std::optional<MaterialId> read_hair(Values& v) {
     const double eu = given ? hair_number(v, "eumelanin") : 1.3,
                  pheo = given ? hair_number(v, "pheomelanin") : 0;
     // Absorption of the two pigments per concentration: d'Eon et al. 2011.
-    m.sigma_a = Spectrum(0.419f, 0.697f, 1.37f) * float(eu) +
-                Spectrum(0.187f, 0.4f, 1.05f) * float(pheo);
+    m.sigma_a =
+        Spectrum(0.419f, 0.697f, 1.37f) * float(eu) + Spectrum(0.187f, 0.4f, 1.05f) * float(pheo);
   }
   return v.reader().add_material(m, v.where());
 }
 
-#define DUET_COAT_SPECS                                                                  \
-  {"thickness", kNumberTexture, "0.01", "optical, of the layer between coat and base"},    \
-      {"albedo", kColorTexture, "0", "of that layer"},                                    \
-      {"g", kNumberTexture, "0", "mean cosine of its scattering"},                        \
-      {"maxdepth", kInteger, "10", "events in the layer that are followed"},              \
-      {"nsamples", kInteger, "1", "walks per value"}, {                                   \
-    "remaproughness", kBoolean, "true", "the square root of a roughness is its alpha"     \
+#define DUET_COAT_SPECS                                                                 \
+  {"thickness", kNumberTexture, "0.01", "optical, of the layer between coat and base"}, \
+      {"albedo", kColorTexture, "0", "of that layer"},                                  \
+      {"g", kNumberTexture, "0", "mean cosine of its scattering"},                      \
+      {"maxdepth", kInteger, "10", "events in the layer that are followed"},            \
+      {"nsamples", kInteger, "1", "walks per value"}, {                                 \
+    "remaproughness", kBoolean, "true", "the square root of a roughness is its alpha"   \
   }
 
 /// The coat and what is under it.
@@ -183,32 +183,31 @@ std::optional<MaterialId> read_coated_diffuse(Values& v) {
   return two_sided(v, v.reader().add_material(m, v.where()));
 }
 
-constexpr Spec kCoatedConductor[] = {
-    {"interface.roughness", kNumberTexture, "0", "of the coat"},
-    {"interface.uroughness", kNumberTexture, "0"},
-    {"interface.vroughness", kNumberTexture, "0"},
-    {"interface.eta", kIndex, "1.5", "of the coat"},
-    {"conductor.eta", kColorTexture, "metal-Cu-eta"},
-    {"conductor.k", kColorTexture, "metal-Cu-k"},
-    {"reflectance", kColorTexture, "", "instead of eta and k"},
-    {"conductor.roughness", kNumberTexture, "0"},
-    {"conductor.uroughness", kNumberTexture, "0"},
-    {"conductor.vroughness", kNumberTexture, "0"},
-    DUET_COAT_SPECS};
+constexpr Spec kCoatedConductor[] = {{"interface.roughness", kNumberTexture, "0", "of the coat"},
+                                     {"interface.uroughness", kNumberTexture, "0"},
+                                     {"interface.vroughness", kNumberTexture, "0"},
+                                     {"interface.eta", kIndex, "1.5", "of the coat"},
+                                     {"conductor.eta", kColorTexture, "metal-Cu-eta"},
+                                     {"conductor.k", kColorTexture, "metal-Cu-k"},
+                                     {"reflectance", kColorTexture, "", "instead of eta and k"},
+                                     {"conductor.roughness", kNumberTexture, "0"},
+                                     {"conductor.uroughness", kNumberTexture, "0"},
+                                     {"conductor.vroughness", kNumberTexture, "0"},
+                                     DUET_COAT_SPECS};
 
 std::optional<MaterialId> read_coated_conductor(Values& v) {
   CoatedConductorMaterial m;
-  read_coat(v, m, "interface.eta",
-            read_roughness(v, "interface.roughness", "interface.uroughness",
-                           "interface.vroughness"));
+  read_coat(
+      v, m, "interface.eta",
+      read_roughness(v, "interface.roughness", "interface.uroughness", "interface.vroughness"));
   if (v.has("reflectance")) {
     m.reflectance = v.color_input("reflectance", ColorMeaning::reflectance);
   } else {
     m.conductor_eta = v.color_input("conductor.eta", ColorMeaning::unbounded);
     m.conductor_k = v.color_input("conductor.k", ColorMeaning::unbounded);
   }
-  if (const auto base = read_roughness(v, "conductor.roughness", "conductor.uroughness",
-                                       "conductor.vroughness"))
+  if (const auto base =
+          read_roughness(v, "conductor.roughness", "conductor.uroughness", "conductor.vroughness"))
     m.conductor_alpha_u = base->alpha_u, m.conductor_alpha_v = base->alpha_v;
   return two_sided(v, v.reader().add_material(m, v.where()));
 }
@@ -236,6 +235,27 @@ std::optional<MaterialId> read_interface(Values& v) {
   return v.reader().add_material(NullMaterial{}, v.where());
 }
 
+constexpr Spec kSubsurface[] = {{"sigma_a", kColorTexture, "0.0011 0.0024 0.014", "absorption"},
+                                {"sigma_s", kColorTexture, "2.55 3.21 3.77", "scattering"},
+                                {"scale", kNumber, "1", "of both"},
+                                {"reflectance", kColorTexture, "", "of a thick layer, with mfp"},
+                                {"mfp", kColorTexture, "1", "mean free path"},
+                                {"name", kString, "", "of a known medium"},
+                                {"eta", kIndex, "1.33", "index of refraction"},
+                                {"g", kNumber, "0", "mean cosine of scattering"},
+                                DUET_ROUGHNESS_SPECS};
+
+std::optional<MaterialId> read_subsurface_v4(Values& v) {
+  DielectricMaterial m;
+  m.eta = v.index_of_refraction("eta");
+  m.roughness = read_roughness(v);
+  const auto medium = read_subsurface_medium(v, v.index_of_refraction("eta"));
+  if (!medium) return std::nullopt;
+  const MaterialId id = v.reader().add_material(m, v.where());
+  v.reader().set_interior(id, *medium);
+  return id;
+}
+
 constexpr Spec kMeasured[] = {{"filename", kString, "", "a .bsdf file in RGB"}};
 
 constexpr Record<ReadMaterial> kMaterials[] = {
@@ -251,8 +271,9 @@ constexpr Record<ReadMaterial> kMaterials[] = {
     {"", Versions::v4, done, "", {}, read_interface},
     {"coateddiffuse", Versions::v4, done, "", kCoatedDiffuse, read_coated_diffuse},
     {"coatedconductor", Versions::v4, done, "", kCoatedConductor, read_coated_conductor},
-    {"subsurface", Versions::v4, refused, "light that leaves elsewhere than it enters", {},
-     nullptr},
+    {"subsurface", Versions::v4, approximated,
+     "by random walks in a medium behind the surface, which pbrt replaces by a profile",
+     kSubsurface, read_subsurface_v4},
     {"measured", Versions::v4, refused, "measured spectra", kMeasured, nullptr},
 };
 

@@ -5,8 +5,10 @@
 
 #include "pbrt/records.h"
 #include "pbrt/values.h"
+#include "pbrt/vocabulary.h"
 #include "values/medium_presets.h"
 #include "values/text.h"
+#include "volume/nanovdb_file.h"
 
 namespace duet::pbrt {
 
@@ -20,27 +22,30 @@ using enum Status;
       {"scale", kNumber, "1"}, {                                                          \
     "g", kNumber, "0", "mean cosine of scattering"                                        \
   }
-#define DUET_GRID_SPECS                                                              \
-  {"p0", kPoint3, "0 0 0"}, {"p1", kPoint3, "1 1 1"}, {"nx", kInteger, "1"},          \
-      {"ny", kInteger, "1"}, {                                                       \
-    "nz", kInteger, "1"                                                              \
+#define DUET_GRID_SPECS                                                      \
+  {"p0", kPoint3, "0 0 0"}, {"p1", kPoint3, "1 1 1"}, {"nx", kInteger, "1"}, \
+      {"ny", kInteger, "1"}, {                                               \
+    "nz", kInteger, "1"                                                      \
   }
 
 constexpr Spec kHomogeneous[] = {DUET_SIGMA_SPECS,
                                  {"preset", kString},
                                  {"Le", kColor, "0", "emission", 1, refused},
                                  {"Lescale", kNumber, "1", "", 1, inert}};
-constexpr Spec kUniformGrid[] = {DUET_SIGMA_SPECS, DUET_GRID_SPECS,
+constexpr Spec kUniformGrid[] = {DUET_SIGMA_SPECS,
+                                 DUET_GRID_SPECS,
                                  {"density", kNumber, "", "x fastest, then y, then z", 0},
                                  {"preset", kString},
                                  {"Le", kColor, "0", "emission", 1, refused},
                                  {"Lescale", kNumber, "1", "", 0, inert},
                                  {"temperature", kNumber, "", "emission", 0, refused}};
-constexpr Spec kRgbGrid[] = {
-    {"sigma_a", kColor, "1", "per cell", 0}, {"sigma_s", kColor, "1", "per cell", 0},
-    {"scale", kNumber, "1"},                 {"g", kNumber, "0"},
-    {"Le", kColor, "", "emission", 0, refused}, {"Lescale", kNumber, "1", "", 1, inert},
-    DUET_GRID_SPECS};
+constexpr Spec kRgbGrid[] = {{"sigma_a", kColor, "1", "per cell", 0},
+                             {"sigma_s", kColor, "1", "per cell", 0},
+                             {"scale", kNumber, "1"},
+                             {"g", kNumber, "0"},
+                             {"Le", kColor, "", "emission", 0, refused},
+                             {"Lescale", kNumber, "1", "", 1, inert},
+                             DUET_GRID_SPECS};
 
 struct Sigma {
   Spectrum absorption, scattering;
@@ -50,7 +55,8 @@ Sigma read_sigma(Values& v) {
   Sigma s{v.color("sigma_a", ColorMeaning::unbounded), v.color("sigma_s", ColorMeaning::unbounded)};
   if (!v.has("preset")) return s;
   const std::string name = v.string("preset");
-  if (const MediumPreset* preset = find_medium_preset(name)) return {preset->sigma_a, preset->sigma_s};
+  if (const MediumPreset* preset = find_medium_preset(name))
+    return {preset->sigma_a, preset->sigma_s};
   v.reader().report().error(v.where("preset"), "there is no medium {}{}", in_quotes(name),
                             did_you_mean(name, medium_preset_names()));
   return s;
@@ -96,8 +102,9 @@ std::optional<std::array<int, 3>> grid_size(Values& v, size_t cells) {
   double product = 1;
   for (const int x : n) product *= double(x);
   if (std::min({n[0], n[1], n[2]}) >= 1 && product == double(cells)) return n;
-  v.reader().report().error(v.where("nx"), "a grid of {} x {} x {} cells needs as many values, not {}",
-                            n[0], n[1], n[2], cells);
+  v.reader().report().error(v.where("nx"),
+                            "a grid of {} x {} x {} cells needs as many values, not {}", n[0], n[1],
+                            n[2], cells);
   return std::nullopt;
 }
 
@@ -117,8 +124,7 @@ VolumeId add_grid(Values& v, const std::array<int, 3>& n, int channels,
         const auto at = [](int i, int count) { return size_t(std::clamp(i, 0, count - 1)); };
         const bool inside = x == std::clamp(x, 0, n[0] - 1) && y == std::clamp(y, 0, n[1] - 1) &&
                             z == std::clamp(z, 0, n[2] - 1);
-        const size_t cell =
-            (at(z, n[2]) * size_t(n[1]) + at(y, n[1])) * size_t(n[0]) + at(x, n[0]);
+        const size_t cell = (at(z, n[2]) * size_t(n[1]) + at(y, n[1])) * size_t(n[0]) + at(x, n[0]);
         if (inside || goes_on)
           for (int c = 0; c < channels; ++c)
             grid->values[node * size_t(channels) + size_t(c)] = value(cell, c);
@@ -158,8 +164,8 @@ MediumDescription read_uniform_grid(Values& v) {
     m.scale *= double(extinction.r);
     m.sigma_t = add_grid(v, *size, 1, [&](size_t cell, int) { return float(density[cell]); });
   } else {
-    m.sigma_t = add_grid(
-        v, *size, 3, [&](size_t cell, int c) { return float(density[cell]) * extinction[c]; });
+    m.sigma_t = add_grid(v, *size, 3,
+                         [&](size_t cell, int c) { return float(density[cell]) * extinction[c]; });
   }
   return m;
 }
@@ -211,11 +217,58 @@ MediumDescription read_rgb_grid(Values& v) {
       return m;
     }
   }
-  m.sigma_t = add_grid(v, *size, 3,
-                       [&](size_t i, int c) { return absorption[i][c] + scattering[i][c]; });
-  m.albedo = add_grid(v, *size, 3, [&](size_t i, int c) {
-    return albedo_near(absorption, scattering, *size, i, c);
-  }, true);
+  m.sigma_t =
+      add_grid(v, *size, 3, [&](size_t i, int c) { return absorption[i][c] + scattering[i][c]; });
+  m.albedo = add_grid(
+      v, *size, 3,
+      [&](size_t i, int c) { return albedo_near(absorption, scattering, *size, i, c); }, true);
+  return m;
+}
+
+constexpr Spec kNanoVdb[] = {DUET_SIGMA_SPECS,
+                             {"filename", kString},
+                             {"gridname", kString, "density"},
+                             {"preset", kString},
+                             {"Lescale", kNumber, "1", "", 1, inert},
+                             {"temperaturename", kString, "", "", 1, inert},
+                             {"temperaturegrid", kString, "", "", 1, inert},
+                             {"temperaturescale", kNumber, "1", "", 1, inert},
+                             {"temperatureoffset", kNumber, "0", "", 1, inert},
+                             {"temperaturecutoff", kNumber, "0", "", 1, inert}};
+
+MediumDescription read_nano_vdb(Values& v) {
+  MediumDescription m = from_sigma(v, read_sigma(v));
+  const std::string path = v.file("filename");
+  if (path.empty()) {
+    if (!v.has("filename")) v.reader().report().error(v.where(), "\"string filename\" is needed");
+    return m;
+  }
+  const Spectrum extinction = std::get<Spectrum>(m.sigma_t);
+  const bool grey = extinction.r == extinction.g && extinction.g == extinction.b;
+  try {
+    NanoVdbGrid read = read_nanovdb(path, v.string("gridname"));
+    auto grid = std::make_shared<VolumeGrid>(std::move(read.grid));
+    if (!grey) {
+      grid->channels = 3;
+      std::vector<float> colors;
+      colors.reserve(grid->values.size() * 3);
+      for (const float x : grid->values)
+        for (int c = 0; c < 3; ++c) colors.push_back(x * extinction[c]);
+      grid->values = std::move(colors);
+    }
+    VolumeDescription volume;
+    volume.where = v.where("filename");
+    volume.grid = std::move(grid);
+    volume.nodes_on_faces = true;
+    volume.to_world = v.reader().state().ctm[0] * read.to_world;
+    v.reader().check_transform(volume.to_world, v.where());
+    SceneDescription& scene = v.reader().scene();
+    if (grey) m.scale *= double(extinction.r);
+    m.sigma_t = VolumeId(scene.volumes.size());
+    scene.volumes.push_back(std::move(volume));
+  } catch (const ReadError& e) {
+    v.reader().report().error(v.where("filename"), "{}", e.what());
+  }
   return m;
 }
 
@@ -230,7 +283,8 @@ constexpr Record<ReadMedium> kMedia[] = {
     {"rgbgrid", Versions::v4, approximated, "between cells the albedo is interpolated", kRgbGrid,
      read_rgb_grid},
     {"cloud", Versions::v4, refused, "noise", {}, nullptr},
-    {"nanovdb", Versions::v4, refused, "NanoVDB files", {}, nullptr},
+    {"nanovdb", Versions::v4, approximated, "without emission by temperature", kNanoVdb,
+     read_nano_vdb},
 };
 
 }  // namespace
@@ -259,6 +313,10 @@ void read_medium(Reader& reader, const Plugin& given) {
   MediumDescription medium = record->read(v);
   medium.label = {name};
   reader.define_medium(name, std::move(medium));
+}
+
+void list_media(std::vector<Row>& rows) {
+  list(rows, "MakeNamedMedium", kMedia);
 }
 
 }  // namespace duet::pbrt

@@ -31,12 +31,14 @@ void Reader::define_material(const std::string& name, MaterialId made,
     const MaterialId awaited = names().materials.at(name);
     scene_.materials[size_t(awaited)] = scene_.materials[size_t(made)];
     looks_at_uv_[size_t(awaited)] = uses_uv;
+    if (const auto own = interiors_.find(made); own != interiors_.end())
+      report_.error(where, "a material with a medium must be defined before it is used");
     return;
   }
   const auto [entry, is_new] = change_names().materials.insert_or_assign(name, made);
   (void)entry;
   if (!is_new && version_ == Version::v4)
-    report_.error(where, "there is a material \"{}\" already", in_quotes(name));
+    report_.error(where, "there is a material {} already", in_quotes(name));
 }
 
 MediumId Reader::named_medium(const std::string& name, const SourceLocation& where) {
@@ -55,7 +57,7 @@ void Reader::define_medium(const std::string& name, MediumDescription medium) {
     return;
   }
   if (media_.contains(name) && version_ == Version::v4)
-    report_.error(where, "there is a medium \"{}\" already", in_quotes(name));
+    report_.error(where, "there is a medium {} already", in_quotes(name));
   media_[name] = MediumId(scene_.media.size());
   scene_.media.push_back(std::move(medium));
 }
@@ -64,13 +66,12 @@ void Reader::check_names() {
   for (const auto& [name, where] : undefined_materials_) {
     auto known = report_.names_for_hint(names().materials);
     std::erase_if(known, [&](const std::string& k) { return undefined_materials_.contains(k); });
-    report_.error(where, "there is no material \"{}\"{}", in_quotes(name),
-                  did_you_mean(name, known));
+    report_.error(where, "there is no material {}{}", in_quotes(name), did_you_mean(name, known));
   }
   for (const auto& [name, where] : undefined_media_) {
     auto known = report_.names_for_hint(media_);
     std::erase_if(known, [&](const std::string& k) { return undefined_media_.contains(k); });
-    report_.error(where, "there is no medium \"{}\"{}", in_quotes(name), did_you_mean(name, known));
+    report_.error(where, "there is no medium {}{}", in_quotes(name), did_you_mean(name, known));
   }
 }
 

@@ -10,12 +10,12 @@ namespace duet::pbrt {
 namespace {
 
 constexpr std::pair<std::string_view, Type> kTypes[] = {
-    {"integer", Type::integer},     {"float", Type::number},    {"bool", Type::boolean},
-    {"string", Type::string},       {"point2", Type::point2},   {"vector2", Type::vector2},
-    {"point3", Type::point3},       {"vector3", Type::vector3}, {"normal", Type::normal},
-    {"rgb", Type::rgb},             {"xyz", Type::xyz},         {"blackbody", Type::blackbody},
-    {"spectrum", Type::spectrum},   {"texture", Type::texture}, {"point", Type::point3},
-    {"vector", Type::vector3},      {"color", Type::rgb},       {"normal3", Type::normal},
+    {"integer", Type::integer},   {"float", Type::number},    {"bool", Type::boolean},
+    {"string", Type::string},     {"point2", Type::point2},   {"vector2", Type::vector2},
+    {"point3", Type::point3},     {"vector3", Type::vector3}, {"normal", Type::normal},
+    {"rgb", Type::rgb},           {"xyz", Type::xyz},         {"blackbody", Type::blackbody},
+    {"spectrum", Type::spectrum}, {"texture", Type::texture}, {"point", Type::point3},
+    {"vector", Type::vector3},    {"color", Type::rgb},       {"normal3", Type::normal},
     {"int", Type::integer},
 };
 
@@ -55,8 +55,8 @@ class ValueReader {
       case Kind::word: {
         const std::string word = in_.take_word();
         if (p_.type != Type::boolean)
-          throw SyntaxError{where,
-                            fmt::format("a value of \"{}\" cannot be {}", p_.name, in_quotes(word))};
+          throw SyntaxError{
+              where, fmt::format("a value of \"{}\" cannot be {}", p_.name, in_quotes(word))};
         boolean(word, where);
         break;
       }
@@ -66,7 +66,7 @@ class ValueReader {
   }
   void boolean(const std::string& text, const SourceLocation& where) {
     if (text != "true" && text != "false")
-      throw SyntaxError{where, fmt::format("\"{}\" is neither true nor false", in_quotes(text))};
+      throw SyntaxError{where, fmt::format("{} is neither true nor false", in_quotes(text))};
     p_.numbers.push_back(text == "true");
   }
 
@@ -85,7 +85,7 @@ std::string mismatch(const Parameter& p) {
     return fmt::format("parameter \"{}\" is a {}: its value stands in quotes", p.name,
                        type_name(p.type));
   if (!text && p.type != Type::spectrum && !p.strings.empty())
-    return fmt::format("parameter \"{}\" is a {}: its value is a number, not \"{}\"", p.name,
+    return fmt::format("parameter \"{}\" is a {}: its value is a number, not {}", p.name,
                        type_name(p.type), in_quotes(p.strings.front()));
   if (p.type == Type::integer)
     for (const double x : p.numbers)
@@ -110,11 +110,11 @@ Parameter read_parameter(Lexer& in, uint8_t color_space) {
     Parameter ignored;
     ignored.type = Type::string;
     std::string message =
-        fmt::format("\"{}\" is not \"type name\" of a parameter", in_quotes(declared));
+        fmt::format("{} is not \"type name\" of a parameter", in_quotes(declared));
     if (!found && gap != text.npos) {
       std::vector<std::string> known;
       for (const auto& [name, value] : kTypes) known.emplace_back(name);
-      message = fmt::format("\"{}\" is not a type{}", in_quotes(type),
+      message = fmt::format("{} is not a type{}", in_quotes(type),
                             did_you_mean(std::string(type), known));
     }
     const Kind next = in.peek();

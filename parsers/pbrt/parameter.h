@@ -41,14 +41,16 @@ std::optional<Type> find_type(std::string_view name);
 
 /// A set of types.
 using Types = uint16_t;
-constexpr Types of(Type t) { return Types(1u << unsigned(t)); }
+constexpr Types of(Type t) {
+  return Types(1u << unsigned(t));
+}
 inline constexpr Types kInteger = of(Type::integer), kNumber = of(Type::number),
                        kBoolean = of(Type::boolean), kString = of(Type::string),
                        kPoint2 = of(Type::point2) | of(Type::vector2) | of(Type::number),
                        kPoint3 = of(Type::point3), kVector3 = of(Type::vector3),
                        kNormal = of(Type::normal), kTexture = of(Type::texture),
-                       kColor = of(Type::rgb) | of(Type::xyz) | of(Type::blackbody) |
-                                of(Type::spectrum),
+                       kColor =
+                           of(Type::rgb) | of(Type::xyz) | of(Type::blackbody) | of(Type::spectrum),
                        kColorTexture = kColor | kTexture, kNumberTexture = kNumber | kTexture;
 
 /// One parameter of a file.

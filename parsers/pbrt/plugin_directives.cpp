@@ -15,7 +15,7 @@ void Directives::attribute(Lexer& in, const Plugin& d) {
   std::vector<Parameter> parameters = read_parameters(in, state().color_space, report());
   const std::vector<std::string> targets{"shape", "light", "material", "medium", "texture"};
   if (std::find(targets.begin(), targets.end(), target) == targets.end()) {
-    report().error(d.where, "there are no defaults for \"{}\"{}", in_quotes(target),
+    report().error(d.where, "there are no defaults for {}{}", in_quotes(target),
                    did_you_mean(target, targets));
     return;
   }
@@ -38,7 +38,7 @@ void Directives::color_space(Lexer& in, const Plugin& d) {
   }
   std::vector<std::string> names;
   for (const ColorSpace& c : color_spaces()) names.emplace_back(c.name);
-  report().error(d.where, "there is no colour space \"{}\"{}", in_quotes(name),
+  report().error(d.where, "there is no colour space {}{}", in_quotes(name),
                  did_you_mean(name, names));
 }
 
@@ -156,7 +156,7 @@ std::string take_type(Plugin& plugin, Report& report) {
     plugin.parameters.erase(plugin.parameters.begin() + std::ptrdiff_t(i));
     return type;
   }
-  report.error(plugin.where, "{} \"{}\" has no \"string type\"", plugin.directive,
+  report.error(plugin.where, "{} {} has no \"string type\"", plugin.directive,
                in_quotes(plugin.name));
   return "";
 }

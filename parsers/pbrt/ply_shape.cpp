@@ -68,8 +68,8 @@ const PlyMesh* Reader::ply_mesh(const std::string& path, bool needs_uv,
     MeshOptions options;
     options.only_own_normals = true;
     options.quads = &quads;
-    TriangleMesh mesh = ends_with_gz(path) ? read_ply(path, inflate_file(path), options)
-                                           : read_ply(path, options);
+    TriangleMesh mesh =
+        ends_with_gz(path) ? read_ply(path, inflate_file(path), options) : read_ply(path, options);
     mesh.attributes.clear();
     result.own_normals = !mesh.normals.empty();
     result.is_whole_file = quads.empty() && result.own_normals && !ends_with_gz(path);

@@ -8,6 +8,7 @@
 #include "pbrt/records.h"
 #include "pbrt/shapes.h"
 #include "pbrt/values.h"
+#include "pbrt/vocabulary.h"
 #include "values/text.h"
 
 namespace duet::pbrt {
@@ -25,8 +26,8 @@ void add_mesh(Values& v, TriangleMesh mesh, bool own_normals) {
     v.reader().report().warning(v.where(), "this shape has no area and is left out");
     return;
   }
-  v.reader().add_shape(v.plugin(), {.geometry = MeshShape{shared(std::move(mesh)), {}},
-                                    .has_normals = own_normals});
+  v.reader().add_shape(
+      v.plugin(), {.geometry = MeshShape{shared(std::move(mesh)), {}}, .has_normals = own_normals});
 }
 
 std::vector<Point3f> points(Values& v, std::string_view name) {
@@ -201,9 +202,9 @@ void read_sphere(Values& v) {
   const double phi = std::clamp(v.number("phimax"), 0.0, 360.0);
   if (z_min == -r && z_max == r && phi == 360) {
     // Its texture coordinates begin at the lower pole.
-    v.reader().add_shape(v.plugin(), {.geometry = SphereShape{},
-                                      .to_object = Matrix4::scale(r, r, -r),
-                                      .mirrors = true});
+    v.reader().add_shape(
+        v.plugin(),
+        {.geometry = SphereShape{}, .to_object = Matrix4::scale(r, r, -r), .mirrors = true});
     return;
   }
   add_mesh(v, make_sphere(r, z_min, z_max, phi), false);
@@ -239,9 +240,9 @@ void read_disk(Values& v) {
   const double r = v.positive("radius"), inner = v.not_negative("innerradius"),
                height = v.number("height"), phi = std::clamp(v.number("phimax"), 0.0, 360.0);
   if (inner == 0 && phi == 360 && !v.reader().needs_uv(v.plugin()))
-    v.reader().add_shape(v.plugin(), {.geometry = DiskShape{},
-                                      .to_object = Matrix4::translate(0, 0, height) *
-                                                   Matrix4::scale(r, r, 1)});
+    v.reader().add_shape(v.plugin(),
+                         {.geometry = DiskShape{},
+                          .to_object = Matrix4::translate(0, 0, height) * Matrix4::scale(r, r, 1)});
   else
     add_mesh(v, make_disk(r, inner, height, phi), false);
 }
@@ -258,9 +259,8 @@ void read_loop_subdivision(Values& v) {
   const std::vector<Point3f> positions = points(v, "P");
   const auto triangles = indices<3>(v, positions.size());
   if (!triangles || positions.empty()) return;
-  const int levels =
-      v.reader().version() == Version::v3 && !v.has("levels") ? v.integer("nlevels")
-                                                              : v.integer("levels");
+  const int levels = v.reader().version() == Version::v3 && !v.has("levels") ? v.integer("nlevels")
+                                                                             : v.integer("levels");
   constexpr double kMost = 5e7;
   if (levels < 0 || double(triangles->size()) * std::pow(4.0, levels) > kMost) {
     v.reader().report().error(v.where("levels"), "{} levels of subdivision are too many", levels);
@@ -290,7 +290,8 @@ void read_curve(Values& v) {
   const std::string basis = v.string("basis"), type = v.string("type");
   curve.bspline = basis == "bspline";
   if (basis != "bezier" && basis != "bspline")
-    report.error(v.where("basis"), "a curve's basis is bezier or bspline, not {}", in_quotes(basis));
+    report.error(v.where("basis"), "a curve's basis is bezier or bspline, not {}",
+                 in_quotes(basis));
   if (type != "flat" && type != "cylinder" && type != "ribbon")
     report.error(v.where("type"), "a curve's type is flat, cylinder or ribbon, not {}",
                  in_quotes(type));
@@ -332,6 +333,10 @@ void read_shape(Reader& reader, const Plugin& plugin) {
     Values values(reader, plugin, record->parameters, kShapeSpecs);
     record->read(values);
   }
+}
+
+void list_shapes(std::vector<Row>& rows) {
+  list(rows, "Shape", kShapes, kShapeSpecs);
 }
 
 }  // namespace duet::pbrt

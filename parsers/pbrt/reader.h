@@ -89,6 +89,10 @@ class Reader {
   bool needs_uv(const Plugin& shape) const;
   void set_material(MaterialId id);
   void set_looks_at_uv(MaterialId id, bool looks);
+  /// The material bounds a medium of its own.
+  void set_interior(MaterialId id, MediumDescription medium);
+  /// `to` bounds what `from` does.
+  void share_interior(MaterialId from, MaterialId to);
 
   // ---- Shapes (reader_shapes.cpp) ----
   /// Adds a shape with what the state says of it: transform, orientation, material, light, media.
@@ -129,6 +133,7 @@ class Reader {
   size_t texture_count_ = 0;
   /// Per material: whether it has textures or is anisotropic.
   std::vector<bool> looks_at_uv_;
+  std::map<MaterialId, MediumId> interiors_;
   std::map<std::pair<std::string, bool>, PlyMesh> ply_meshes_;
   std::unordered_map<std::string, uint32_t> objects_;
   /// The group that ObjectBegin has begun.

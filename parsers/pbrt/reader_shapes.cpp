@@ -17,6 +17,15 @@ bool Reader::needs_uv(const Plugin& shape) const {
          (state_.area_light && state_.area_light->find("filename"));
 }
 
+void Reader::set_interior(MaterialId id, MediumDescription medium) {
+  interiors_[id] = MediumId(scene_.media.size());
+  scene_.media.push_back(std::move(medium));
+}
+
+void Reader::share_interior(MaterialId from, MaterialId to) {
+  if (const auto own = interiors_.find(from); own != interiors_.end()) interiors_[to] = own->second;
+}
+
 void Reader::set_looks_at_uv(MaterialId id, bool looks) {
   looks_at_uv_[size_t(id)] = looks;
 }
@@ -33,8 +42,7 @@ MaterialId Reader::with_alpha(const Plugin& shape, MaterialId material) {
   const std::string key = given->strings.empty() ? fmt::format("{}", given->numbers.front())
                                                  : "\"" + given->strings.front();
   const auto [entry, is_new] = masked_.try_emplace({uint32_t(material), key}, MaterialId{});
-  if (is_new)
-    entry->second = add_material(MaskMaterial{alpha, material}, shape.where);
+  if (is_new) entry->second = add_material(MaskMaterial{alpha, material}, shape.where);
   return entry->second;
 }
 
@@ -49,11 +57,15 @@ void Reader::add_shape(const Plugin& from, ShapeParts parts) {
   // triangles once more by transforms that mirror.
   shape.flip_normals = state_.reverse_orientation != (mirrored && !parts.has_normals);
   if (parts.mirrors)
-    shape.flip_normals =
-        state_.reverse_orientation != (mirrored != ((state_.ctm[0] * parts.to_object).determinant3() < 0));
+    shape.flip_normals = state_.reverse_orientation !=
+                         (mirrored != ((state_.ctm[0] * parts.to_object).determinant3() < 0));
   shape.geometry = std::move(parts.geometry);
   shape.material = with_alpha(from, state_.material);
-  if (state_.inside != state_.outside) {
+  const auto own = interiors_.find(state_.material);
+  if (own != interiors_.end()) {
+    shape.interior = own->second;
+    shape.exterior = state_.outside;
+  } else if (state_.inside != state_.outside) {
     shape.interior = state_.inside;
     shape.exterior = state_.outside;
   }
@@ -64,7 +76,8 @@ void Reader::add_shape(const Plugin& from, ShapeParts parts) {
     else if (invisible)
       report_.warning(from.where, "a surface with the material \"interface\" emits no light");
     else
-      shape.emission = read_area_light(*this, *state_.area_light, [&] { return world_area(shape); });
+      shape.emission =
+          read_area_light(*this, *state_.area_light, [&] { return world_area(shape); });
   }
   auto& list = object_ ? scene_.groups[*object_].shapes : scene_.shapes;
   list.push_back(std::move(shape));
@@ -76,7 +89,7 @@ void Reader::begin_object(const std::string& name, const SourceLocation& where) 
     return;
   }
   if (objects_.contains(name)) {
-    report_.error(where, "there is an object \"{}\" already", in_quotes(name));
+    report_.error(where, "there is an object {} already", in_quotes(name));
     return;
   }
   object_ = uint32_t(scene_.groups.size());
@@ -96,7 +109,7 @@ void Reader::add_instance(const std::string& name, const SourceLocation& where) 
   }
   const auto found = objects_.find(name);
   if (found == objects_.end()) {
-    report_.error(where, "there is no object \"{}\"{}", in_quotes(name),
+    report_.error(where, "there is no object {}{}", in_quotes(name),
                   did_you_mean(name, report_.names_for_hint(objects_)));
     return;
   }
@@ -124,14 +137,15 @@ double world_area(const ShapeDescription& shape) {
       made = make_disk(1, 0, 0, 360);
     mesh = &made;
   }
-  const Matrix4 to_world =
-      shape.motion.empty() ? shape.to_world
-                           : shape.motion.keyframes().front().pose * shape.to_world;
+  const Matrix4 to_world = shape.motion.empty()
+                               ? shape.to_world
+                               : shape.motion.keyframes().front().pose * shape.to_world;
   const Transform place(to_world);
   double area = 0;
   for (const auto& [a, b, c] : mesh->triangles) {
     const Point3f p = place(mesh->positions[a]);
-    area += 0.5 * double(length(cross(place(mesh->positions[b]) - p, place(mesh->positions[c]) - p)));
+    area +=
+        0.5 * double(length(cross(place(mesh->positions[b]) - p, place(mesh->positions[c]) - p)));
   }
   return area;
 }

@@ -24,12 +24,15 @@ struct Record {
 };
 
 /// The record of a plugin in the version of the file. Null after an error: there is none, or it is
-/// refused.
+/// refused. Plugins of the other version may stand in a table of their own.
 template <class Read>
 const Record<Read>* find_record(Reader& reader, const Plugin& plugin,
-                                std::span<const Record<Read>> table) {
+                                std::span<const Record<Read>> table,
+                                std::span<const Record<Read>> of_other_version = {}) {
   std::vector<std::string> names;
   const Record<Read>* other = nullptr;
+  for (const Record<Read>& r : of_other_version)
+    if (r.name == plugin.name) other = &r;
   for (const Record<Read>& r : table) {
     if (!has_version(r.versions, reader.version())) {
       if (r.name == plugin.name) other = &r;
@@ -50,7 +53,7 @@ const Record<Read>* find_record(Reader& reader, const Plugin& plugin,
                           plugin.directive, plugin.name, version == 3 ? 4 : 3, version,
                           version == 3 ? 4 : 3);
   else
-    reader.report().error(plugin.where, "there is no {} \"{}\"{}", plugin.directive,
+    reader.report().error(plugin.where, "there is no {} {}{}", plugin.directive,
                           in_quotes(plugin.name), did_you_mean(plugin.name, names));
   return nullptr;
 }

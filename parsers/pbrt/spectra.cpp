@@ -58,15 +58,15 @@ Matrix3 to_xyz(uint8_t color_space) {
   return m;
 }
 
-/// Chromaticity of daylight: Judd, MacAdam & Wyszecki 1964, as CIE 15 has it. Below 4000 K that of a
-/// black body: Kim et al. 2002.
+/// Chromaticity of daylight: Judd, MacAdam & Wyszecki 1964, as CIE 15 has it. Below 4000 K that of
+/// a black body: Kim et al. 2002.
 std::array<double, 2> daylight_xy(double kelvin) {
   const double t = kelvin, i = 1e3 / t, i2 = i * i, i3 = i2 * i;
   if (t < 4000) {
     const double x = -0.2661239 * i3 - 0.2343589 * i2 + 0.8776956 * i + 0.179910;
-    const double y = t < 2222
-                         ? -1.1063814 * x * x * x - 1.34811020 * x * x + 2.18555832 * x - 0.20219683
-                         : -0.9549476 * x * x * x - 1.37418593 * x * x + 2.09137015 * x - 0.16748867;
+    const double y =
+        t < 2222 ? -1.1063814 * x * x * x - 1.34811020 * x * x + 2.18555832 * x - 0.20219683
+                 : -0.9549476 * x * x * x - 1.37418593 * x * x + 2.09137015 * x - 0.16748867;
     return {x, y};
   }
   // The temperature counts by a value of Planck's second constant that has changed since.
@@ -212,13 +212,14 @@ std::optional<std::vector<SpectrumSample>> spectrum_samples(const std::vector<do
                                                             std::string& why) {
   std::vector<SpectrumSample> samples;
   if (numbers.size() < 2 || numbers.size() % 2 != 0) {
-    why = fmt::format("a spectrum is pairs of wavelength and value, not {} numbers", numbers.size());
+    why =
+        fmt::format("a spectrum is pairs of wavelength and value, not {} numbers", numbers.size());
     return std::nullopt;
   }
   for (size_t i = 0; i < numbers.size(); i += 2) {
     if (i > 0 && !(numbers[i] > numbers[i - 2])) {
-      why = fmt::format("the wavelengths of a spectrum must increase: {} comes after {}", numbers[i],
-                        numbers[i - 2]);
+      why = fmt::format("the wavelengths of a spectrum must increase: {} comes after {}",
+                        numbers[i], numbers[i - 2]);
       return std::nullopt;
     }
     samples.push_back({numbers[i], numbers[i + 1]});
@@ -240,10 +241,6 @@ std::vector<SpectrumSample> read_spectrum_file(const std::string& path) {
   } catch (const SyntaxError& e) {
     throw ReadError(e.where.to_string() + ": " + e.message);
   }
-}
-
-double mean_value(std::span<const SpectrumSample> samples) {
-  return double(spectrum_to_rgb(samples, ColorMeaning::emission).luminance());
 }
 
 }  // namespace duet::pbrt

@@ -53,7 +53,4 @@ std::optional<std::vector<SpectrumSample>> spectrum_samples(const std::vector<do
 /// The pairs in a file of text, with `#` before comments. Throws ReadError.
 std::vector<SpectrumSample> read_spectrum_file(const std::string& path);
 
-/// The mean over the visible wavelengths, weighed by luminance.
-double mean_value(std::span<const SpectrumSample> samples);
-
 }  // namespace duet::pbrt

@@ -1,8 +1,10 @@
 // Textures.
-#include <cmath>
+#include <algorithm>
+#include <array>
 
 #include "pbrt/records.h"
 #include "pbrt/values.h"
+#include "pbrt/vocabulary.h"
 #include "values/text.h"
 
 namespace duet::pbrt {
@@ -22,25 +24,73 @@ struct Made {
   FloatInput number = 0.0;
 };
 
-#define DUET_MAPPING_SPECS                                                              \
-  {"mapping", kString, "uv", "uv; spherical, cylindrical and planar are not supported yet"}, \
-      {"uscale", kNumber, "1"}, {"vscale", kNumber, "1"}, {"udelta", kNumber, "0"},     \
-      {"vdelta", kNumber, "0"}, {"v1", kVector3, "1 0 0"}, {                            \
-    "v2", kVector3, "0 1 0"                                                             \
+#define DUET_MAPPING_SPECS                                                                      \
+  {"mapping", kString, "uv", "uv, spherical, cylindrical or planar"}, {"uscale", kNumber, "1"}, \
+      {"vscale", kNumber, "1"}, {"udelta", kNumber, "0"}, {"vdelta", kNumber, "0"},             \
+      {"v1", kVector3, "1 0 0"}, {                                                              \
+    "v2", kVector3, "0 1 0"                                                                     \
   }
 constexpr Types kEither = kColorTexture | kNumberTexture;
+
+/// From the world to the space of the texture: the transform that held at the directive.
+Matrix4 from_world(Values& v) {
+  const Matrix4& ctm = v.reader().state().ctm[0];
+  if (!v.reader().check_transform(ctm, v.where())) return {};
+  return *ctm.inverse();
+}
 
 /// From the surface's coordinates to the texture's (s, t).
 UvTransform mapping(Values& v) {
   UvTransform m;
   const std::string kind = v.string("mapping");
-  if (kind != "uv") {
-    const bool known = kind == "spherical" || kind == "cylindrical" || kind == "planar";
-    v.reader().report().error(v.where("mapping"), "the mapping {} is {}", in_quotes(kind),
-                              known ? "not supported yet" : "unknown");
-  }
-  m.m = {{{v.number("uscale"), 0, v.number("udelta")}, {0, v.number("vscale"), v.number("vdelta")}}};
+  if (kind == "uv")
+    m.m = {
+        {{v.number("uscale"), 0, v.number("udelta")}, {0, v.number("vscale"), v.number("vdelta")}}};
+  else if (kind != "spherical" && kind != "cylindrical" && kind != "planar")
+    v.reader().report().error(v.where("mapping"), "there is no mapping {}", in_quotes(kind));
   return m;
+}
+
+/// The texture looked up where its mapping says, unless that is by the surface's coordinates.
+TextureId mapped(Values& v, TextureId texture) {
+  const std::string kind = v.string("mapping");
+  MappedTextureDescription m;
+  m.inner = texture;
+  m.from_world = from_world(v);
+  if (kind == "spherical") {
+    m.kind = SpaceMapKind::spherical;
+  } else if (kind == "cylindrical") {
+    m.kind = SpaceMapKind::cylindrical;
+  } else if (kind == "planar") {
+    m.kind = SpaceMapKind::planar;
+    const auto a = v.point("v1"), b = v.point("v2");
+    Matrix4 plane;
+    plane.m = {{{a[0], a[1], a[2], v.number("udelta")},
+                {b[0], b[1], b[2], v.number("vdelta")},
+                {0, 0, 0, 0},
+                {0, 0, 0, 1}}};
+    m.from_world = plane * m.from_world;
+  } else {
+    return texture;
+  }
+  return v.reader().add_texture(m, v.where());
+}
+
+/// Both forms of a texture that is not constant.
+void set(Made& made, TextureId id) {
+  made.color = id;
+  made.number = id;
+}
+
+/// A number as a colour; textures are the same.
+ColorInput as_color(const FloatInput& input) {
+  if (const double* constant = std::get_if<double>(&input)) return Spectrum(float(*constant));
+  return std::get<TextureId>(input);
+}
+
+/// What was asked for, as a colour.
+ColorInput input_of(const Request& request, const Made& made) {
+  return request.is_color ? made.color : as_color(made.number);
 }
 
 /// A value of one of the texture's own parameters.
@@ -125,12 +175,12 @@ void read_image(Values& v, const Request& request, Made& made) {
   for (double& x : image.to_uv.m[1]) x = -x;
   image.to_uv.m[1][2] += 1;
   TextureId id = reader.add_texture(image, v.where());
-  if (reader.version() == Version::v4 && v.boolean("invert"))
-    reader.report().error(v.where("invert"), "inverted images are not supported yet");
+  id = mapped(v, id);
   if (const double scale = v.number("scale"); scale != 1)
     id = reader.add_texture(ScaledTextureDescription{id, Spectrum(float(scale))}, v.where());
-  made.color = id;
-  made.number = id;
+  if (reader.version() == Version::v4 && v.boolean("invert"))
+    id = reader.add_texture(FunctionDescription{id, TextureFunction::inverse}, v.where());
+  set(made, id);
 }
 
 constexpr Spec kChecks[] = {{"tex1", kEither, "1"},
@@ -141,29 +191,30 @@ constexpr Spec kChecks[] = {{"tex1", kEither, "1"},
 
 void read_checkerboard(Values& v, const Request& request, Made& made) {
   Reader& reader = v.reader();
-  if (v.integer("dimension") != 2) {
-    reader.report().error(v.where("dimension"),
-                          "checkerboards in three dimensions are not supported yet");
-    return;
-  }
   Made first, second;
   read_input(v, request, "tex1", first);
   read_input(v, request, "tex2", second);
-  const auto input = [&](const Made& m) -> ColorInput {
-    if (request.is_color) return m.color;
-    if (const double* constant = std::get_if<double>(&m.number)) return Spectrum(float(*constant));
-    return std::get<TextureId>(m.number);
-  };
+  const ColorInput a = input_of(request, first), b = input_of(request, second);
+  const int dimension = v.integer("dimension");
+  if (dimension == 3) {
+    set(made, reader.add_texture(SolidCheckerboardDescription{a, b, from_world(v)}, v.where()));
+    return;
+  }
+  if (dimension != 2)
+    reader.report().error(v.where("dimension"), "a checkerboard has 2 or 3 dimensions, not {}",
+                          dimension);
   CheckerboardTexture board;
-  board.color0 = input(first);
-  board.color1 = input(second);
   board.to_uv = mapping(v);
+  const bool by_uv = v.string("mapping") == "uv";
+  // Textures in it keep their own mapping: then the board says only which of the two it is.
+  board.color0 = by_uv ? a : ColorInput(Spectrum(0.0f));
+  board.color1 = by_uv ? b : ColorInput(Spectrum(1.0f));
   // Mitsuba's squares are half as wide.
   for (auto& row : board.to_uv.m)
     for (double& x : row) x *= 0.5;
-  const TextureId id = reader.add_texture(board, v.where());
-  made.color = id;
-  made.number = id;
+  TextureId id = reader.add_texture(board, v.where());
+  if (!by_uv) id = reader.add_texture(MixDescription{a, b, mapped(v, id)}, v.where());
+  set(made, id);
 }
 
 constexpr Spec kScale[] = {{"tex", kEither, "1", "", 1, done, Versions::v4},
@@ -200,7 +251,8 @@ void read_scale(Values& v, const Request& request, Made& made) {
         scale = factor;
       result = reader.add_texture(ScaledTextureDescription{inner, scale}, v.where());
     } else {
-      reader.report().error(v.where(), "the product of two textures is not supported yet");
+      result = reader.add_texture(
+          ProductDescription{std::get<TextureId>(x), std::get<TextureId>(y)}, v.where());
     }
   };
   if (request.is_color)
@@ -210,8 +262,8 @@ void read_scale(Values& v, const Request& request, Made& made) {
 }
 
 constexpr Spec kMixTexture[] = {{"tex1", kEither, "0", "", 1, done, Versions::both, "0"},
-                         {"tex2", kEither, "1"},
-                         {"amount", kNumberTexture, "0.5"}};
+                                {"tex2", kEither, "1"},
+                                {"amount", kNumberTexture, "0.5"}};
 
 void read_mix_texture(Values& v, const Request& request, Made& made) {
   Made a, b;
@@ -226,7 +278,89 @@ void read_mix_texture(Values& v, const Request& request, Made& made) {
   else if (t && !request.is_color && na && nb)
     made.number = *na * (1 - *t) + *nb * *t;
   else
-    v.reader().report().error(v.where(), "a mix of textures is not supported yet");
+    set(made, v.reader().add_texture(
+                  MixDescription{input_of(request, a), input_of(request, b), amount}, v.where()));
+}
+
+constexpr Spec kDirectionMix[] = {
+    {"tex1", kEither, "0"}, {"tex2", kEither, "1"}, {"dir", kVector3, "0 1 0"}};
+
+void read_direction_mix(Values& v, const Request& request, Made& made) {
+  Made a, b;
+  read_input(v, request, "tex1", a);
+  read_input(v, request, "tex2", b);
+  const auto d = v.point("dir");
+  const Matrix4& m = v.reader().state().ctm[0];
+  std::array<double, 3> w{};
+  for (int i = 0; i < 3; ++i)
+    for (size_t j = 0; j < 3; ++j) w[size_t(i)] += m[i][j] * d[j];
+  set(made, v.reader().add_texture(DirectionMixDescription{input_of(request, a),
+                                                           input_of(request, b), w[0], w[1], w[2]},
+                                   v.where()));
+}
+
+constexpr Spec kBilerp[] = {{"v00", kEither, "0"},
+                            {"v01", kEither, "1"},
+                            {"v10", kEither, "0"},
+                            {"v11", kEither, "1"},
+                            DUET_MAPPING_SPECS};
+
+void read_bilerp(Values& v, const Request& request, Made& made) {
+  BilerpDescription b;
+  const auto corner = [&](const char* name) {
+    Made value;
+    read_input(v, request, name, value);
+    const ColorInput input = input_of(request, value);
+    if (const Spectrum* constant = std::get_if<Spectrum>(&input)) return *constant;
+    v.reader().report().error(v.where(name), "a corner of bilerp is no texture");
+    return Spectrum(0.0f);
+  };
+  b.v00 = corner("v00"), b.v01 = corner("v01"), b.v10 = corner("v10"), b.v11 = corner("v11");
+  b.to_uv = mapping(v);
+  set(made, mapped(v, v.reader().add_texture(b, v.where())));
+}
+
+constexpr Spec kDots[] = {{"inside", kEither, "1"}, {"outside", kEither, "0"}, DUET_MAPPING_SPECS};
+
+void read_dots(Values& v, const Request& request, Made& made) {
+  Reader& reader = v.reader();
+  Made inside, outside;
+  read_input(v, request, "inside", inside);
+  read_input(v, request, "outside", outside);
+  const ColorInput a = input_of(request, inside), b = input_of(request, outside);
+  DotsDescription dots;
+  dots.to_uv = mapping(v);
+  if (v.string("mapping") == "uv") {
+    dots.inside = a, dots.outside = b;
+    set(made, reader.add_texture(dots, v.where()));
+    return;
+  }
+  // Textures in it keep their own mapping.
+  const TextureId where = mapped(v, reader.add_texture(dots, v.where()));
+  set(made, reader.add_texture(MixDescription{b, a, where}, v.where()));
+}
+
+constexpr Spec kNoise[] = {{"octaves", kInteger, "8"}, {"roughness", kNumber, "0.5"}};
+constexpr Spec kMarble[] = {{"octaves", kInteger, "8"},
+                            {"roughness", kNumber, "0.5"},
+                            {"scale", kNumber, "1"},
+                            {"variation", kNumber, "0.2"}};
+
+void add_noise(Values& v, NoiseKind kind, Made& made) {
+  NoiseTextureDescription n;
+  n.kind = kind;
+  n.from_world = from_world(v);
+  if (kind != NoiseKind::windy) {
+    n.octaves = std::clamp(v.integer("octaves"), 1, 32);
+    n.roughness = v.number("roughness");
+  }
+  if (kind == NoiseKind::marble) n.scale = v.number("scale"), n.variation = v.number("variation");
+  set(made, v.reader().add_texture(n, v.where()));
+}
+
+template <NoiseKind kind>
+void read_noise(Values& v, const Request&, Made& made) {
+  add_noise(v, kind, made);
 }
 
 using ReadTexture = void (*)(Values&, const Request&, Made&);
@@ -237,15 +371,27 @@ constexpr Record<ReadTexture> kTextures[] = {
      read_checkerboard},
     {"scale", Versions::both, done, "", kScale, read_scale},
     {"mix", Versions::both, done, "", kMixTexture, read_mix_texture},
-    {"directionmix", Versions::v4, refused, "mixes by direction", {}, nullptr},
-    {"bilerp", Versions::both, refused, "four corners", {}, nullptr},
-    {"dots", Versions::both, refused, "noise", {}, nullptr},
-    {"fbm", Versions::both, refused, "noise", {}, nullptr},
-    {"wrinkled", Versions::both, refused, "noise", {}, nullptr},
-    {"windy", Versions::both, refused, "noise", {}, nullptr},
-    {"marble", Versions::both, refused, "noise", {}, nullptr},
+    {"directionmix", Versions::v4, done, "", kDirectionMix, read_direction_mix},
+    {"bilerp", Versions::both, done, "", kBilerp, read_bilerp},
+    {"dots", Versions::both, done, "", kDots, read_dots},
+    {"fbm", Versions::both, done, "never blurred by its distance", kNoise,
+     read_noise<NoiseKind::fbm>},
+    {"wrinkled", Versions::both, done, "never blurred by its distance", kNoise,
+     read_noise<NoiseKind::wrinkled>},
+    {"windy",
+     Versions::both,
+     done,
+     "never blurred by its distance",
+     {},
+     read_noise<NoiseKind::windy>},
+    {"marble", Versions::both, done, "never blurred by its distance", kMarble,
+     read_noise<NoiseKind::marble>},
     {"uv", Versions::v3, refused, "texture coordinates as colours", {}, nullptr},
-    {"ptex", Versions::both, refused, "textures per face: Debian has no library for them", {},
+    {"ptex",
+     Versions::both,
+     refused,
+     "textures per face: Debian has no library for them",
+     {},
      nullptr},
 };
 
@@ -277,6 +423,10 @@ void read_texture(Reader& reader, const Plugin& plugin, const std::string& name,
                                        : names.numbers.insert_or_assign(name, made.number).second;
   if (!is_new && reader.version() == Version::v4)
     reader.report().error(plugin.where, "there is a texture {} already", in_quotes(name));
+}
+
+void list_textures(std::vector<Row>& rows) {
+  list(rows, "Texture", kTextures);
 }
 
 }  // namespace duet::pbrt

@@ -79,7 +79,7 @@ void Directives::coord_sys_transform(Lexer& in, const Plugin& d) {
   const std::string name = take_string(in, d);
   const auto found = coordinate_systems_.find(name);
   if (found == coordinate_systems_.end()) {
-    report().error(d.where, "there is no coordinate system \"{}\"{}", in_quotes(name),
+    report().error(d.where, "there is no coordinate system {}{}", in_quotes(name),
                    did_you_mean(name, report().names_for_hint(coordinate_systems_)));
     return;
   }

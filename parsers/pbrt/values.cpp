@@ -65,7 +65,7 @@ void Values::check(const Parameter& p) {
       if (s.name == p.name) known = &s;
     }
   if (!known) {
-    report.warning(p.where, "{} \"{}\" has no parameter \"{}\"{}; it is ignored", plugin_.directive,
+    report.warning(p.where, "{} \"{}\" has no parameter {}{}; it is ignored", plugin_.directive,
                    plugin_.name, in_quotes(p.name), did_you_mean(p.name, names));
     return;
   }
@@ -132,7 +132,8 @@ double Values::number(std::string_view name) {
 double Values::positive(std::string_view name) {
   const double x = number(name);
   if (x > 0 || !has(name)) return x;
-  reader_.report().error(where(name), "parameter \"{}\" must be greater than zero, not {}", name, x);
+  reader_.report().error(where(name), "parameter \"{}\" must be greater than zero, not {}", name,
+                         x);
   return std::max(1e-6, parse_number(preset(name)).value_or(1));
 }
 
@@ -212,8 +213,7 @@ Spectrum Reader::constant_color(const Parameter& p, ColorMeaning meaning) {
     const std::string& name = p.strings.front();
     if (const auto metal = find_metal(name)) return in_working_space(*metal, film_color_space);
     if (const auto glass = find_glass(name)) return Spectrum(float(*glass));
-    if (const auto light = find_illuminant(name))
-      return in_working_space(*light, film_color_space);
+    if (const auto light = find_illuminant(name)) return in_working_space(*light, film_color_space);
     const std::string path = spectrum_file(name, p.where);
     if (path.empty()) return Spectrum(0.0f);
     try {
@@ -237,7 +237,7 @@ Spectrum Reader::constant_color(const Parameter& p, ColorMeaning meaning) {
 std::string Reader::spectrum_file(const std::string& name, const SourceLocation& where) {
   const size_t dot = name.rfind('.');
   if (dot != name.npos) return file(name, where);
-  report_.error(where, "there is no spectrum \"{}\"{}", in_quotes(name),
+  report_.error(where, "there is no spectrum {}{}", in_quotes(name),
                 did_you_mean(name, spectrum_names()));
   return "";
 }
@@ -251,7 +251,7 @@ ColorInput Values::color_input(std::string_view name, ColorMeaning meaning) {
     reader_.count_texture();
     return found->second;
   }
-  reader_.report().error(p->where, "there is no texture \"{}\" of colours{}",
+  reader_.report().error(p->where, "there is no texture {} of colours{}",
                          in_quotes(p->strings.front()),
                          did_you_mean(p->strings.front(), reader_.report().names_for_hint(known)));
   return Spectrum(0.5f);
@@ -266,21 +266,20 @@ FloatInput Values::float_input(std::string_view name) {
     reader_.count_texture();
     return found->second;
   }
-  reader_.report().error(p->where, "there is no texture \"{}\" of numbers{}",
+  reader_.report().error(p->where, "there is no texture {} of numbers{}",
                          in_quotes(p->strings.front()),
                          did_you_mean(p->strings.front(), reader_.report().names_for_hint(known)));
   return 0.5;
 }
 
 double Values::index_of_refraction(std::string_view name) {
-  const Parameter* p = given(name);
-  double eta = number_or_spectrum(p, name);
+  const double eta = read_index(given(name), name);
   if (eta > 0) return eta;
   reader_.report().error(where(name), "an index of refraction must be greater than zero");
   return 1.5;
 }
 
-double Values::number_or_spectrum(const Parameter* p, std::string_view name) {
+double Values::read_index(const Parameter* p, std::string_view name) {
   if (!p || p->type == Type::number) return number(name);
   if (p->type == Type::texture) {
     const FloatInput input = float_input(name);
@@ -288,27 +287,15 @@ double Values::number_or_spectrum(const Parameter* p, std::string_view name) {
     reader_.report().error(p->where, "an index of refraction that is a texture is not supported");
     return 1.5;
   }
-  if (p->strings.empty() || find_glass(p->strings.front())) {
-    if (!p->strings.empty())
-      reader_.approximate(p->where, fmt::format("{} without dispersion: its index is that at 587.6 "
-                                                "nm",
-                                                p->strings.front()));
-    else if (p->type == Type::spectrum) {
-      std::string why;
-      const auto samples = spectrum_samples(p->numbers, why);
-      if (!samples) {
-        reader_.report().error(p->where, "parameter \"{}\": {}", p->name, why);
-        return 1.5;
-      }
-      if (const auto constant = constant_value(*samples)) return *constant;
-      reader_.approximate(p->where, "a refractive index without dispersion: the spectrum's mean");
-      return mean_value(*samples);
-    }
-    return p->strings.empty() ? double(reader_.constant_color(*p, ColorMeaning::unbounded).mean())
-                              : *find_glass(p->strings.front());
+  if (const auto glass = find_glass(p->strings.empty() ? "" : p->strings.front())) {
+    reader_.approximate(p->where, fmt::format("{} without dispersion, by its index at 587.6 nm",
+                                              p->strings.front()));
+    return *glass;
   }
-  reader_.approximate(p->where, "a refractive index without dispersion: the spectrum's mean");
-  return double(reader_.constant_color(*p, ColorMeaning::unbounded).mean());
+  const Spectrum color = reader_.constant_color(*p, ColorMeaning::unbounded);
+  if (color.r == color.g && color.g == color.b) return double(color.r);
+  reader_.approximate(p->where, "a refractive index without dispersion, by the spectrum's mean");
+  return double(color.luminance());
 }
 
 }  // namespace duet::pbrt

@@ -53,7 +53,7 @@ class Values {
   const Spec& spec(std::string_view name) const;
   std::string_view preset(std::string_view name) const;
   void check(const Parameter& p);
-  double number_or_spectrum(const Parameter* p, std::string_view name);
+  double read_index(const Parameter* p, std::string_view name);
 
   Reader& reader_;
   const Plugin& plugin_;

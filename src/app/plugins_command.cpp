@@ -8,6 +8,7 @@
 #include "base/diagnostics.h"
 #include "mitsuba/vocabulary.h"
 #include "mitsuba/vocabulary_text.h"
+#include "pbrt/vocabulary.h"
 #include "scene/mitsuba_differences.h"
 
 namespace duet {
@@ -68,18 +69,27 @@ void add_plugins_command(CLI::App& app, Program& program) {
   CLI::App* c = app.add_subcommand("plugins", "List the plugins and parameters of scene files");
   struct Options {
     std::string kind;
-    bool markdown = false;
+    bool markdown = false, pbrt = false;
   };
   const auto o = std::make_shared<Options>();
   c->add_option("kind", o->kind, "Only these: bsdf, shape, emitter, sensor, ... (default: all)");
   c->add_flag("--markdown", o->markdown, "Print docs/compatibility.md");
+  c->add_flag("--pbrt", o->pbrt, "Print docs/pbrt.md: what is read of pbrt's files");
   c->footer(
       "Each line says what becomes of a name: done; approximated; no effect, because it changes "
       "nothing that Duet does; ignored with a warning; refused, which is an error.\n"
       "Examples:\n"
       "  duet plugins bsdf\n"
       "  duet plugins --markdown > docs/compatibility.md");
-  c->callback([o, &program] { program.exit_code = list_plugins(o->kind, o->markdown); });
+  c->callback([o, &program] {
+    if (o->pbrt) {
+      if (!o->kind.empty() || o->markdown)
+        throw UsageError("--pbrt prints all kinds as Markdown; name none");
+      fmt::print("{}", pbrt::vocabulary_markdown());
+      return;
+    }
+    program.exit_code = list_plugins(o->kind, o->markdown);
+  });
 }
 
 }  // namespace duet

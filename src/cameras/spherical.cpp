@@ -47,7 +47,8 @@ inline Point2f SphericalCamera::film_position(const Vector3f& d, float r) const 
     return {uv.x * float(film_.x), uv.y * float(film_.y)};
   }
   const float turns = atan2_turns(d.x, -d.z);
-  return {(turns < 0 ? turns + 1 : turns) * float(film_.x), 2 * atan2_turns(r, d.y) * float(film_.y)};
+  return {(turns < 0 ? turns + 1 : turns) * float(film_.x),
+          2 * atan2_turns(r, d.y) * float(film_.y)};
 }
 
 std::optional<CameraSample> SphericalCamera::sample_lens(const Point3f& from,

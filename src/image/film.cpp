@@ -33,8 +33,8 @@ void for_reached_rows(const ReconstructionFilter& filter, const Point2f& p,
 }
 
 /// The filter around each pixel of [first, end), integrated over [lower, upper).
-std::vector<double> filter_integrals(const FilterProfile& filter, int first, int end,
-                                     int lower, int upper) {
+std::vector<double> filter_integrals(const FilterProfile& filter, int first, int end, int lower,
+                                     int upper) {
   constexpr int kSteps = 1024;
   std::vector<double> integrals;
   for (int i = first; i < end; ++i) {
@@ -176,8 +176,8 @@ void Film::respond(Image& image) const {
     const std::array<float, 3> from{image.data[i], image.data[i + 1], image.data[i + 2]};
     for (size_t c = 0; c < 3; ++c) {
       const auto& row = (*response_)[c];
-      image.data[i + c] = float(row[0] * double(from[0]) + row[1] * double(from[1]) +
-                                row[2] * double(from[2]));
+      image.data[i + c] =
+          float(row[0] * double(from[0]) + row[1] * double(from[1]) + row[2] * double(from[2]));
     }
   }
 }

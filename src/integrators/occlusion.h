@@ -7,9 +7,9 @@
 namespace duet {
 
 /// The share of directions, weighted by the cosine, in which nothing is nearer than a length; one
-/// where the camera sees nothing, unless that is to be black. No light and no material counts, and surfaces are looked at from
-/// the side of their normal. Source: Zhukov, Iones & Kronin, "An Ambient Light Illumination Model",
-/// 1998.
+/// where the camera sees nothing, unless that is to be black. No light and no material counts, and
+/// surfaces are looked at from the side of their normal. Source: Zhukov, Iones & Kronin, "An
+/// Ambient Light Illumination Model", 1998.
 class OcclusionIntegrator final : public CameraIntegrator {
  public:
   OcclusionIntegrator(const OcclusionIntegratorDescription& options, const CameraOutput& output)
@@ -20,7 +20,8 @@ class OcclusionIntegrator final : public CameraIntegrator {
                     RenderCounters& counters, std::span<float> values) const override {
     Hit hit;
     ++counters.closest_rays;
-    if (!scene.accel->closest_hit(start.ray, hit)) return Spectrum(options_.background ? 1.0f : 0.0f);
+    if (!scene.accel->closest_hit(start.ray, hit))
+      return Spectrum(options_.background ? 1.0f : 0.0f);
     values[3] = 1;
     ++counters.path_vertices;
     const Surface s = scene.surface(start.ray, hit);

@@ -2,8 +2,9 @@
 
 #include <numbers>
 
-#include "math/warp.h"
 #include "math/angles.h"
+#include "math/equal_area.h"
+#include "math/warp.h"
 
 namespace duet {
 
@@ -133,12 +134,14 @@ double SpotEmitter::power(double) const {
 }
 
 ProjectorEmitter::ProjectorEmitter(const Transform& to_world, const ColorSlot& irradiance,
-                                   float scale, double horizontal_fov, double aspect)
+                                   float scale, double horizontal_fov, double aspect,
+                                   bool is_intensity)
     : PositionEmitter(to_world(Point3f(0, 0, 0))),
       to_world_(to_world),
       axis_(to_world(Vector3f(0, 0, 1))),
       irradiance_(irradiance),
-      scale_(scale) {
+      scale_(scale),
+      is_intensity_(is_intensity) {
   const double width = 2 * std::tan(0.5 * horizontal_fov * kRadians);
   inv_width_ = float(1 / width);
   inv_height_ = float(aspect / width);
@@ -159,14 +162,14 @@ inline std::optional<LightSample> ProjectorEmitter::send(const Vector3f& away) c
   const Point2f uv{0.5f - local.x / local.z * inv_width_, 0.5f - local.y / local.z * inv_height_};
   if (!(uv.x >= 0 && uv.x <= 1 && uv.y >= 0 && uv.y <= 1)) return std::nullopt;
   // Mitsuba looks up volumes at the origin of the world here, and at the light in a spot light.
-  const Spectrum image = irradiance_(at_uv(uv, Point3f(0.0f))) * (kPi * scale_);
+  const Spectrum texel = irradiance_(at_uv(uv, Point3f(0.0f))) * scale_;
   // The distance along the axis counts in the projector's units, that to the light in the world's.
   const float d2 = length_squared(away), z2 = local.z * local.z;
   const float inv_distance = 1 / std::sqrt(d2);
   LightSample s;
   s.wi = -away * inv_distance;
   s.target = position_;
-  s.weight = image / (z2 * facing * inv_distance);
+  s.weight = is_intensity_ ? texel / d2 : texel * kPi / (z2 * facing * inv_distance);
   s.emission = density_ * cubed_ratio(d2, z2);
   s.delta = true;
   return s;
@@ -180,8 +183,55 @@ std::optional<EmissionSample> ProjectorEmitter::sample_emission(const Point2f&,
 }
 
 double ProjectorEmitter::power(double) const {
+  if (is_intensity_) {
+    const double a = 0.5 / double(inv_width_), b = 0.5 / double(inv_height_);
+    const double solid_angle = 4 * std::atan(a * b / std::sqrt(1 + a * a + b * b));
+    return solid_angle * double(scale_) * double(irradiance_.average().luminance());
+  }
   return std::numbers::pi * double(scale_) * double(irradiance_.average().luminance()) /
          (double(inv_width_) * double(inv_height_));
+}
+
+GoniometricEmitter::GoniometricEmitter(const Transform& to_world, int n,
+                                       std::vector<Spectrum> texels)
+    : PositionEmitter(to_world(Point3f(0, 0, 0))),
+      to_world_(to_world),
+      n_(n),
+      texels_(std::move(texels)),
+      density_(float(inverse_determinant(to_world) * double(n) * n / (4 * std::numbers::pi))) {
+  std::vector<float> weights;
+  for (const Spectrum& t : texels_) weights.push_back(std::max(t.luminance(), 0.0f));
+  choice_ = DiscreteDistribution(weights);
+}
+
+std::optional<LightSample> GoniometricEmitter::sample_direct(const Point3f& from,
+                                                             const Point2f&) const {
+  return send(from - position_);
+}
+
+inline std::optional<LightSample> GoniometricEmitter::send(const Vector3f& away) const {
+  const Vector3f local = to_world_.inverse(away);
+  const float l2 = length_squared(local);
+  if (!(l2 > 0)) return std::nullopt;
+  const Point2f uv = sphere_to_square_equal_area(local * (1 / std::sqrt(l2)));
+  const int x = std::clamp(int(uv.x * float(n_)), 0, n_ - 1),
+            y = std::clamp(int(uv.y * float(n_)), 0, n_ - 1);
+  const uint32_t texel = uint32_t(y) * uint32_t(n_) + uint32_t(x);
+  return from_point(position_, away, texels_[texel],
+                    density_ * choice_.probability(texel) * cubed_ratio(length_squared(away), l2));
+}
+
+std::optional<EmissionSample> GoniometricEmitter::sample_emission(const Point2f& position,
+                                                                  const Point2f& direction) const {
+  const auto pick = choice_.sample(direction.x, position);
+  const int x = int(pick.index) % n_, y = int(pick.index) / n_;
+  const Vector3f away = to_world_(square_to_sphere_equal_area(
+      {(float(x) + pick.remapped) / float(n_), (float(y) + direction.y) / float(n_)}));
+  return reversed(send(away), length_squared(away));
+}
+
+double GoniometricEmitter::power(double) const {
+  return 4 * std::numbers::pi * choice_.sum() / double(texels_.size());
 }
 
 DirectionalEmitter::DirectionalEmitter(const Transform& to_world, const Spectrum& irradiance)

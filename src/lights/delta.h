@@ -3,6 +3,7 @@
 
 #include "lights/light.h"
 #include "lights/scene_sphere.h"
+#include "math/distribution.h"
 #include "textures/texture.h"
 
 namespace duet {
@@ -66,12 +67,12 @@ class SpotEmitter final : public PositionEmitter {
 
 /// A pinhole camera turned around: throws an image through a frustum along +z such that a plane
 /// across the axis sees the image undistorted. `irradiance` times π is what a plane at z = 1
-/// receives.
+/// receives; or it is the radiant intensity itself.
 class ProjectorEmitter final : public PositionEmitter {
  public:
   /// `horizontal_fov` in degrees, of an image `aspect` times as wide as high.
   ProjectorEmitter(const Transform& to_world, const ColorSlot& irradiance, float scale,
-                   double horizontal_fov, double aspect);
+                   double horizontal_fov, double aspect, bool is_intensity = false);
   std::optional<LightSample> sample_direct(const Point3f& from, const Point2f& u) const override;
   double power(double scene_radius) const override;
   /// A direction by a uniform point of the image.
@@ -88,6 +89,30 @@ class ProjectorEmitter final : public PositionEmitter {
   float scale_;
   float inv_width_, inv_height_;  ///< of the image at z = 1
   float density_;                 ///< of directions, on the axis if the transform is a rotation
+  bool is_intensity_;
+};
+
+/// Radiant intensity (W/sr) by an image that is a square of equal areas (math/equal_area.h), texel
+/// by texel.
+class GoniometricEmitter final : public PositionEmitter {
+ public:
+  /// `texels` are n rows of n.
+  GoniometricEmitter(const Transform& to_world, int n, std::vector<Spectrum> texels);
+  std::optional<LightSample> sample_direct(const Point3f& from, const Point2f& u) const override;
+  double power(double scene_radius) const override;
+  /// A direction by a texel chosen by its luminance.
+  std::optional<EmissionSample> sample_emission(const Point2f& position,
+                                                const Point2f& direction) const override;
+
+ private:
+  /// The light at the point that is `away` from the emitter.
+  std::optional<LightSample> send(const Vector3f& away) const;
+
+  Transform to_world_;
+  int n_;
+  std::vector<Spectrum> texels_;
+  DiscreteDistribution choice_;
+  float density_;  ///< of directions, times the probability of their texel
 };
 
 /// Parallel light from infinitely far away.

@@ -1,5 +1,5 @@
-// A map between the sphere of directions and the unit square that keeps areas: an octahedron that is
-// folded open. Source: Clarberg, "Fast Equal-Area Mapping of the (Hemi)Sphere using SIMD", 2008.
+// A map between the sphere of directions and the unit square that keeps areas: an octahedron that
+// is folded open. Source: Clarberg, "Fast Equal-Area Mapping of the (Hemi)Sphere using SIMD", 2008.
 #pragma once
 
 #include <algorithm>

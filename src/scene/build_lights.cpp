@@ -83,7 +83,13 @@ LightPointer ProjectorLight::build(SceneBuilder& b, const LightDescription& d) c
   const Point2i size = slot.texture ? slot.texture->resolution() : Point2i{1, 1};
   const double aspect = double(size.x) / size.y;
   return std::make_unique<ProjectorEmitter>(Transform(d.to_world), slot, float(scale),
-                                            horizontal_fov(fov, fov_axis, aspect), aspect);
+                                            horizontal_fov(fov, fov_axis, aspect), aspect,
+                                            is_intensity);
+}
+
+std::vector<std::string> ProjectorLight::losses() const {
+  if (!is_intensity) return {};
+  return {"the projector's image is irradiance, not intensity"};
 }
 
 void DirectionalLight::count(SceneFeatures& f) const {
@@ -138,6 +144,25 @@ void CollimatedLight::count(SceneFeatures& f) const {
 
 LightPointer CollimatedLight::build(SceneBuilder&, const LightDescription& d) const {
   return std::make_unique<CollimatedBeam>(Transform(d.to_world), power);
+}
+
+void GoniometricLight::count(SceneFeatures& f) const {
+  ++f.point_lights;
+}
+
+LightPointer GoniometricLight::build(SceneBuilder& b, const LightDescription& d) const {
+  const auto image = b.pixels(file, {}, d.where);
+  if (!image) return nullptr;
+  const int n = image->width();
+  if (image->height() != n) {
+    b.diagnostics().error(d.where, "an equal-area map must be a square, not {}x{}", n,
+                          image->height());
+    return nullptr;
+  }
+  std::vector<Spectrum> texels;
+  for (int y = 0; y < n; ++y)
+    for (int x = 0; x < n; ++x) texels.push_back(image->color(x, y) * scale);
+  return std::make_unique<GoniometricEmitter>(Transform(d.to_world), n, std::move(texels));
 }
 
 std::vector<std::string> EnvironmentMapLight::losses() const {

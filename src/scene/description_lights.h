@@ -70,15 +70,19 @@ struct ProjectorLight {
   double scale = 1;
   double fov = 45;
   FovAxis fov_axis = FovAxis::x;
+  /// The texture is radiant intensity; else it is what falls on a plane, over π.
+  bool is_intensity = false;
   static constexpr auto fields() {
     using namespace parameter_words;
     using enum ParameterType;
     using L = ProjectorLight;
     return std::tuple_cat(
         std::tuple(field(&L::irradiance, kIrradiance), field(&L::scale, kLightScale)),
-        fov_fields(&L::fov, &L::fov_axis, "either this or focal_length"));
+        fov_fields(&L::fov, &L::fov_axis, "either this or focal_length"),
+        std::tuple(field(&L::is_intensity)));
   }
   static constexpr const char* name() { return "projector"; }
+  std::vector<std::string> losses() const;
   void count(SceneFeatures& f) const;
   LightPointer build(SceneBuilder& b, const LightDescription& d) const;
 };
@@ -204,12 +208,29 @@ struct CollimatedLight {
   void count(SceneFeatures& f) const;
   LightPointer build(SceneBuilder& b, const LightDescription& d) const;
 };
+/// Radiant intensity in all directions by an image that is a square of equal areas
+/// (math/equal_area.h), without interpolation. pbrt has it.
+struct GoniometricLight {
+  std::string file;  ///< resolved path
+  Spectrum scale{1.0f};
+  static constexpr auto fields() {
+    using enum ParameterType;
+    using L = GoniometricLight;
+    return std::tuple(
+        field(&L::file, Parameter{.name = "filename", .type = ParameterType::file}).names_data(),
+        field(&L::scale));
+  }
+  static constexpr const char* name() { return "goniometric"; }
+  static constexpr bool kOnlyIn0x = true;
+  void count(SceneFeatures& f) const;
+  LightPointer build(SceneBuilder& b, const LightDescription& d) const;
+};
 
 struct LightDescription {
   SourceLocation where;
   Label label;
   std::variant<PointLight, SpotLight, ProjectorLight, DirectionalLight, ConstantLight,
-               EnvironmentMapLight, SkyLight, CollimatedLight>
+               EnvironmentMapLight, SkyLight, CollimatedLight, GoniometricLight>
       model;
   Matrix4 to_world;
   Motion motion;  ///< as in ShapeDescription; environments only turn

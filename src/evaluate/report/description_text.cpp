@@ -208,6 +208,10 @@ std::string DescriptionText::light(const LightDescription& l) const {
           [&](const CollimatedLight& p) {
             return fmt::format("collimated {} {}: {}", place(m), direction(m), text(p.power));
           },
+          [&](const GoniometricLight& p) {
+            return fmt::format("goniometric {} {}: {}, scale {}", place(m), direction(m), p.file,
+                               text(p.scale));
+          },
       },
       l.model);
   return t + (l.motion.empty() ? "" : ", moves");

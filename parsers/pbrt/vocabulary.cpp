@@ -1,0 +1,97 @@
+#include "pbrt/vocabulary.h"
+
+#include <fmt/format.h>
+
+namespace duet::pbrt {
+
+namespace {
+
+std::string_view status_text(Status s) {
+  constexpr std::string_view names[] = {"done", "approximated", "without effect", "ignored",
+                                        "refused"};
+  return names[size_t(s)];
+}
+
+std::string_view versions_text(Versions v) {
+  return v == Versions::both ? "v3, v4" : v == Versions::v3 ? "v3" : "v4";
+}
+
+std::string types_text(Types types) {
+  if ((types & kColor) == kColor) {
+    std::string text = "colour";
+    if (types & kNumber) text += " or number";
+    if (types & kTexture) text += " or texture";
+    return text;
+  }
+  std::string text;
+  for (unsigned i = 0; i <= unsigned(Type::texture); ++i)
+    if (types & (1u << i)) text += (text.empty() ? "" : " or ") + std::string(type_name(Type(i)));
+  return text;
+}
+
+std::string parameter_text(const Spec& s) {
+  std::string text = fmt::format("`{}` ({}", s.name, types_text(s.types));
+  if (!s.preset.empty()) text += fmt::format(", {}", s.preset);
+  if (!s.preset_v3.empty()) text += fmt::format(", in v3 {}", s.preset_v3);
+  if (s.versions != Versions::both) text += fmt::format(", {} only", versions_text(s.versions));
+  if (s.status != Status::done) text += fmt::format(", {}", status_text(s.status));
+  text += ")";
+  if (!s.note.empty()) text += fmt::format(": {}", s.note);
+  return text;
+}
+
+constexpr std::string_view kIntroduction = R"(# What is read of pbrt's scene files
+
+This file is printed by `duet plugins --pbrt` from the tables that the reader itself uses.
+
+Files that end in `.pbrt` or `.pbrt.gz` are pbrt's, version 3 or 4. Which of the two is found from what the file uses;
+`--pbrt-version` settles doubts. Every directive of both is understood. A plugin is done, approximated, or refused with
+an error; its parameters, with their types and defaults, may also be without effect on what Duet does, or ignored with a
+warning. Names that are in no table are warnings with the nearest known one.
+
+- Colours are linear RGB in the colour space of the film. Spectra become such colours by the standard observer; a metal
+  has one index per channel, a glass that of 587.6 nm. Dispersion, and colours that depend on the spectrum of the light,
+  are lost.
+- Lights of v4 have the luminance that their scale says, whatever their spectrum; those of v3 are taken as they are.
+- Surfaces that pbrt finds by formulas become meshes where Duet has no such shape; a patch that is not flat is divided
+  finely enough not to be seen.
+- Textures are looked up without blur: pbrt blurs them by ray differentials, which many samples make small.
+- The sensor's exposure, white balance and colour space are applied to the finished image.
+
+)";
+
+}  // namespace
+
+std::vector<Row> all_rows() {
+  std::vector<Row> rows;
+  list_shapes(rows);
+  list_lights(rows);
+  list_materials(rows);
+  list_textures(rows);
+  list_media(rows);
+  list_cameras(rows);
+  list_films(rows);
+  list_integrators(rows);
+  return rows;
+}
+
+std::string vocabulary_markdown() {
+  std::string text(kIntroduction);
+  std::string_view kind;
+  for (const Row& r : all_rows()) {
+    if (r.kind != kind) {
+      text += fmt::format(
+          "{}## {}\n\n| name | versions | status | parameters |\n| --- | --- | --- | --- |\n",
+          kind.empty() ? "" : "\n", r.kind);
+      kind = r.kind;
+    }
+    std::string parameters;
+    for (const auto list : {r.parameters, r.more})
+      for (const Spec& s : list) parameters += (parameters.empty() ? "" : "; ") + parameter_text(s);
+    text += fmt::format("| `{}` | {} | {}{}{} | {} |\n", r.name, versions_text(r.versions),
+                        status_text(r.status), r.note.empty() ? "" : ": ", r.note, parameters);
+  }
+  return text;
+}
+
+}  // namespace duet::pbrt
