@@ -5,6 +5,7 @@
 
 #include <array>
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <span>
 #include <string>
@@ -71,26 +72,28 @@ using PluginReader =
                  ReadInto<FilmDescription>, ReadInto<FilterDescription>,
                  ReadInto<SamplerDescription>, ReadInto<IntegratorDescription>>;
 
-/// The parameters of a plugin, in the order in which they are listed.
+/// The parameters of a plugin, in the order in which they are listed. Copies share them.
 class ParameterList {
  public:
   ParameterList() = default;
   /// Of single parameters and of lists of them.
   template <class... Parts>
   ParameterList(const Parts&... parts) {
-    (add(parts), ...);
+    std::vector<Parameter> list;
+    (add(list, parts), ...);
+    list_ = std::make_shared<const std::vector<Parameter>>(std::move(list));
   }
-  auto begin() const { return list_.begin(); }
-  auto end() const { return list_.end(); }
-  bool empty() const { return list_.empty(); }
+  const Parameter* begin() const { return list_ ? list_->data() : nullptr; }
+  const Parameter* end() const { return list_ ? list_->data() + list_->size() : nullptr; }
+  bool empty() const { return begin() == end(); }
 
  private:
-  void add(const Parameter& p) { list_.push_back(p); }
+  static void add(std::vector<Parameter>& list, const Parameter& p) { list.push_back(p); }
   template <class List>
-  void add(const List& list) {
-    list_.insert(list_.end(), std::begin(list), std::end(list));
+  static void add(std::vector<Parameter>& list, const List& more) {
+    list.insert(list.end(), std::begin(more), std::end(more));
   }
-  std::vector<Parameter> list_;
+  std::shared_ptr<const std::vector<Parameter>> list_;
 };
 
 /// Parameters that change nothing, by their names, which are separated by spaces.

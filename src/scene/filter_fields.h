@@ -39,8 +39,11 @@ struct FilterOf : FilterDescription {
   }
   static constexpr const char* name() { return kFilterNames[size_t(kKind)]; }
   std::vector<std::string> losses() const {
-    if (kKind != FilterKind::box || radius == 0.5) return {};
-    return {"the radius of a box filter is missing"};
+    std::vector<std::string> lost;
+    if (kKind == FilterKind::box && radius != 0.5)
+      lost.emplace_back("the radius of a box filter is missing");
+    if (reach_x || reach_y) lost.emplace_back("the extent of a filter is missing");
+    return lost;
   }
 };
 

@@ -66,7 +66,9 @@ TEST_CASE("emitters") {
       "0.6.0", "envmap",
       "<string name='filename' value='b.exr'/><float name='scale' value='2'/>"
       "<float name='gamma' value='-1'/><boolean name='cache' value='false'/>");
-  CHECK(map.first == EnvironmentMapLight{"/scene/b.exr", 2, -1.0});
+  EnvironmentMapLight expected;
+  expected.file = "/scene/b.exr", expected.scale = 2, expected.gamma = -1.0;
+  CHECK(map.first == expected);
   CHECK(fails("3.0.0", "<emitter type='constant'/><emitter type='constant'/>",
               "one environment only"));
   CHECK(fails("3.0.0",
