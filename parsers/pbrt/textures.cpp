@@ -320,14 +320,17 @@ void read_bilerp(Values& v, const Request& request, Made& made) {
   set(made, mapped(v, v.reader().add_texture(b, v.where())));
 }
 
-constexpr Spec kDots[] = {{"inside", kEither, "1"}, {"outside", kEither, "0"}, DUET_MAPPING_SPECS};
+constexpr Spec kDots[] = {{"inside", kEither, "1", "around the dots, as pbrt has it"},
+                          {"outside", kEither, "0", "in the dots"},
+                          DUET_MAPPING_SPECS};
 
 void read_dots(Values& v, const Request& request, Made& made) {
   Reader& reader = v.reader();
   Made inside, outside;
   read_input(v, request, "inside", inside);
   read_input(v, request, "outside", outside);
-  const ColorInput a = input_of(request, inside), b = input_of(request, outside);
+  // pbrt's images have "inside" around the dots and "outside" in them.
+  const ColorInput a = input_of(request, outside), b = input_of(request, inside);
   DotsDescription dots;
   dots.to_uv = mapping(v);
   if (v.string("mapping") == "uv") {

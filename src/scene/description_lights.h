@@ -114,12 +114,12 @@ enum class EnvironmentLayout { latitude_longitude, equal_area };
 struct EnvironmentMapLight {
   std::string file;  ///< resolved path
   double scale = 1;
-  Spectrum tint{1.0f};  ///< multiplies the image as `scale` does
+  std::optional<double> gamma;  ///< as in BitmapTexture
+  Spectrum tint{1.0f};          ///< multiplies the image as `scale` does
   EnvironmentLayout layout = EnvironmentLayout::latitude_longitude;
   /// The light is scaled so that a plane that faces its +y would receive this much, multiplied by
   /// `scale` and `tint`.
-  std::optional<double> illuminance;
-  std::optional<double> gamma;  ///< as in BitmapTexture
+  std::optional<double> illuminance = std::nullopt;
   static constexpr auto fields() {
     using namespace parameter_words;
     using enum ParameterType;

@@ -186,3 +186,30 @@ TEST_CASE("parallel light is emitted through the whole scene") {
                    "aslant");
   CHECK_FALSE(DirectionalEmitter(Transform{}, Spectrum(0)).sample_emission({}, {}));
 }
+
+TEST_CASE("spot lights that fade smoothly emit the light that points find") {
+  for (const Matrix4& m : {place(), sheared()}) {
+    const Transform t(m);
+    check_position(SpotEmitter(t, kRgb, 40 * kDegree, 20 * kDegree, nullptr, true),
+                   t(Point3f(0, 0, 0)), t(Vector3f(0, 0, 1)), "smooth spot");
+  }
+  // Half of the intensity where the cosine is halfway.
+  const SpotEmitter spot(Transform(), Spectrum(1.0f), 60 * kDegree, 0, nullptr, true);
+  const float cosine = 0.75f;
+  const auto s = spot.sample_direct(Point3f(std::sqrt(1 - cosine * cosine), 0, cosine), {});
+  REQUIRE(s.has_value());
+  CHECK(double(s->weight.r) == doctest::Approx(0.5).epsilon(1e-4));
+}
+
+TEST_CASE("projectors of intensity, and goniometric lights, emit the light that points find") {
+  const Transform t(place());
+  check_position(ProjectorEmitter(t, ColorSlot{kRgb, nullptr}, 2, 50, 1.5, true),
+                 t(Point3f(0, 0, 0)), t(Vector3f(0, 0, 1)), "projector of intensity");
+  std::vector<Spectrum> texels;
+  for (int i = 0; i < 64; ++i) texels.push_back(kRgb * (0.25f + float(i % 5)));
+  for (const Matrix4& m : {place(), sheared()}) {
+    const Transform to_world(m);
+    check_position(GoniometricEmitter(to_world, 8, texels), to_world(Point3f(0, 0, 0)),
+                   to_world(Vector3f(0, 0, 1)), "goniometric");
+  }
+}
