@@ -1,8 +1,7 @@
 #include "cameras/perspective.h"
 
-
-#include "math/warp.h"
 #include "math/angles.h"
+#include "math/warp.h"
 
 namespace duet {
 

@@ -4,9 +4,9 @@
 #include <numbers>
 
 #include "lights/sky_tables.h"
+#include "math/angles.h"
 #include "math/trig.h"
 #include "math/warp.h"
-#include "math/angles.h"
 
 namespace duet {
 

@@ -1,8 +1,8 @@
 #include "scene/bsdfs/hair.h"
 
 #include "materials/special_materials.h"
-#include "scene/builder.h"
 #include "math/angles.h"
+#include "scene/builder.h"
 
 namespace duet {
 
