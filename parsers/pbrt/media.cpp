@@ -230,11 +230,11 @@ constexpr Spec kNanoVdb[] = {DUET_SIGMA_SPECS,
                              {"gridname", kString, "density"},
                              {"preset", kString},
                              {"Lescale", kNumber, "1", "", 1, inert},
-                             {"temperaturename", kString, "", "", 1, inert},
-                             {"temperaturegrid", kString, "", "", 1, inert},
-                             {"temperaturescale", kNumber, "1", "", 1, inert},
-                             {"temperatureoffset", kNumber, "0", "", 1, inert},
-                             {"temperaturecutoff", kNumber, "0", "", 1, inert}};
+                             {"temperaturename", kString, "", "of emission", 1, ignored},
+                             {"temperaturegrid", kString, "", "of emission", 1, ignored},
+                             {"temperaturescale", kNumber, "1", "of emission", 1, ignored},
+                             {"temperatureoffset", kNumber, "0", "of emission", 1, ignored},
+                             {"temperaturecutoff", kNumber, "0", "of emission", 1, ignored}};
 
 MediumDescription read_nano_vdb(Values& v) {
   MediumDescription m = from_sigma(v, read_sigma(v));

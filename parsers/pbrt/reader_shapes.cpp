@@ -78,6 +78,8 @@ void Reader::add_shape(const Plugin& from, ShapeParts parts) {
     else
       shape.emission =
           read_area_light(*this, *state_.area_light, [&] { return world_area(shape); });
+    if (shape.emission && shape.material != state_.material)
+      approximate(from.where, "a light with alpha shines where alpha takes the surface away, too");
   }
   auto& list = object_ ? scene_.groups[*object_].shapes : scene_.shapes;
   list.push_back(std::move(shape));
