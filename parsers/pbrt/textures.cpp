@@ -64,11 +64,13 @@ TextureId mapped(Values& v, TextureId texture) {
   } else if (kind == "planar") {
     m.kind = SpaceMapKind::planar;
     const auto a = v.point("v1"), b = v.point("v2");
+    // The third coordinate is not looked at, but files have only transforms with an inverse.
     Matrix4 plane;
-    plane.m = {{{a[0], a[1], a[2], v.number("udelta")},
-                {b[0], b[1], b[2], v.number("vdelta")},
-                {0, 0, 0, 0},
-                {0, 0, 0, 1}}};
+    plane.m = {
+        {{a[0], a[1], a[2], v.number("udelta")},
+         {b[0], b[1], b[2], v.number("vdelta")},
+         {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0], 0},
+         {0, 0, 0, 1}}};
     m.from_world = plane * m.from_world;
   } else {
     return texture;

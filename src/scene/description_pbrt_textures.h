@@ -13,8 +13,7 @@ class SceneBuilder;
 class Texture;
 
 namespace parameter_words {
-inline constexpr Parameter kFromWorld{"from_world", transform, "",
-                                      "from the world to the texture; need not have an inverse"};
+inline constexpr Parameter kFromWorld{"from_world", transform, "", "from the world to the texture"};
 }  // namespace parameter_words
 
 /// Perlin's noise in space, in one of four forms: see NoiseKind and NoiseOptions.

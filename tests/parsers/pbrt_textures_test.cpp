@@ -67,11 +67,6 @@ TEST_CASE("texture: those of pbrt are written and read") {
     const MappedTextureDescription mapped{TextureId{0}, kind, placed()};
     CHECK(again(mapped, {kTwoSquares}) == mapped);
   }
-  // Planar maps may have no inverse.
-  Matrix4 flat;
-  flat[2] = {0, 0, 0, 0};
-  const MappedTextureDescription planar{TextureId{0}, SpaceMapKind::planar, flat};
-  CHECK(again(planar, {kTwoSquares}) == planar);
   const MixDescription mix{Spectrum(0.25f), TextureId{0}, TextureId{1}};
   CHECK(again(mix, {kTwoSquares, {{}, {}, NoiseTextureDescription{}}}) == mix);
   const ProductDescription product{TextureId{0}, Spectrum(0.5f, 0.25f, 1)};
