@@ -82,7 +82,7 @@ MaterialId with_bumps(Values& v, MaterialId material) {
   if (v.has(bumps)) {
     BumpMapMaterial bump;
     bump.height = v.float_input(bumps);
-    bump.flip_invalid_normals = bump.use_shadowing_function = false;
+    bump.flip_invalid_normals = bump.use_shadowing_function = bump.drops_leaks = false;
     bump.nested = material;
     // A constant height changes nothing.
     if (std::holds_alternative<double>(bump.height)) return material;
@@ -96,7 +96,7 @@ MaterialId with_bumps(Values& v, MaterialId material) {
     image.to_uv.m = {{{1, 0, 0}, {0, -1, 1}}};
     NormalMapMaterial normals;
     normals.normals = reader.add_texture(image, v.where("normalmap"));
-    normals.flip_invalid_normals = normals.use_shadowing_function = false;
+    normals.flip_invalid_normals = normals.use_shadowing_function = normals.drops_leaks = false;
     normals.nested = material;
     reader.count_texture();
     return reader.add_material(normals, v.where("normalmap"));

@@ -174,9 +174,9 @@ class BsdfBuilder {
   /// Runs `bind_nested` in a frame around the unit normal `n`, given in the current frame; see
   /// Tilt. Not to be nested within another one, nor more than kMaxCovers of these and coats.
   template <class F>
-  void tilted(const Normal3f& n, bool faces_eye, bool shadows, F&& bind_nested) {
+  void tilted(const Normal3f& n, const TiltOptions& options, F&& bind_nested) {
     BsdfBuilder inner(*this);
-    inner.tilt(Tilt(n, faces_eye, shadows, side_));
+    inner.tilt(Tilt(n, options, side_));
     bind_nested(inner);
   }
 

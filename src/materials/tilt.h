@@ -10,22 +10,32 @@
 
 namespace duet {
 
+struct TiltOptions {
+  /// The normal is turned by 180 degrees about z if the eye would see it from behind.
+  /// Source: Schüssler et al., "Microfacet-based Normal Mapping for Robust Monte Carlo Path
+  /// Tracing", 2017.
+  bool faces_eye = true;
+  /// Light is attenuated at grazing angles.
+  /// Source: Estevez et al., "A Microfacet-Based Shadowing Function to Solve the Bump Terminator
+  /// Problem", 2019.
+  bool shadows = true;
+  /// Light carries nothing if the surface and its perturbed frame have it on different sides. pbrt
+  /// lets it through.
+  bool drops_leaks = true;
+};
+
 /// A perturbed normal in the local frame of the surface. Directions are given in that frame.
 class Tilt {
  public:
   Tilt() = default;
-  /// `n` has unit length. With `faces_eye` the normal is turned by 180 degrees about z if the eye
-  /// would see it from behind (Schüssler et al., "Microfacet-based Normal Mapping for Robust Monte
-  /// Carlo Path Tracing", 2017); with `shadows` light is attenuated at grazing angles (Estevez et
-  /// al., "A Microfacet-Based Shadowing Function to Solve the Bump Terminator Problem", 2019).
-  /// `side` is −1 if the surface's frame is mirrored.
-  Tilt(const Normal3f& n, bool faces_eye, bool shadows, float side)
-      : side_(side), faces_eye_(faces_eye) {
+  /// `n` has unit length; `side` is −1 if the surface's frame is mirrored.
+  Tilt(const Normal3f& n, const TiltOptions& options, float side)
+      : side_(side), faces_eye_(options.faces_eye), drops_leaks_(options.drops_leaks) {
     // Tangents as Mitsuba chooses them; any will do where that choice is undefined.
     const Vector3f x = Vector3f(1, 0, 0) - Vector3f(n) * n.x;
     frame_ = length_squared(x) > 1e-12f ? Frame::from_tangent(n, x) : Frame(n);
     const float z2 = n.z * n.z;
-    alpha2_ = shadows ? (8 * z2 > 1 - z2 ? 0.125f * (1 - z2) / z2 : 1.0f) : 0.0f;
+    alpha2_ = options.shadows ? (8 * z2 > 1 - z2 ? 0.125f * (1 - z2) / z2 : 1.0f) : 0.0f;
   }
 
   /// Whether the normal is turned for an eye in direction `v`.
@@ -49,9 +59,11 @@ class Tilt {
     const Vector3f w = frame_.to_world({l.x, l.y, -l.z});
     return mirrored({w.x, w.y, -w.z});
   }
-  /// Whether the surface itself has `v` on the side on which the perturbed frame has it. Light from
-  /// other directions carries nothing.
-  bool agrees(const Vector3f& v, const Vector3f& local) const { return v.z * side_ * local.z > 0; }
+  /// Whether light from `v` counts: the surface itself has it on the side on which the perturbed
+  /// frame has it, or leaks are not dropped.
+  bool agrees(const Vector3f& v, const Vector3f& local) const {
+    return !drops_leaks_ || v.z * side_ * local.z > 0;
+  }
 
   /// Factor for light from direction `v`: Smith's masking function.
   float shadowing(const Vector3f& v) const {
@@ -65,7 +77,7 @@ class Tilt {
   Frame frame_;
   float side_;
   float alpha2_;  ///< squared roughness of the shadowing
-  bool faces_eye_;
+  bool faces_eye_, drops_leaks_;
 };
 
 }  // namespace duet

@@ -100,8 +100,7 @@ void Perturbed::add_components(const Surface& surface, BsdfBuilder& builder) con
   // Where a map says nothing the surface is left as it is.
   const float scale = max_abs(n);
   n = scale > 0 && is_finite(n) ? normalize(n * (1 / scale)) : Normal3f(0, 0, 1);
-  builder.tilted(n, options_.flip_invalid_normals, options_.use_shadowing_function,
-                 [&](BsdfBuilder& b) { nested_.bind(surface, b); });
+  builder.tilted(n, options_, [&](BsdfBuilder& b) { nested_.bind(surface, b); });
 }
 
 SurfaceNeeds BumpMap::needs() const {

@@ -97,11 +97,6 @@ class Mixture final : public Material {
   std::vector<Part> parts_;
 };
 
-/// What the two maps of perturbed normals have in common: see Tilt. Mitsuba 0.x has neither.
-struct PerturbationOptions {
-  bool flip_invalid_normals = true, use_shadowing_function = true;
-};
-
 /// A material in a frame whose normal differs from place to place. `nested` must not perturb
 /// normals itself.
 class Perturbed : public Material {
@@ -116,13 +111,13 @@ class Perturbed : public Material {
   }
 
  protected:
-  Perturbed(const PerturbationOptions& options, const Material& nested)
+  Perturbed(const TiltOptions& options, const Material& nested)
       : options_(options), nested_(nested) {}
   void add_components(const Surface& surface, BsdfBuilder& builder) const override;
   /// The perturbed normal in the shading frame, of any length.
   virtual Normal3f normal(const Surface& surface) const = 0;
 
-  PerturbationOptions options_;
+  TiltOptions options_;
   const Material& nested_;
 };
 
@@ -130,8 +125,7 @@ class Perturbed : public Material {
 /// Source: Blinn, "Simulation of Wrinkled Surfaces", 1978.
 class BumpMap final : public Perturbed {
  public:
-  BumpMap(const FloatSlot& height, float scale, const PerturbationOptions& options,
-          const Material& nested)
+  BumpMap(const FloatSlot& height, float scale, const TiltOptions& options, const Material& nested)
       : Perturbed(options, nested), height_(height), scale_(scale) {}
   SurfaceNeeds needs() const override;
 
@@ -146,7 +140,7 @@ class BumpMap final : public Perturbed {
 /// Normals in the shading frame, stored as colours (n + 1) / 2.
 class NormalMap final : public Perturbed {
  public:
-  NormalMap(const ColorSlot& normals, const PerturbationOptions& options, const Material& nested)
+  NormalMap(const ColorSlot& normals, const TiltOptions& options, const Material& nested)
       : Perturbed(options, nested), normals_(normals) {}
   SurfaceNeeds needs() const override;
 

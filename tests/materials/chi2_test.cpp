@@ -159,6 +159,10 @@ const Case kCases[] = {
     {"normal map, unflipped, on two sides",
      R"({"type": "normalmap", "normal": [0.3, 0.5, 0.8], "flip_invalid_normals": false, "nested": [
          {"type": "twosided", "nested": [{"type": "roughplastic", "alpha": 0.3}]}]})"},
+    {"normal map that lets light leak, on two sides",
+     R"({"type": "normalmap", "normal": [0.6, 0.4, 0.5], "flip_invalid_normals": false,
+         "use_shadowing_function": false, "drops_leaks": false, "nested": [
+         {"type": "twosided", "nested": [{"type": "roughplastic", "alpha": 0.3}]}]})"},
     {"bump map on plastic",
      R"({"type": "bumpmap", "slope": [0.7, -0.4], "nested": [{"type": "plastic"}]})"},
     {"two sides of a bump map",

@@ -198,8 +198,9 @@ const Material& TestMaterial::make(const json& j) {
     materials_.emplace_back(m);
     return *m;
   };
-  const PerturbationOptions perturbation{flag(j, "flip_invalid_normals", true),
-                                         flag(j, "use_shadowing_function", true)};
+  const TiltOptions perturbation{flag(j, "flip_invalid_normals", true),
+                                 flag(j, "use_shadowing_function", true),
+                                 flag(j, "drops_leaks", true)};
   if (type == "diffuse") {
     ColorSlot reflectance{Spectrum(0.5f)};
     set(reflectance, j, "reflectance");

@@ -54,7 +54,8 @@ MaterialPointer BumpMapMaterial::build(SceneBuilder& b, const SourceLocation& wh
   const Material* base = perturbed(b, nested, where);
   if (!base) return nullptr;
   return std::make_unique<BumpMap>(
-      slot, float(scale), PerturbationOptions{flip_invalid_normals, use_shadowing_function}, *base);
+      slot, float(scale), TiltOptions{flip_invalid_normals, use_shadowing_function, drops_leaks},
+      *base);
 }
 
 MaterialPointer NormalMapMaterial::build(SceneBuilder& b, const SourceLocation& where) const {
@@ -62,7 +63,7 @@ MaterialPointer NormalMapMaterial::build(SceneBuilder& b, const SourceLocation& 
   const Material* base = perturbed(b, nested, where);
   if (!base) return nullptr;
   return std::make_unique<NormalMap>(
-      slot, PerturbationOptions{flip_invalid_normals, use_shadowing_function}, *base);
+      slot, TiltOptions{flip_invalid_normals, use_shadowing_function, drops_leaks}, *base);
 }
 
 }  // namespace duet

@@ -77,12 +77,20 @@ inline constexpr Parameter kUseShadowingFunction{.name = "use_shadowing_function
                                                  .preset = "true",
                                                  .versions = v3,
                                                  .preset_0x = "false"};
+inline constexpr Parameter kDropsLeaks{
+    .name = "drops_leaks",
+    .type = boolean,
+    .preset = "true",
+    .note =
+        "Duet's own: light that the surface has on another side than the perturbed normal is "
+        "lost; pbrt lets it through"};
 }  // namespace parameter_words
 
 struct BumpMapMaterial {
   FloatInput height = 0.0;
   double scale = 1;
   bool flip_invalid_normals = true, use_shadowing_function = true;
+  bool drops_leaks = true;  ///< see TiltOptions
   MaterialId nested{};
 
   static constexpr auto fields() {
@@ -96,7 +104,8 @@ struct BumpMapMaterial {
                                                  .note = "multiplies the height",
                                                  .versions = v3}),
                       field(&M::flip_invalid_normals, kFlipInvalidNormals),
-                      field(&M::use_shadowing_function, kUseShadowingFunction), field(&M::nested));
+                      field(&M::use_shadowing_function, kUseShadowingFunction),
+                      field(&M::drops_leaks, kDropsLeaks).terse(), field(&M::nested));
   }
   static constexpr const char* name() { return "bumpmap"; }
   Scattering scattering() const { return {.bumps = true}; }
@@ -106,6 +115,7 @@ struct BumpMapMaterial {
 struct NormalMapMaterial {
   ColorInput normals = Spectrum(0.5f, 0.5f, 1.0f);  ///< (n + 1) / 2
   bool flip_invalid_normals = true, use_shadowing_function = true;
+  bool drops_leaks = true;  ///< see TiltOptions
   MaterialId nested{};
 
   static constexpr auto fields() {
@@ -120,7 +130,8 @@ struct NormalMapMaterial {
                           .shown(" ")
                           .read_by_plugin(),
                       field(&M::flip_invalid_normals, flip),
-                      field(&M::use_shadowing_function, kUseShadowingFunction), field(&M::nested));
+                      field(&M::use_shadowing_function, kUseShadowingFunction),
+                      field(&M::drops_leaks, kDropsLeaks).terse(), field(&M::nested));
   }
   static constexpr const char* name() { return "normalmap"; }
   Scattering scattering() const { return {.bumps = true}; }
