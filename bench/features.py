@@ -33,7 +33,7 @@ LARGEST_SHARE, LARGEST_BYTES = 0.02, 1.0
 
 # feature -> (pattern of files all of whose lines are for it, pattern of lines in other files)
 FEATURES = {
-    'participating media': (r'/media/|/volpath|media_vertex|shadow_walk', r'[mM]edi(um|a)\b|kMedia|shadow_walk'),
+    'participating media': (r'/media/|/volpath|media_vertex|shadow_transmittance', r'[mM]edi(um|a)\b|kMedia|shadow_transmittance'),
     'masks, null surfaces': (r'/null\.|/filter\.(cpp|h)$.*materials', r'\bmask|\bnull\b|outside_only'),
     'textures, coordinates': (r'/textures/', r'texture|\.uv\b|\bdp_d[uv]|tangent'),
     'bump and normal maps': (r'/tilt\.', r'bump|normal_map|tilt'),

@@ -56,7 +56,7 @@ void Uber::add_components(const Surface& s, BsdfBuilder& builder) const {
   const Spectrum sr = color(o.specular_reflectance), st = color(o.specular_transmittance);
   const Spectrum passed = Spectrum(1) - opacity;
   // A dielectric interface reflects little of diffuse light. Shares are the same for all
-  // directions, as walks from both ends need it.
+  // directions, as sub-paths from both ends need it.
   constexpr float kReflected = 0.2f;
   const auto interface = [](const Spectrum& r, const Spectrum& t) {
     return choice(kReflected * r.mean() + (1 - kReflected) * t.mean());

@@ -101,7 +101,7 @@ TEST_SUITE("program") {
                              "instance of pair",
                              "modelled",
                              "transparent surfaces",
-                             "methods       light walks are needed",
+                             "methods       light sub-paths are needed",
                              "approximated  nothing"}) {
       CAPTURE(part);
       CHECK(contains(o.out, part));
