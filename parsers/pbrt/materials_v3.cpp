@@ -92,6 +92,9 @@ std::optional<MaterialId> read_plastic(Values& v) {
   UberMaterial m;
   m.diffuse_reflectance = v.color_input("Kd", ColorMeaning::reflectance);
   m.glossy_reflectance = v.color_input("Ks", ColorMeaning::reflectance);
+  // pbrt-v3 gives Fresnel's formula the two indices the other way round here (plastic.cpp), and
+  // its images show it.
+  m.eta = 1 / 1.5;
   m.roughness = rough(v);
   return v.reader().add_material(m, v.where());
 }
@@ -204,7 +207,9 @@ constexpr Record<ReadMaterial> kOldMaterials[] = {
     {"mix", Versions::v3, done, "", kOldMix, read_old_mix},
     {"none", Versions::v3, done, "", {}, read_none},
     {"", Versions::v3, done, "", {}, read_none},
-    {"plastic", Versions::v3, done, "", kPlastic, read_plastic},
+    {"plastic", Versions::v3, done,
+     "as in pbrt-v3, where the coat has the index 1/1.5 and reflects all light beyond 42 degrees",
+     kPlastic, read_plastic},
     {"substrate", Versions::v3, done, "", kSubstrate, read_substrate},
     {"uber", Versions::v3, done, "", kUber, read_uber},
     {"translucent", Versions::v3, done, "", kTranslucent, read_translucent},

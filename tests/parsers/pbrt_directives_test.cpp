@@ -234,6 +234,17 @@ TEST_CASE("pbrt mixes: v4's amount is the second material's share, v3's the firs
   CHECK(size_t(v3.first) > size_t(v3.second));
 }
 
+TEST_CASE("pbrt plastic: v3's coat has its indices the other way round") {
+  const SceneDescription scene =
+      v3_world("Material \"plastic\" \"rgb Ks\" [.5 .5 .5]\nShape \"sphere\"");
+  const UberMaterial* coat = nullptr;
+  for (const MaterialDescription& m : scene.materials)
+    if (const auto* found = m.model.get_if<UberMaterial>()) coat = found;
+  REQUIRE(coat);
+  CHECK(std::get<double>(coat->eta) == doctest::Approx(1 / 1.5));
+  CHECK(coat->glossy_reflectance == ColorInput(Spectrum(0.5f)));
+}
+
 TEST_CASE("pbrt roughness: v4's square root, v3's polynomial") {
   const auto alpha = [](const SceneDescription& scene) {
     for (const MaterialDescription& m : scene.materials)
