@@ -356,7 +356,7 @@ TEST_CASE("unbiased methods have the same mean in media") {
   const TemporaryDirectory folder;
   std::vector<Case> some = cases_with_media(folder);
   std::erase_if(some, [](const Case& c) { return !c.in_short; });
-  CHECK(some.size() == 6);
+  CHECK(some.size() == 5);
   check_agreement(some, {3}, 16, 16);
 }
 
