@@ -129,6 +129,7 @@ void SceneWriter::light(const LightDescription& l) {
   if (!std::holds_alternative<ConstantLight>(l.model)) out_.transform("to_world", l.to_world);
   if (l.sampling_weight != 1) out_.number("sampling_weight", l.sampling_weight);
   if (l.medium) out_.reference({}, medium_id(*l.medium));
+  if (l.portal) lose("an environment is seen in all directions, not through its portal alone");
   out_.close();
 }
 

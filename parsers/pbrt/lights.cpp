@@ -2,6 +2,7 @@
 #include <cmath>
 
 #include "math/angles.h"
+#include "pbrt/emission.h"
 #include "pbrt/records.h"
 #include "pbrt/values.h"
 #include "pbrt/vocabulary.h"
@@ -11,32 +12,6 @@ namespace duet::pbrt {
 namespace {
 
 using enum Status;
-
-/// What a light emits before its scale. v4 brings spectra to luminance 1, but leaves the size of
-/// RGB numbers.
-Spectrum emitted(Values& v, std::string_view name) {
-  const Parameter* p = v.given(name);
-  if (!p) {
-    Parameter one;
-    one.type = Type::rgb;
-    one.numbers = {1, 1, 1};
-    one.color_space = v.reader().state().color_space;
-    return color_from_triple(one, ColorMeaning::emission, v.reader().film_color_space);
-  }
-  const Spectrum color = v.reader().constant_color(*p, ColorMeaning::emission);
-  if (v.reader().version() == Version::v3 || p->type == Type::rgb || p->type == Type::xyz)
-    return color;
-  const Matrix3 to_srgb = to_linear_srgb(v.reader().film_color_space);
-  const auto& rows = to_srgb;
-  const auto channel = [&](size_t i) {
-    return float(rows[i][0] * double(color.r) + rows[i][1] * double(color.g) +
-                 rows[i][2] * double(color.b));
-  };
-  const float luminance = Spectrum(channel(0), channel(1), channel(2)).luminance();
-  if (luminance > 0) return color / luminance;
-  v.reader().report().error(p->where, "a light's spectrum must have a luminance above zero");
-  return color;
-}
 
 /// "scale", a colour in v3.
 Spectrum scale_of(Values& v) {
@@ -61,7 +36,8 @@ bool differ(Values& v) {
   return false;
 }
 
-void add(Values& v, decltype(LightDescription::model) model, const Matrix4& to_light) {
+void add(Values& v, decltype(LightDescription::model) model, const Matrix4& to_light,
+         const std::optional<Portal>& portal = {}) {
   Reader& reader = v.reader();
   const Matrix4& ctm = reader.state().ctm[0];
   if (!reader.check_transform(ctm, v.where())) return;
@@ -71,6 +47,7 @@ void add(Values& v, decltype(LightDescription::model) model, const Matrix4& to_l
   light.motion = reader.motion(v.plugin());
   light.to_world = light.motion.empty() ? ctm * to_light : to_light;
   light.medium = reader.state().outside;
+  light.portal = portal;
   reader.scene().lights.push_back(std::move(light));
 }
 
@@ -86,7 +63,7 @@ constexpr Spec kPoint[] = {
     {"I", kColor, "1", "radiant intensity"}, {"from", kPoint3, "0 0 0"}, DUET_LIGHT_SPECS};
 
 void read_point(Values& v) {
-  Spectrum intensity = emitted(v, "I") * scale_of(v);
+  Spectrum intensity = emitted_color(v, "I") * scale_of(v);
   if (v.has("power")) intensity *= float(v.not_negative("power") / (4 * kPi));
   const auto p = v.point("from");
   add(v, PointLight{intensity}, Matrix4::translate(p[0], p[1], p[2]));
@@ -107,7 +84,7 @@ void read_spot(Values& v) {
   spot.cutoff_angle = cone;
   spot.beam_width = full;
   spot.falloff = SpotFalloff::smooth;
-  spot.intensity = emitted(v, "I") * scale_of(v);
+  spot.intensity = emitted_color(v, "I") * scale_of(v);
   if (v.has("power")) {
     const double begin = std::cos(full * kRadians), end = std::cos(cone * kRadians);
     const double solid_angle = 2 * kPi * ((1 - begin) + (begin - end) / 2);
@@ -124,7 +101,7 @@ constexpr Spec kDistant[] = {{"L", kColor, "1", "irradiance across the direction
 
 void read_distant(Values& v) {
   if (!differ(v)) return;
-  Spectrum irradiance = emitted(v, "L") * scale_of(v);
+  Spectrum irradiance = emitted_color(v, "L") * scale_of(v);
   if (v.has("illuminance")) irradiance *= float(v.not_negative("illuminance"));
   // The direction alone counts: the transform's stretch does not change the light.
   const auto from = v.point("from"), to = v.point("to");
@@ -141,7 +118,8 @@ constexpr Spec kInfinite[] = {
     {"filename", kString, "", "an equal-area image of the sphere", 1, done, Versions::v4},
     {"mapname", kString, "", "an image by latitude and longitude", 1, done, Versions::v3},
     {"illuminance", kNumber, "-1", "of a plane across the light's +z", 1, done, Versions::v4},
-    {"portal", kPoint3, "", "", 4, refused, Versions::v4},
+    {"portal", kPoint3, "", "corners in the world, through which it is seen", 4, done,
+     Versions::v4},
     DUET_LIGHT_SPECS};
 
 /// From the space of latitude-longitude maps, with +y up, to pbrt's, with +z up: columns of both
@@ -152,14 +130,40 @@ Matrix4 z_up() {
   return m;
 }
 
+/// The corners of a rectangle in the world; an error if they are not those of one.
+std::optional<Portal> read_portal(Values& v) {
+  const Parameter* p = v.given("portal");
+  if (!p || p->numbers.size() != 12) return std::nullopt;
+  std::array<std::array<double, 3>, 4> side;
+  Portal portal;
+  for (size_t i = 0; i < 4; ++i)
+    for (size_t k = 0; k < 3; ++k) portal.corners[i][k] = p->numbers[3 * i + k];
+  for (size_t i = 0; i < 4; ++i)
+    for (size_t k = 0; k < 3; ++k)
+      side[i][k] = portal.corners[(i + 1) % 4][k] - portal.corners[i][k];
+  const auto product = [&](size_t i, size_t k) {
+    return side[i][0] * side[k][0] + side[i][1] * side[k][1] + side[i][2] * side[k][2];
+  };
+  constexpr double kTolerance = 1e-3;
+  for (size_t i = 0; i < 2; ++i) {
+    const double size = std::sqrt(product(i, i) * product(i + 2, i + 2));
+    if (!(size > 0) || std::abs(product(i, i + 2) / size + 1) > kTolerance ||
+        std::abs(product(i, 1 - i)) > kTolerance * std::sqrt(product(0, 0) * product(1, 1))) {
+      v.reader().report().error(p->where, "a portal must be a rectangle, by its corners in order");
+      return std::nullopt;
+    }
+  }
+  return portal;
+}
+
 void read_infinite(Values& v) {
   const bool v3 = v.reader().version() == Version::v3;
   const char* name = v3 ? "mapname" : "filename";
   const Spectrum scale = scale_of(v);
   if (!v.has(name)) {
-    Spectrum radiance = emitted(v, "L") * scale;
+    Spectrum radiance = emitted_color(v, "L") * scale;
     if (v.has("illuminance")) radiance *= float(v.not_negative("illuminance") / kPi);
-    add(v, ConstantLight{radiance}, {});
+    add(v, ConstantLight{radiance}, {}, read_portal(v));
     return;
   }
   EnvironmentMapLight map;
@@ -167,10 +171,10 @@ void read_infinite(Values& v) {
   if (map.file.empty()) return;
   if (!v3 && v.has("L"))
     v.reader().report().error(v.where("L"), "a light has either \"L\" or a file");
-  map.tint = v3 ? emitted(v, "L") * scale : scale;
+  map.tint = v3 ? emitted_color(v, "L") * scale : scale;
   if (!v3) map.layout = EnvironmentLayout::equal_area;
   if (v.has("illuminance")) map.illuminance = v.not_negative("illuminance");
-  add(v, map, z_up());
+  add(v, map, z_up(), read_portal(v));
 }
 
 constexpr Spec kGoniometric[] = {
@@ -193,7 +197,7 @@ void read_goniometric(Values& v) {
   GoniometricLight light;
   light.file = v.file("filename");
   if (light.file.empty()) return;
-  light.scale = emitted(v, "I") * scale_of(v);
+  light.scale = emitted_color(v, "I") * scale_of(v);
   if (v.has("power"))
     v.reader().report().error(v.where("power"), "power with an image is not supported yet");
   // The image has the light's +y in its middle.
@@ -214,7 +218,7 @@ void read_projection(Values& v) {
   image.filter = TextureFilter::nearest;
   image.wrap_u = image.wrap_v = WrapMode::clamp;
   Spectrum scale = scale_of(v);
-  if (v.reader().version() == Version::v3) scale *= emitted(v, "I");
+  if (v.reader().version() == Version::v3) scale *= emitted_color(v, "I");
   if (v.has("power"))
     v.reader().report().error(v.where("power"), "power with an image is not supported yet");
   ProjectorLight light;
@@ -272,7 +276,7 @@ std::optional<AreaEmission> read_area_light(Reader& reader, const Plugin& plugin
     scale *= float(v.not_negative("power") / (kPi * std::max(area(), 1e-30) * sides));
   }
   if (!v.has("filename")) {
-    emission.radiance = emitted(v, "L") * scale;
+    emission.radiance = emitted_color(v, "L") * scale;
     return emission;
   }
   if (v.has("L")) reader.report().error(v.where("L"), "a light has either \"L\" or a file");

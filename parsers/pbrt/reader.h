@@ -65,6 +65,8 @@ class Reader {
 
   // ---- Colours (values.cpp) ----
   Spectrum constant_color(const Parameter& p, ColorMeaning meaning);
+  /// Light of a black body whose spectrum is 1 at its peak.
+  Spectrum black_body(double kelvin);
 
   // ---- Named things (names.cpp) ----
   /// The names of the state (v3) or of the whole file (v4).

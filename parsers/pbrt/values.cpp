@@ -199,14 +199,7 @@ Spectrum Reader::constant_color(const Parameter& p, ColorMeaning meaning) {
     if (p.numbers.size() != (scaled ? 2 : 1))
       return fail(scaled ? "a black body is given by temperature and scale"
                          : "a black body is given by its temperature");
-    std::vector<SpectrumSample> samples = blackbody_spectrum(p.numbers[0], 1);
-    double peak = 0;
-    // By Wien's law the peak may lie outside of what can be seen.
-    const double wavelength = 2.8977721e6 / p.numbers[0];
-    const double l = wavelength * 1e-9, c = 299792458, k = 1.3806488e-23, h = 6.62606957e-34;
-    peak = 2 * h * c * c / (std::pow(l, 5) * std::expm1(h * c / (l * k * p.numbers[0]))) * 1e-9;
-    for (SpectrumSample& s : samples) s.value *= (scaled ? p.numbers[1] : 1) / peak;
-    return in_working_space(spectrum_to_rgb(samples, meaning), film_color_space);
+    return black_body(p.numbers[0]) * float(scaled ? p.numbers[1] : 1);
   }
   std::vector<SpectrumSample> samples;
   if (!p.strings.empty()) {
@@ -232,6 +225,17 @@ Spectrum Reader::constant_color(const Parameter& p, ColorMeaning meaning) {
                ? in_working_space(equal_energy_rgb(*constant), film_color_space)
                : Spectrum(float(*constant));
   return in_working_space(spectrum_to_rgb(samples, meaning), film_color_space);
+}
+
+Spectrum Reader::black_body(double kelvin) {
+  std::vector<SpectrumSample> samples = blackbody_spectrum(kelvin, 1);
+  // By Wien's law the peak may lie outside of what can be seen.
+  const double wavelength = 2.8977721e6 / kelvin;
+  const double l = wavelength * 1e-9, c = 299792458, k = 1.3806488e-23, h = 6.62606957e-34;
+  const double peak =
+      2 * h * c * c / (std::pow(l, 5) * std::expm1(h * c / (l * k * kelvin))) * 1e-9;
+  for (SpectrumSample& s : samples) s.value /= peak;
+  return in_working_space(spectrum_to_rgb(samples, ColorMeaning::emission), film_color_space);
 }
 
 std::string Reader::spectrum_file(const std::string& name, const SourceLocation& where) {

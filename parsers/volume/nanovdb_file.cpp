@@ -72,11 +72,9 @@ NanoVdbBlob read_blob(ByteReader& in, const Entry& e) {
   return blob;
 }
 
-}  // namespace
-
-NanoVdbGrid parse_nanovdb(ByteReader& in, const std::string& name) {
+/// Nothing if there is no such grid; `names` are those of all then, for people.
+std::optional<NanoVdbGrid> find_grid(ByteReader& in, const std::string& name, std::string& names) {
   in.end_text();
-  std::string names;
   while (in.remaining() > 0) {
     if (in.take_value<uint64_t>("its header") != kMagic) in.fail("is not a NanoVDB file");
     const uint32_t version = in.take_value<uint32_t>("its header") >> 21;
@@ -97,11 +95,26 @@ NanoVdbGrid parse_nanovdb(ByteReader& in, const std::string& name) {
       in.seek(start + e.stored);
     }
   }
+  return std::nullopt;
+}
+
+}  // namespace
+
+NanoVdbGrid parse_nanovdb(ByteReader& in, const std::string& name) {
+  std::string names;
+  if (auto grid = find_grid(in, name, names)) return *std::move(grid);
   in.fail("has no grid \"{}\"; it has {}", name, names.empty() ? "none" : names);
 }
 
 NanoVdbGrid read_nanovdb(const std::string& file, const std::string& name) {
   return parse_file(file, [&](ByteReader& in) { return parse_nanovdb(in, name); });
+}
+
+std::optional<NanoVdbGrid> find_nanovdb(const std::string& file, const std::string& name) {
+  return parse_file(file, [&](ByteReader& in) {
+    std::string names;
+    return find_grid(in, name, names);
+  });
 }
 
 }  // namespace duet

@@ -1,6 +1,7 @@
 // Reads NanoVDB files (.nvdb): sparse grids of numbers, as pbrt's clouds and smoke have them.
 #pragma once
 
+#include <optional>
 #include <string>
 
 #include "math/transform.h"
@@ -25,6 +26,8 @@ struct NanoVdbGrid {
 /// Source: Museth, "NanoVDB: A GPU-friendly and portable VDB data structure for real-time rendering
 /// and simulation", SIGGRAPH Talks 2021; the layout is that of Debian's libnanovdb-dev.
 NanoVdbGrid read_nanovdb(const std::string& file, const std::string& name);
+/// The same; nothing if the file has no such grid.
+std::optional<NanoVdbGrid> find_nanovdb(const std::string& file, const std::string& name);
 /// The same for an opened file.
 NanoVdbGrid parse_nanovdb(ByteReader& in, const std::string& name);
 

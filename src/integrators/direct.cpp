@@ -18,7 +18,7 @@ Spectrum DirectIntegrator::radiance(const Scene& scene, const CameraPath& start,
   if (!scene.accel->closest_hit(ray, hit)) {
     if (options_.hide_emitters || !scene.environment) return {};
     values[3] = 1;
-    return weighted_environment(scene, ray.direction, std::nullopt, shares);
+    return weighted_environment(scene, ray.origin, ray.direction, std::nullopt, shares);
   }
   ++counters.path_vertices;
   values[3] = 1;
@@ -50,7 +50,7 @@ Spectrum DirectIntegrator::radiance(const Scene& scene, const CameraPath& start,
       light = weighted_emission(scene, scene.surface(next, hit),
                                 {s.position, next.direction, hit.t}, pdf, shares);
     else
-      light = weighted_environment(scene, next.direction, pdf, shares);
+      light = weighted_environment(scene, s.position, next.direction, pdf, shares);
     sum += sample->weight * light * (1 / float(bsdfs));
   }
   return sum;

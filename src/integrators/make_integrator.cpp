@@ -108,20 +108,25 @@ CameraOutput camera_output(const IntegratorDescription& integrator) {
 /// Where a scene first has what not every method can render, or null.
 struct LimitLocations {
   const SourceLocation* medium = nullptr;
+  const SourceLocation* emissive_medium = nullptr;
   const SourceLocation* one_way_surface = nullptr;
 };
 
 LimitLocations find_limits(const SceneDescription& scene) {
   LimitLocations found;
+  const auto look_into = [&](std::optional<MediumId> id) {
+    if (!id) return;
+    const MediumDescription& m = scene.media[size_t(*id)];
+    if (!found.medium) found.medium = &m.where;
+    if (!found.emissive_medium && m.emission) found.emissive_medium = &m.where;
+  };
   const auto look_at = [&](const std::vector<ShapeDescription>& shapes) {
     for (const ShapeDescription& s : shapes) {
-      const auto medium = s.interior ? s.interior : s.exterior;
-      if (medium && !found.medium) found.medium = &scene.media[size_t(*medium)].where;
+      look_into(s.interior), look_into(s.exterior);
       if (!found.one_way_surface && is_one_way(scene, s)) found.one_way_surface = &s.where;
     }
   };
-  for (const SensorDescription& s : scene.sensors)
-    if (s.medium && !found.medium) found.medium = &scene.media[size_t(*s.medium)].where;
+  for (const SensorDescription& s : scene.sensors) look_into(s.medium);
   for (const ShapeGroupDescription& g : scene.groups) look_at(g.shapes);
   look_at(scene.shapes);
   return found;
@@ -186,7 +191,9 @@ void check_support(const SceneDescription& scene, const IntegratorDescription& i
                    Diagnostics& diagnostics) {
   if (!integrator.image) return;
   const LimitLocations found = find_limits(scene);
-  const SceneLimits limits{found.medium != nullptr, found.one_way_surface != nullptr};
+  const SceneLimits limits{.media = found.medium != nullptr,
+                           .one_way_surfaces = found.one_way_surface != nullptr,
+                           .emissive_media = found.emissive_medium != nullptr};
   switch (find_obstacle(limits, integrator.method)) {
     case Obstacle::media:
       return diagnostics.error(
@@ -197,6 +204,12 @@ void check_support(const SceneDescription& scene, const IntegratorDescription& i
                   BidirectionalMethod::reuse
               ? "the weights of the thesis know no participating media"
               : "it has no photons in participating media, only on surfaces");
+    case Obstacle::emissive_media:
+      return diagnostics.error(
+          *found.emissive_medium,
+          "integrator \"{}\" has no light sub-paths that start in this medium, "
+          "which emits; \"volpath\" finds its light",
+          integrator_name(integrator));
     case Obstacle::one_way_surfaces:
       return diagnostics.error(*found.one_way_surface,
                                "integrator \"{}\" cannot follow light through curves of this "

@@ -68,7 +68,10 @@ MethodCandidate from_camera(const MethodRules& rules, const PathLimits& o) {
 }
 
 SceneLimits limits_of(const Scene& scene) {
-  return {!scene.media.empty(), scene.features.one_way_surfaces > 0, scene.camera->connectible()};
+  return {.media = !scene.media.empty(),
+          .one_way_surfaces = scene.features.one_way_surfaces > 0,
+          .connectible = scene.camera->connectible(),
+          .emissive_media = scene.features.emissive_media > 0};
 }
 
 /// All methods that the scene leaves.
@@ -280,9 +283,12 @@ MethodChoice choose_method(const Scene& scene, const AutoIntegratorDescription& 
   const MethodRules rules = method_rules(scene.features);
   const auto no_pilot = [&](const char* why) { return without_pilot(rules, options, why); };
   if (!rules.has_lights) return no_pilot("the scene has no lights");
-  if (find_obstacle(limits_of(scene), bidirectional(options, BidirectionalMethod::bdpt, 1, -1)) ==
-      Obstacle::one_way_surfaces)
+  const Obstacle obstacle =
+      find_obstacle(limits_of(scene), bidirectional(options, BidirectionalMethod::bdpt, 1, -1));
+  if (obstacle == Obstacle::one_way_surfaces)
     return no_pilot("light cannot be followed through tubes from its source");
+  if (obstacle == Obstacle::emissive_media)
+    return no_pilot("no light sub-paths start in media that emit");
   if (options.max_depth >= 0 && options.max_depth < 2)
     return no_pilot("paths of one segment are seen directly");
   if (!scene.camera->connectible())

@@ -15,11 +15,11 @@ MethodRules method_rules(const SceneFeatures& f) {
   // A surface that lets light pass unchanged stops light samples as glass does, but for the methods
   // that know media.
   const bool delta_surfaces = f.mirrors + f.smooth_glass > 0 || (f.masks > 0 && !rules.has_media);
-  rules.has_lights = near_lights + far_lights > 0;
+  rules.has_lights = near_lights + far_lights + f.emissive_media > 0;
   rules.needs_light_subpaths = (delta_lights && delta_surfaces) || f.beams > 0;
   rules.may_merge =
       rules.has_lights && (delta_surfaces || f.rough_reflection + f.rough_refraction > 0);
-  rules.far_lights_only = rules.has_lights && near_lights == 0;
+  rules.far_lights_only = rules.has_lights && near_lights + f.emissive_media == 0;
   return rules;
 }
 
@@ -29,6 +29,7 @@ Obstacle find_obstacle(const SceneLimits& scene,
   if (!d) return Obstacle::none;
   using enum BidirectionalMethod;
   const bool is_thesis = d->method == reuse && d->weights != ReuseWeights::exact;
+  if (scene.emissive_media) return Obstacle::emissive_media;
   if (scene.media && (d->method == ppm || d->method == bpm || is_thesis)) return Obstacle::media;
   if (scene.one_way_surfaces) return Obstacle::one_way_surfaces;
   if (!scene.connectible && (d->method == ptracer || d->method == reuse)) return Obstacle::sensor;

@@ -31,9 +31,10 @@ struct SceneLimits {
   bool media = false;             ///< there are participating media
   bool one_way_surfaces = false;  ///< SceneFeatures::one_way_surfaces
   bool connectible = true;        ///< light sub-paths can be connected with the sensor
+  bool emissive_media = false;    ///< some of the media emit
 };
 
-enum class Obstacle { none, media, one_way_surfaces, sensor };
+enum class Obstacle { none, media, emissive_media, one_way_surfaces, sensor };
 
 /// What keeps a method from rendering such a scene: the one answer, for the command line and for
 /// `auto`.

@@ -69,13 +69,13 @@ inline Spectrum weighted_emission(const Scene& scene, const Surface& s, const Ar
   return emitted * power_heuristic(bsdf_pdf->value * shares.bsdf, pdf * shares.light);
 }
 
-/// The same for a ray that has left the scene.
-inline Spectrum weighted_environment(const Scene& scene, const Vector3f& w,
+/// The same for a ray from `from` that has left the scene in the direction `w`.
+inline Spectrum weighted_environment(const Scene& scene, const Point3f& from, const Vector3f& w,
                                      std::optional<PdfW> bsdf_pdf, const SampleShares& shares) {
   if (!scene.environment) return {};
-  const Spectrum emitted = scene.environment->emitted(w);
+  const Spectrum emitted = scene.environment->emitted(from, w);
   if (!bsdf_pdf) return emitted;
-  const float pdf = choice_density(scene, w);
+  const float pdf = choice_density(scene, from, w);
   return emitted * power_heuristic(bsdf_pdf->value * shares.bsdf, pdf * shares.light);
 }
 

@@ -29,8 +29,8 @@ Spectrum PathIntegrator::radiance(const Scene& scene, const CameraPath& start, S
     if (!scene.accel->closest_hit(path.ray, hit)) {
       // Also behind surfaces that light passes straight: nothing else has made the path opaque.
       if (options_.hide_emitters && path.alpha == 0) break;
-      path.sum +=
-          path.throughput * weighted_environment(scene, path.ray.direction, path.bsdf_pdf, {});
+      path.sum += path.throughput *
+                  weighted_environment(scene, path.from, path.ray.direction, path.bsdf_pdf, {});
       if (scene.environment) path.alpha = 1;
       break;
     }

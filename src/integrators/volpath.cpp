@@ -87,7 +87,8 @@ Spectrum VolumePathIntegrator::radiance(const Scene& scene, const CameraPath& st
     if (!found) {
       if (!scene.environment || hides_lights(path.depth)) break;
       const Vector3f& w = path.ray.direction;
-      path.add(scene.environment->emitted(w), path.competes ? choice_density(scene, w) : 0);
+      path.add(scene.environment->emitted(path.from, w),
+               path.competes ? choice_density(scene, path.from, w) : 0);
       path.alpha = 1;
       break;
     }
@@ -103,6 +104,8 @@ float VolumePathIntegrator::cross_medium(bool found, const Hit& hit, uint32_t di
   if (found) segment.tmax = hit.t;
   path.sampler.start_dimension(dimension + kDistanceDimension);
   const RandomStream before = path.random;
+  if (path.medium->emits() && !hides_lights(path.depth))
+    path.sum += path.weights.mean_over_channels() * path.medium->emitted(segment, path.random);
   const float t =
       path.medium->sample_distance(segment, path.sampler.next_1d(), path.random, path.weights);
   path.counters.medium_steps += 1 + path.random.drawn_since(before);

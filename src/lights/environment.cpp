@@ -49,7 +49,7 @@ Frame rotation(const Matrix4& m) {
 
 std::optional<LightSample> ConstantEnvironment::sample_direct(const Point3f&,
                                                               const Point2f& u) const {
-  return from_afar(square_to_sphere(u), radiance_, pdf_direct({}));
+  return from_afar(square_to_sphere(u), radiance_, pdf_direct({}, {}));
 }
 
 double ConstantEnvironment::power(double scene_radius) const {
@@ -104,11 +104,11 @@ inline Spectrum EnvironmentMap::radiance(const Place& p) const {
               lerp(texel(p.x, p.y + 1), texel(p.x + 1, p.y + 1), p.dx), p.dy);
 }
 
-Spectrum EnvironmentMap::emitted(const Vector3f& wi) const {
+Spectrum EnvironmentMap::emitted(const Point3f&, const Vector3f& wi) const {
   return radiance(find(wi));
 }
 
-PdfW EnvironmentMap::pdf_direct(const Vector3f& wi) const {
+PdfW EnvironmentMap::pdf_direct(const Point3f&, const Vector3f& wi) const {
   const Place p = find(wi);
   const auto node = [&](int x, int y) { return weight(x, y); };
   return to_pdf(distribution_.density(p.x, p.y, p.dx, p.dy, node), p.sin_theta);

@@ -18,8 +18,8 @@ class ConstantEnvironment final : public EnvironmentLight {
  public:
   explicit ConstantEnvironment(const Spectrum& radiance) : radiance_(radiance) {}
   std::optional<LightSample> sample_direct(const Point3f& from, const Point2f& u) const override;
-  Spectrum emitted(const Vector3f&) const override { return radiance_; }
-  PdfW pdf_direct(const Vector3f&) const override { return {0.25f * kInvPi}; }
+  Spectrum emitted(const Point3f&, const Vector3f&) const override { return radiance_; }
+  PdfW pdf_direct(const Point3f&, const Vector3f&) const override { return {0.25f * kInvPi}; }
   double power(double scene_radius) const override;
 
  private:
@@ -37,8 +37,8 @@ class EnvironmentMap final : public EnvironmentLight {
   EnvironmentMap(int width, int height, std::vector<Spectrum> texels, const Matrix4& to_world);
 
   std::optional<LightSample> sample_direct(const Point3f& from, const Point2f& u) const override;
-  Spectrum emitted(const Vector3f& wi) const override;
-  PdfW pdf_direct(const Vector3f& wi) const override;
+  Spectrum emitted(const Point3f&, const Vector3f& wi) const override;
+  PdfW pdf_direct(const Point3f&, const Vector3f& wi) const override;
   double power(double scene_radius) const override;
   /// Turns the image as the transform of the constructor does.
   void turn(const Matrix4& to_world) { axes_ = rotation(to_world); }

@@ -97,22 +97,24 @@ class SurfaceLight : public Light {
 class EnvironmentLight : public Light {
  public:
   EnvironmentLight() : Light(LightKind::environment) {}
-  /// Radiance that arrives from the unit direction `wi`.
-  virtual Spectrum emitted(const Vector3f& wi) const = 0;
-  virtual PdfW pdf_direct(const Vector3f& wi) const = 0;
+  /// Radiance that arrives at `from` from the unit direction `wi`.
+  virtual Spectrum emitted(const Point3f& from, const Vector3f& wi) const = 0;
+  /// The density with which sample_direct(from, …) makes the direction `wi`.
+  virtual PdfW pdf_direct(const Point3f& from, const Vector3f& wi) const = 0;
   /// EmissionSample::density of a ray that comes from the unit direction `wi`.
-  float emission_density(const Vector3f& wi) const {
-    return pdf_direct(wi).value * sphere_.density();
+  virtual float emission_density(const Vector3f& wi) const {
+    return pdf_direct({}, wi).value * sphere_.density();
   }
-  float direct_density(const EmissionSample& emission, const Point3f&) const final {
-    return pdf_direct(-emission.ray.direction).value;
+  float direct_density(const EmissionSample& emission, const Point3f& at) const final {
+    return pdf_direct(at, -emission.ray.direction).value;
   }
-  /// A ray from where sample_direct() says that light comes from.
+  /// A ray from where sample_direct() says that light comes from, anywhere in the scene.
   std::optional<EmissionSample> sample_emission(const Point2f& position,
-                                                const Point2f& direction) const final;
-  void surround(const Point3f& center, float radius) final { sphere_ = {center, radius}; }
+                                                const Point2f& direction) const override;
+  void surround(const Point3f& center, float radius) override { sphere_ = {center, radius}; }
 
  protected:
+  const SceneSphere& sphere() const { return sphere_; }
   /// What sample_direct() returns for a direction that it has chosen.
   LightSample from_afar(const Vector3f& wi, const Spectrum& radiance, PdfW pdf) const;
   /// Power that crosses a sphere of this radius under a mean radiance from everywhere.

@@ -21,6 +21,10 @@ class SceneSphere {
     const Point2f p = square_to_disk(u) * radius_;
     return {center_ + Frame(Normal3f(wi)).to_world({p.x, p.y, radius_}), -wi, INFINITY};
   }
+  /// The same for a ray through a given point.
+  Ray enter(const Vector3f& wi, const Point3f& through) const {
+    return {through + wi * (dot(center_ - through, wi) + radius_), -wi, INFINITY};
+  }
   /// The density per area of the disk's points.
   float density() const { return density_; }
 

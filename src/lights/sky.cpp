@@ -180,12 +180,12 @@ float Sky::density(const Vector3f& w, bool in_sun) const {
   return sun + (1 - sun_share_) * cells_.probability(uint32_t(i * kColumns + j)) * cell_density_;
 }
 
-Spectrum Sky::emitted(const Vector3f& wi) const {
+Spectrum Sky::emitted(const Point3f&, const Vector3f& wi) const {
   const Vector3f w = axes_.to_local(wi);
   return radiance(w, in_sun(w));
 }
 
-PdfW Sky::pdf_direct(const Vector3f& wi) const {
+PdfW Sky::pdf_direct(const Point3f&, const Vector3f& wi) const {
   const Vector3f w = axes_.to_local(wi);
   return {density(w, in_sun(w))};
 }

@@ -34,8 +34,8 @@ class Sky final : public EnvironmentLight {
   Sky(const SkyOptions& options, const Matrix4& to_world);
 
   std::optional<LightSample> sample_direct(const Point3f& from, const Point2f& u) const override;
-  Spectrum emitted(const Vector3f& wi) const override;
-  PdfW pdf_direct(const Vector3f& wi) const override;
+  Spectrum emitted(const Point3f&, const Vector3f& wi) const override;
+  PdfW pdf_direct(const Point3f&, const Vector3f& wi) const override;
   double power(double scene_radius) const override;
 
  private:

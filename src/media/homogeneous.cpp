@@ -1,5 +1,7 @@
 #include "media/homogeneous.h"
 
+#include <cassert>
+
 namespace duet {
 
 namespace {
@@ -14,6 +16,16 @@ Spectrum relative_transmittance(const Spectrum& sigma_t, float chosen, float dis
 }
 
 }  // namespace
+
+HomogeneousMedium::HomogeneousMedium(const Spectrum& sigma_t, const ColorVolumeSlot& albedo,
+                                     const PhaseFunction& phase, const Spectrum& emission)
+    : Medium(phase, !emission.is_black()),
+      sigma_t_(sigma_t),
+      albedo_(albedo),
+      emission_(emission),
+      is_microflake_(phase.is_microflake()) {
+  assert(!emits() || !albedo.grid);
+}
 
 inline Spectrum HomogeneousMedium::extinction(const Ray& ray) const {
   return is_microflake_ ? sigma_t_ * phase().extinction(ray.origin, -ray.direction) : sigma_t_;
@@ -50,6 +62,14 @@ void HomogeneousMedium::transmit(const Ray& ray, RandomStream&, SpectralWeights&
   const Spectrum t = transmittance(ray);
   w.value *= t;
   w.pdf *= t;
+}
+
+Spectrum HomogeneousMedium::emitted(const Ray& ray, RandomStream&) const {
+  const Spectrum sigma_t = extinction(ray);
+  Spectrum absorbed;  // of light that would have come all the way, by absorption
+  for (int c = 0; c < 3; ++c)
+    if (sigma_t[c] > 0) absorbed[c] = -std::expm1(-sigma_t[c] * ray.tmax);
+  return absorbed * (Spectrum(1) - albedo_.constant) * emission_;
 }
 
 float HomogeneousMedium::nominal_transmittance(const Ray& ray) const {

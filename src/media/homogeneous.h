@@ -6,15 +6,16 @@
 namespace duet {
 
 /// Distances are sampled exactly and transmittances known (Beer–Lambert law). The albedo may vary,
-/// the particles of the phase function must be the same everywhere.
+/// unless the medium emits; the particles of the phase function must be the same everywhere.
 class HomogeneousMedium final : public Medium {
  public:
+  /// `emission` is constant radiance L_e.
   HomogeneousMedium(const Spectrum& sigma_t, const ColorVolumeSlot& albedo,
-                    const PhaseFunction& phase)
-      : Medium(phase), sigma_t_(sigma_t), albedo_(albedo), is_microflake_(phase.is_microflake()) {}
+                    const PhaseFunction& phase, const Spectrum& emission = {});
   float sample_distance(const Ray& ray, float u, RandomStream& random,
                         SpectralWeights& w) const override;
   void transmit(const Ray& ray, RandomStream& random, SpectralWeights& w) const override;
+  Spectrum emitted(const Ray& ray, RandomStream& random) const override;
   /// Means over the colour channels, the density of a sub-path for a random one of them.
   float nominal_transmittance(const Ray& ray) const override;
   float nominal_extinction(const Point3f&) const override { return sigma_t_.mean(); }
@@ -27,6 +28,7 @@ class HomogeneousMedium final : public Medium {
 
   Spectrum sigma_t_;
   ColorVolumeSlot albedo_;
+  Spectrum emission_;
   bool is_microflake_;
 };
 

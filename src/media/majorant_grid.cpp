@@ -1,5 +1,7 @@
 #include "media/majorant_grid.h"
 
+#include "media/cloud.h"
+
 namespace duet {
 
 namespace {
@@ -11,7 +13,8 @@ constexpr int kMostCells = 64;
 
 }  // namespace
 
-MajorantGrid::MajorantGrid(const GridVolume& volume, float scale) {
+template <class Volume>
+MajorantGrid::MajorantGrid(const Volume& volume, float scale) {
   volume.world_box(world_lower_, world_upper_);
   Point3f upper(-INFINITY);
   lower_ = Point3f(INFINITY);
@@ -27,7 +30,7 @@ MajorantGrid::MajorantGrid(const GridVolume& volume, float scale) {
   for (int i = 0; i < 3; ++i) {
     int& n = size_[size_t(i)];
     const float extent = upper[i] - lower_[i];
-    n = std::clamp(int(extent * float(volume.grid().size[size_t(i)]) / kNodesPerCell), 1,
+    n = std::clamp(int(extent * float(volume.resolution()[size_t(i)]) / kNodesPerCell), 1,
                    kMostCells);
     cell_[i] = extent / float(n);
   }
@@ -40,5 +43,8 @@ MajorantGrid::MajorantGrid(const GridVolume& volume, float scale) {
         majorants_.push_back(volume.maximum(a, a + cell_) * scale);
       }
 }
+
+template MajorantGrid::MajorantGrid(const GridVolume&, float);
+template MajorantGrid::MajorantGrid(const CloudVolume&, float);
 
 }  // namespace duet

@@ -7,12 +7,14 @@
 
 namespace duet {
 
-/// Upper bounds of a volume over the cells of a coarse grid. It covers the volume's box in the
-/// world (GridVolume::world_box), which is more than its unit cube if the volume is turned.
+/// Upper bounds of a GridVolume or CloudVolume over the cells of a coarse grid. It covers the
+/// volume's box in the world (GridVolume::world_box), which is more than its unit cube if the
+/// volume is turned.
 class MajorantGrid {
  public:
   /// The bounds are those of the volume times `scale`.
-  MajorantGrid(const GridVolume& volume, float scale);
+  template <class Volume>
+  MajorantGrid(const Volume& volume, float scale);
 
   /// Calls visit(t0, t1, majorant) for the stretches of a ray up to ray.tmax that lie in the
   /// volume's box in the world, cell by cell, until it returns false. `origin` and `direction` are

@@ -11,12 +11,13 @@
 
 namespace duet {
 
-/// A non-emissive medium. Rays have unit directions.
+/// A medium that scatters, absorbs and may emit. Rays have unit directions.
 class Medium {
  public:
-  explicit Medium(const PhaseFunction& phase) : phase_(phase) {}
+  Medium(const PhaseFunction& phase, bool emits) : phase_(phase), emits_(emits) {}
   virtual ~Medium() = default;
   const PhaseFunction& phase() const { return phase_; }
+  bool emits() const { return emits_; }
 
   /// Follows the ray to where it is scattered next and returns the distance, or INFINITY if
   /// it comes to ray.tmax before. The weights then include everything up to there: transmittance,
@@ -26,6 +27,10 @@ class Medium {
   /// Multiplies the weights of a shadow ray by an estimate of the transmittance up to ray.tmax, and
   /// by the densities of a sub-path that would have gone all the way.
   virtual void transmit(const Ray& ray, RandomStream& random, SpectralWeights& w) const = 0;
+
+  /// An unbiased estimate of the radiance that the medium emits between ray.origin and ray.tmax, as
+  /// it arrives at ray.origin: ∫ T(t) σ_a(t) L_e(t) dt. Only of media that emit.
+  virtual Spectrum emitted(const Ray& ray, RandomStream& random) const = 0;
 
   /// What the densities that multiple importance sampling compares have for the transmittance from
   /// ray.origin to ray.tmax, and for the extinction at a point where light is scattered. All
@@ -39,6 +44,7 @@ class Medium {
 
  private:
   const PhaseFunction& phase_;
+  bool emits_;
 };
 
 }  // namespace duet

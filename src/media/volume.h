@@ -9,6 +9,10 @@
 
 namespace duet {
 
+/// The box in the world around a box in another space.
+void box_in_world(const Transform& to_world, const Point3f& lower, const Point3f& upper,
+                  Point3f& world_lower, Point3f& world_upper);
+
 /// A symmetric 3×3 matrix: xx, yy, zz, xy, xz, yz.
 using SymmetricMatrix = std::array<float, 6>;
 
@@ -23,6 +27,8 @@ class GridVolume {
 
   int channels() const { return grid_->channels; }
   const VolumeGrid& grid() const { return *grid_; }
+  /// How many different values there may be along each axis of the unit cube.
+  const std::array<int, 3>& resolution() const { return grid_->size; }
   Point3f to_local(const Point3f& p) const { return to_world_.inverse(p); }
   Vector3f to_local(const Vector3f& v) const { return to_world_.inverse(v); }
 

@@ -1,7 +1,10 @@
 // Builds lights from their descriptions and prepares the choice among them.
+#include <cassert>
+
 #include "lights/area.h"
 #include "lights/beam.h"
 #include "lights/delta.h"
+#include "lights/portal.h"
 #include "lights/sky.h"
 #include "math/angles.h"
 #include "math/equal_area.h"
@@ -33,7 +36,7 @@ void SceneBuilder::lights() {
   for (const LightDescription& d : description_.lights) {
     if (!check_transform(d.to_world, d.where)) continue;
     shape_textures_.clear();
-    auto light = std::visit([&](const auto& l) { return l.build(*this, d); }, d.model);
+    auto light = make(d);
     if (!shape_textures_.empty())
       diagnostics_.error(d.where, "this light has no shape, which a texture of it reads");
     if (!light) continue;
@@ -43,6 +46,22 @@ void SceneBuilder::lights() {
     }
     add_light(std::move(light), d.sampling_weight);
   }
+}
+
+std::unique_ptr<Light> SceneBuilder::make(const LightDescription& d) {
+  auto light = std::visit([&](const auto& l) { return l.build(*this, d); }, d.model);
+  if (!light || !d.portal) return light;
+  assert(light->kind() == LightKind::environment);
+  std::array<Point3f, 4> corners;
+  for (size_t i = 0; i < corners.size(); ++i) {
+    const auto& p = d.portal->corners[i];
+    corners[i] = {float(p[0]), float(p[1]), float(p[2])};
+  }
+  // There is nothing to choose among directions of equal radiance.
+  const float share = std::holds_alternative<ConstantLight>(d.model) ? 0 : 0.5f;
+  return std::make_unique<PortalEnvironment>(
+      std::unique_ptr<EnvironmentLight>(static_cast<EnvironmentLight*>(light.release())), corners,
+      share);
 }
 
 std::unique_ptr<Light> SceneBuilder::make(const Emission& e, const Shape& shape) {

@@ -15,6 +15,13 @@ bool is_constant(const VolumeGrid& grid) {
   return true;
 }
 
+CloudShape shape_of(const CloudDescription& d) {
+  const auto point = [](const std::array<double, 3>& p) {
+    return Point3f(float(p[0]), float(p[1]), float(p[2]));
+  };
+  return {point(d.lower), point(d.upper), float(d.density), float(d.wispiness), float(d.frequency)};
+}
+
 bool has_negative(const VolumeGrid& grid) {
   for (const float v : grid.values)
     if (v < 0) return true;
@@ -125,6 +132,13 @@ std::vector<std::string> VolumeDescription::losses() const {
   return lost;
 }
 
+std::vector<std::string> MediumDescription::losses() const {
+  std::vector<std::string> lost;
+  if (cloud) lost.emplace_back("a cloud of noise is a medium of constant extinction");
+  if (emission) lost.emplace_back("the emission of a medium is missing");
+  return lost;
+}
+
 uint32_t SceneBuilder::medium(std::optional<MediumId> id) {
   if (!id) return kNone;
   Made<Medium>& made = media_[size_t(*id)];
@@ -143,15 +157,37 @@ std::unique_ptr<Medium> SceneBuilder::make(const MediumDescription& m) {
   const ColorVolumeSlot sigma_t = slot(m.sigma_t), albedo = slot(m.albedo);
   if (!function) return nullptr;
   const float scale = float(m.scale);
+  std::optional<MediumEmission> emission;
+  if (m.emission) {
+    const ColorVolumeSlot radiance = slot(m.emission->radiance);
+    const auto id = m.emission->temperature;
+    const GridVolume* temperature = id ? volume(*id) : nullptr;
+    if (id && !temperature) return nullptr;
+    emission = temperature ? MediumEmission(radiance, *temperature, m.emission->colors,
+                                            float(m.emission->hottest))
+                           : MediumEmission(radiance);
+  }
+  if (m.cloud) {
+    if (!check_transform(m.cloud->to_world, m.where)) return nullptr;
+    const CloudVolume cloud(shape_of(*m.cloud), sigma_t.constant, m.cloud->to_world);
+    return std::make_unique<HeterogeneousMedium<CloudVolume>>(cloud, scale, albedo, *function,
+                                                              emission);
+  }
   if (sigma_t.grid)
-    return std::make_unique<HeterogeneousMedium>(*sigma_t.grid, scale, albedo, *function);
+    return std::make_unique<HeterogeneousMedium<GridVolume>>(*sigma_t.grid, scale, albedo,
+                                                             *function, emission);
   if (std::holds_alternative<VolumeId>(m.sigma_t)) return nullptr;
   if (function->extinction_varies()) {
     diagnostics_.error(m.where,
                        "microflakes that differ from place to place need the extinction as a grid");
     return nullptr;
   }
-  return std::make_unique<HomogeneousMedium>(sigma_t.constant * scale, albedo, *function);
+  if (emission && (!emission->is_constant() || albedo.grid)) {
+    diagnostics_.error(m.where, "emission that varies needs the extinction as a grid");
+    return nullptr;
+  }
+  return std::make_unique<HomogeneousMedium>(sigma_t.constant * scale, albedo, *function,
+                                             emission ? (*emission)({}) : Spectrum());
 }
 
 }  // namespace duet

@@ -117,6 +117,7 @@ class SceneBuilder {
 
   // build_lights.cpp
   void lights();
+  std::unique_ptr<Light> make(const LightDescription& d);
   std::unique_ptr<Light> make(const Emission& e, const Shape& shape);
   void add_light(std::unique_ptr<Light> light, double sampling_weight);
 

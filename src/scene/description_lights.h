@@ -226,6 +226,14 @@ struct GoniometricLight {
   LightPointer build(SceneBuilder& b, const LightDescription& d) const;
 };
 
+/// A rectangle in the world, whatever the light's transform is, by its corners in order: only what
+/// leaves the scene through it, along (corners[3] − corners[0]) × (corners[1] − corners[0]), finds
+/// the environment. pbrt has it.
+struct Portal {
+  std::array<std::array<double, 3>, 4> corners{};
+  static constexpr auto fields() { return plain_fields(&Portal::corners); }
+};
+
 struct LightDescription {
   SourceLocation where;
   Label label;
@@ -236,13 +244,14 @@ struct LightDescription {
   Motion motion;  ///< as in ShapeDescription; environments only turn
   /// Multiplies the light's share in the choice of a light (`sampling_weight`).
   double sampling_weight = 1;
-  std::optional<MediumId> medium;  ///< that the light stands in
+  std::optional<MediumId> medium;               ///< that the light stands in
+  std::optional<Portal> portal = std::nullopt;  ///< of an environment
   static constexpr auto fields() {
     using L = LightDescription;
     return std::tuple(field(&L::where), field(&L::label), field(&L::model), field(&L::to_world),
                       field(&L::motion),
                       field(&L::sampling_weight, parameter_words::kSamplingWeight),
-                      field(&L::medium));
+                      field(&L::medium), field(&L::portal));
   }
 };
 

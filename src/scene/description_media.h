@@ -3,6 +3,7 @@
 
 #include <array>
 #include <memory>
+#include <optional>
 #include <string>
 #include <variant>
 #include <vector>
@@ -148,13 +149,43 @@ struct PhaseDescription {
   }
 };
 
-/// Scatters and absorbs: extinction σ_t · scale per unit of length, of which `albedo` is scattered.
+/// A cloud of noise: CloudShape (media/cloud.h), placed by `to_world`. pbrt has it.
+struct CloudDescription {
+  double density = 1, wispiness = 1, frequency = 5;
+  std::array<double, 3> lower{0, 0, 0}, upper{1, 1, 1};
+  Matrix4 to_world;
+  static constexpr auto fields() {
+    using C = CloudDescription;
+    return plain_fields(&C::density, &C::wispiness, &C::frequency, &C::lower, &C::upper,
+                        &C::to_world);
+  }
+};
+
+/// The radiance that the absorbing part of a medium emits (pbrt's Le).
+struct EmissionDescription {
+  ColorVolume radiance = Spectrum(1.0f);
+  /// Times the colour of black bodies of these temperatures.
+  std::optional<VolumeId> temperature;
+  /// Colours of temperatures from 0 to `hottest` at equal steps, linear in between.
+  std::vector<Spectrum> colors;
+  double hottest = 0;
+  static constexpr auto fields() {
+    using E = EmissionDescription;
+    return plain_fields(&E::radiance, &E::temperature, &E::colors, &E::hottest);
+  }
+};
+
+/// Scatters, absorbs and may emit: extinction σ_t · scale per unit of length, of which `albedo` is
+/// scattered.
 struct MediumDescription {
   SourceLocation where;
   Label label;
   ColorVolume sigma_t = Spectrum(1.0f), albedo = Spectrum(0.75f);
   double scale = 1;
   PhaseId phase{};
+  /// Multiplies the extinction, which is a constant then.
+  std::optional<CloudDescription> cloud;
+  std::optional<EmissionDescription> emission;
   static constexpr auto fields() {
     using namespace parameter_words;
     using enum ParameterType;
@@ -170,11 +201,11 @@ struct MediumDescription {
                                    .note = "multiplies the extinction",
                                    .range = not_negative,
                                    .aliases = "density_multiplier size_multiplier"}),
-        field(&M::phase));
+        field(&M::phase), field(&M::cloud), field(&M::emission));
   }
-  const char* name() const {
-    return std::holds_alternative<VolumeId>(sigma_t) ? "heterogeneous" : "homogeneous";
-  }
+  bool varies() const { return cloud || std::holds_alternative<VolumeId>(sigma_t); }
+  const char* name() const { return varies() ? "heterogeneous" : "homogeneous"; }
+  std::vector<std::string> losses() const;
 };
 
 }  // namespace duet

@@ -61,8 +61,9 @@ class Survey {
     if (!id || !media_.insert(*id).second) return;
     const MediumDescription& m = scene_.media[size_t(*id)];
     ++features_.media;
+    features_.heterogeneous_media += m.varies();
+    features_.emissive_media += m.emission.has_value();
     if (const auto* grid = std::get_if<VolumeId>(&m.sigma_t)) {
-      ++features_.heterogeneous_media;
       features_.coloured_media |= scene_.volumes[size_t(*grid)].grid->channels == 3;
     } else {
       const Spectrum& s = std::get<Spectrum>(m.sigma_t);
@@ -225,6 +226,7 @@ std::string describe(const SceneFeatures& f) {
                        .add(f.media, f.coloured_media ? "coloured medium" : "medium",
                             f.coloured_media ? "media, some coloured" : "media")
                        .add(f.heterogeneous_media, "of them a grid", "of them grids")
+                       .add(f.emissive_media, "of them emissive", "of them emissive")
                        .text("");
   if (f.depth_of_field) text += "; depth of field";
   if (f.moving > 0) text += "; " + List().add(f.moving, "moving thing", "moving things").text("");

@@ -37,7 +37,8 @@ struct SceneFeatures {
   size_t one_way_surfaces = 0;
 
   size_t media = 0;                ///< that shapes or sensors name
-  size_t heterogeneous_media = 0;  ///< of them, those whose extinction is a grid
+  size_t heterogeneous_media = 0;  ///< of them, those whose extinction varies in space
+  size_t emissive_media = 0;       ///< of them, those that emit
   bool coloured_media = false;     ///< any whose extinction is a colour
 
   bool depth_of_field = false;  ///< of any sensor

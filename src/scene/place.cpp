@@ -37,12 +37,12 @@ void SceneBuilder::place_light(uint32_t index, const Matrix4& to_world) {
   LightDescription& d = description_.lights[index];
   d.to_world = to_world;
   std::unique_ptr<Light>& light = scene_->lights[emissions_.size() + index];
-  if (std::holds_alternative<EnvironmentMapLight>(d.model)) {
+  if (std::holds_alternative<EnvironmentMapLight>(d.model) && !d.portal) {
     // The tables of an image do not turn with it.
     static_cast<EnvironmentMap&>(*light).turn(to_world);
     return;
   }
-  light = std::visit([&](const auto& l) { return l.build(*this, d); }, d.model);
+  light = make(d);
   if (light->kind() == LightKind::environment)
     scene_->environment = static_cast<const EnvironmentLight*>(light.get());
 }

@@ -81,9 +81,9 @@ template <class Weights>
 inline Connection connect_escape(const Scene& scene, const Weights& weights, const Subpath& subpath,
                                  float transmittance = 1) {
   const Vector3f& w = subpath.ray.direction;
-  const Spectrum emitted = scene.environment->emitted(w);
+  const Spectrum emitted = scene.environment->emitted(subpath.from, w);
   if (emitted.is_black()) return {};
-  const float direct = choice_density(scene, w);
+  const float direct = choice_density(scene, subpath.from, w);
   const float emission =
       scene.environment->emission_density(w) * scene.picker.probability(scene.environment_index);
   return {subpath.throughput * emitted, weights.hit(subpath, direct / transmittance, emission)};

@@ -36,8 +36,9 @@ inline float choice_density(const Scene& scene, const SurfaceLight& light, const
 }
 
 /// The same for a direction that leaves the scene, which must have an environment.
-inline float choice_density(const Scene& scene, const Vector3f& w) {
-  return scene.environment->pdf_direct(w).value * scene.picker.probability(scene.environment_index);
+inline float choice_density(const Scene& scene, const Point3f& from, const Vector3f& w) {
+  return scene.environment->pdf_direct(from, w).value *
+         scene.picker.probability(scene.environment_index);
 }
 
 }  // namespace duet

@@ -36,7 +36,7 @@ void check_environment(EnvironmentLight& light, double tolerance, const std::str
         if (e) d = -e->ray.direction;
         return e.has_value();
       },
-      [&](const Vector3f& d) { return double(light.pdf_direct(d).value); },
+      [&](const Vector3f& d) { return double(light.pdf_direct(kCenter, d).value); },
       {.nx = 36, .ny = 24, .sub = 16, .samples = 100000});
   CHECK_MESSAGE(result.pass, result.message);
   Sampler sampler(SampleSequence::independent, 3, 0, 0);
@@ -52,10 +52,10 @@ void check_environment(EnvironmentLight& light, double tolerance, const std::str
     const Vector3f start = e->ray.origin - kCenter;
     CHECK(dot(start, wi) > kRadius);
     CHECK(e->density == doctest::Approx(light.emission_density(wi)).epsilon(tolerance));
-    CHECK(light.direct_density(*e, kCenter) == light.pdf_direct(wi).value);
+    CHECK(light.direct_density(*e, kCenter) == light.pdf_direct(kCenter, wi).value);
     for (int k = 0; k < 3; ++k)
       CHECK(e->weight[k] * e->density ==
-            doctest::Approx(light.emitted(wi)[k]).epsilon(2 * tolerance));
+            doctest::Approx(light.emitted(kCenter, wi)[k]).epsilon(2 * tolerance));
     // A light sample from the same numbers is the same path.
     const auto s = light.sample_direct(kCenter, direction);
     REQUIRE(s);

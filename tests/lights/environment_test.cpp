@@ -40,7 +40,7 @@ void check_light(const EnvironmentLight& light, uint64_t seed) {
         d = s->wi;
         return true;
       },
-      [&](const Vector3f& d) { return double(light.pdf_direct(d).value); },
+      [&](const Vector3f& d) { return double(light.pdf_direct({}, d).value); },
       {.nx = 36, .ny = 24, .sub = 16, .samples = 200000, .seed = seed});
   CHECK_MESSAGE(result.pass, "seed " << seed << ": " << result.message);
   Sampler sampler(SampleSequence::sobol, seed, 0, 0);
@@ -50,8 +50,8 @@ void check_light(const EnvironmentLight& light, uint64_t seed) {
     sampler.start_sample(uint32_t(i));
     const Point2f u = sampler.next_2d();
     const Vector3f w = square_to_sphere(u);
-    power += double(light.emitted(w).luminance()) * 4 * 3.14159265 / n;
-    if (light.emitted(w).luminance() > 0) CHECK(light.pdf_direct(w).value > 0);
+    power += double(light.emitted({}, w).luminance()) * 4 * 3.14159265 / n;
+    if (light.emitted({}, w).luminance() > 0) CHECK(light.pdf_direct({}, w).value > 0);
     const auto s = light.sample_direct({}, u);
     if (!s) continue;
     CHECK(length(s->wi) == doctest::Approx(1).epsilon(1e-5));
@@ -60,8 +60,8 @@ void check_light(const EnvironmentLight& light, uint64_t seed) {
     sampled += double(s->weight.luminance()) / n;
     if (i % 64) continue;
     // What the sample says is what a ray in its direction finds.
-    CHECK(s->pdf.value == doctest::Approx(light.pdf_direct(s->wi).value).epsilon(2e-3));
-    const Spectrum found = light.emitted(s->wi) / light.pdf_direct(s->wi).value;
+    CHECK(s->pdf.value == doctest::Approx(light.pdf_direct({}, s->wi).value).epsilon(2e-3));
+    const Spectrum found = light.emitted({}, s->wi) / light.pdf_direct({}, s->wi).value;
     for (int k = 0; k < 3; ++k) CHECK(s->weight[k] == doctest::Approx(found[k]).epsilon(2e-3));
   }
   CHECK(sampled == doctest::Approx(power).epsilon(1e-2));
@@ -81,13 +81,13 @@ TEST_CASE("environment maps show what Mitsuba's show") {
     for (const test::Json& row : e["directions"]) {
       INFO(row.dump());
       const Vector3f d = test::triple<Vector3f>(row, 0);
-      const Spectrum expected = test::triple<Spectrum>(row, 3), found = light.emitted(d);
+      const Spectrum expected = test::triple<Spectrum>(row, 3), found = light.emitted({}, d);
       for (int k = 0; k < 3; ++k) CHECK(found[k] == doctest::Approx(expected[k]).epsilon(1e-4));
       // Duet samples the poles a little more often than Mitsuba: densities are in proportion
       // elsewhere.
       const double polar = std::acos(double(std::abs(to_world.inverse(d).y)));
       if (polar < 3.14159265 / (h - 1)) continue;
-      const double r = double(light.pdf_direct(d).value) / row[6].get<double>();
+      const double r = double(light.pdf_direct({}, d).value) / row[6].get<double>();
       if (ratio == 0) ratio = r;
       CHECK(r == doctest::Approx(ratio).epsilon(1e-4));
       CHECK(r == doctest::Approx(1).epsilon(0.05));
@@ -126,7 +126,7 @@ TEST_CASE("a light that shines only from the pole is found there") {
 TEST_CASE("a black environment is no trouble") {
   const EnvironmentMap light(4, 3, std::vector<Spectrum>(12), Matrix4{});
   CHECK(light.power(1) == 0);
-  CHECK(light.emitted({0, 1, 0}).is_black());
+  CHECK(light.emitted({}, {0, 1, 0}).is_black());
   const auto s = light.sample_direct({}, {0.3f, 0.7f});
   REQUIRE(s);
   CHECK(s->weight.is_black());

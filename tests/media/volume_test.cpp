@@ -1,8 +1,8 @@
 // Lookups in grids.
-#include "media/majorant_grid.h"
-
 #include <doctest/doctest.h>
 
+#include "media/cloud.h"
+#include "media/majorant_grid.h"
 #include "media/random_stream.h"
 
 using namespace duet;
@@ -140,4 +140,34 @@ TEST_CASE("a ray meets the cells of a majorant grid in order and without gaps") 
                        VolumeWrap::clamp, false);
     check_traversal(v);
   }
+}
+
+TEST_CASE("clouds are where their noise is, and thin out with height") {
+  const CloudShape shape{{-1, -1, -1}, {1, 1, 1}, 3, 0.8f, 3};
+  const CloudVolume cloud(shape, Spectrum(2, 4, 1), Matrix4::translate(5, 0, 0));
+  CHECK(cloud.channels() == 3);
+  CHECK(CloudVolume(shape, Spectrum(2), Matrix4{}).channels() == 1);
+  RandomStream random(3);
+  double low = 0, high = 0, other = 0;
+  const CloudVolume smooth({{-1, -1, -1}, {1, 1, 1}, 3, 0, 3}, Spectrum(1), Matrix4{});
+  for (int i = 0; i < 20000; ++i) {
+    const Point3f p(random.next() * 2 - 1, random.next() * 2 - 1, random.next() * 2 - 1);
+    const float d = cloud.density(p);
+    CHECK(d >= 0);
+    CHECK(d <= 1);
+    if (p.y < 0) CHECK(d == 1);
+    (p.y < 0.7f ? low : high) += double(d);
+    other += std::abs(double(d - smooth.density(p)));
+    CHECK(cloud.local_color(p) == Spectrum(2, 4, 1) * d);
+  }
+  CHECK(high > 10);
+  CHECK(low > 5 * high);
+  CHECK(other > 20);
+  CHECK(cloud.density({0, -0.5f, 1.001f}) == 0);
+  CHECK(cloud.maximum({-1, -1, -1}, {0, 0, 0}) == 4);
+  CHECK(cloud.maximum({1.1f, 0, 0}, {2, 1, 1}) == 0);
+  Point3f lower, upper;
+  cloud.world_box(lower, upper);
+  CHECK(lower == Point3f(4, -1, -1));
+  CHECK(upper == Point3f(6, 1, 1));
 }

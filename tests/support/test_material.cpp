@@ -158,7 +158,7 @@ CoatedMetalOptions coated_metal(const json& j) {
   CoatedMetalOptions o;
   set(o.eta, j, "conductor_eta");
   set(o.k, j, "conductor_k");
-  if (j.contains("reflectance")) o.reflectance.emplace(to_spectrum(j["reflectance"]));
+  if (j.contains("reflectance")) o.reflectance = ColorSlot{to_spectrum(j["reflectance"])};
   set(o.alpha_u, j, "conductor_alpha");
   set(o.alpha_v, j, "conductor_alpha");
   return o;

@@ -60,8 +60,7 @@ void OwnRenderer::slice(double wanted) {
     const double samples = std::min({wanted, until_point, budget_ - seconds_}) / per_sample;
     count = int(std::clamp(std::round(samples), 1.0, double(2 * spp_)));
   }
-  using Clock = std::chrono::steady_clock;
-  const Clock::time_point start = Clock::now();
+  const auto start = std::chrono::steady_clock::now();
   const double cpu = process_cpu_seconds();
   PassControl control;
   control.threads = render_.threads;
@@ -70,7 +69,7 @@ void OwnRenderer::slice(double wanted) {
   integrator_->render_pass(*render_.scene, film_, range, control, counters_);
   if (render_.cancel->load()) return;  // what the film has now is not what a point says
   cpu_seconds_ += process_cpu_seconds() - cpu;
-  seconds_ += std::chrono::duration<double>(Clock::now() - start).count();
+  seconds_ += std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   spp_ += count;
   if (seconds_ < next_point_) return;
   add_point();
