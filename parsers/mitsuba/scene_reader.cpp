@@ -268,12 +268,7 @@ void SceneReader::check_scene(const NodeTree& tree, bool have_integrator) {
   }
   const LightDescription* environment = nullptr;
   for (const LightDescription& light : description_.lights) {
-    const auto is_environment = []<class T>(const T&) {
-      return requires {
-        T::kIsEnvironment;
-      };
-    };
-    if (!std::visit(is_environment, light.model)) continue;
+    if (!is_environment(light)) continue;
     if (environment)
       report_.error(light.where, "a scene can have one environment only; another is at {}",
                     environment->where.to_string());

@@ -60,7 +60,13 @@ void SceneWriter::write() {
   }
   for (const ShapeDescription& s : d_.shapes)
     shape(s, s.label.text.empty() ? "" : unique_id(s.label.text, s.label.text));
-  for (const LightDescription& l : d_.lights) light(l);
+  bool has_environment = false;
+  for (const LightDescription& l : d_.lights) {
+    if (is_environment(l) && std::exchange(has_environment, true))
+      lose("only the first of several environments is there");
+    else
+      light(l);
+  }
 }
 
 void SceneWriter::integrator(const IntegratorDescription& i) {

@@ -55,6 +55,8 @@ std::span<const Directives::Command> Directives::commands() {
       {"Integrator", &D::integrator, 1},
       {"SurfaceIntegrator", &D::integrator, 1},
       {"Accelerator", &D::accelerator, 1},
+      {"Renderer", &D::of_version_2, 1},
+      {"VolumeIntegrator", &D::of_version_2, 1},
       {"ColorSpace", &D::color_space},
       {"Option", &D::option, 1},
       {"Include", &D::include},
@@ -133,8 +135,16 @@ void Directives::directive(Lexer& in) {
   d.directive = in.take_word();
   for (const Command& c : commands())
     if (c.name == d.directive) {
-      if (!(c.place & (in_world_ ? 2u : 1u)))
-        report().error(d.where, "{} stands {} WorldBegin", c.name, in_world_ ? "before" : "after");
+      if (!(c.place & (in_world_ ? 2u : 1u))) {
+        const char* place = in_world_ ? "before" : "after";
+        if (reader_.version() == Version::v3) {
+          report().warning(d.where, "{} stands {} WorldBegin; it is ignored, as pbrt-v3 does",
+                           c.name, place);
+          skip_arguments(in);
+          return;
+        }
+        report().error(d.where, "{} stands {} WorldBegin", c.name, place);
+      }
       (this->*c.run)(in, d);
       return;
     }
@@ -142,7 +152,10 @@ void Directives::directive(Lexer& in) {
   for (const Command& c : commands()) names.emplace_back(c.name);
   report().error(d.where, "there is no directive {}{}", in_quotes(d.directive),
                  did_you_mean(d.directive, names));
-  // Its arguments mean nothing, then.
+  skip_arguments(in);
+}
+
+void Directives::skip_arguments(Lexer& in) {
   Report::Mute mute(report());
   std::vector<double> ignored;
   while (true) {

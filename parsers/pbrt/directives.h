@@ -37,6 +37,8 @@ class Directives {
 
   void read_file(const std::string& path, const SourceLocation& where);
   void directive(Lexer& in);
+  /// To the next directive.
+  void skip_arguments(Lexer& in);
 
   // What follows a directive.
   std::vector<double> take_numbers(Lexer& in, size_t count, const Plugin& d);
@@ -85,6 +87,8 @@ class Directives {
   void sampler(Lexer& in, const Plugin& d);
   void integrator(Lexer& in, const Plugin& d);
   void accelerator(Lexer& in, const Plugin& d);
+  /// What only pbrt-v2 had.
+  void of_version_2(Lexer& in, const Plugin& d);
   void shape(Lexer& in, const Plugin& d);
   void area_light(Lexer& in, const Plugin& d);
   void light(Lexer& in, const Plugin& d);

@@ -14,8 +14,7 @@ namespace {
 using enum Status;
 
 #define DUET_FILM_SPECS                                                                            \
-  {"xresolution", kInteger, "1280", "", 1, done, Versions::both, "640"},                           \
-      {"yresolution", kInteger, "720", "", 1, done, Versions::both, "480"},                        \
+  {"xresolution", kInteger, "1280"}, {"yresolution", kInteger, "720"},                             \
       {"cropwindow", kNumber, "", "left, right, top and bottom, as shares", 4},                    \
       {"pixelbounds", kInteger, "", "the same in pixels", 4},                                      \
       {"filename", kString, "", "", 1, inert}, {"diagonal", kNumber, "35", "", 1, inert},          \

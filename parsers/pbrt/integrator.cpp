@@ -53,33 +53,46 @@ bool has_passing_surfaces(const SceneDescription& scene) {
   return false;
 }
 
-PathLimits limits(Values& v) {
+/// `beneath`: light is followed beneath surfaces that have a medium of their own.
+PathLimits limits(Values& v, bool beneath) {
   PathLimits limits;
+  if (beneath) {
+    v.reader().approximate(v.where("maxdepth"),
+                           "paths of any depth: the limit would count walks beneath surfaces");
+    return limits;
+  }
   // In segments: one more than scattering events.
   limits.max_depth = std::max(0, v.integer("maxdepth")) + 1;
   return limits;
 }
 
 void read_volume_path(Values& v, SceneDescription& scene) {
-  scene.integrator.method = VolumePathIntegratorDescription{limits(v)};
+  scene.integrator.method = VolumePathIntegratorDescription{limits(v, v.reader().has_interiors())};
 }
 
-/// Takes no notice of media.
+/// Takes no notice of media, but v3's follows light beneath surfaces.
 void read_path(Values& v, SceneDescription& scene) {
-  const auto forget = [](std::vector<ShapeDescription>& shapes) {
-    for (ShapeDescription& s : shapes) s.interior = s.exterior = std::nullopt;
+  const Reader& reader = v.reader();
+  const bool beneath = reader.version() == Version::v3 && reader.has_interiors();
+  const auto forget = [&](std::vector<ShapeDescription>& shapes) {
+    for (ShapeDescription& s : shapes) {
+      s.exterior = std::nullopt;
+      if (!beneath || !s.interior || !reader.is_interior(*s.interior)) s.interior = std::nullopt;
+    }
   };
   forget(scene.shapes);
   for (ShapeGroupDescription& g : scene.groups) forget(g.shapes);
   for (LightDescription& l : scene.lights) l.medium.reset();
   for (SensorDescription& s : scene.sensors) s.medium.reset();
-  scene.media.clear();
-  scene.phases.clear();
-  scene.volumes.clear();
-  if (has_passing_surfaces(scene))
-    scene.integrator.method = VolumePathIntegratorDescription{limits(v)};
+  if (!beneath) {
+    scene.media.clear();
+    scene.phases.clear();
+    scene.volumes.clear();
+  }
+  if (beneath || has_passing_surfaces(scene))
+    scene.integrator.method = VolumePathIntegratorDescription{limits(v, beneath)};
   else
-    scene.integrator.method = PathIntegratorDescription{limits(v)};
+    scene.integrator.method = PathIntegratorDescription{limits(v, false)};
 }
 
 void read_simple_volume_path(Values& v, SceneDescription& scene) {
@@ -95,7 +108,7 @@ void read_simple_volume_path(Values& v, SceneDescription& scene) {
 BidirectionalIntegratorDescription bidirectional(Values& v, BidirectionalMethod method) {
   BidirectionalIntegratorDescription b;
   b.method = method;
-  b.max_depth = limits(v).max_depth;
+  b.max_depth = limits(v, v.reader().has_interiors()).max_depth;
   return b;
 }
 
@@ -134,7 +147,8 @@ void read_direct(Values&, SceneDescription& scene) {
 using ReadIntegrator = void (*)(Values&, SceneDescription&);
 constexpr Record<ReadIntegrator> kIntegrators[] = {
     {"volpath", Versions::both, done, "", kPath, read_volume_path},
-    {"path", Versions::both, done, "media are not seen, as in pbrt", kPath, read_path},
+    {"path", Versions::both, done,
+     "media are not seen, as in pbrt; what is beneath surfaces is in v3", kPath, read_path},
     {"simplepath", Versions::v4, done, "as path", kSimple, read_path},
     {"randomwalk", Versions::v4, approximated, "as path, which sees lights without extent, too",
      kSimple, read_path},

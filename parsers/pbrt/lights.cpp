@@ -3,6 +3,7 @@
 
 #include "math/angles.h"
 #include "pbrt/emission.h"
+#include "pbrt/light_images.h"
 #include "pbrt/records.h"
 #include "pbrt/values.h"
 #include "pbrt/vocabulary.h"
@@ -198,8 +199,10 @@ void read_goniometric(Values& v) {
   light.file = v.file("filename");
   if (light.file.empty()) return;
   light.scale = emitted_color(v, "I") * scale_of(v);
-  if (v.has("power"))
-    v.reader().report().error(v.where("power"), "power with an image is not supported yet");
+  BitmapTexture image;
+  image.file = light.file;
+  scale_to_power(v, light.scale, image,
+                 [](const TextureTexels& t) { return 4 * double(kPi) * mean_number(t); });
   // The image has the light's +y in its middle.
   Matrix4 swap;
   swap.m = {{{1, 0, 0, 0}, {0, 0, 1, 0}, {0, 1, 0, 0}, {0, 0, 0, 1}}};
@@ -219,13 +222,14 @@ void read_projection(Values& v) {
   image.wrap_u = image.wrap_v = WrapMode::clamp;
   Spectrum scale = scale_of(v);
   if (v.reader().version() == Version::v3) scale *= emitted_color(v, "I");
-  if (v.has("power"))
-    v.reader().report().error(v.where("power"), "power with an image is not supported yet");
+  const double fov = v.number("fov");
+  scale_to_power(v, scale, image,
+                 [&](const TextureTexels& pixels) { return projected_power(pixels, fov); });
   ProjectorLight light;
   const TextureId texture = v.reader().add_texture(image, v.where());
   light.irradiance = v.reader().add_texture(ScaledTextureDescription{texture, scale}, v.where());
   light.is_intensity = true;
-  light.fov = v.number("fov");
+  light.fov = fov;
   light.fov_axis = FovAxis::smaller;
   if (!(light.fov > 0 && light.fov < 180))
     v.reader().report().error(v.where("fov"), "a field of view lies between 0 and 180 degrees");
@@ -267,15 +271,10 @@ std::optional<AreaEmission> read_area_light(Reader& reader, const Plugin& plugin
   emission.where = plugin.where;
   emission.two_sided = v.boolean("twosided");
   Spectrum scale = scale_of(v);
-  if (v.has("power")) {
-    if (v.has("filename")) {
-      reader.report().error(v.where("power"), "power with an image is not supported yet");
-      return std::nullopt;
-    }
-    const double sides = emission.two_sided ? 2 : 1;
-    scale *= float(v.not_negative("power") / (kPi * std::max(area(), 1e-30) * sides));
-  }
+  const double sides = emission.two_sided ? 2 : 1;
+  const auto flux = [&] { return kPi * std::max(area(), 1e-30) * sides; };
   if (!v.has("filename")) {
+    if (v.has("power")) scale *= float(v.not_negative("power") / flux());
     emission.radiance = emitted_color(v, "L") * scale;
     return emission;
   }
@@ -283,6 +282,9 @@ std::optional<AreaEmission> read_area_light(Reader& reader, const Plugin& plugin
   BitmapTexture image;
   image.file = v.file("filename");
   if (image.file.empty()) return std::nullopt;
+  scale_to_power(v, scale, image, [&](const TextureTexels& pixels) {
+    return flux() * double(pixels.mean().luminance());
+  });
   image.wrap_u = image.wrap_v = WrapMode::clamp;
   image.to_uv.m = {{{1, 0, 0}, {0, -1, 1}}};
   const TextureId texture = reader.add_texture(image, plugin.where);

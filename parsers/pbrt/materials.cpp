@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "pbrt/vocabulary.h"
+#include "values/text.h"
 
 namespace duet::pbrt {
 
@@ -45,6 +46,17 @@ std::optional<Roughness> read_roughness(Values& v, std::string_view name, std::s
   if (b) r.alpha_v = std::max(*b, 1e-4);
   if (!a || !b || r.alpha_u != r.alpha_v) v.reader().count_texture();
   return r;
+}
+
+std::optional<Roughness> read_glass_roughness(Values& v, std::string_view name) {
+  const auto is_zero = [&](std::string_view axis) {
+    if (!v.has(axis)) return true;
+    const FloatInput r = v.float_input(axis);
+    const double* constant = std::get_if<double>(&r);
+    return constant && *constant == 0;
+  };
+  if (is_zero("uroughness") && is_zero("vroughness") && is_zero(name)) return std::nullopt;
+  return read_roughness(v, name);
 }
 
 ColorInput scaled(Values& v, const ColorInput& input, const Spectrum& scale) {
@@ -110,6 +122,16 @@ std::optional<MaterialId> read_material(Reader& reader, const Plugin& plugin) {
   const bool is_v3 = reader.version() == Version::v3;
   const auto table = is_v3 ? materials_v3() : materials_v4(),
              others = is_v3 ? materials_v4() : materials_v3();
+  const auto has_name = [&](const Record<ReadMaterial>& r) { return r.name == plugin.name; };
+  if (is_v3 && std::none_of(table.begin(), table.end(), has_name) &&
+      std::none_of(others.begin(), others.end(), has_name)) {
+    reader.approximate(plugin.where, fmt::format("material {}, which there is not, by matte, as in "
+                                                 "pbrt-v3",
+                                                 in_quotes(plugin.name)));
+    Plugin matte = plugin;
+    matte.name = "matte";
+    return read_material(reader, matte);
+  }
   const Record<ReadMaterial>* record = find_record(reader, plugin, table, others);
   if (!record) return std::nullopt;
   if (record->status == Status::approximated)

@@ -26,11 +26,21 @@ double remapped_roughness(double roughness, Version version);
 std::optional<Roughness> read_roughness(Values& v, std::string_view name = "roughness",
                                         std::string_view name_u = "uroughness",
                                         std::string_view name_v = "vroughness");
+/// v3's for glass, which takes a roughness of zero as it is: smooth. `name` is that of both axes.
+std::optional<Roughness> read_glass_roughness(Values& v, std::string_view name);
 /// The input times a constant.
 ColorInput scaled(Values& v, const ColorInput& input, const Spectrum& scale);
-/// The medium behind a surface that the parameters of a subsurface material say; nothing after an
-/// error.
-std::optional<MediumDescription> read_subsurface_medium(Values& v, double eta);
+// Materials that have files of their own; some are in both versions.
+std::span<const Spec> hair_specs();
+std::optional<MaterialId> read_hair(Values& v);
+std::span<const Spec> disney_specs();
+std::optional<MaterialId> read_disney(Values& v);
+inline constexpr std::string_view kWalkInstead =
+    "by random walks in a medium behind the surface, which pbrt replaces by a profile";
+std::span<const Spec> subsurface_specs();
+std::optional<MaterialId> read_subsurface(Values& v);
+std::span<const Spec> kd_subsurface_specs();
+std::optional<MaterialId> read_kd_subsurface(Values& v);
 /// Reflection by a diffuse share, transmission by another.
 MaterialId diffuse_both_ways(Values& v, const ColorInput& reflectance,
                              const ColorInput& transmittance);

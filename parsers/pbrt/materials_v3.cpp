@@ -22,13 +22,17 @@ std::optional<MaterialId> read_matte(Values& v) {
   const ColorInput reflectance = v.color_input("Kd", ColorMeaning::reflectance);
   const FloatInput sigma = v.float_input("sigma");
   const double* constant = std::get_if<double>(&sigma);
-  if (!constant)
-    v.reader().report().error(v.where("sigma"), "textures of \"sigma\" are not supported");
-  if (constant && *constant > 0) {
+  if (!constant || *constant > 0) {
     RoughDiffuseMaterial m;
     m.reflectance = reflectance;
     // Mitsuba's alpha is that of a Beckmann distribution: √2 times the slopes' deviation.
-    m.alpha = *constant * (3.14159265358979 / 180) * std::sqrt(2.0);
+    const double per_degree = 3.14159265358979 / 180 * std::sqrt(2.0);
+    if (constant)
+      m.alpha = *constant * per_degree;
+    else
+      m.alpha = v.reader().add_texture(
+          ScaledTextureDescription{std::get<TextureId>(sigma), Spectrum(float(per_degree))},
+          v.where("sigma"));
     m.use_fast_approx = true;
     return two_sided(v, v.reader().add_material(m, v.where()));
   }
@@ -66,15 +70,7 @@ std::optional<MaterialId> read_glass(Values& v) {
   m.specular_reflectance = v.color_input("Kr", ColorMeaning::reflectance);
   m.specular_transmittance = v.color_input("Kt", ColorMeaning::reflectance);
   m.eta = v.index_of_refraction(v.has("eta") ? "eta" : "index");
-  // v3 takes a roughness of zero as it is: smooth.
-  const auto smooth = [&](const char* name) {
-    if (!v.has(name)) return true;
-    const FloatInput r = v.float_input(name);
-    const double* constant = std::get_if<double>(&r);
-    return constant && *constant == 0;
-  };
-  if (!(smooth("uroughness") && smooth("vroughness") && smooth("roughness")))
-    m.roughness = read_roughness(v);
+  m.roughness = read_glass_roughness(v, "roughness");
   return v.reader().add_material(m, v.where());
 }
 
@@ -127,9 +123,7 @@ ColorInput share_of(Values& v, const ColorInput& lobe, const char* name) {
   const ColorInput share = v.color_input(name, ColorMeaning::reflectance);
   if (const Spectrum* constant = std::get_if<Spectrum>(&share)) return scaled(v, lobe, *constant);
   if (const Spectrum* constant = std::get_if<Spectrum>(&lobe)) return scaled(v, share, *constant);
-  v.reader().report().error(v.where(name), "textures of both \"{}\" and a lobe are not supported",
-                            name);
-  return lobe;
+  return v.reader().add_texture(ProductDescription{lobe, share}, v.where(name));
 }
 
 std::optional<MaterialId> read_translucent(Values& v) {
@@ -199,7 +193,7 @@ std::optional<MaterialId> read_none(Values& v) {
   return v.reader().add_material(NullMaterial{}, v.where());
 }
 
-constexpr Record<ReadMaterial> kOldMaterials[] = {
+const Record<ReadMaterial> kOldMaterials[] = {
     {"matte", Versions::v3, done, "", kMatte, read_matte},
     {"metal", Versions::v3, done, "", kMetal, read_metal},
     {"mirror", Versions::v3, done, "", kMirror, read_mirror},
@@ -213,20 +207,13 @@ constexpr Record<ReadMaterial> kOldMaterials[] = {
     {"substrate", Versions::v3, done, "", kSubstrate, read_substrate},
     {"uber", Versions::v3, done, "", kUber, read_uber},
     {"translucent", Versions::v3, done, "", kTranslucent, read_translucent},
-    {"hair", Versions::v3, refused, "hair of v3", {}, nullptr},
-    {"disney", Versions::v3, refused, "Disney's model", {}, nullptr},
-    {"subsurface",
-     Versions::v3,
-     refused,
-     "light that leaves elsewhere than it enters",
-     {},
-     nullptr},
-    {"kdsubsurface",
-     Versions::v3,
-     refused,
-     "light that leaves elsewhere than it enters",
-     {},
-     nullptr},
+    {"hair", Versions::v3, done, "", hair_specs(), read_hair},
+    {"disney", Versions::v3, approximated,
+     "by Burley's model as Mitsuba has it; \"scatterdistance\" is left out", disney_specs(),
+     read_disney},
+    {"subsurface", Versions::v3, approximated, kWalkInstead, subsurface_specs(), read_subsurface},
+    {"kdsubsurface", Versions::v3, approximated, kWalkInstead, kd_subsurface_specs(),
+     read_kd_subsurface},
     {"fourier", Versions::v3, refused, "tables of Fourier coefficients", {}, nullptr},
 };
 

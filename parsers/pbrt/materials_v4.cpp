@@ -44,14 +44,13 @@ std::optional<MaterialId> read_conductor(Values& v) {
   ConductorMaterial m;
   if (v.has("reflectance")) {
     const ColorInput r = v.color_input("reflectance", ColorMeaning::reflectance);
-    if (const Spectrum* constant = std::get_if<Spectrum>(&r)) {
-      m.eta = Spectrum(1.0f);
+    m.eta = Spectrum(1.0f);
+    if (const Spectrum* constant = std::get_if<Spectrum>(&r))
       m.k = k_for(*constant);
-    } else {
-      v.reader().approximate(v.where("reflectance"),
-                             "a metal whose reflectance is a texture: the same at all angles");
-      m.specular_reflectance = r;
-    }
+    else
+      m.k = v.reader().add_texture(
+          FunctionDescription{std::get<TextureId>(r), TextureFunction::metal_k},
+          v.where("reflectance"));
   } else {
     m.eta = v.color_input("eta", ColorMeaning::unbounded);
     m.k = v.color_input("k", ColorMeaning::unbounded);
@@ -88,65 +87,6 @@ std::optional<MaterialId> read_transmission(Values& v) {
     return scaled(v, v.color_input(name, ColorMeaning::reflectance), scale);
   };
   return diffuse_both_ways(v, part("reflectance"), part("transmittance"));
-}
-
-constexpr Spec kHair[] = {
-    {"sigma_a", kColorTexture, "", "absorption per radius"},
-    {"reflectance", kColorTexture, "", "of many hairs"},
-    {"color", kColorTexture, "", "the same"},
-    {"eumelanin", kNumberTexture},
-    {"pheomelanin", kNumberTexture},
-    {"eta", kNumberTexture, "1.55"},
-    {"beta_m", kNumberTexture, "0.3", "longitudinal roughness"},
-    {"beta_n", kNumberTexture, "0.3", "azimuthal roughness"},
-    {"alpha", kNumberTexture, "2", "tilt of the scales in degrees"},
-};
-
-/// A parameter that Duet's hair has as a number.
-double hair_number(Values& v, const char* name) {
-  const FloatInput input = v.float_input(name);
-  if (const double* constant = std::get_if<double>(&input)) return *constant;
-  v.reader().report().error(v.where(name), "textures of \"{}\" are not supported", name);
-  return 0.3;
-}
-
-/// Absorption with which many hairs have this colour: Chiang et al., "A Practical and Controllable
-/// Hair and Fur Model for Production Path Tracing", 2016, eq. 9.
-Spectrum absorption_for(const Spectrum& color, double beta_n) {
-  const double b = beta_n;
-  const double d = 5.969 + b * (-0.215 + b * (2.532 + b * (-10.73 + b * (5.574 + b * 0.245))));
-  Spectrum sigma;
-  for (int c = 0; c < 3; ++c) {
-    const double l = std::log(std::max(double(color[c]), 1e-4)) / d;
-    sigma[c] = float(l * l);
-  }
-  return sigma;
-}
-
-std::optional<MaterialId> read_hair(Values& v) {
-  HairMaterial m;
-  m.longitudinal_roughness = std::min(std::max(hair_number(v, "beta_m"), 0.0), 1.0);
-  m.azimuthal_roughness = std::min(std::max(hair_number(v, "beta_n"), 0.0), 1.0);
-  m.scale_tilt = hair_number(v, "alpha");
-  m.eta = hair_number(v, "eta");
-  const char* color = v.has("reflectance") ? "reflectance" : "color";
-  if (v.has("sigma_a")) {
-    m.sigma_a = v.color_input("sigma_a", ColorMeaning::unbounded);
-  } else if (v.has(color)) {
-    const ColorInput input = v.color_input(color, ColorMeaning::reflectance);
-    if (const Spectrum* constant = std::get_if<Spectrum>(&input))
-      m.sigma_a = absorption_for(*constant, m.azimuthal_roughness);
-    else
-      v.reader().report().error(v.where(color), "textures of \"{}\" are not supported", color);
-  } else {
-    const bool given = v.has("eumelanin") || v.has("pheomelanin");
-    const double eu = given ? hair_number(v, "eumelanin") : 1.3,
-                 pheo = given ? hair_number(v, "pheomelanin") : 0;
-    // Absorption of the two pigments per concentration: d'Eon et al. 2011.
-    m.sigma_a =
-        Spectrum(0.419f, 0.697f, 1.37f) * float(eu) + Spectrum(0.187f, 0.4f, 1.05f) * float(pheo);
-  }
-  return v.reader().add_material(m, v.where());
 }
 
 #define DUET_COAT_SPECS                                                                 \
@@ -235,45 +175,22 @@ std::optional<MaterialId> read_interface(Values& v) {
   return v.reader().add_material(NullMaterial{}, v.where());
 }
 
-constexpr Spec kSubsurface[] = {{"sigma_a", kColorTexture, "0.0011 0.0024 0.014", "absorption"},
-                                {"sigma_s", kColorTexture, "2.55 3.21 3.77", "scattering"},
-                                {"scale", kNumber, "1", "of both"},
-                                {"reflectance", kColorTexture, "", "of a thick layer, with mfp"},
-                                {"mfp", kColorTexture, "1", "mean free path"},
-                                {"name", kString, "", "of a known medium"},
-                                {"eta", kIndex, "1.33", "index of refraction"},
-                                {"g", kNumber, "0", "mean cosine of scattering"},
-                                DUET_ROUGHNESS_SPECS};
-
-std::optional<MaterialId> read_subsurface_v4(Values& v) {
-  DielectricMaterial m;
-  m.eta = v.index_of_refraction("eta");
-  m.roughness = read_roughness(v);
-  const auto medium = read_subsurface_medium(v, v.index_of_refraction("eta"));
-  if (!medium) return std::nullopt;
-  const MaterialId id = v.reader().add_material(m, v.where());
-  v.reader().set_interior(id, *medium);
-  return id;
-}
-
 constexpr Spec kMeasured[] = {{"filename", kString, "", "a .bsdf file in RGB"}};
 
-constexpr Record<ReadMaterial> kMaterials[] = {
+const Record<ReadMaterial> kMaterials[] = {
     {"diffuse", Versions::v4, done, "", kDiffuse, read_diffuse},
     {"conductor", Versions::v4, done, "", kConductor, read_conductor},
     {"dielectric", Versions::v4, done, "", kDielectric, read_dielectric},
     {"thindielectric", Versions::v4, done, "", kThin, read_thin_dielectric},
     {"diffusetransmission", Versions::v4, done, "", kTransmission, read_transmission},
-    {"hair", Versions::v4, done, "", kHair, read_hair},
+    {"hair", Versions::v4, done, "", hair_specs(), read_hair},
     {"mix", Versions::v4, done, "", kMix, read_mix},
     {"interface", Versions::v4, done, "", {}, read_interface},
     {"none", Versions::v4, done, "", {}, read_interface},
     {"", Versions::v4, done, "", {}, read_interface},
     {"coateddiffuse", Versions::v4, done, "", kCoatedDiffuse, read_coated_diffuse},
     {"coatedconductor", Versions::v4, done, "", kCoatedConductor, read_coated_conductor},
-    {"subsurface", Versions::v4, approximated,
-     "by random walks in a medium behind the surface, which pbrt replaces by a profile",
-     kSubsurface, read_subsurface_v4},
+    {"subsurface", Versions::v4, approximated, kWalkInstead, subsurface_specs(), read_subsurface},
     {"measured", Versions::v4, refused, "measured spectra", kMeasured, nullptr},
 };
 

@@ -31,8 +31,7 @@ void Reader::define_material(const std::string& name, MaterialId made,
     const MaterialId awaited = names().materials.at(name);
     scene_.materials[size_t(awaited)] = scene_.materials[size_t(made)];
     looks_at_uv_[size_t(awaited)] = uses_uv;
-    if (const auto own = interiors_.find(made); own != interiors_.end())
-      report_.error(where, "a material with a medium must be defined before it is used");
+    share_interior(made, awaited);
     return;
   }
   const auto [entry, is_new] = change_names().materials.insert_or_assign(name, made);
@@ -40,6 +39,66 @@ void Reader::define_material(const std::string& name, MaterialId made,
   if (!is_new && version_ == Version::v4)
     report_.error(where, "there is a material {} already", in_quotes(name));
 }
+
+bool Reader::is_awaited(MaterialId material) const {
+  for (const auto& [name, where] : undefined_materials_)
+    if (names().materials.at(name) == material) return true;
+  return false;
+}
+
+namespace {
+
+/// What the tables of names have for colours and for numbers.
+auto& texture_names(NameTables& names, const ColorInput*) {
+  return names.colors;
+}
+auto& texture_names(NameTables& names, const FloatInput*) {
+  return names.numbers;
+}
+
+/// The same everywhere.
+BilerpDescription constant_texture(const Spectrum& c) {
+  return {c, c, c, c, {}};
+}
+BilerpDescription constant_texture(double x) {
+  return constant_texture(Spectrum(float(x)));
+}
+
+}  // namespace
+
+template <class Input>
+const Input& Reader::await_texture(const std::string& name, const SourceLocation& where) {
+  constexpr bool is_color = std::is_same_v<Input, ColorInput>;
+  (is_color ? undefined_colors_ : undefined_numbers_).emplace(name, where);
+  Input& entry = texture_names(change_names(), static_cast<const Input*>(nullptr))[name];
+  entry = add_texture(constant_texture(0.5), where);
+  return entry;
+}
+
+template <class Input>
+void Reader::define_texture(const std::string& name, const Input& made,
+                            const SourceLocation& where) {
+  constexpr bool is_color = std::is_same_v<Input, ColorInput>;
+  auto& known = texture_names(change_names(), static_cast<const Input*>(nullptr));
+  if ((is_color ? undefined_colors_ : undefined_numbers_).erase(name) > 0) {
+    const TextureId awaited = std::get<TextureId>(known.at(name));
+    if (const TextureId* id = std::get_if<TextureId>(&made))
+      scene_.textures[size_t(awaited)] = scene_.textures[size_t(*id)];
+    else
+      scene_.textures[size_t(awaited)].model = constant_texture(std::get<0>(made));
+    // Who comes later gets the texture itself.
+    known.at(name) = made;
+    return;
+  }
+  const bool is_new = known.insert_or_assign(name, made).second;
+  if (!is_new && version_ == Version::v4)
+    report_.error(where, "there is a texture {} already", in_quotes(name));
+}
+
+template const ColorInput& Reader::await_texture(const std::string&, const SourceLocation&);
+template const FloatInput& Reader::await_texture(const std::string&, const SourceLocation&);
+template void Reader::define_texture(const std::string&, const ColorInput&, const SourceLocation&);
+template void Reader::define_texture(const std::string&, const FloatInput&, const SourceLocation&);
 
 MediumId Reader::named_medium(const std::string& name, const SourceLocation& where) {
   if (const auto found = media_.find(name); found != media_.end()) return found->second;
@@ -63,16 +122,20 @@ void Reader::define_medium(const std::string& name, MediumDescription medium) {
 }
 
 void Reader::check_names() {
-  for (const auto& [name, where] : undefined_materials_) {
-    auto known = report_.names_for_hint(names().materials);
-    std::erase_if(known, [&](const std::string& k) { return undefined_materials_.contains(k); });
-    report_.error(where, "there is no material {}{}", in_quotes(name), did_you_mean(name, known));
-  }
-  for (const auto& [name, where] : undefined_media_) {
-    auto known = report_.names_for_hint(media_);
-    std::erase_if(known, [&](const std::string& k) { return undefined_media_.contains(k); });
-    report_.error(where, "there is no medium {}{}", in_quotes(name), did_you_mean(name, known));
-  }
+  const auto check = [&](const Undefined& undefined, const auto& all, const char* what,
+                         const char* of) {
+    for (const auto& [name, where] : undefined) {
+      auto known = report_.names_for_hint(all);
+      std::erase_if(known, [&](const std::string& k) { return undefined.contains(k); });
+      report_.error(where, "there is no {} {}{}{}", what, in_quotes(name), of,
+                    did_you_mean(name, known));
+    }
+  };
+  check(undefined_materials_, names().materials, "material", "");
+  check(undefined_media_, media_, "medium", "");
+  check(undefined_colors_, names().colors, "texture", " of colours");
+  check(undefined_numbers_, names().numbers, "texture", " of numbers");
+  finish_shapes();
 }
 
 }  // namespace duet::pbrt

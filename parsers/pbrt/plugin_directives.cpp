@@ -121,6 +121,13 @@ void Directives::accelerator(Lexer& in, const Plugin& d) {
   take_plugin(in, plugin);
 }
 
+void Directives::of_version_2(Lexer& in, const Plugin& d) {
+  Plugin plugin = d;
+  take_plugin(in, plugin);
+  if (plugin.name != "sampler")
+    report().warning(d.where, "{} \"{}\" is pbrt-v2's; it is ignored", d.directive, plugin.name);
+}
+
 void Directives::shape(Lexer& in, const Plugin& d) {
   Plugin plugin = d;
   take_plugin(in, plugin, "shape");
@@ -174,7 +181,13 @@ void Directives::make_named_material(Lexer& in, const Plugin& d) {
 }
 
 void Directives::named_material(Lexer& in, const Plugin& d) {
-  state().material = reader_.named_material(take_string(in, d), d.where);
+  const std::string name = take_string(in, d);
+  if (reader_.version() == Version::v3 && !reader_.names().materials.contains(name))
+    report().warning(d.where, "there is no material {} here; the one before holds, as in pbrt-v3{}",
+                     in_quotes(name),
+                     did_you_mean(name, report().names_for_hint(reader_.names().materials)));
+  else
+    state().material = reader_.named_material(name, d.where);
 }
 
 void Directives::texture(Lexer& in, const Plugin& d) {

@@ -76,6 +76,11 @@ class Reader {
   MaterialId named_material(const std::string& name, const SourceLocation& where);
   MediumId named_medium(const std::string& name, const SourceLocation& where);
   void define_material(const std::string& name, MaterialId made, const SourceLocation& where);
+  /// A texture that is defined later (v4): ColorInput or FloatInput.
+  template <class Input>
+  const Input& await_texture(const std::string& name, const SourceLocation& where);
+  template <class Input>
+  void define_texture(const std::string& name, const Input& made, const SourceLocation& where);
   void define_medium(const std::string& name, MediumDescription medium);
   /// Reports what was asked for and never defined.
   void check_names();
@@ -93,6 +98,10 @@ class Reader {
   void set_looks_at_uv(MaterialId id, bool looks);
   /// The material bounds a medium of its own.
   void set_interior(MaterialId id, MediumDescription medium);
+  /// Whether some material does.
+  bool has_interiors() const { return !interiors_.empty(); }
+  /// Whether some material bounds it.
+  bool is_interior(MediumId medium) const;
   /// `to` bounds what `from` does.
   void share_interior(MaterialId from, MaterialId to);
 
@@ -121,6 +130,8 @@ class Reader {
 
  private:
   std::string spectrum_file(const std::string& name, const SourceLocation& where);
+  bool is_awaited(MaterialId material) const;
+  void finish_shapes();
   MaterialId with_alpha(const Plugin& shape, MaterialId material);
 
   std::string file_;
@@ -131,7 +142,15 @@ class Reader {
   GraphicsState state_;
   NameTables global_names_;
   std::map<std::string, MediumId, std::less<>> media_;
-  Undefined undefined_materials_, undefined_media_;
+  Undefined undefined_materials_, undefined_media_, undefined_colors_, undefined_numbers_;
+  /// A shape whose material is defined later.
+  struct Waiting {
+    MaterialId material;
+    std::optional<uint32_t> group;
+    size_t index;  ///< among the group's shapes or those of the scene
+    std::optional<MediumId> outside;
+  };
+  std::vector<Waiting> waiting_;
   size_t texture_count_ = 0;
   /// Per material: whether it has textures or is anisotropic.
   std::vector<bool> looks_at_uv_;
@@ -141,7 +160,7 @@ class Reader {
   /// The group that ObjectBegin has begun.
   std::optional<uint32_t> object_;
   /// Materials with alpha on shapes, by what they are made of.
-  std::map<std::pair<uint32_t, std::string>, MaterialId> masked_;
+  std::map<std::pair<MaterialId, FloatInput>, MaterialId> masked_;
 };
 
 // The families of plugins, a file each.

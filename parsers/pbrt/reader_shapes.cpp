@@ -1,4 +1,5 @@
 // What surfaces have besides their geometry: transform, orientation, material, light and media.
+#include <algorithm>
 #include <cmath>
 
 #include "pbrt/reader.h"
@@ -22,6 +23,11 @@ void Reader::set_interior(MaterialId id, MediumDescription medium) {
   scene_.media.push_back(std::move(medium));
 }
 
+bool Reader::is_interior(MediumId medium) const {
+  return std::any_of(interiors_.begin(), interiors_.end(),
+                     [&](const auto& own) { return own.second == medium; });
+}
+
 void Reader::share_interior(MaterialId from, MaterialId to) {
   if (const auto own = interiors_.find(from); own != interiors_.end()) interiors_[to] = own->second;
 }
@@ -36,13 +42,16 @@ MaterialId Reader::with_alpha(const Plugin& shape, MaterialId material) {
   // Everything else about the parameter was checked when the shape was read.
   Report::Mute mute(report_);
   Plugin alone{shape.directive, shape.name, shape.where, {*given}};
-  const FloatInput alpha = Values(*this, alone, kShapeSpecs).float_input("alpha");
-  if (const double* constant = std::get_if<double>(&alpha); constant && *constant >= 1)
-    return material;
-  const std::string key = given->strings.empty() ? fmt::format("{}", given->numbers.front())
-                                                 : "\"" + given->strings.front();
-  const auto [entry, is_new] = masked_.try_emplace({uint32_t(material), key}, MaterialId{});
-  if (is_new) entry->second = add_material(MaskMaterial{alpha, material}, shape.where);
+  FloatInput alpha = Values(*this, alone, kShapeSpecs).float_input("alpha");
+  // v3 asks only whether it is zero.
+  const bool v3 = version_ == Version::v3;
+  if (const double* constant = std::get_if<double>(&alpha))
+    if (*constant >= 1 || (v3 && *constant > 0)) return material;
+  const auto [entry, is_new] = masked_.try_emplace({material, alpha}, MaterialId{});
+  if (!is_new) return entry->second;
+  if (const TextureId* id = std::get_if<TextureId>(&alpha); id && v3)
+    alpha = add_texture(FunctionDescription{*id, TextureFunction::positive}, shape.where);
+  entry->second = add_material(MaskMaterial{alpha, material}, shape.where);
   return entry->second;
 }
 
@@ -70,7 +79,8 @@ void Reader::add_shape(const Plugin& from, ShapeParts parts) {
     shape.exterior = state_.outside;
   }
   if (state_.area_light) {
-    const bool invisible = scene_.materials[size_t(state_.material)].model.is<NullMaterial>();
+    const bool invisible = scene_.materials[size_t(state_.material)].model.is<NullMaterial>() &&
+                           !is_awaited(state_.material);
     if (object_)
       report_.warning(from.where, "area lights in objects are ignored, as pbrt does");
     else if (invisible)
@@ -82,7 +92,23 @@ void Reader::add_shape(const Plugin& from, ShapeParts parts) {
       approximate(from.where, "a light with alpha shines where alpha takes the surface away, too");
   }
   auto& list = object_ ? scene_.groups[*object_].shapes : scene_.shapes;
+  if (!undefined_materials_.empty() && is_awaited(state_.material))
+    waiting_.push_back({state_.material, object_, list.size(), state_.outside});
   list.push_back(std::move(shape));
+}
+
+void Reader::finish_shapes() {
+  for (const Waiting& w : waiting_) {
+    ShapeDescription& shape = (w.group ? scene_.groups[*w.group].shapes : scene_.shapes)[w.index];
+    if (const auto own = interiors_.find(w.material); own != interiors_.end()) {
+      shape.interior = own->second;
+      shape.exterior = w.outside;
+    }
+    if (shape.emission && scene_.materials[size_t(w.material)].model.is<NullMaterial>()) {
+      report_.warning(shape.where, "a surface with the material \"interface\" emits no light");
+      shape.emission.reset();
+    }
+  }
 }
 
 void Reader::begin_object(const std::string& name, const SourceLocation& where) {
@@ -90,7 +116,8 @@ void Reader::begin_object(const std::string& name, const SourceLocation& where) 
     report_.error(where, "an object cannot stand in another");
     return;
   }
-  if (objects_.contains(name)) {
+  // In v3 the name stands for the last one from here on.
+  if (objects_.contains(name) && version_ == Version::v4) {
     report_.error(where, "there is an object {} already", in_quotes(name));
     return;
   }

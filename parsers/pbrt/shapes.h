@@ -31,6 +31,13 @@ TriangleMesh make_grid(int columns, int rows, const std::function<GridPoint(doub
 TriangleMesh make_sphere(double radius, double z_min, double z_max, double phi_max);
 TriangleMesh make_cylinder(double radius, double z_min, double z_max, double phi_max);
 TriangleMesh make_disk(double radius, double inner_radius, double height, double phi_max);
+/// Its base is at z = 0.
+TriangleMesh make_cone(double radius, double height, double phi_max);
+/// `radius` is that at z_max.
+TriangleMesh make_paraboloid(double radius, double z_min, double z_max, double phi_max);
+/// The line between two points, turned about the z axis.
+TriangleMesh make_hyperboloid(const std::array<double, 3>& p1, const std::array<double, 3>& p2,
+                              double phi_max);
 
 /// A mesh of bilinear patches: corners p00, p10, p01, p11. Patches that are parallelograms become
 /// two triangles, others a grid of them. `normals` and `uvs` are empty or one per position.

@@ -2,55 +2,73 @@
 #include <cmath>
 
 #include "pbrt/materials.h"
+#include "scene/texture_texels.h"
 #include "values/half_space.h"
 #include "values/medium_presets.h"
+#include "values/text.h"
 
 namespace duet::pbrt {
 
 namespace {
 
-/// A colour where a texture is not possible.
-std::optional<Spectrum> constant(Values& v, const char* name, ColorMeaning meaning) {
-  const ColorInput input = v.color_input(name, meaning);
-  if (const Spectrum* c = std::get_if<Spectrum>(&input)) return *c;
-  v.reader().report().error(v.where(name), "textures of \"{}\" are not supported", name);
+constexpr Types kIndex = kNumber | of(Type::spectrum);
+
+// clang-format off
+#define DUET_SURFACE_SPECS                                                          \
+  {"g", kNumber, "0", "mean cosine of scattering"},                                 \
+  {"Kr", kColorTexture, "1", "", 1, Status::done, Versions::v3},                    \
+  {"Kt", kColorTexture, "1", "", 1, Status::done, Versions::v3},                    \
+  {"roughness", kNumberTexture, "0", "", 1, Status::done, Versions::v4},            \
+  {"uroughness", kNumberTexture, "0"},                                              \
+  {"vroughness", kNumberTexture, "0"},                                              \
+  {"remaproughness", kBoolean, "true", "as for other materials of the version"}
+// clang-format on
+
+constexpr Spec kSubsurface[] = {
+    {"sigma_a", kColorTexture, "0.0011 0.0024 0.014", "absorption"},
+    {"sigma_s", kColorTexture, "2.55 3.21 3.77", "scattering"},
+    {"scale", kNumber, "1", "of both"},
+    {"reflectance", kColorTexture, "", "of a thick layer, with mfp", 1, Status::done, Versions::v4},
+    {"mfp", kColorTexture, "1", "mean free path", 1, Status::done, Versions::v4},
+    {"name", kString, "", "of a known medium"},
+    {"eta", kIndex, "1.33", "index of refraction"},
+    DUET_SURFACE_SPECS};
+
+constexpr Spec kKdSubsurface[] = {{"Kd", kColorTexture, "0.5", "of a thick layer"},
+                                  {"mfp", kColorTexture, "1", "mean free path"},
+                                  {"scale", kNumber, "1", "of the inverse of the mean free path"},
+                                  {"eta", kIndex, "1.33", "index of refraction"},
+                                  DUET_SURFACE_SPECS};
+
+#undef DUET_SURFACE_SPECS
+
+/// The texels of a texture that is an image; nothing, with an error, for any other.
+std::optional<TextureTexels> texels_of(Values& v, const char* name, TextureId id) {
+  const TextureDescription& t = v.reader().scene().textures[size_t(id)];
+  try {
+    if (const auto* image = std::get_if<BitmapTexture>(&t.model)) return read_texels(*image);
+    v.reader().report().error(v.where(name), "of the textures of \"{}\", only images are supported",
+                              name);
+  } catch (const ReadError& e) {
+    v.reader().report().error(v.where(name), "{}", e.what());
+  }
   return std::nullopt;
 }
 
-}  // namespace
+/// A colour where a texture is not possible: its mean.
+Spectrum constant(Values& v, const char* name, ColorMeaning meaning) {
+  const ColorInput input = v.color_input(name, meaning);
+  if (const Spectrum* c = std::get_if<Spectrum>(&input)) return *c;
+  const auto texels = texels_of(v, name, std::get<TextureId>(input));
+  if (!texels) return Spectrum(0.5f);
+  v.reader().approximate(v.where(name), fmt::format("a texture of \"{}\" by its mean", name));
+  return texels->mean();
+}
 
-std::optional<MediumDescription> read_subsurface_medium(Values& v, double eta) {
-  Reader& reader = v.reader();
-  const double g = v.number("g"), scale = v.not_negative("scale");
-  Spectrum extinction, albedo;
-  if (v.has("reflectance")) {
-    const auto reflectance = constant(v, "reflectance", ColorMeaning::reflectance),
-               path = constant(v, "mfp", ColorMeaning::unbounded);
-    if (!reflectance || !path) return std::nullopt;
-    for (int c = 0; c < 3; ++c) {
-      albedo[c] = float(half_space_albedo(double((*reflectance)[c]), g, eta));
-      extinction[c] = 1 / std::max((*path)[c], 1e-6f);
-    }
-  } else {
-    auto absorption = constant(v, "sigma_a", ColorMeaning::unbounded),
-         scattering = constant(v, "sigma_s", ColorMeaning::unbounded);
-    if (!absorption || !scattering) return std::nullopt;
-    if (v.has("name")) {
-      const std::string name = v.string("name");
-      const MediumPreset* preset = find_medium_preset(name);
-      if (!preset) {
-        reader.report().error(v.where("name"), "there is no medium {}{}", in_quotes(name),
-                              did_you_mean(name, medium_preset_names()));
-        return std::nullopt;
-      }
-      absorption = preset->sigma_a, scattering = preset->sigma_s;
-    }
-    for (int c = 0; c < 3; ++c) {
-      extinction[c] = ((*absorption)[c] + (*scattering)[c]) * float(scale);
-      albedo[c] = extinction[c] > 0 ? (*scattering)[c] * float(scale) / extinction[c] : 0.0f;
-    }
-  }
-  SceneDescription& scene = reader.scene();
+/// A medium and what its free paths and albedo are.
+MediumDescription medium_of(Values& v, const Spectrum& extinction, const Spectrum& albedo) {
+  SceneDescription& scene = v.reader().scene();
+  const double g = v.number("g");
   PhaseDescription phase;
   phase.where = v.where();
   if (g == 0)
@@ -64,6 +82,112 @@ std::optional<MediumDescription> read_subsurface_medium(Values& v, double eta) {
   medium.albedo = albedo;
   medium.phase = PhaseId(scene.phases.size() - 1);
   return medium;
+}
+
+/// The share of light that a thick layer gives back, and what differs from place to place.
+struct Reflectance {
+  Spectrum most;
+  std::optional<TextureId> tint;  ///< of what enters and of what leaves
+};
+
+/// Where the reflectance is a texture, the medium has the largest one, and the surface takes the
+/// square root of the rest away, twice: so every place that is larger than light wanders has its
+/// own.
+Reflectance read_reflectance(Values& v, const char* name) {
+  const ColorInput input = v.color_input(name, ColorMeaning::reflectance);
+  if (const Spectrum* c = std::get_if<Spectrum>(&input)) return {*c, {}};
+  const TextureId id = std::get<TextureId>(input);
+  const auto texels = texels_of(v, name, id);
+  if (!texels) return {Spectrum(0.5f), {}};
+  Spectrum most = texels->largest();
+  for (int c = 0; c < 3; ++c) most[c] = std::max(most[c], 0.01f);
+  v.reader().approximate(v.where(name),
+                         "a texture of the reflectance beneath a surface by a tint of "
+                         "what enters and leaves");
+  const SourceLocation& where = v.where(name);
+  const TextureId share = v.reader().add_texture(
+      ScaledTextureDescription{id, Spectrum(1 / most.r, 1 / most.g, 1 / most.b)}, where);
+  return {most, v.reader().add_texture(FunctionDescription{share, TextureFunction::root}, where)};
+}
+
+/// The medium of which a thick layer has a reflectance.
+MediumDescription medium_by_reflectance(Values& v, const Spectrum& reflectance, double eta,
+                                        double scale) {
+  const Spectrum path = constant(v, "mfp", ColorMeaning::unbounded);
+  Spectrum extinction, albedo;
+  for (int c = 0; c < 3; ++c) {
+    albedo[c] = float(half_space_albedo(double(reflectance[c]), v.number("g"), eta));
+    extinction[c] = float(scale) / std::max(path[c], 1e-6f);
+  }
+  return medium_of(v, extinction, albedo);
+}
+
+/// Nothing after an error.
+std::optional<MediumDescription> medium_by_coefficients(Values& v) {
+  const float scale = float(v.not_negative("scale"));
+  Spectrum absorption, scattering;
+  if (v.has("name")) {
+    const std::string name = v.string("name");
+    const MediumPreset* preset = find_medium_preset(name);
+    if (!preset) {
+      v.reader().report().error(v.where("name"), "there is no medium {}{}", in_quotes(name),
+                                did_you_mean(name, medium_preset_names()));
+      return std::nullopt;
+    }
+    absorption = preset->sigma_a, scattering = preset->sigma_s;
+  } else {
+    absorption = constant(v, "sigma_a", ColorMeaning::unbounded);
+    scattering = constant(v, "sigma_s", ColorMeaning::unbounded);
+  }
+  Spectrum albedo;
+  const Spectrum extinction = (absorption + scattering) * scale;
+  for (int c = 0; c < 3; ++c)
+    albedo[c] = extinction[c] > 0 ? scattering[c] * scale / extinction[c] : 0.0f;
+  return medium_of(v, extinction, albedo);
+}
+
+/// The surface with the medium behind it.
+MaterialId bounded(Values& v, MediumDescription medium, double eta,
+                   const std::optional<TextureId>& tint = {}) {
+  DielectricMaterial m;
+  m.eta = eta;
+  const bool v3 = v.reader().version() == Version::v3;
+  if (v3) {
+    m.specular_reflectance = v.color_input("Kr", ColorMeaning::reflectance);
+    m.specular_transmittance = v.color_input("Kt", ColorMeaning::reflectance);
+  }
+  if (tint) m.specular_transmittance = *tint;
+  m.roughness = v3 ? read_glass_roughness(v, "uroughness") : read_roughness(v);
+  const MaterialId id = v.reader().add_material(m, v.where());
+  v.reader().set_interior(id, std::move(medium));
+  return id;
+}
+
+}  // namespace
+
+std::span<const Spec> subsurface_specs() {
+  return kSubsurface;
+}
+
+std::span<const Spec> kd_subsurface_specs() {
+  return kKdSubsurface;
+}
+
+std::optional<MaterialId> read_subsurface(Values& v) {
+  const double eta = v.index_of_refraction("eta");
+  if (v.reader().version() == Version::v4 && v.has("reflectance")) {
+    const Reflectance r = read_reflectance(v, "reflectance");
+    return bounded(v, medium_by_reflectance(v, r.most, eta, 1), eta, r.tint);
+  }
+  auto medium = medium_by_coefficients(v);
+  if (!medium) return std::nullopt;
+  return bounded(v, std::move(*medium), eta);
+}
+
+std::optional<MaterialId> read_kd_subsurface(Values& v) {
+  const double eta = v.index_of_refraction("eta");
+  const Reflectance r = read_reflectance(v, "Kd");
+  return bounded(v, medium_by_reflectance(v, r.most, eta, v.positive("scale")), eta, r.tint);
 }
 
 }  // namespace duet::pbrt

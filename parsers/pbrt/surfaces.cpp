@@ -80,6 +80,53 @@ TriangleMesh make_disk(double radius, double inner_radius, double height, double
   });
 }
 
+// On a cone's triangles texture coordinates are not linear either.
+TriangleMesh make_cone(double radius, double height, double phi_max) {
+  constexpr int kRows = 32;
+  return make_grid(columns_for(phi_max), kRows, [&](double u, double v) {
+    const double phi = u * phi_max * kRadians, r = radius * (1 - v);
+    const double c = std::cos(phi), s = std::sin(phi);
+    return GridPoint{{float(r * c), float(r * s), float(v * height)},
+                     Normal3f(float(height * c), float(height * s), float(radius))};
+  });
+}
+
+TriangleMesh make_paraboloid(double radius, double z_min, double z_max, double phi_max) {
+  constexpr int kRows = 128;
+  const double inner = std::sqrt(z_min / z_max);
+  // Rows at equal steps of the radius: at equal heights the tip would be blunt.
+  const auto height = [&](double share) {
+    const double r = inner + share * (1 - inner);
+    return z_max * r * r;
+  };
+  TriangleMesh mesh = make_grid(columns_for(phi_max), kRows, [&](double u, double v) {
+    const double phi = u * phi_max * kRadians, z = height(v), r = radius * std::sqrt(z / z_max);
+    const double c = std::cos(phi), s = std::sin(phi), out = 2 * std::sqrt(z * z_max);
+    return GridPoint{{float(r * c), float(r * s), float(z)},
+                     Normal3f(float(out * c), float(out * s), float(-radius))};
+  });
+  for (Point2f& g : mesh.uvs) g.y = float((height(double(g.y)) - z_min) / (z_max - z_min));
+  return mesh;
+}
+
+TriangleMesh make_hyperboloid(const std::array<double, 3>& p1, const std::array<double, 3>& p2,
+                              double phi_max) {
+  constexpr int kRows = 128;
+  return make_grid(columns_for(phi_max), kRows, [&](double u, double v) {
+    const double phi = u * phi_max * kRadians, c = std::cos(phi), s = std::sin(phi);
+    const auto turned = [&](double x, double y, double z) {
+      return Vector3f(float(x * c - y * s), float(x * s + y * c), float(z));
+    };
+    std::array<double, 3> p, along;
+    for (size_t i = 0; i < 3; ++i) along[i] = p2[i] - p1[i], p[i] = p1[i] + v * along[i];
+    const Vector3f place = turned(p[0], p[1], p[2]), dv = turned(along[0], along[1], along[2]);
+    // On the axis the normal is that of the neighbours.
+    const Vector3f near = place + dv * (v < 0.5 ? 1e-3f : -1e-3f);
+    const Vector3f from = place.x == 0 && place.y == 0 ? near : place;
+    return GridPoint{Point3f(0) + place, Normal3f(cross(Vector3f(-from.y, from.x, 0), dv))};
+  });
+}
+
 namespace {
 
 struct Patch {

@@ -171,6 +171,8 @@ void read_image(Values& v, const Request& request, Made& made) {
   else if (wrap != "repeat")
     reader.report().error(v.where("wrap"), "the wrap mode {} is not supported", in_quotes(wrap));
   image.to_uv = mapping(v);
+  // A number of an image in colours: in v3 the luminance, as textures have it by themselves.
+  if (!request.is_color && reader.version() == Version::v4) image.channel = TextureChannel::number;
   if (request.is_color && reader.film_color_space != 0)
     reader.approximate(v.where(), "images in the film's colour space: their own is left out");
   // Their first row is at t = 1.
@@ -423,11 +425,10 @@ void read_texture(Reader& reader, const Plugin& plugin, const std::string& name,
     record->read(values, request, made);
   }
   // After an error it has a value, too, so that its users are not reported.
-  NameTables& names = reader.change_names();
-  const bool is_new = request.is_color ? names.colors.insert_or_assign(name, made.color).second
-                                       : names.numbers.insert_or_assign(name, made.number).second;
-  if (!is_new && reader.version() == Version::v4)
-    reader.report().error(plugin.where, "there is a texture {} already", in_quotes(name));
+  if (request.is_color)
+    reader.define_texture(name, made.color, plugin.where);
+  else
+    reader.define_texture(name, made.number, plugin.where);
 }
 
 void list_textures(std::vector<Row>& rows) {

@@ -37,6 +37,21 @@ std::string names_of(Types types) {
   return last == text.npos ? text : text.replace(last, 2, " or ");
 }
 
+/// Why the parameter is not of the type or count that is known of it; "" if it is.
+std::string mismatch(const Parameter& p, const Spec& known) {
+  if (!(known.types & of(p.type)))
+    return fmt::format("parameter \"{}\" must be of type {}, not {}", p.name, names_of(known.types),
+                       type_name(p.type));
+  const size_t values = p.numbers.size() + p.strings.size();
+  const int size = p.type == Type::number && (known.types & of(Type::point2)) ? 2 : size_of(p);
+  if (size > 1 && values % size_t(size) != 0)
+    return fmt::format("parameter \"{}\" is of {} numbers each, but has {}", p.name, size, values);
+  if (size > 0 && known.count > 0 && values != size_t(size) * size_t(known.count))
+    return fmt::format("parameter \"{}\" has {} value{} instead of {}", p.name,
+                       values / size_t(size), values == size_t(size) ? "" : "s", known.count);
+  return {};
+}
+
 /// A spectrum that is the same over all that can be seen.
 std::optional<double> constant_value(const std::vector<SpectrumSample>& samples) {
   if (samples.empty() || samples.front().wavelength > 380 || samples.back().wavelength < 780)
@@ -69,21 +84,12 @@ void Values::check(const Parameter& p) {
                    plugin_.name, in_quotes(p.name), did_you_mean(p.name, names));
     return;
   }
-  if (!(known->types & of(p.type))) {
-    report.error(p.where, "parameter \"{}\" must be of type {}, not {}", p.name,
-                 names_of(known->types), type_name(p.type));
-    return;
-  }
-  const size_t values = p.numbers.size() + p.strings.size();
-  const int size = p.type == Type::number && (known->types & of(Type::point2)) ? 2 : size_of(p);
-  if (size > 1 && values % size_t(size) != 0) {
-    report.error(p.where, "parameter \"{}\" is of {} numbers each, but has {}", p.name, size,
-                 values);
-    return;
-  }
-  if (size > 0 && known->count > 0 && values != size_t(size) * size_t(known->count)) {
-    report.error(p.where, "parameter \"{}\" has {} value{} instead of {}", p.name,
-                 values / size_t(size), values == size_t(size) ? "" : "s", known->count);
+  if (const std::string why = mismatch(p, *known); !why.empty()) {
+    // pbrt-v3 looks for a name with a type and a count, and takes no notice of anything else.
+    if (reader_.version() == Version::v3)
+      report.warning(p.where, "{}; it is ignored, as pbrt-v3 does", why);
+    else
+      report.error(p.where, "{}", why);
     return;
   }
   if (known->status == Status::ignored)
@@ -94,8 +100,14 @@ void Values::check(const Parameter& p) {
                  known->note.empty() ? "" : ": ", known->note);
     return;
   }
-  if (given(p.name)) {
-    report.error(p.where, "parameter \"{}\" is given twice", p.name);
+  for (const Parameter*& other : given_) {
+    if (other->name != p.name) continue;
+    if (reader_.version() == Version::v3) {
+      report.warning(p.where, "parameter \"{}\" is given twice: the last one counts", p.name);
+      other = &p;
+    } else {
+      report.error(p.where, "parameter \"{}\" is given twice", p.name);
+    }
     return;
   }
   given_.push_back(&p);
@@ -171,14 +183,14 @@ std::string Values::file(std::string_view name) {
 
 Spectrum Values::color(std::string_view name, ColorMeaning meaning) {
   const Parameter* p = given(name);
-  if (!p) {
-    const auto preset_numbers = parse_numbers(preset(name)).value_or(std::vector<double>{0});
-    if (preset_numbers.size() == 3)
-      return {float(preset_numbers[0]), float(preset_numbers[1]), float(preset_numbers[2])};
-    if (const auto metal = find_metal(preset(name))) return *metal;
-    return Spectrum(float(preset_numbers.empty() ? 0 : preset_numbers[0]));
-  }
-  return reader_.constant_color(*p, meaning);
+  return p ? reader_.constant_color(*p, meaning) : preset_color(name);
+}
+
+Spectrum Values::preset_color(std::string_view name) const {
+  const auto numbers = parse_numbers(preset(name)).value_or(std::vector<double>{0});
+  if (numbers.size() == 3) return {float(numbers[0]), float(numbers[1]), float(numbers[2])};
+  if (const auto metal = find_metal(preset(name))) return *metal;
+  return Spectrum(float(numbers.empty() ? 0 : numbers[0]));
 }
 
 Spectrum Reader::constant_color(const Parameter& p, ColorMeaning meaning) {
@@ -187,10 +199,20 @@ Spectrum Reader::constant_color(const Parameter& p, ColorMeaning meaning) {
     return Spectrum(0.0f);
   };
   if (p.type == Type::rgb || p.type == Type::xyz) {
-    for (const double x : p.numbers)
-      if (meaning == ColorMeaning::reflectance && p.type == Type::rgb && (x < 0 || x > 1))
+    const bool bounded = meaning == ColorMeaning::reflectance && p.type == Type::rgb;
+    bool outside = false;
+    for (const double x : p.numbers) {
+      if (!bounded || (x >= 0 && x <= 1)) continue;
+      outside = true;
+      if (version_ == Version::v4)
         return fail(fmt::format("a reflectance is from 0 to 1, not {}", x));
-    return color_from_triple(p, meaning, film_color_space);
+    }
+    Spectrum color = color_from_triple(p, meaning, film_color_space);
+    if (!outside) return color;
+    report_.warning(p.where, "parameter \"{}\": a reflectance is from 0 to 1; negative ones are 0",
+                    p.name);
+    for (int c = 0; c < 3; ++c) color[c] = std::max(color[c], 0.0f);
+    return color;
   }
   if (p.type == Type::blackbody) {
     if (p.numbers[0] <= 0) return fail("a black body has a positive temperature");
@@ -246,34 +268,42 @@ std::string Reader::spectrum_file(const std::string& name, const SourceLocation&
   return "";
 }
 
+template <class Input>
+const Input* Values::find_texture(const Parameter& p,
+                                  const std::map<std::string, Input, std::less<>>& known,
+                                  std::string_view of) {
+  const std::string& name = p.strings.front();
+  if (const auto found = known.find(name); found != known.end()) {
+    reader_.count_texture();
+    return &found->second;
+  }
+  // In v4 all textures of a file are made before anything that uses them, but in their order.
+  if (reader_.version() == Version::v4 && plugin_.directive != "Texture") {
+    reader_.count_texture();
+    return &reader_.await_texture<Input>(name, p.where);
+  }
+  const std::string message =
+      fmt::format("there is no texture {} of {}{}", in_quotes(name), of,
+                  did_you_mean(name, reader_.report().names_for_hint(known)));
+  if (reader_.version() == Version::v3)
+    reader_.report().warning(p.where, "{}; it is ignored, as pbrt-v3 does", message);
+  else
+    reader_.report().error(p.where, "{}", message);
+  return nullptr;
+}
+
 ColorInput Values::color_input(std::string_view name, ColorMeaning meaning) {
   const Parameter* p = given(name);
   if (!p || p->type != Type::texture) return color(name, meaning);
-  const auto& known = reader_.names().colors;
-  const auto found = known.find(p->strings.front());
-  if (found != known.end()) {
-    reader_.count_texture();
-    return found->second;
-  }
-  reader_.report().error(p->where, "there is no texture {} of colours{}",
-                         in_quotes(p->strings.front()),
-                         did_you_mean(p->strings.front(), reader_.report().names_for_hint(known)));
-  return Spectrum(0.5f);
+  const ColorInput* found = find_texture(*p, reader_.names().colors, "colours");
+  return found ? *found : preset_color(name);
 }
 
 FloatInput Values::float_input(std::string_view name) {
   const Parameter* p = given(name);
   if (!p || p->type != Type::texture) return number(name);
-  const auto& known = reader_.names().numbers;
-  const auto found = known.find(p->strings.front());
-  if (found != known.end()) {
-    reader_.count_texture();
-    return found->second;
-  }
-  reader_.report().error(p->where, "there is no texture {} of numbers{}",
-                         in_quotes(p->strings.front()),
-                         did_you_mean(p->strings.front(), reader_.report().names_for_hint(known)));
-  return 0.5;
+  const FloatInput* found = find_texture(*p, reader_.names().numbers, "numbers");
+  return found ? *found : parse_number(preset(name)).value_or(0);
 }
 
 double Values::index_of_refraction(std::string_view name) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <map>
 #include <optional>
 #include <span>
 #include <string>
@@ -52,7 +53,14 @@ class Values {
  private:
   const Spec& spec(std::string_view name) const;
   std::string_view preset(std::string_view name) const;
+  Spectrum preset_color(std::string_view name) const;
   void check(const Parameter& p);
+  /// The texture that the parameter names, among those that are known `of` colours or of numbers.
+  /// Null after an error.
+  template <class Input>
+  const Input* find_texture(const Parameter& p,
+                            const std::map<std::string, Input, std::less<>>& known,
+                            std::string_view of);
   double read_index(const Parameter* p, std::string_view name);
 
   Reader& reader_;

@@ -72,8 +72,10 @@ constexpr Evidence kEvidence[] = {
 };
 /// Directives that only one version has.
 constexpr Evidence kDirectives[] = {
-    {"WorldEnd", "", v3}, {"SurfaceIntegrator", "", v3}, {"Import", "", v4}, {"Attribute", "", v4},
+    {"WorldEnd", "", v3}, {"SurfaceIntegrator", "", v3},
+    {"Import", "", v4},   {"Attribute", "", v4},
     {"Option", "", v4},   {"ColorSpace", "", v4},
+    {"Renderer", "", v3}, {"VolumeIntegrator", "", v3},
 };
 
 }  // namespace

@@ -1,6 +1,7 @@
 // Lights that surround the scene.
 #pragma once
 
+#include <memory>
 #include <vector>
 
 #include "lights/light.h"
@@ -68,6 +69,22 @@ class EnvironmentMap final : public EnvironmentLight {
   BilinearDistribution distribution_;
   Frame axes_;       ///< the image's x, y and z in the world; left-handed if mirrored
   double mean_ = 0;  ///< luminance over the sphere
+};
+
+/// Several environments at once: their radiance is the sum. A direction is chosen by one of them,
+/// that one by its power.
+class EnvironmentSum final : public EnvironmentLight {
+ public:
+  explicit EnvironmentSum(std::vector<std::unique_ptr<EnvironmentLight>> parts);
+
+  std::optional<LightSample> sample_direct(const Point3f& from, const Point2f& u) const override;
+  Spectrum emitted(const Point3f& from, const Vector3f& wi) const override;
+  PdfW pdf_direct(const Point3f& from, const Vector3f& wi) const override;
+  double power(double scene_radius) const override;
+
+ private:
+  std::vector<std::unique_ptr<EnvironmentLight>> parts_;
+  std::vector<float> shares_;  ///< of the choice; they sum to one
 };
 
 }  // namespace duet

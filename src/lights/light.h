@@ -31,6 +31,8 @@ struct EmissionSample {
                       ///< density of position and direction over |cos θ|; for a light at a point
                       ///< per solid angle alone, for parallel light per area alone
   ShapePoint point;   ///< of an area light
+  /// How far along the ray the light enters the scene: what it meets before stays dark.
+  float entry = 0;
 };
 
 /// Where light comes from when a ray finds it, or why no ray does.

@@ -83,8 +83,9 @@ std::optional<EmissionSample> PortalEnvironment::sample_emission(const Point2f& 
   const float density = emission_density(s->wi);
   if (density == 0) return std::nullopt;
   const Point3f through = corner_ + sides_[0] * position.x + sides_[1] * position.y;
-  return EmissionSample{sphere().enter(s->wi, through), s->weight * (s->pdf.value / density),
-                        density, ShapePoint{}};
+  const Ray ray = sphere().enter(s->wi, through);
+  return EmissionSample{ray, s->weight * (s->pdf.value / density), density, ShapePoint{},
+                        dot(through - ray.origin, ray.direction)};
 }
 
 float PortalEnvironment::emission_density(const Vector3f& wi) const {

@@ -33,19 +33,40 @@ void SceneBuilder::lights() {
     if (!e.directional) shape.light = uint32_t(scene.lights.size());
     add_light(make(e, shape), e.sampling_weight);
   }
+  std::vector<std::unique_ptr<EnvironmentLight>> environments;
+  double environment_weight = 0;
+  bool has_portal = false;
   for (const LightDescription& d : description_.lights) {
+    described_lights_.push_back({nullptr, uint32_t(scene.lights.size())});
     if (!check_transform(d.to_world, d.where)) continue;
     shape_textures_.clear();
     auto light = make(d);
     if (!shape_textures_.empty())
       diagnostics_.error(d.where, "this light has no shape, which a texture of it reads");
     if (!light) continue;
-    if (light->kind() == LightKind::environment) {
-      scene.environment = static_cast<const EnvironmentLight*>(light.get());
-      scene.environment_index = uint32_t(scene.lights.size());
+    described_lights_.back().light = light.get();
+    if (light->kind() != LightKind::environment) {
+      add_light(std::move(light), d.sampling_weight);
+      continue;
     }
-    add_light(std::move(light), d.sampling_weight);
+    environments.emplace_back(static_cast<EnvironmentLight*>(light.release()));
+    environment_weight = std::max(environment_weight, d.sampling_weight);
+    has_portal |= d.portal.has_value();
+    if (environments.size() > 1) {
+      if (has_portal)
+        diagnostics_.error(d.where, "an environment behind a portal must be the only one");
+      continue;
+    }
+    scene.environment_index = uint32_t(scene.lights.size());
+    add_light(nullptr, d.sampling_weight);
   }
+  if (environments.empty()) return;
+  std::unique_ptr<EnvironmentLight> all =
+      environments.size() == 1 ? std::move(environments.front())
+                               : std::make_unique<EnvironmentSum>(std::move(environments));
+  scene.environment = all.get();
+  scene.lights[scene.environment_index] = std::move(all);
+  sampling_weights_[scene.environment_index] = environment_weight;
 }
 
 std::unique_ptr<Light> SceneBuilder::make(const LightDescription& d) {
@@ -180,7 +201,10 @@ LightPointer GoniometricLight::build(SceneBuilder& b, const LightDescription& d)
   }
   std::vector<Spectrum> texels;
   for (int y = 0; y < n; ++y)
-    for (int x = 0; x < n; ++x) texels.push_back(image->color(x, y) * scale);
+    for (int x = 0; x < n; ++x) {
+      const Spectrum c = image->color(x, y);
+      texels.push_back(scale * ((c.r + c.g + c.b) / 3));
+    }
   return std::make_unique<GoniometricEmitter>(Transform(d.to_world), n, std::move(texels));
 }
 

@@ -88,6 +88,12 @@ class SceneBuilder {
     SourceLocation where;
   };
 
+  /// What was built of a light of the description.
+  struct DescribedLight {
+    Light* light;    ///< null after an error; a part of the environment if there are several
+    uint32_t index;  ///< among the lights of the scene
+  };
+
   // build_media.cpp
   /// The index of the medium in the scene; kNone for none or after an error.
   uint32_t medium(std::optional<MediumId> id);
@@ -153,6 +159,7 @@ class SceneBuilder {
            std::shared_ptr<const BitmapPixels>>
       pixels_;
   std::vector<Emission> emissions_;
+  std::vector<DescribedLight> described_lights_;
   /// Per light of the scene.
   std::vector<double> sampling_weights_;
   /// The meshes of shapes by their index in the scene, if place_shape() may move them.

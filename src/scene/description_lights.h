@@ -23,8 +23,8 @@ struct SceneFeatures;
 using LightPointer = std::unique_ptr<Light>;
 
 // What is known of a light stands in its struct, as for textures (description_textures.h);
-// count() counts it among what decides which method suits a scene. A scene has one environment at
-// most.
+// count() counts it among what decides which method suits a scene. Several environments add up,
+// which Mitsuba has no way to say.
 
 /// Radiant intensity in all directions, W/sr.
 struct PointLight {
@@ -209,7 +209,7 @@ struct CollimatedLight {
   LightPointer build(SceneBuilder& b, const LightDescription& d) const;
 };
 /// Radiant intensity in all directions by an image that is a square of equal areas
-/// (math/equal_area.h), without interpolation. pbrt has it.
+/// (math/equal_area.h), without interpolation; the mean of its colours counts. pbrt has it.
 struct GoniometricLight {
   std::string file;  ///< resolved path
   Spectrum scale{1.0f};
@@ -254,5 +254,15 @@ struct LightDescription {
                       field(&L::medium), field(&L::portal));
   }
 };
+
+/// Whether the light surrounds the scene.
+inline bool is_environment(const LightDescription& light) {
+  const auto surrounds = []<class T>(const T&) {
+    return requires {
+      T::kIsEnvironment;
+    };
+  };
+  return std::visit(surrounds, light.model);
+}
 
 }  // namespace duet

@@ -141,7 +141,8 @@ struct FunctionDescription {
   TextureId inner{};
   TextureFunction function = TextureFunction::inverse;
 
-  static constexpr std::string_view kFunctions[] = {"inverse", "root", "v3_roughness"};
+  static constexpr std::string_view kFunctions[] = {"inverse", "root", "v3_roughness", "metal_k",
+                                                    "positive"};
   static constexpr auto fields() {
     using namespace parameter_words;
     using enum ParameterType;
@@ -149,7 +150,8 @@ struct FunctionDescription {
     return std::tuple(
         field(&T::function,
               Parameter{"function", string, kInitial,
-                        "inverse: 1 - x; root: of x; v3_roughness: pbrt-v3's remapping"})
+                        "inverse: 1 - x; root: of x; v3_roughness: pbrt-v3's remapping; "
+                        "metal_k: of a metal that reflects x; positive: whether x is"})
             .words(kFunctions),
         field(&T::inner));
   }

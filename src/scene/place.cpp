@@ -36,12 +36,15 @@ void SceneBuilder::place_shape(uint32_t index, const Matrix4& to_world, const Tr
 void SceneBuilder::place_light(uint32_t index, const Matrix4& to_world) {
   LightDescription& d = description_.lights[index];
   d.to_world = to_world;
-  std::unique_ptr<Light>& light = scene_->lights[emissions_.size() + index];
+  const DescribedLight& described = described_lights_[index];
   if (std::holds_alternative<EnvironmentMapLight>(d.model) && !d.portal) {
     // The tables of an image do not turn with it.
-    static_cast<EnvironmentMap&>(*light).turn(to_world);
+    static_cast<EnvironmentMap&>(*described.light).turn(to_world);
     return;
   }
+  // The same from everywhere, however it turns.
+  if (std::holds_alternative<ConstantLight>(d.model)) return;
+  std::unique_ptr<Light>& light = scene_->lights[described.index];
   light = make(d);
   if (light->kind() == LightKind::environment)
     scene_->environment = static_cast<const EnvironmentLight*>(light.get());

@@ -62,8 +62,18 @@ void BitmapPixels::measure() {
 
 namespace {
 
+bool is_opaque(const ImageFile& file, size_t alpha) {
+  const size_t stride = file.image.channels.size();
+  for (size_t i = alpha; i < file.bytes.size(); i += stride)
+    if (file.bytes[i] != 255) return false;
+  for (size_t i = alpha; i < file.image.data.size(); i += stride)
+    if (file.image.data[i] != 1) return false;
+  return true;
+}
+
 /// Which of the file's channels make the texture's one or three.
-std::vector<int> choose_channels(const Image& image, TextureChannel channel) {
+std::vector<int> choose_channels(const ImageFile& file, TextureChannel channel) {
+  const Image& image = file.image;
   const int r = image.find_channel("R"), g = image.find_channel("G"), b = image.find_channel("B"),
             a = image.find_channel("A");
   const bool colored = r >= 0 && g >= 0 && b >= 0;
@@ -79,6 +89,7 @@ std::vector<int> choose_channels(const Image& image, TextureChannel channel) {
     throw ReadError("the image has neither R, G and B nor a single channel, but " + names);
   }
   if (!colored) return {grey};
+  if (channel == TextureChannel::number && a >= 0 && !is_opaque(file, size_t(a))) return {a};
   switch (channel) {
     case TextureChannel::red:
       return {r};
@@ -95,10 +106,11 @@ std::vector<int> choose_channels(const Image& image, TextureChannel channel) {
 
 BitmapPixels BitmapPixels::from_file(const ImageFile& file, const BitmapDecoding& decoding) {
   const Image& image = file.image;
-  const std::vector<int> chosen = choose_channels(image, decoding.channel);
+  const std::vector<int> chosen = choose_channels(file, decoding.channel);
   // Opacity is a share, not a colour.
-  const bool data = decoding.raw || decoding.channel == TextureChannel::alpha;
+  const bool data = decoding.raw || (chosen.size() == 1 && chosen[0] == image.find_channel("A"));
   const double gamma = data ? 1.0 : transfer_curve(file, decoding.gamma);
+  const bool mean = decoding.channel == TextureChannel::number && chosen.size() == 3;
   const size_t texels = size_t(image.width) * size_t(image.height), n = chosen.size(),
                stride = image.channels.size();
   const auto gather = [&](const auto& from, auto& to) {
@@ -106,18 +118,24 @@ BitmapPixels BitmapPixels::from_file(const ImageFile& file, const BitmapDecoding
     for (size_t i = 0; i < texels; ++i)
       for (size_t c = 0; c < n; ++c) to[i * n + c] = from[i * stride + size_t(chosen[c])];
   };
+  std::vector<float> values;
   if (!file.bytes.empty()) {
     std::array<float, 256> table;
     for (int i = 0; i < 256; ++i) table[size_t(i)] = decode_gamma(float(i) / 255.0f, gamma);
     std::vector<uint8_t> bytes;
     gather(file.bytes, bytes);
-    return {image.width, image.height, int(n), bytes, table};
+    if (!mean) return {image.width, image.height, int(n), bytes, table};
+    for (const uint8_t byte : bytes) values.push_back(table[byte]);
+  } else {
+    gather(image.data, values);
+    if (gamma != 1)
+      for (float& v : values) v = decode_gamma(v, gamma);
   }
-  std::vector<float> values;
-  gather(image.data, values);
-  if (gamma != 1)
-    for (float& v : values) v = decode_gamma(v, gamma);
-  return {image.width, image.height, int(n), std::move(values)};
+  if (!mean) return {image.width, image.height, int(n), std::move(values)};
+  for (size_t i = 0; i < texels; ++i)
+    values[i] = (values[3 * i] + values[3 * i + 1] + values[3 * i + 2]) / 3;
+  values.resize(texels);
+  return {image.width, image.height, 1, std::move(values)};
 }
 
 }  // namespace duet

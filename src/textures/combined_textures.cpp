@@ -70,6 +70,12 @@ float apply(TextureFunction function, float x) {
       const float l = std::log(std::max(x, 1e-3f));
       return 1.62142f + l * (0.819955f + l * (0.1734f + l * (0.0171201f + l * 0.000640711f)));
     }
+    case TextureFunction::metal_k: {
+      const float r = std::min(std::max(x, 0.0f), 0.9999f);
+      return 2 * std::sqrt(r / (1 - r));
+    }
+    case TextureFunction::positive:
+      return x > 0 ? 1.0f : 0.0f;
   }
   __builtin_unreachable();
 }

@@ -24,6 +24,8 @@ enum class TextureFunction {
   inverse,       ///< max(0, 1 − x)
   root,          ///< √max(0, x): pbrt-v4's roughness to α
   v3_roughness,  ///< pbrt-v3's: a polynomial of log max(x, 10⁻³)
+  metal_k,  ///< 2√x / √(1 − x), x at most 0.9999: the k with which a metal of η = 1 reflects x
+  positive,  ///< 1 above zero, else 0: what pbrt-v3 makes of an alpha
 };
 
 }  // namespace duet

@@ -188,17 +188,25 @@ class LightSubpath {
                   c_.set.subpath_connections());
   }
 
+  /// Whether light samples at the point find nothing, because the light has not entered yet.
+  bool is_before_entry(const Point3f& p) const {
+    const EmissionSample& e = start_.emission;
+    return e.entry > 0 && depth_ == 1 && dot(p - e.ray.origin, e.ray.direction) < e.entry;
+  }
+
   /// Whether the sub-path goes on behind the vertex.
   bool pass(const Vertex& v, const Hit& hit, bool may_be_passed) {
     c_.sampler.start_dimension(dimension_ + kLensOffset);
-    visit_(v, hit);
-    if (depth_ == c_.max_depth && !may_be_passed) return false;
+    const bool is_dark = is_before_entry(v.position());
+    if (!is_dark) visit_(v, hit);
+    if (depth_ == c_.max_depth && !may_be_passed) return is_dark && miss();
     c_.sampler.start_dimension(dimension_);
     dimension_ += kLightVertexStride<Vertex>;
     bool straight = false;
     if (!scatter<Transport::importance>(v, c_.set, c_.options, c_.sampler, subpath_, &straight))
-      return false;
+      return is_dark && miss();
     if (Vertex::kMedia && straight) return true;
+    if (is_dark) return miss();
     return depth_++ < c_.max_depth;
   }
 

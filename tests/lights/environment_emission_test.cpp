@@ -79,6 +79,16 @@ TEST_CASE("environments emit the light that points find") {
   check_environment(constant, 1e-6, "constant");
   EnvironmentMap map = make_map();
   check_environment(map, 2e-3, "map");
+  std::vector<std::unique_ptr<EnvironmentLight>> parts;
+  parts.push_back(std::make_unique<ConstantEnvironment>(Spectrum(1, 2, 3)));
+  parts.push_back(std::make_unique<EnvironmentMap>(make_map()));
+  const Vector3f w = normalize(Vector3f(1, 2, -1));
+  const Spectrum radiance = parts[0]->emitted({}, w) + parts[1]->emitted({}, w);
+  const double power = parts[0]->power(3) + parts[1]->power(3);
+  EnvironmentSum sum(std::move(parts));
+  CHECK(sum.emitted({}, w) == radiance);
+  CHECK(sum.power(3) == doctest::Approx(power));
+  check_environment(sum, 2e-3, "sum");
 }
 
 TEST_CASE("black environments emit no rays") {

@@ -5,8 +5,10 @@
 
 #include "lights/environment.h"
 #include "math/sampler.h"
+#include "pbrt/pbrt.h"
 #include "support/flux.h"
 #include "support/statistics.h"
+#include "support/transport_scene.h"
 
 using namespace duet;
 
@@ -98,4 +100,39 @@ TEST_CASE("portals are dark but for rays that leave through their front") {
     CHECK_FALSE(light.emitted({1, y, z}, {-1, 0, 0}).is_black());
   // Radiance 2 in luminance's place through 6 units of area.
   CHECK(light.power(1) == doctest::Approx(6 * 3.14159265 * Spectrum(1, 2, 3).luminance()));
+}
+
+TEST_CASE("what stands before a portal stays dark, by all methods") {
+  // A plate outside, seen from outside, in the way of half of the light; a floor inside.
+  const std::string text =
+      "LookAt -6 -4 4  0 0 1  0 0 1\nCamera \"perspective\" \"float fov\" 50\n"
+      "Film \"rgb\" \"integer xresolution\" 16 \"integer yresolution\" 16\n"
+      "WorldBegin\nLightSource \"infinite\" \"rgb L\" [1 1 1] "
+      "\"point3 portal\" [0 -1 0  0 1 0  0 1 2  0 -1 2]\n"
+      "Material \"diffuse\" \"rgb reflectance\" [.8 .8 .8]\n"
+      "Shape \"bilinearmesh\" \"point3 P\" [-1 -1 0  -1 0 0  -1 -1 2  -1 0 2]\n"
+      "Shape \"bilinearmesh\" \"point3 P\" [0 -3 0  4 -3 0  0 3 0  4 3 0]\n";
+  const test::TemporaryDirectory folder;
+  Diagnostics diagnostics;
+  auto read = pbrt::read_pbrt(folder.write("portal.pbrt", text), {}, diagnostics);
+  REQUIRE(read);
+  const test::TransportScene scene(std::move(read->description));
+  const auto mean = [&](const char* method) {
+    Moments all;
+    for (uint64_t seed = 0; seed < 16; ++seed) {
+      const Image image = scene.render(method, {{"max_depth", "3"}}, 64, seed).image;
+      double sum = 0;
+      for (size_t i = 0; i < image.data.size(); i += 4) sum += double(image.data[i]);
+      all.add(sum / 256);
+    }
+    return all;
+  };
+  const Moments path = mean("path");
+  CHECK(path.error() < 0.01 * path.mean());
+  for (const char* method : {"ptracer", "bdpt", "vcm"}) {
+    CAPTURE(std::string(method));
+    const Moments other = mean(method);
+    CHECK(other.error() < 0.01 * path.mean());
+    CHECK(std::abs(other.mean() - path.mean()) < 5 * std::hypot(other.error(), path.error()));
+  }
 }

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "pbrt/curves.h"
+#include "pbrt/nurbs.h"
 
 using namespace duet;
 
@@ -28,6 +29,104 @@ TEST_CASE("pbrt surfaces have the areas that their formulas say") {
   CHECK(mesh_area(pbrt::make_cylinder(2, -1, 3, 90)) ==
         doctest::Approx(kPiD * 2 * 4 / 2).epsilon(1e-3));
   CHECK(mesh_area(pbrt::make_disk(2, 1, 0, 120)) == doctest::Approx(kPiD).epsilon(1e-3));
+  CHECK(mesh_area(pbrt::make_cone(3, 4, 90)) == doctest::Approx(kPiD * 3 * 5 / 4).epsilon(1e-3));
+  // z = r² from 0 to 1.
+  CHECK(mesh_area(pbrt::make_paraboloid(1, 0, 1, 360)) ==
+        doctest::Approx(kPiD / 6 * (5 * std::sqrt(5.0) - 1)).epsilon(1e-3));
+  CHECK(mesh_area(pbrt::make_hyperboloid({3, 0, 0}, {0, 0, 4}, 360)) ==
+        doctest::Approx(kPiD * 3 * 5).epsilon(1e-3));
+}
+
+TEST_CASE("pbrt's cone, paraboloid and hyperboloid lie on their surfaces, normals across them") {
+  const auto check = [](const TriangleMesh& mesh, const auto& value, const auto& gradient) {
+    for (size_t i = 0; i < mesh.positions.size(); ++i) {
+      const Point3f& p = mesh.positions[i];
+      CHECK(value(p) == doctest::Approx(0).epsilon(1e-4).scale(1));
+      const Vector3f g = gradient(p);
+      if (length_squared(g) > 1e-6f)
+        CHECK(double(dot(normalize(g), Vector3f(mesh.normals[i]))) ==
+              doctest::Approx(1).epsilon(1e-4));
+      CHECK(double(length(Vector3f(mesh.normals[i]))) == doctest::Approx(1).epsilon(1e-4));
+    }
+    // The faces turn to the same side as the normals.
+    for (const auto& [a, b, c] : mesh.triangles) {
+      const Point3f p = mesh.positions[a];
+      const Vector3f face = cross(mesh.positions[b] - p, mesh.positions[c] - p);
+      CHECK(dot(face, Vector3f(mesh.normals[b]) + Vector3f(mesh.normals[c])) > 0);
+    }
+  };
+  const auto r2 = [](const Point3f& p) {
+    return double(p.x) * double(p.x) + double(p.y) * double(p.y);
+  };
+  check(
+      pbrt::make_cone(2, 3, 200),
+      [&](const Point3f& p) { return std::sqrt(r2(p)) - 2 * (1 - double(p.z) / 3); },
+      [&](const Point3f& p) {
+        const float r = float(std::sqrt(r2(p)));
+        return r > 0 ? Vector3f(p.x / r, p.y / r, 2.0f / 3) : Vector3f(0);
+      });
+  const TriangleMesh bowl = pbrt::make_paraboloid(2, 0.5, 3, 360);
+  check(
+      bowl, [&](const Point3f& p) { return double(p.z) / 3 - r2(p) / 4; },
+      [&](const Point3f& p) { return Vector3f(p.x / 2, p.y / 2, -1.0f / 3); });
+  for (size_t i = 0; i < bowl.uvs.size(); ++i)
+    CHECK(double(bowl.uvs[i].y) ==
+          doctest::Approx((double(bowl.positions[i].z) - 0.5) / 2.5).epsilon(1e-4));
+  // x² + y² = 1 + z² has such lines; one end of the other line lies on the axis.
+  check(
+      pbrt::make_hyperboloid({1, 0, 0}, {1, 1, 1}, 360),
+      [&](const Point3f& p) { return r2(p) - 1 - double(p.z) * double(p.z); },
+      [&](const Point3f& p) { return Vector3f(p.x, p.y, -p.z); });
+  for (const Normal3f& n : pbrt::make_hyperboloid({0, 0, 0}, {1, 1, 1}, 360).normals)
+    CHECK(double(length(Vector3f(n))) == doctest::Approx(1).epsilon(1e-4));
+}
+
+TEST_CASE("nurbs: a rational quadratic arc is a circle, with the parameters as coordinates") {
+  // A quarter of a cylinder of radius 2 along z.
+  pbrt::NurbsSurface s;
+  s.u = {3, 3, {0, 0, 0, 1, 1, 1}, 0, 1};
+  s.v = {2, 2, {5, 5, 7, 7}, 5, 6};
+  const double w = std::sqrt(0.5);
+  for (const double z : {0.0, 4.0})
+    for (const auto& p :
+         {std::array<double, 4>{2, 0, z, 1}, std::array<double, 4>{2 * w, 2 * w, z * w, w},
+          std::array<double, 4>{0, 2, z, 1}})
+      s.points.push_back(p);
+  REQUIRE(pbrt::check_nurbs(s).empty());
+  const TriangleMesh mesh = pbrt::make_nurbs(s);
+  CHECK(mesh.positions.size() == 900);
+  CHECK(mesh_area(mesh) == doctest::Approx(3.14159265 * 2).epsilon(1e-3));
+  for (size_t i = 0; i < mesh.positions.size(); ++i) {
+    const Point3f& p = mesh.positions[i];
+    CHECK(double(p.x * p.x + p.y * p.y) == doctest::Approx(4).epsilon(1e-4));
+    CHECK(double(p.z) == doctest::Approx(2 * (double(mesh.uvs[i].y) - 5)).epsilon(1e-4));
+    CHECK(double(dot(Vector3f(mesh.normals[i]), Vector3f(p.x, p.y, 0))) ==
+          doctest::Approx(2).epsilon(1e-4));
+  }
+  s.points[1][3] = 0;
+  CHECK(pbrt::check_nurbs(s).find("weights") != std::string::npos);
+  s.v.end = 8;
+  CHECK(pbrt::check_nurbs(s).find("within its knots") != std::string::npos);
+  s.u.knots.pop_back();
+  CHECK(pbrt::check_nurbs(s).find("has 6 knots, not 5") != std::string::npos);
+}
+
+TEST_CASE("nurbs: inner knots join pieces without a break") {
+  // Cubic with a double knot inside; x goes with u because the points are Greville's abscissae.
+  pbrt::NurbsSurface s;
+  s.u = {6, 4, {0, 0, 0, 0, 1, 1, 2, 2, 2, 2}, 0, 2};
+  s.v = {2, 2, {0, 0, 1, 1}, 0, 1};
+  for (int j = 0; j < 2; ++j)
+    for (size_t i = 0; i < 6; ++i)
+      s.points.push_back(
+          {(s.u.knots[i + 1] + s.u.knots[i + 2] + s.u.knots[i + 3]) / 3, double(j), 0, 1});
+  REQUIRE(pbrt::check_nurbs(s).empty());
+  const TriangleMesh mesh = pbrt::make_nurbs(s);
+  for (size_t i = 0; i < mesh.positions.size(); ++i) {
+    CHECK(double(mesh.positions[i].x) ==
+          doctest::Approx(double(mesh.uvs[i].x)).epsilon(1e-4).scale(1));
+    CHECK(double(mesh.normals[i].z) == doctest::Approx(1).epsilon(1e-4));
+  }
 }
 
 TEST_CASE("pbrt spheres begin their texture coordinates at the lower pole, and face outwards") {

@@ -74,7 +74,8 @@ TEST_CASE("texture: those of pbrt are written and read") {
   const DirectionMixDescription direction{Spectrum(0.5f), TextureId{0}, 1, 0, -2};
   CHECK(again(direction, {kTwoSquares}) == direction);
   for (const TextureFunction function :
-       {TextureFunction::inverse, TextureFunction::root, TextureFunction::v3_roughness}) {
+       {TextureFunction::inverse, TextureFunction::root, TextureFunction::v3_roughness,
+        TextureFunction::metal_k, TextureFunction::positive}) {
     const FunctionDescription f{TextureId{0}, function};
     CHECK(again(f, {kTwoSquares}) == f);
   }

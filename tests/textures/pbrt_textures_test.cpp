@@ -192,6 +192,14 @@ TEST_CASE("sums, products and functions of textures") {
   CHECK(root.value(s) == doctest::Approx(std::sqrt(0.4)));
   CHECK(root.value(at({}, {-1, 0})) == 0);
   check_gradient(root, s);
+  // What such a metal reflects along its normal is r again.
+  for (const float r : {0.1f, 0.5f, 0.9f}) {
+    const float k = apply(TextureFunction::metal_k, r);
+    CHECK(k * k / (4 + k * k) == doctest::Approx(r));
+  }
+  CHECK(std::isfinite(apply(TextureFunction::metal_k, 1)));
+  CHECK(apply(TextureFunction::positive, 0.01f) == 1);
+  CHECK(apply(TextureFunction::positive, 0) == 0);
   // pbrt-v3: one at one, and the same for all roughnesses below a thousandth.
   CHECK(apply(TextureFunction::v3_roughness, 1) == doctest::Approx(1.62142));
   CHECK(apply(TextureFunction::v3_roughness, 0.1f) ==

@@ -158,6 +158,19 @@ TEST_CASE("the channels of a file become a texture's") {
   // Opacity has no transfer curve, and raw values neither.
   CHECK(texel({.gamma = 2.0, .channel = TextureChannel::alpha}).value(0, 0) == 0.5f);
   CHECK(texel({.raw = true, .gamma = 2.0}).color(0, 0) == Spectrum(3, 2, 1));
+  // pbrt's numbers: the alpha of an image that is not opaque, else the mean of the colours.
+  CHECK(texel({.gamma = 2.0, .channel = TextureChannel::number}).value(0, 0) == 0.5f);
+  ImageFile opaque = file;
+  opaque.image.data[0] = opaque.image.data[4] = 1;
+  CHECK(BitmapPixels::from_file(opaque, {.gamma = 2.0, .channel = TextureChannel::number})
+            .value(0, 0) == doctest::Approx(14.0 / 3));
+  ImageFile bytes;
+  bytes.image.width = bytes.image.height = 1;
+  bytes.image.channels = {"R", "G", "B"};
+  bytes.bytes = {0, 255, 255};
+  const BitmapPixels mean = BitmapPixels::from_file(bytes, {.channel = TextureChannel::number});
+  CHECK(mean.is_grey());
+  CHECK(mean.value(0, 0) == doctest::Approx(2.0 / 3));
   file.display_encoded = true;
   CHECK(texel({}).color(0, 0).b == doctest::Approx(1));
   CHECK(texel({.gamma = 1.0}).color(0, 0).r == 3);

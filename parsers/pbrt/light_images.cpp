@@ -1,0 +1,42 @@
+#include "pbrt/light_images.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "math/angles.h"
+
+namespace duet::pbrt {
+
+void scale_to_power(Values& v, Spectrum& scale, const BitmapTexture& image,
+                    const std::function<double(const TextureTexels&)>& power) {
+  if (!v.has("power")) return;
+  try {
+    const double own = power(read_texels(image));
+    if (own > 0) scale *= float(v.not_negative("power") / own);
+  } catch (const ReadError& e) {
+    v.reader().report().error(v.where("filename"), "{}", e.what());
+  }
+}
+
+double mean_number(const TextureTexels& image) {
+  const Spectrum c = image.mean();
+  return (double(c.r) + double(c.g) + double(c.b)) / 3;
+}
+
+double projected_power(const TextureTexels& image, double fov) {
+  const int width = image.width, height = image.height;
+  const double shorter = std::min(width, height), half = std::tan(0.5 * fov * kRadians);
+  double sum = 0;
+  for (int y = 0; y < height; ++y)
+    for (int x = 0; x < width; ++x) {
+      const double sx = (2 * (x + 0.5) - width) / shorter * half,
+                   sy = (2 * (y + 0.5) - height) / shorter * half;
+      // The solid angle of a piece of the plane at distance one is cos³ of its area.
+      sum += double(image.colors[size_t(y) * size_t(width) + size_t(x)].luminance()) *
+             std::pow(1 + sx * sx + sy * sy, -1.5);
+    }
+  const double pixel = 2 * half / shorter;
+  return sum * pixel * pixel;
+}
+
+}  // namespace duet::pbrt

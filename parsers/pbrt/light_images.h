@@ -1,0 +1,23 @@
+// The power of lights whose image says how they shine.
+#pragma once
+
+#include <functional>
+
+#include "pbrt/values.h"
+#include "scene/texture_texels.h"
+
+namespace duet::pbrt {
+
+/// Multiplies `scale` so that the light has the power that "power" says, if that is given; `power`
+/// is what it has with the image alone. An image that cannot be read is an error.
+void scale_to_power(Values& v, Spectrum& scale, const BitmapTexture& image,
+                    const std::function<double(const TextureTexels&)>& power);
+
+/// The mean over all pixels and channels.
+double mean_number(const TextureTexels& image);
+
+/// The luminous power of an image of radiant intensity that is thrown through a frustum with `fov`
+/// degrees across the image's shorter side.
+double projected_power(const TextureTexels& image, double fov);
+
+}  // namespace duet::pbrt

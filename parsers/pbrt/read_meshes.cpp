@@ -1,0 +1,280 @@
+// Shapes that are meshes, or become some by rules of their own.
+#include <cmath>
+
+#include "mesh/mesh_file.h"
+#include "pbrt/nurbs.h"
+#include "pbrt/shape_readers.h"
+
+namespace duet::pbrt {
+
+namespace {
+
+using enum Status;
+
+std::vector<Point3f> points(Values& v, std::string_view name) {
+  std::vector<Point3f> result;
+  const Parameter* p = v.given(name);
+  if (!p) return result;
+  result.reserve(p->numbers.size() / 3);
+  for (size_t i = 0; i + 2 < p->numbers.size(); i += 3)
+    result.push_back({float(p->numbers[i]), float(p->numbers[i + 1]), float(p->numbers[i + 2])});
+  return result;
+}
+
+std::vector<Normal3f> normals(Values& v) {
+  std::vector<Normal3f> result;
+  for (const Point3f& p : points(v, "N"))
+    result.push_back(normalized_or_zero(Normal3f(p.x, p.y, p.z)));
+  return result;
+}
+
+std::vector<Point2f> texture_coordinates(Values& v) {
+  std::vector<Point2f> result;
+  const Parameter* p = v.given("uv");
+  if (!p) p = v.given("st");
+  if (!p) return result;
+  result.reserve(p->numbers.size() / 2);
+  for (size_t i = 0; i + 1 < p->numbers.size(); i += 2)
+    result.push_back({float(p->numbers[i]), float(p->numbers[i + 1])});
+  return result;
+}
+
+/// Groups of N indices below `count`; nothing, after an error, if they are not.
+template <size_t N>
+std::optional<std::vector<std::array<uint32_t, N>>> indices(Values& v, size_t count) {
+  std::vector<std::array<uint32_t, N>> result;
+  Report& report = v.reader().report();
+  const Parameter* p = v.given("indices");
+  if (!p) {
+    if (count != N) {
+      report.error(v.where(), "\"integer indices\" is needed: there are {} points", count);
+      return std::nullopt;
+    }
+    std::array<uint32_t, N> all;
+    for (size_t i = 0; i < N; ++i) all[i] = uint32_t(i);
+    result.push_back(all);
+    return result;
+  }
+  if (p->numbers.size() % N != 0) {
+    report.error(p->where, "the number of indices, {}, is no multiple of {}", p->numbers.size(), N);
+    return std::nullopt;
+  }
+  result.resize(p->numbers.size() / N);
+  for (size_t i = 0; i < p->numbers.size(); ++i) {
+    const double index = p->numbers[i];
+    if (!(index >= 0 && index < double(count))) {
+      report.error(p->where, "index {} names no point: there are {}", index, count);
+      return std::nullopt;
+    }
+    result[i / N][i % N] = uint32_t(index);
+  }
+  return result;
+}
+
+/// Whether `values` has as many entries as there are points, or none; an error if not.
+template <class T>
+bool matches(Values& v, const std::vector<T>& values, std::string_view name, size_t count) {
+  if (values.empty() || values.size() == count) return true;
+  v.reader().report().error(v.where(name), "there are {} \"{}\", but {} points", values.size(),
+                            name, count);
+  return false;
+}
+
+constexpr Spec kTriangleMesh[] = {
+    {"indices", kInteger, "", "three per triangle; optional for three points", 0},
+    {"P", kPoint3, "", "positions", 0},
+    {"N", kNormal, "", "normals", 0},
+    {"S", kVector3, "", "tangents", 0, ignored},
+    {"uv", kPoint2, "", "texture coordinates", 0},
+    {"st", kPoint2, "", "the same", 0, done, Versions::v3},
+    {"faceIndices", kInteger, "", "", 0, inert},
+};
+
+void read_triangle_mesh(Values& v) {
+  TriangleMesh mesh;
+  mesh.positions = points(v, "P");
+  if (mesh.positions.empty()) {
+    v.reader().report().error(v.where(), "\"point3 P\" is needed");
+    return;
+  }
+  auto triangles = indices<3>(v, mesh.positions.size());
+  if (!triangles) return;
+  mesh.triangles = std::move(*triangles);
+  mesh.normals = normals(v);
+  mesh.uvs = texture_coordinates(v);
+  if (!matches(v, mesh.normals, "N", mesh.positions.size()) ||
+      !matches(v, mesh.uvs, v.has("uv") ? "uv" : "st", mesh.positions.size()))
+    return;
+  finish_triangles(mesh, v.reader().needs_uv(v.plugin()));
+  const bool own_normals = !mesh.normals.empty();
+  add_mesh(v, std::move(mesh), own_normals);
+}
+
+constexpr Spec kBilinearMesh[] = {
+    {"indices", kInteger, "", "four per patch; optional for four points", 0},
+    {"P", kPoint3, "", "positions", 0},
+    {"N", kNormal, "", "normals", 0},
+    {"uv", kPoint2, "", "texture coordinates", 0},
+    {"faceIndices", kInteger, "", "", 0, inert},
+    {"emissionfilename", kString, "", "", 1, ignored},
+};
+
+void read_bilinear_mesh(Values& v) {
+  PatchMesh mesh;
+  mesh.positions = points(v, "P");
+  if (mesh.positions.empty()) {
+    v.reader().report().error(v.where(), "\"point3 P\" is needed");
+    return;
+  }
+  auto patches = indices<4>(v, mesh.positions.size());
+  if (!patches) return;
+  mesh.patches = std::move(*patches);
+  mesh.normals = normals(v);
+  mesh.uvs = texture_coordinates(v);
+  if (!matches(v, mesh.normals, "N", mesh.positions.size()) ||
+      !matches(v, mesh.uvs, "uv", mesh.positions.size()))
+    return;
+  TriangleMesh triangles;
+  append_patches(mesh, triangles);
+  add_mesh(v, std::move(triangles), true);
+}
+
+constexpr Spec kPlyMesh[] = {
+    {"filename", kString, "", "a .ply or .ply.gz file"},
+    {"displacement", kTexture, "", "of the surface itself", 1, refused},
+    {"edgelength", kNumber, "1", "", 1, inert},
+};
+
+void read_ply_mesh(Values& v) {
+  if (!v.has("filename")) {
+    v.reader().report().error(v.where(), "\"string filename\" is needed");
+    return;
+  }
+  const std::string path = v.file("filename");
+  if (path.empty()) return;
+  const bool uv = v.reader().needs_uv(v.plugin());
+  const auto mesh = v.reader().ply_mesh(path, uv, v.where("filename"));
+  if (!mesh) return;
+  const bool own_normals = mesh->own_normals;
+  MeshSource source;
+  if (mesh->is_whole_file) {
+    source.file = path;
+    source.plugin = "ply";
+    source.flip_tex_coords = false;
+  }
+  v.reader().add_shape(v.plugin(),
+                       {.geometry = MeshShape{mesh->mesh, source}, .has_normals = own_normals});
+}
+
+constexpr Spec kLoop[] = {
+    {"levels", kInteger, "3", "steps of subdivision"},
+    {"nlevels", kInteger, "3", "the same", 1, done, Versions::v3},
+    {"indices", kInteger, "", "three per triangle", 0},
+    {"P", kPoint3, "", "positions", 0},
+    {"scheme", kString, "", "", 1, inert},
+};
+
+void read_loop_subdivision(Values& v) {
+  const std::vector<Point3f> positions = points(v, "P");
+  const auto triangles = indices<3>(v, positions.size());
+  if (!triangles || positions.empty()) return;
+  const int levels = v.reader().version() == Version::v3 && !v.has("levels") ? v.integer("nlevels")
+                                                                             : v.integer("levels");
+  constexpr double kMost = 5e7;
+  if (levels < 0 || double(triangles->size()) * std::pow(4.0, levels) > kMost) {
+    v.reader().report().error(v.where("levels"), "{} levels of subdivision are too many", levels);
+    return;
+  }
+  add_mesh(v, subdivide_loop(positions, *triangles, levels), true);
+}
+
+constexpr Spec kHeightField[] = {
+    {"nu", kInteger, "", "points along x"},
+    {"nv", kInteger, "", "points along y"},
+    {"Pz", kNumber, "", "heights over the unit square, x fastest", 0},
+    {"z", kNumber, "", "the same", 0},
+};
+
+void read_height_field(Values& v) {
+  const double columns = v.number("nu"), rows = v.number("nv");
+  const std::vector<double> heights = v.numbers(v.has("Pz") ? "Pz" : "z");
+  if (!(columns >= 2 && rows >= 2 && columns * rows == double(heights.size()))) {
+    v.reader().report().error(
+        v.where("nu"), "a height field needs nu x nv heights, at least 2 x 2: {} x {} have {}",
+        columns, rows, heights.size());
+    return;
+  }
+  const uint32_t nx = uint32_t(columns), ny = uint32_t(rows);
+  TriangleMesh mesh;
+  for (uint32_t y = 0; y < ny; ++y)
+    for (uint32_t x = 0; x < nx; ++x) {
+      const Point2f p{float(x) / float(nx - 1), float(y) / float(ny - 1)};
+      mesh.positions.push_back({p.x, p.y, float(heights[size_t(y) * nx + x])});
+      mesh.uvs.push_back(p);
+    }
+  for (uint32_t y = 0; y + 1 < ny; ++y)
+    for (uint32_t x = 0; x + 1 < nx; ++x) {
+      const uint32_t a = y * nx + x;
+      mesh.triangles.push_back({a, a + 1, a + nx + 1});
+      mesh.triangles.push_back({a, a + nx + 1, a + nx});
+    }
+  add_mesh(v, std::move(mesh), false);
+}
+
+constexpr Spec kNurbs[] = {
+    {"nu", kInteger, "", "control points along u"},
+    {"nv", kInteger, "", "control points along v"},
+    {"uorder", kInteger, "", "one more than the degree"},
+    {"vorder", kInteger},
+    {"uknots", kNumber, "", "nu + uorder of them", 0},
+    {"vknots", kNumber, "", "", 0},
+    {"u0", kNumber, "", "where it begins; default: by the knots"},
+    {"v0", kNumber},
+    {"u1", kNumber},
+    {"v1", kNumber},
+    {"P", kPoint3, "", "control points, u fastest", 0},
+    {"Pw", kNumber, "", "the same, times a weight, which is the fourth", 0},
+};
+
+void read_nurbs(Values& v) {
+  NurbsSurface n;
+  const auto axis = [&](SplineAxis& a, const char* count, const char* order, const char* knots,
+                        const char* begin, const char* end) {
+    a.count = v.integer(count), a.order = v.integer(order), a.knots = v.numbers(knots);
+    if (!check_axis(a).empty()) return;
+    a.begin = v.has(begin) ? v.number(begin) : a.knots[size_t(a.order) - 1];
+    a.end = v.has(end) ? v.number(end) : a.knots[size_t(a.count)];
+  };
+  axis(n.u, "nu", "uorder", "uknots", "u0", "u1");
+  axis(n.v, "nv", "vorder", "vknots", "v0", "v1");
+  const std::vector<double> p = v.numbers("P"), pw = v.numbers("Pw");
+  for (size_t i = 0; i + 2 < p.size(); i += 3) n.points.push_back({p[i], p[i + 1], p[i + 2], 1});
+  if (p.empty())
+    for (size_t i = 0; i + 3 < pw.size(); i += 4)
+      n.points.push_back({pw[i], pw[i + 1], pw[i + 2], pw[i + 3]});
+  if (const std::string why = check_nurbs(n); !why.empty()) {
+    v.reader().report().error(v.where(), "{}", why);
+    return;
+  }
+  add_mesh(v, make_nurbs(n), true);
+}
+
+constexpr Record<ReadShape> kMeshes[] = {
+    {"trianglemesh", Versions::both, done, "", kTriangleMesh, read_triangle_mesh},
+    {"plymesh", Versions::both, done, "faces of four corners are bilinear patches", kPlyMesh,
+     read_ply_mesh},
+    {"bilinearmesh", Versions::v4, done, "patches that are not flat become triangles",
+     kBilinearMesh, read_bilinear_mesh},
+    {"loopsubdiv", Versions::both, done, "", kLoop, read_loop_subdivision},
+    {"heightfield", Versions::v3, done, "", kHeightField, read_height_field},
+    {"nurbs", Versions::v3, done, "29 x 29 patches of triangles, as pbrt-v3 has", kNurbs,
+     read_nurbs},
+};
+
+}  // namespace
+
+std::span<const Record<ReadShape>> mesh_shapes() {
+  return kMeshes;
+}
+
+}  // namespace duet::pbrt

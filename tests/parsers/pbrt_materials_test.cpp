@@ -1,0 +1,184 @@
+// What pbrt's materials and lights become whose parameters are images, or of older versions.
+#include <doctest/doctest.h>
+
+#include "image/image_io.h"
+#include "pbrt/pbrt.h"
+#include "support/files.h"
+#include "values/half_space.h"
+
+using namespace duet;
+using namespace duet::test;
+
+namespace {
+
+/// Four pixels: black, and three of luminance one, red, green and white as far as that goes.
+constexpr const char* kImage = "image.exr";
+
+SceneDescription scene_with_image(const std::string& text) {
+  const TemporaryDirectory folder;
+  Image image(2, 2, {"R", "G", "B"});
+  image.data = {0, 0, 0, 0.5f, 0.25f, 0.75f, 1, 1, 1, 0.5f, 0.5f, 0.5f};
+  write_exr(folder.path(kImage), image, {});
+  Diagnostics diagnostics;
+  auto read = pbrt::read_pbrt(folder.write("scene.pbrt", text), {}, diagnostics);
+  std::string messages;
+  for (const Diagnostic& d : diagnostics.all()) messages += d.to_string() + "\n";
+  REQUIRE_MESSAGE(read.has_value(), messages);
+  return std::move(read->description);
+}
+SceneDescription v4_file(const std::string& world) {
+  return scene_with_image("Film \"rgb\"\nWorldBegin\n" + world);
+}
+SceneDescription v3_file(const std::string& world) {
+  return scene_with_image("Film \"image\"\nWorldBegin\n" + world + "\nWorldEnd\n");
+}
+
+const MaterialDescription& material_of(const SceneDescription& d, size_t shape = 0) {
+  return d.materials.at(size_t(d.shapes.at(shape).material));
+}
+const MediumDescription& inside_of(const SceneDescription& d, size_t shape = 0) {
+  return d.media.at(size_t(d.shapes.at(shape).interior.value()));
+}
+
+double luminance_of_image() {
+  return (double(Spectrum(0.5f, 0.25f, 0.75f).luminance()) + 1.5) / 4;
+}
+
+}  // namespace
+
+TEST_CASE("pbrt lights with an image have the power that they are given") {
+  const std::string image = "\"string filename\" \"image.exr\" \"float power\" 10\n";
+  const SceneDescription d = v4_file("LightSource \"goniometric\" " + image +
+                                     "LightSource \"projection\" \"float fov\" 60 " + image +
+                                     "AreaLightSource \"diffuse\" \"bool twosided\" true " + image +
+                                     "Shape \"disk\" \"float radius\" 2\n");
+  // The mean of all numbers: 6 / 12.
+  const auto& gonio = std::get<GoniometricLight>(d.lights.at(0).model);
+  CHECK(gonio.scale.g == doctest::Approx(10 / (4 * 3.14159265 * (1.5 + 3 + 1.5) / 12)));
+  // Of the four pixels each has its centre as far from the axis: the cosines are the same.
+  const double half = std::tan(3.14159265 / 6), cos3 = std::pow(1 + half * half / 2, -1.5);
+  const auto& thrown = std::get<ProjectorLight>(d.lights.at(1).model);
+  const auto& scaled = std::get<ScaledTextureDescription>(
+      d.textures.at(size_t(std::get<TextureId>(thrown.irradiance))).model);
+  CHECK(scaled.scale.g ==
+        doctest::Approx(10 / (4 * half * half * cos3 * luminance_of_image())).epsilon(1e-4));
+  const auto& lamp = std::get<ScaledTextureDescription>(
+      d.textures.at(size_t(std::get<TextureId>(d.shapes.at(0).emission->radiance))).model);
+  CHECK(
+      lamp.scale.g ==
+      doctest::Approx(10 / (3.14159265 * 3.14159265 * 4 * 2 * luminance_of_image())).epsilon(1e-3));
+}
+
+TEST_CASE("pbrt: numbers of an image are the mean of its colours in v4, the luminance in v3") {
+  const auto channel = [](const SceneDescription& d) {
+    return std::get<BitmapTexture>(d.textures.at(0).model).channel;
+  };
+  const std::string number =
+      "Texture \"t\" \"float\" \"imagemap\" \"string filename\" \"image.exr\"\n";
+  const std::string color =
+      "Texture \"t\" \"spectrum\" \"imagemap\" \"string filename\" \"image.exr\"\n";
+  CHECK(channel(v4_file(number)) == TextureChannel::number);
+  CHECK(channel(v4_file(color)) == TextureChannel::all);
+  CHECK(channel(v3_file(number)) == TextureChannel::all);
+}
+
+TEST_CASE("pbrt subsurface: a texture of the reflectance tints what enters and leaves") {
+  const SceneDescription d = v4_file(
+      "Texture \"t\" \"spectrum\" \"imagemap\" \"string filename\" \"image.exr\"\n"
+      "Texture \"half\" \"spectrum\" \"imagemap\" \"string filename\" \"image.exr\"\n"
+      "Material \"subsurface\" \"texture reflectance\" \"t\" \"texture mfp\" \"half\"\nShape "
+      "\"sphere\"\n");
+  // The largest values are 1, 1, 1, the means 0.5, 0.4375 and 0.5625.
+  const MediumDescription& m = inside_of(d);
+  const Spectrum extinction = std::get<Spectrum>(m.sigma_t);
+  CHECK(extinction.r == doctest::Approx(2));
+  CHECK(extinction.g == doctest::Approx(1 / 0.4375));
+  CHECK(std::get<Spectrum>(m.albedo).g == doctest::Approx(half_space_albedo(1, 0, 1.33)));
+  const auto& glass = material_of(d).model.get<DielectricMaterial>();
+  const TextureId tint = std::get<TextureId>(glass.specular_transmittance);
+  CHECK(std::get<FunctionDescription>(d.textures.at(size_t(tint)).model).function ==
+        TextureFunction::root);
+  // No limit of depth, which the events inside would count towards.
+  CHECK(std::get<VolumePathIntegratorDescription>(d.integrator.method).max_depth == -1);
+  CHECK(d.approximations.size() == 4);
+}
+
+TEST_CASE("pbrt-v3 subsurface: by coefficients, by name and by a diffuse reflectance") {
+  const SceneDescription d = v3_file(
+      "Material \"subsurface\" \"rgb sigma_a\" [1 1 1] \"rgb sigma_s\" [3 3 3] \"float scale\" 2\n"
+      "Shape \"sphere\"\n"
+      "Material \"subsurface\" \"string name\" \"Ketchup\" \"rgb Kt\" [.5 .5 .5]\nShape "
+      "\"sphere\"\n"
+      "Material \"kdsubsurface\" \"rgb Kd\" [.3 .3 .3] \"rgb mfp\" [.2 .2 .2] \"float eta\" 1.5\n"
+      "Shape \"sphere\"\n"
+      "Material \"subsurface\" \"float uroughness\" .2 \"float vroughness\" .2\nShape "
+      "\"sphere\"\n");
+  CHECK(std::get<Spectrum>(inside_of(d, 0).sigma_t).r == 8);
+  CHECK(std::get<Spectrum>(inside_of(d, 0).albedo).r == doctest::Approx(0.75));
+  CHECK_FALSE(material_of(d, 0).model.get<DielectricMaterial>().roughness);
+  CHECK(std::get<Spectrum>(
+            material_of(d, 1).model.get<DielectricMaterial>().specular_transmittance) ==
+        Spectrum(0.5f));
+  CHECK(std::get<Spectrum>(inside_of(d, 2).sigma_t).r == doctest::Approx(5));
+  CHECK(std::get<Spectrum>(inside_of(d, 2).albedo).r ==
+        doctest::Approx(half_space_albedo(0.3, 0, 1.5)));
+  CHECK(material_of(d, 3).model.get<DielectricMaterial>().roughness);
+}
+
+TEST_CASE("pbrt's path sees no media, but in v3 what is beneath surfaces") {
+  const std::string world =
+      "MakeNamedMedium \"fog\" \"string type\" \"homogeneous\"\nMediumInterface \"fog\" \"\"\n"
+      "Shape \"sphere\"\nMaterial \"subsurface\"\nShape \"sphere\"\n";
+  const SceneDescription v3 = v3_file(world);
+  CHECK_FALSE(v3.shapes.at(0).interior.has_value());
+  CHECK(v3.shapes.at(1).interior.has_value());
+  CHECK_FALSE(v3.shapes.at(1).exterior.has_value());
+  CHECK(std::holds_alternative<VolumePathIntegratorDescription>(v3.integrator.method));
+  const SceneDescription v4 = scene_with_image(
+      "Film \"rgb\"\nIntegrator \"path\" \"integer maxdepth\" 3\nWorldBegin\n" + world);
+  CHECK_FALSE(v4.shapes.at(1).interior.has_value());
+  CHECK(std::get<PathIntegratorDescription>(v4.integrator.method).max_depth == 4);
+}
+
+TEST_CASE("pbrt-v3 hair, and Disney's material on one or both sides") {
+  const SceneDescription d = v3_file(
+      "Material \"hair\" \"color color\" [.5 .5 .5] \"float beta_n\" .25\nShape \"sphere\"\n"
+      "Material \"disney\" \"color color\" [.1 .2 .3] \"float metallic\" .5 \"float sheentint\" "
+      ".25\n"
+      "Shape \"sphere\"\n"
+      "Material \"disney\" \"float spectrans\" .5 \"float eta\" 1.25\nShape \"sphere\"\n"
+      "Material \"disney\" \"bool thin\" \"true\" \"float difftrans\" .5\nShape \"sphere\"\n");
+  const auto& hair = material_of(d, 0).model.get<HairMaterial>();
+  const double b = 0.25;
+  const double f = 5.969 - 0.215 * b + 2.532 * b * b - 10.73 * b * b * b + 5.574 * b * b * b * b +
+                   0.245 * b * b * b * b * b;
+  CHECK(std::get<Spectrum>(*hair.sigma_a).g == doctest::Approx(std::pow(std::log(0.5) / f, 2)));
+  CHECK(hair.eta == 1.55);
+  const auto& both = material_of(d, 1).model.get<TwoSidedMaterial>();
+  const auto& plastic = d.materials.at(size_t(both.front)).model.get<PrincipledMaterial>();
+  CHECK(std::get<double>(plastic.metallic) == 0.5);
+  CHECK(std::get<double>(plastic.sheen_tint) == 0.25);
+  CHECK(std::get<double>(plastic.clearcoat_gloss) == 1);
+  CHECK(material_of(d, 2).model.get<PrincipledMaterial>().eta == 1.25);
+  CHECK(std::get<double>(material_of(d, 3).model.get<PrincipledThinMaterial>().diff_trans) == 0.5);
+}
+
+TEST_CASE("pbrt-v3 matte and translucent take textures of all their parameters") {
+  const SceneDescription d = v3_file(
+      "Texture \"s\" \"float\" \"checkerboard\" \"float tex1\" 90\n"
+      "Texture \"t\" \"color\" \"checkerboard\"\n"
+      "Material \"matte\" \"texture sigma\" \"s\"\nShape \"sphere\"\n"
+      "Material \"translucent\" \"texture Kd\" \"t\" \"texture reflect\" \"t\"\nShape "
+      "\"sphere\"\n");
+  const auto& both = material_of(d, 0).model.get<TwoSidedMaterial>();
+  const auto& matte = d.materials.at(size_t(both.front)).model.get<RoughDiffuseMaterial>();
+  const auto& alpha = std::get<ScaledTextureDescription>(
+      d.textures.at(size_t(std::get<TextureId>(matte.alpha))).model);
+  CHECK(alpha.scale.r == doctest::Approx(std::sqrt(2.0) * 3.14159265 / 180));
+  const auto& uber = material_of(d, 1).model.get<UberMaterial>();
+  const TextureId product = std::get<TextureId>(uber.diffuse_reflectance);
+  CHECK(std::holds_alternative<ProductDescription>(d.textures.at(size_t(product)).model));
+  const TextureId half = std::get<TextureId>(uber.diffuse_transmittance);
+  CHECK(std::get<ScaledTextureDescription>(d.textures.at(size_t(half)).model).scale ==
+        Spectrum(0.5f));
+}
