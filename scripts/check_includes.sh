@@ -28,7 +28,7 @@ find src parsers -name '*.h' -o -name '*.cpp' | sort | xargs awk '
     to = path[1]
     if (to == "mitsuba" || to == "mesh" || to == "volume" ||
         to == "curves" || to == "measured" || to == "weave" || to == "values" || to == "xml" ||
-        to == "pbrt") to = "parsers"
+        to == "pbrt" || to == "files") to = "parsers"
     if (!(to in level)) { print FILENAME ":" FNR ": include of unknown module: " target; bad = 1; next }
     ok = to == module || level[to] < level[module]
     if (module == "parsers" && to != "parsers")

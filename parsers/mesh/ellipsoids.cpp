@@ -1,7 +1,9 @@
 #include "mesh/ellipsoids.h"
 
 #include <array>
+#include <cmath>
 
+#include "math/polar.h"
 #include "mesh/ply_header.h"
 #include "mesh/ply_values.h"
 
@@ -54,6 +56,43 @@ std::vector<Ellipsoid> parse_ellipsoids(ByteReader& in) {
 
 std::vector<Ellipsoid> read_ellipsoids(const std::string& file) {
   return parse_file(file, parse_ellipsoids);
+}
+
+namespace {
+
+using Rotation = std::array<std::array<double, 3>, 3>;
+
+Rotation rotation_of(const double (&q)[4]) {
+  const auto [x, y, z, w] = std::array<double, 4>{q[0], q[1], q[2], q[3]};
+  return {{{1 - 2 * (y * y + z * z), 2 * (x * y - z * w), 2 * (x * z + y * w)},
+           {2 * (x * y + z * w), 1 - 2 * (x * x + z * z), 2 * (y * z - x * w)},
+           {2 * (x * z - y * w), 2 * (y * z + x * w), 1 - 2 * (x * x + y * y)}}};
+}
+
+Matrix4 placed(const Ellipsoid& e, double scale, const Matrix4& to_world, const PolarParts& d) {
+  const double mean_scale = (d.stretch[0][0] + d.stretch[1][1] + d.stretch[2][2]) / 3;
+  const Rotation own = rotation_of(e.quaternion);
+  Matrix4 m;
+  for (size_t i = 0; i < 3; ++i) {
+    for (size_t j = 0; j < 3; ++j) {
+      double sum = 0;
+      for (size_t k = 0; k < 3; ++k) sum += d.rotation[int(i)][k] * own[k][j];
+      m[int(i)][j] = sum * e.radius[j] * scale * std::abs(mean_scale);
+    }
+    const auto& row = to_world[int(i)];
+    m[int(i)][3] = row[0] * e.center[0] + row[1] * e.center[1] + row[2] * e.center[2] + row[3];
+  }
+  return m;
+}
+
+}  // namespace
+
+std::vector<Matrix4> ellipsoid_places(const std::vector<Ellipsoid>& all, double scale,
+                                      const Matrix4& to_world) {
+  const PolarParts parts = polar_parts(to_world);
+  std::vector<Matrix4> places;
+  for (const Ellipsoid& e : all) places.push_back(placed(e, scale, to_world, parts));
+  return places;
 }
 
 }  // namespace duet

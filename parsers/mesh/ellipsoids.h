@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "math/transform.h"
 #include "mesh/byte_reader.h"
 
 namespace duet {
@@ -20,5 +21,10 @@ struct Ellipsoid {
 std::vector<Ellipsoid> read_ellipsoids(const std::string& file);
 /// The same for an opened file.
 std::vector<Ellipsoid> parse_ellipsoids(ByteReader& in);
+
+/// Where Mitsuba puts the unit sphere for each of them, with the radii multiplied by `scale`:
+/// stretches of `to_world` are evened out.
+std::vector<Matrix4> ellipsoid_places(const std::vector<Ellipsoid>& all, double scale,
+                                      const Matrix4& to_world);
 
 }  // namespace duet

@@ -115,4 +115,15 @@ void finish_mesh(const ByteReader& in, const MeshOptions& options, TriangleMesh&
   }
 }
 
+Matrix4 recentering(const std::vector<const TriangleMesh*>& meshes) {
+  double lower[3], upper[3];
+  for (int i = 0; i < 3; ++i) lower[i] = HUGE_VAL, upper[i] = -HUGE_VAL;
+  for (const TriangleMesh* mesh : meshes)
+    for (const Point3f& p : mesh->positions)
+      for (int i = 0; i < 3; ++i)
+        lower[i] = std::min(lower[i], double(p[i])), upper[i] = std::max(upper[i], double(p[i]));
+  return Matrix4::translate(-0.5 * (lower[0] + upper[0]), -0.5 * (lower[1] + upper[1]),
+                            -0.5 * (lower[2] + upper[2]));
+}
+
 }  // namespace duet

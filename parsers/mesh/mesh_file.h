@@ -10,6 +10,7 @@
 
 #include "base/diagnostics.h"
 #include "geometry/mesh.h"
+#include "math/transform.h"
 
 namespace duet {
 
@@ -75,5 +76,8 @@ ObjFile read_obj_parts(const std::string& file, const MeshOptions& options);
 /// Puts the parts of one material together, in the order of the materials' first parts. (Parts that
 /// differ in whether they have texture coordinates or normals stay apart.)
 std::vector<ObjPart> join_parts(std::vector<ObjPart> parts);
+
+/// Moves the middle of the meshes' box to the origin.
+Matrix4 recentering(const std::vector<const TriangleMesh*>& meshes);
 
 }  // namespace duet

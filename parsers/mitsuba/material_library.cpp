@@ -2,8 +2,8 @@
 
 #include <cmath>
 
+#include "files/file_access.h"
 #include "math/spectrum.h"
-#include "mitsuba/scene_files.h"
 #include "values/text.h"
 
 namespace duet {

@@ -1,7 +1,7 @@
 #include "mitsuba/mitsuba.h"
 
+#include "files/file_access.h"
 #include "mitsuba/loader.h"
-#include "mitsuba/scene_files.h"
 #include "mitsuba/scene_reader.h"
 
 namespace duet {

@@ -1,46 +1,16 @@
 // Reads Mitsuba scene files, versions 0.4 to 3.x.
 #pragma once
 
-#include <functional>
 #include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "base/diagnostics.h"
-#include "curves/curve_file.h"
-#include "measured/measured_file.h"
-#include "mesh/ellipsoids.h"
-#include "mesh/mesh_file.h"
+#include "files/file_access.h"
 #include "scene/description.h"
-#include "volume/vol_file.h"
 
 namespace duet {
-
-/// How the reader gets at files. What is left empty is done on the disk; tests put their own things
-/// here.
-struct FileAccess {
-  /// Whether there is a file or folder of that name.
-  std::function<bool(const std::string& path)> exists;
-  /// The whole text of a file; nothing if it cannot be read.
-  std::function<std::optional<std::string>(const std::string& path)> read;
-  /// Reads the mesh file of an obj, ply or serialized shape; throws ReadError.
-  std::function<TriangleMesh(const std::string& plugin, const std::string& path,
-                             const MeshOptions& options)>
-      read_mesh;
-  /// Reads an OBJ file as 0.x divides it; throws ReadError.
-  std::function<ObjFile(const std::string& path, const MeshOptions& options)> read_obj_parts;
-  /// Reads a volume file; throws ReadError.
-  std::function<VolumeFile(const std::string& path)> read_volume;
-  /// Reads a file of ellipsoids; throws ReadError.
-  std::function<std::vector<Ellipsoid>(const std::string& path)> read_ellipsoids;
-  /// Reads a measured material; throws ReadError.
-  std::function<MeasuredTable(const std::string& path)> read_measured;
-  /// Reads a file of curves; throws ReadError.
-  std::function<CurveSet(const std::string& path, CurveKind kind)> read_curves;
-  /// Reads a file of 0.6's hair, to be of this radius; throws ReadError.
-  std::function<CurveSet(const std::string& path, float radius)> read_hair;
-};
 
 class Vocabulary;
 

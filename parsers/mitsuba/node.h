@@ -28,6 +28,9 @@ struct FileVersion {
 struct Node;
 
 using Triple = std::array<double, 3>;
+inline Spectrum to_spectrum(const Triple& t) {
+  return {float(t[0]), float(t[1]), float(t[2])};
+}
 /// A property that could not be read: the error is reported, nothing more is to be said about it.
 struct Broken {};
 struct RgbColor {

@@ -8,16 +8,6 @@ namespace duet {
 
 namespace {
 
-/// `an integer`, `a colour`: what a property is, in words.
-std::string_view kind_of_value(const PropertyValue& value) {
-  constexpr std::string_view names[] = {
-      "nothing",           "a boolean",    "an integer", "a float",    "a string",
-      "a point or vector", "a colour",     "a spectrum", "a spectrum", "a blackbody",
-      "a transform",       "an animation", "a plugin",   "null"};
-  static_assert(std::size(names) == std::variant_size_v<PropertyValue>);
-  return names[value.index()];
-}
-
 /// Children that are not parameters have a meaning by their kind alone, except textures and
 /// volumes.
 bool is_parameter_kind(const Property& p) {
@@ -50,6 +40,10 @@ Properties::Properties(const Node& node, Report& report) : node_(node), report_(
     }
     entries_.push_back({&p, parameter});
   }
+}
+
+bool Properties::knows(std::string_view name) const {
+  return find_parameter(node_.kind, *node_.plugin, name) != nullptr;
 }
 
 const Parameter& Properties::parameter(std::string_view name) const {
@@ -105,46 +99,36 @@ std::string Properties::expected(const Parameter& p) const {
                      is_0x() ? camel_case(p.name) : std::string(p.name), describe(node_));
 }
 
-void Properties::wrong_type(std::string_view name, const Property& property) {
-  if (std::holds_alternative<Broken>(property.value)) return;
-  const Parameter& p = parameter(name);
-  report_.error(property.value_where, "{} is of type {}, not {}", expected(p), type_name(p.type),
-                kind_of_value(property.value));
-}
-
 bool Properties::in_range(std::string_view name, double value) {
   const Parameter& p = parameter(name);
-  const auto fail = [&](std::string_view rule) {
-    error(name, "{} must be {}, not {}", expected(p), rule, value);
-    return false;
+  const auto check = [&](bool good, std::string_view rule) {
+    if (!good) error(name, "{} must be {}, not {}", expected(p), rule, value);
+    return good;
   };
   switch (p.range) {
     case NumberRange::any:
       return true;
     case NumberRange::positive:
-      return value > 0 || fail("positive");
+      return check(value > 0, "positive");
     case NumberRange::not_negative:
-      return value >= 0 || fail("at least 0");
+      return check(value >= 0, "at least 0");
     case NumberRange::size:
-      return (value >= 1 && value <= 65536) || fail("from 1 to 65536");
+      return check(value >= 1 && value <= 65536, "from 1 to 65536");
     case NumberRange::depth:
-      return value >= -1 || fail("-1 or more");
+      return check(value >= -1, "-1 or more");
     case NumberRange::degrees:
-      return (value > 0 && value < 180) || fail("between 0 and 180");
+      return check(value > 0 && value < 180, "between 0 and 180");
     case NumberRange::fraction:
-      return (value >= 0 && value <= 1) || fail("from 0 to 1");
+      return check(value >= 0 && value <= 1, "from 0 to 1");
     case NumberRange::probability:
-      return (value > 0 && value <= 1) || fail("above 0 and at most 1");
+      return check(value > 0 && value <= 1, "above 0 and at most 1");
   }
   return true;
 }
 
 bool Properties::boolean(std::string_view name) {
-  if (const Property* p = find(name)) {
-    if (const bool* value = std::get_if<bool>(&p->value)) return *value;
-    wrong_type(name, *p);
-  }
-  return preset(name) == "true";
+  const bool* given = value<bool>(name);
+  return given ? *given : preset(name) == "true";
 }
 
 int Properties::integer(std::string_view name) {
@@ -183,11 +167,8 @@ double Properties::number(std::string_view name) {
 }
 
 std::string Properties::string(std::string_view name) {
-  if (const Property* p = find(name)) {
-    if (const std::string* value = std::get_if<std::string>(&p->value)) return *value;
-    wrong_type(name, *p);
-  }
-  return std::string(preset(name));
+  const std::string* given = value<std::string>(name);
+  return given ? *given : std::string(preset(name));
 }
 
 std::vector<double> Properties::numbers(std::string_view name) {
@@ -199,10 +180,7 @@ std::vector<double> Properties::numbers(std::string_view name) {
 }
 
 Triple Properties::triple(std::string_view name) {
-  if (const Property* p = find(name)) {
-    if (const Triple* value = std::get_if<Triple>(&p->value)) return *value;
-    wrong_type(name, *p);
-  }
+  if (const Triple* given = value<Triple>(name)) return *given;
   const auto numbers = parse_numbers(preset(name));
   return numbers && numbers->size() == 3 ? Triple{(*numbers)[0], (*numbers)[1], (*numbers)[2]}
                                          : Triple{};
@@ -261,71 +239,6 @@ const Node* Properties::child(PluginKind kind) {
   for (size_t i = 1; i < all.size(); ++i)
     report_.error(all[i].property->where, "{} can have only one {}", describe(node_), tag_of(kind));
   return all.empty() ? nullptr : all[0].node;
-}
-
-void Properties::finish() {
-  for (const Entry& e : entries_)
-    if (!e.used) report_unused(e);
-}
-
-void Properties::report_unused(const Entry& e) {
-  const Property& p = *e.property;
-  if (const Node* const* node = std::get_if<const Node*>(&p.value)) {
-    if (!may_contain(node_.kind, (*node)->kind)) {
-      report_.error(p.where, "{} cannot stand in a <{}>", describe(**node), tag_of(node_.kind));
-      return;
-    }
-    if (!(*node)->plugin) return;  // it has its own error
-    if ((*node)->kind != PluginKind::texture && (*node)->kind != PluginKind::bsdf) {
-      report_.error(p.where, "{} cannot be used by {}", describe(**node), describe(node_));
-      return;
-    }
-  }
-  if (e.parameter) {
-    const Parameter& known = *e.parameter;
-    if (known.support == Support::inert || std::holds_alternative<Broken>(p.value)) return;
-    if (known.support == Support::refused) {
-      report_.error(p.where, "{} is refused: {}", expected(known), known.note);
-      return;
-    }
-    // Asking for what happens anyway needs no remark.
-    const std::string value = std::visit(
-        [](const auto& v) -> std::string {
-          using V = std::decay_t<decltype(v)>;
-          if constexpr (std::is_same_v<V, bool>)
-            return v ? "true" : "false";
-          else if constexpr (std::is_same_v<V, std::string>)
-            return v;
-          else if constexpr (std::is_arithmetic_v<V>)
-            return fmt::format("{}", v);
-          else
-            return "?";
-        },
-        p.value);
-    if (known.support == Support::ignored && value == known.preset) return;
-    report_.warning(p.where, "{} has no effect{}", expected(known),
-                    known.support == Support::ignored ? " on the linear image" : " here");
-    return;
-  }
-  // <null/> says nothing on purpose; what is broken has its own error.
-  if (p.name.empty() &&
-      (std::holds_alternative<NullReference>(p.value) || std::holds_alternative<Broken>(p.value)))
-    return;
-  if (p.written.starts_with("metadata[") || p.written.starts_with("label[")) {
-    report_.warning(p.where, "annotations have no effect on the linear image");
-    return;
-  }
-  if (p.name.empty()) {
-    report_.warning(p.where, "{} is not used by {}", kind_of_value(p.value), describe(node_));
-    return;
-  }
-  std::vector<std::string> names;
-  if (!report_.is_full()) names = parameter_names(node_.kind, *node_.plugin);
-  std::string near = nearest_name(p.name, names);
-  if (!near.empty())
-    near = fmt::format(" (did you mean \"{}\"?)", is_0x() ? camel_case(near) : near);
-  report_.warning(p.where, "unused parameter {} of {}{}", in_quotes(p.written), describe(node_),
-                  near);
 }
 
 }  // namespace duet

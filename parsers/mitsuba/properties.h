@@ -31,11 +31,17 @@ class Properties {
   /// A parameter that the vocabulary cannot know, since a file of the plugin's defines it: by the
   /// name that the scene writes; null if there is none.
   const Property* find_own(std::string_view written);
+  /// What the vocabulary says of a parameter, and whether the plugin has one of that name.
+  const Parameter& parameter(std::string_view name) const;
+  bool knows(std::string_view name) const;
   /// The value that holds where the file gives none.
   std::string_view preset(std::string_view name) const;
   /// Where the value stands, or the plugin if there is none.
   const SourceLocation& where(std::string_view name) const;
 
+  /// The value if the file gives one of that type; null, after an error if it is of another one.
+  template <class T>
+  const T* value(std::string_view name);
   bool boolean(std::string_view name);
   int integer(std::string_view name);
   double number(std::string_view name);
@@ -82,15 +88,26 @@ class Properties {
     const Parameter* parameter;  ///< null if the plugin has none of that name
     bool used = false;
   };
-  const Parameter& parameter(std::string_view name) const;
   const Entry* entry(std::string_view name) const;
   std::string expected(const Parameter& p) const;
+  // properties_unused.cpp
   void report_unused(const Entry& e);
+  /// Whether it is a plugin of which nothing more is to be said.
+  bool report_misplaced(const Property& p);
+  void report_without_effect(const Parameter& known, const Property& p);
 
   const Node& node_;
   Report& report_;
   std::vector<Entry> entries_;
 };
+
+template <class T>
+const T* Properties::value(std::string_view name) {
+  const Property* p = find(name);
+  const T* value = p ? std::get_if<T>(&p->value) : nullptr;
+  if (p && !value) wrong_type(name, *p);
+  return value;
+}
 
 template <class E>
 E Properties::choice(std::string_view name,

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "values/ior.h"
+#include "values/spectrum_text.h"
 #include "values/text.h"
 
 namespace duet {
@@ -34,23 +35,6 @@ PropertyValue read_triple(const ElementContext& c, const Attributes& a) {
     }
   }
   return good ? PropertyValue(triple) : PropertyValue(Broken{});
-}
-
-/// "#rrggbb" as three numbers from 0 to 1.
-std::optional<Triple> parse_hex_color(std::string_view text) {
-  text = trim(text);
-  if (text.size() != 7 || text[0] != '#') return std::nullopt;
-  Triple color{};
-  for (int i = 0; i < 6; ++i) {
-    const char ch = text[size_t(i) + 1];
-    const int digit = ch >= '0' && ch <= '9'   ? ch - '0'
-                      : ch >= 'a' && ch <= 'f' ? ch - 'a' + 10
-                      : ch >= 'A' && ch <= 'F' ? ch - 'A' + 10
-                                               : -1;
-    if (digit < 0) return std::nullopt;
-    color[i / 2] += (i % 2 ? 1 : 16) * digit / 255.0;
-  }
-  return color;
 }
 
 PropertyValue read_rgb(const ElementContext& c, const Attributes& a, bool srgb) {
@@ -100,51 +84,24 @@ PropertyValue checked_spectrum(const ElementContext& c, const SourceLocation& wh
   return samples;
 }
 
-/// The index of refraction in a file that comes with Mitsuba, whose folder is among those where it
-/// looks: data/ior/Au.eta.spd and the like.
-std::optional<Triple> own_index(std::string_view parameter, std::string_view file) {
-  constexpr std::string_view folder = "data/ior/";
-  const bool real = parameter == "eta";
-  const std::string_view ending = real ? ".eta.spd" : ".k.spd";
-  if ((!real && parameter != "k") || !file.starts_with(folder) || !file.ends_with(ending))
-    return std::nullopt;
-  file.remove_prefix(folder.size());
-  file.remove_suffix(ending.size());
-  const ConductorEntry* entry = find_conductor(file);
-  if (!entry) return std::nullopt;
-  const Spectrum& s = real ? entry->eta : entry->k;
-  return Triple{double(s.r), double(s.g), double(s.b)};
-}
-
-/// Lines of a wavelength and a value; "#" begins a comment.
 PropertyValue read_spectrum_file(const ElementContext& c, const Attributes& a) {
   const SourceLocation& where = a.where("filename");
   const auto path = find_file(a["filename"], c.folders, c.access);
   if (!path)
-    if (const auto index = own_index(a["name"], a["filename"])) return RgbColor{*index};
+    if (const Spectrum* s = index_of_file(a["name"], a["filename"]))
+      return RgbColor{{double(s->r), double(s->g), double(s->b)}};
   const auto text = path ? c.access.read(*path) : std::nullopt;
   if (!text) {
     c.report.error(where, "{}",
                    path ? "cannot read " + in_quotes(*path) : not_found(a["filename"], c.folders));
     return Broken{};
   }
-  std::vector<SpectrumSample> samples;
-  int line_number = 0;
-  for (size_t begin = 0; begin < text->size();) {
-    const size_t end = std::min(text->find('\n', begin), text->size());
-    std::string_view line = std::string_view(*text).substr(begin, end - begin);
-    begin = end + 1;
-    ++line_number;
-    line = line.substr(0, line.find('#'));
-    if (trim(line).empty()) continue;
-    const auto numbers = parse_numbers(line);
-    if (!numbers || numbers->size() != 2) {
-      c.report.error(where, "{}: line {} is not a wavelength and a value", *path, line_number);
-      return Broken{};
-    }
-    samples.push_back({(*numbers)[0], (*numbers)[1]});
+  try {
+    return checked_spectrum(c, where, parse_spectrum_lines(*text, *path));
+  } catch (const ReadError& error) {
+    c.report.error(where, "{}", error.what());
+    return Broken{};
   }
-  return checked_spectrum(c, where, std::move(samples));
 }
 
 PropertyValue read_spectrum(const ElementContext& c, const Attributes& a) {
@@ -160,7 +117,6 @@ PropertyValue read_spectrum(const ElementContext& c, const Attributes& a) {
   if (given("filename")) return read_spectrum_file(c, a);
 
   const SourceLocation& where = a.where("value");
-  const auto parts = split_list(a["value"]);
   if (a["value"].find(':') == std::string::npos) {
     const auto numbers = parse_numbers(a["value"]);
     if (numbers && numbers->size() == 1) return ScalarSpectrum{(*numbers)[0]};
@@ -171,7 +127,7 @@ PropertyValue read_spectrum(const ElementContext& c, const Attributes& a) {
     return Broken{};
   }
   std::vector<SpectrumSample> samples;
-  for (std::string_view part : parts) {
+  for (std::string_view part : split_list(a["value"])) {
     const size_t colon = part.find(':');
     const auto wavelength = parse_number(part.substr(0, colon));
     const auto value = colon == part.npos ? std::nullopt : parse_number(part.substr(colon + 1));

@@ -3,9 +3,9 @@
 
 #include <string_view>
 
-#include "mitsuba/attributes.h"
+#include "files/file_access.h"
 #include "mitsuba/node.h"
-#include "mitsuba/scene_files.h"
+#include "xml/attributes.h"
 
 namespace duet {
 

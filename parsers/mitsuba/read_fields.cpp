@@ -6,14 +6,6 @@ namespace duet {
 
 namespace {
 
-bool has_parameter(const Properties& p, std::string_view name) {
-  return find_parameter(p.node().kind, *p.node().plugin, name) != nullptr;
-}
-
-bool is_rough(const Properties& p) {
-  return p.node().type.starts_with("rough");
-}
-
 bool is_index(const FieldFacts& facts) {
   return facts.parameters.front().type == ParameterType::ior;
 }
@@ -31,7 +23,7 @@ Roughness unchecked_roughness(SceneReader& s, Properties& p) {
 
   r.alpha_u = r.alpha_v = s.number_or_texture(p, "alpha");
   // Plastic is isotropic.
-  if (!has_parameter(p, "alpha_u")) return r;
+  if (!p.knows("alpha_u")) return r;
   const bool u = p.has("alpha_u"), v = p.has("alpha_v");
   if (u != v)
     p.error(u ? "alpha_u" : "alpha_v", "\"alpha_u\" and \"alpha_v\" must be given together");
@@ -61,48 +53,42 @@ Roughness read_roughness(SceneReader& s, Properties& p) {
 double relative_index(SceneReader& s, Properties& p) {
   const double inside = s.index_of_refraction(p, "int_ior");
   const double outside = s.index_of_refraction(p, "ext_ior");
-  if (is_rough(p) && inside == outside)
+  if (p.node().type.starts_with("rough") && inside == outside)
     p.error("int_ior", "the indices of refraction of {} must differ", describe(p.node()));
   return inside / outside;
 }
 
+namespace {
+
+/// What `read` makes of each of them; none after an error.
+template <class Read>
+auto read_all(const std::vector<Properties::Child>& children, Read read) {
+  std::vector<typename std::invoke_result_t<Read, const Node&>::value_type> ids;
+  for (const Properties::Child& child : children)
+    if (const auto id = read(*child.node)) ids.push_back(*id);
+  if (ids.size() != children.size()) ids.clear();
+  return ids;
+}
+
+}  // namespace
+
 std::vector<MaterialId> nested_bsdfs(SceneReader& s, Properties& p, size_t least, size_t most) {
   const auto children = p.children(PluginKind::bsdf);
-  if (children.size() < least || children.size() > most) {
-    s.report().error(p.node().where, "{} needs {}{} nested BSDF{}, not {}", describe(p.node()),
-                     least, least == most ? "" : " or " + std::to_string(most),
-                     most == 1 ? "" : "s", children.size());
-    return {};
-  }
-  std::vector<MaterialId> ids;
-  for (const Properties::Child& child : children)
-    if (const auto id = s.material(*child.node)) ids.push_back(*id);
-  return ids.size() == children.size() ? ids : std::vector<MaterialId>();
+  if (children.size() >= least && children.size() <= most)
+    return read_all(children, [&](const Node& node) { return s.material(node); });
+  s.report().error(p.node().where, "{} needs {}{} nested BSDF{}, not {}", describe(p.node()), least,
+                   least == most ? "" : " or " + std::to_string(most), most == 1 ? "" : "s",
+                   children.size());
+  return {};
 }
 
 std::vector<PhaseId> nested_phases(SceneReader& s, Properties& p, size_t count) {
   const auto children = p.children(PluginKind::phase);
-  if (children.size() != count) {
-    s.report().error(p.node().where, "{} needs {} phase functions, not {}", describe(p.node()),
-                     count, children.size());
-    return {};
-  }
-  std::vector<PhaseId> ids;
-  for (const Properties::Child& child : children)
-    if (const auto id = s.phase(*child.node)) ids.push_back(*id);
-  return ids.size() == count ? ids : std::vector<PhaseId>();
-}
-
-void FieldReader::read(const FieldFacts& facts, bool& value) {
-  value = p_.boolean(facts.name());
-}
-
-void FieldReader::read(const FieldFacts& facts, int& value) {
-  value = p_.integer(facts.name());
-}
-
-void FieldReader::read(const FieldFacts& facts, uint64_t& value) {
-  value = uint64_t(p_.integer(facts.name()));
+  if (children.size() == count)
+    return read_all(children, [&](const Node& node) { return s.phase(node); });
+  s.report().error(p.node().where, "{} needs {} phase functions, not {}", describe(p.node()), count,
+                   children.size());
+  return {};
 }
 
 void FieldReader::read(const FieldFacts& facts, double& value) {
@@ -113,17 +99,9 @@ void FieldReader::read(const FieldFacts& facts, double& value) {
                 .value_or(parse_number(p_.preset(facts.name())).value_or(value));
 }
 
-void FieldReader::read(const FieldFacts& facts, std::optional<double>& value) {
-  value = p_.optional_number(facts.name());
-}
-
 void FieldReader::read(const FieldFacts& facts, std::string& value) {
   value = facts.parameters.front().type == ParameterType::file ? s_.file(p_, facts.name())
                                                                : p_.string(facts.name());
-}
-
-void FieldReader::read(const FieldFacts& facts, ColorInput& value) {
-  value = s_.color(p_, facts.name());
 }
 
 void FieldReader::read(const FieldFacts& facts, std::optional<ColorInput>& value) {
@@ -135,22 +113,6 @@ void FieldReader::read(const FieldFacts& facts, FloatInput& value) {
     value = relative_index(s_, p_);
   else
     value = s_.number_or_texture(p_, facts.name());
-}
-
-void FieldReader::read(const FieldFacts& facts, Spectrum& value) {
-  value = s_.constant_color(p_, facts.name());
-}
-
-void FieldReader::read(const FieldFacts& facts, ColorVolume& value) {
-  value = s_.color_volume(p_, facts.name());
-}
-
-void FieldReader::read(const FieldFacts& facts, FloatVolume& value) {
-  value = s_.float_volume(p_, facts.name());
-}
-
-void FieldReader::read(const FieldFacts& facts, Matrix4& value) {
-  value = p_.transform(facts.name());
 }
 
 void FieldReader::read(const FieldFacts& facts, UvTransform& value) {
@@ -166,10 +128,6 @@ void FieldReader::read(const FieldFacts& facts, UvTransform& value) {
   value.m[1] = {0, p_.optional_number("vscale").value_or(scale), p_.number("voffset")};
 }
 
-void FieldReader::read(const FieldFacts& facts, std::optional<TextureId>& value) {
-  value = s_.texture(p_, facts.name());
-}
-
 void FieldReader::read_nested(TextureId& value) {
   const Node* node = p_.child(PluginKind::texture);
   if (!node) s_.report().error(p_.node().where, "{} needs a texture", describe(p_.node()));
@@ -178,12 +136,8 @@ void FieldReader::read_nested(TextureId& value) {
   complete_ = complete_ && id;
 }
 
-void FieldReader::read(const FieldFacts&, Roughness& value) {
-  value = read_roughness(s_, p_);
-}
-
 void FieldReader::read(const FieldFacts&, std::optional<Roughness>& value) {
-  if (has_parameter(p_, "alpha")) value = read_roughness(s_, p_);
+  if (p_.knows("alpha")) value = read_roughness(s_, p_);
 }
 
 }  // namespace duet

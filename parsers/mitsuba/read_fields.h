@@ -5,6 +5,17 @@
 
 namespace duet {
 
+/// Index of the inside over that of the outside; an error for a rough interface without difference.
+double relative_index(SceneReader& s, Properties& p);
+/// The roughness of an interface; zero becomes small, and what is negative is an error.
+Roughness read_roughness(SceneReader& s, Properties& p);
+/// The BSDFs that are nested in the plugin; none, after an error, unless there are from `least` to
+/// `most` of them.
+std::vector<MaterialId> nested_bsdfs(SceneReader& s, Properties& p, size_t least, size_t most);
+
+/// The same for phase functions: there must be `count`.
+std::vector<PhaseId> nested_phases(SceneReader& s, Properties& p, size_t count);
+
 /// Reads one field after the other, by the parameters that spell it. Those that the plugin does not
 /// have, and those that its own reader finds, are left as they are. A texture that no parameter
 /// names is nested.
@@ -16,7 +27,7 @@ class FieldReader {
   void operator()(const FieldFacts& facts, M& value) {
     if (facts.read_by_plugin) return;
     if constexpr (std::is_same_v<M, TextureId>) return read_nested(value);
-    if (facts.parameters.empty() || !has(facts.name())) return;
+    if (facts.parameters.empty() || !p_.knows(facts.name())) return;
     if constexpr (std::is_same_v<M, MaterialId> || std::is_same_v<M, MaterialShares>)
       return;  // duet::read_nested()
     else if constexpr (std::is_enum_v<M>)
@@ -28,29 +39,27 @@ class FieldReader {
   bool is_complete() const { return complete_; }
 
  private:
-  bool has(std::string_view name) const {
-    return find_parameter(p_.node().kind, *p_.node().plugin, name) != nullptr;
-  }
-  void read_nested(TextureId& value);
-  void read(const FieldFacts& facts, bool& value);
-  void read(const FieldFacts& facts, int& value);
-  void read(const FieldFacts& facts, uint64_t& value);
-  void read(const FieldFacts& facts, double& value);
-  void read(const FieldFacts& facts, std::optional<double>& value);
-  void read(const FieldFacts& facts, std::string& value);
-  void read(const FieldFacts& facts, ColorInput& value);
-  void read(const FieldFacts& facts, std::optional<ColorInput>& value);
-  void read(const FieldFacts& facts, FloatInput& value);
-  void read(const FieldFacts& facts, Spectrum& value);
-  void read(const FieldFacts& facts, ColorVolume& value);
-  void read(const FieldFacts& facts, FloatVolume& value);
-  void read(const FieldFacts& facts, UvTransform& value);
-  void read(const FieldFacts& facts, Matrix4& value);
-  void read(const FieldFacts& facts, std::optional<TextureId>& value);
-  void read(const FieldFacts& facts, Roughness& value);
-  void read(const FieldFacts& facts, std::optional<Roughness>& value);
+  using Facts = FieldFacts;
+  void read(const Facts& f, bool& value) { value = p_.boolean(f.name()); }
+  void read(const Facts& f, int& value) { value = p_.integer(f.name()); }
+  void read(const Facts& f, uint64_t& value) { value = uint64_t(p_.integer(f.name())); }
+  void read(const Facts& f, double& value);
+  void read(const Facts& f, std::optional<double>& v) { v = p_.optional_number(f.name()); }
+  void read(const Facts& f, std::string& value);
+  void read(const Facts& f, ColorInput& value) { value = s_.color(p_, f.name()); }
+  void read(const Facts& f, std::optional<ColorInput>& value);
+  void read(const Facts& f, FloatInput& value);
+  void read(const Facts& f, Spectrum& value) { value = s_.constant_color(p_, f.name()); }
+  void read(const Facts& f, ColorVolume& value) { value = s_.color_volume(p_, f.name()); }
+  void read(const Facts& f, FloatVolume& value) { value = s_.float_volume(p_, f.name()); }
+  void read(const Facts& f, UvTransform& value);
+  void read(const Facts& f, Matrix4& value) { value = p_.transform(f.name()); }
+  void read(const Facts& f, std::optional<TextureId>& v) { v = s_.texture(p_, f.name()); }
+  void read(const Facts&, Roughness& value) { value = read_roughness(s_, p_); }
+  void read(const Facts&, std::optional<Roughness>& value);
   template <class M>
-  void read(const FieldFacts&, M&) {}  // by the plugin
+  void read(const Facts&, M&) {}  // by the plugin
+  void read_nested(TextureId& value);
 
   SceneReader& s_;
   Properties& p_;
@@ -64,17 +73,6 @@ bool read_values(SceneReader& s, Properties& p, T& description) {
   for_each_field(description, reader);
   return reader.is_complete();
 }
-
-/// Index of the inside over that of the outside; an error for a rough interface without difference.
-double relative_index(SceneReader& s, Properties& p);
-/// The roughness of an interface; zero becomes small, and what is negative is an error.
-Roughness read_roughness(SceneReader& s, Properties& p);
-/// The BSDFs that are nested in the plugin; none, after an error, unless there are from `least` to
-/// `most` of them.
-std::vector<MaterialId> nested_bsdfs(SceneReader& s, Properties& p, size_t least, size_t most);
-
-/// The same for phase functions: there must be `count`.
-std::vector<PhaseId> nested_phases(SceneReader& s, Properties& p, size_t count);
 
 /// The fields that are nested BSDFs or phase functions, in their order; false after an error.
 template <class T>
@@ -100,10 +98,18 @@ bool read_nested(SceneReader& s, Properties& p, T& description) {
 }
 
 /// Reads what its fields say into a plugin of a kind whose description holds one as its `model`.
-template <class T, class Description>
+/// `kCheck`, if there is one, looks at the values and reports, or changes, what they cannot be; it
+/// may return false after an error.
+template <class T, auto kCheck = nullptr, class Description>
 void read_model(SceneReader& s, Properties& p, Description& out) {
   T model;
-  if (read_values(s, p, model) && read_nested(s, p, model)) out.model = std::move(model);
+  if (!read_values(s, p, model)) return;
+  if constexpr (requires { bool(kCheck(s, p, model)); }) {
+    if (!kCheck(s, p, model)) return;
+  } else if constexpr (requires { kCheck(s, p, model); }) {
+    kCheck(s, p, model);
+  }
+  if (read_nested(s, p, model)) out.model = std::move(model);
 }
 
 }  // namespace duet

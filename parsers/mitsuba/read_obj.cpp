@@ -1,9 +1,8 @@
 // OBJ files, whose parts may have different materials in Mitsuba 0.x.
-#include <cmath>
 #include <map>
 
+#include "files/file_access.h"
 #include "mitsuba/plugins/shapes.h"
-#include "mitsuba/scene_files.h"
 #include "mitsuba/scene_reader.h"
 #include "values/text.h"
 
@@ -33,18 +32,6 @@ GivenMaterials given_materials(SceneReader& s, Properties& p) {
       given.by_name[child.property->written] = *id;
   }
   return given;
-}
-
-/// Moves the middle of the meshes' box to the origin.
-Matrix4 recentering(const std::vector<const TriangleMesh*>& meshes) {
-  double lower[3], upper[3];
-  for (int i = 0; i < 3; ++i) lower[i] = HUGE_VAL, upper[i] = -HUGE_VAL;
-  for (const TriangleMesh* mesh : meshes)
-    for (const Point3f& p : mesh->positions)
-      for (int i = 0; i < 3; ++i)
-        lower[i] = std::min(lower[i], double(p[i])), upper[i] = std::max(upper[i], double(p[i]));
-  return Matrix4::translate(-0.5 * (lower[0] + upper[0]), -0.5 * (lower[1] + upper[1]),
-                            -0.5 * (lower[2] + upper[2]));
 }
 
 /// Which materials the parts of a file get.
@@ -113,14 +100,14 @@ MaterialLibrary* SceneReader::material_library(const std::string& name, const st
     return nullptr;
   }
   folders.insert(folders.begin() + 1, folder_of(*path));
-  try {
+  const auto materials = from_file(where, [&] {
     const auto text = access_.read(*path);
     if (!text) throw ReadError(*path + ": cannot be read");
-    entry->second = std::make_unique<MaterialLibrary>(*path, parse_mtl(*text, *path),
-                                                      std::move(folders), p.node().version);
-  } catch (const ReadError& error) {
-    report_.error(where, "{}", error.what());
-  }
+    return parse_mtl(*text, *path);
+  });
+  if (materials)
+    entry->second =
+        std::make_unique<MaterialLibrary>(*path, *materials, std::move(folders), p.node().version);
   return entry->second.get();
 }
 
@@ -150,12 +137,10 @@ void plugins::read_obj_shape(SceneReader& s, Properties& p, ShapeList& out) {
     return;
   }
 
-  ObjFile file;
-  try {
-    file = s.files().read_obj_parts(whole.source.file, options);
-  } catch (const ReadError& error) {
-    return s.report().error(where, "{}", error.what());
-  }
+  auto read =
+      s.from_file(where, [&] { return s.files().read_obj_parts(whole.source.file, options); });
+  if (!read) return;
+  ObjFile& file = *read;
   if (recenter) {
     std::vector<const TriangleMesh*> meshes;
     for (const ObjPart& part : file.parts) meshes.push_back(&part.mesh);

@@ -46,18 +46,11 @@ void attach_media(SceneReader& s, Properties& p, ShapeDescription& out) {
   }
 }
 
-void attach(SceneReader& s, Properties& p, ShapeDescription& out) {
-  const auto material = attached_material(s, p);
-  s.attach_without_material(p, out);
-  out.material = material ? *material : s.default_material(p, out);
-}
-
 }  // namespace
 
 void SceneReader::attach_without_material(Properties& p, ShapeDescription& out) {
   out.to_world = p.transform("to_world", out.motion) * out.to_world;
-  if (find_parameter(PluginKind::shape, *p.node().plugin, "flip_normals"))
-    out.flip_normals = p.boolean("flip_normals");
+  if (p.knows("flip_normals")) out.flip_normals = p.boolean("flip_normals");
   if (const Node* light = p.child(PluginKind::emitter)) out.emission = emission(*light);
   attach_media(*this, p, out);
   p.children(PluginKind::sensor);  // read when the shape has its place in the scene
@@ -67,12 +60,14 @@ MaterialId SceneReader::default_material(Properties& p, const ShapeDescription& 
   const bool lit = p.child(PluginKind::emitter) != nullptr;
   // Where only media meet, Mitsuba 0.x sees no surface; Mitsuba 3 does.
   const bool invisible = p.is_0x() && !lit && (shape.interior || shape.exterior);
-  return invisible ? null_material(p.node().where)
-                   : grey_material(lit ? 0.0f : 0.5f, p.node().where);
+  const std::optional<float> grey = lit ? 0.0f : 0.5f;
+  return shared_material(invisible ? std::nullopt : grey, p.node().where);
 }
 
 void SceneReader::attach_to_surface(Properties& p, ShapeDescription& shape) {
-  attach(*this, p, shape);
+  const auto material = attached_material(*this, p);
+  attach_without_material(p, shape);
+  shape.material = material ? *material : default_material(p, shape);
 }
 
 void SceneReader::sensors_on_shape(const Node& node, bool misplaced, size_t shape) {

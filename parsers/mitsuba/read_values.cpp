@@ -1,7 +1,7 @@
 // Parameters that may be numbers, colours, names or textures.
 #include <cmath>
 
-#include "mitsuba/scene_files.h"
+#include "files/file_access.h"
 #include "mitsuba/scene_reader.h"
 #include "values/ior.h"
 #include "values/text.h"
@@ -23,8 +23,8 @@ ColorMeaning meaning_of(ParameterType type) {
   }
 }
 
-Spectrum to_spectrum(const Triple& t) {
-  return {float(t[0]), float(t[1]), float(t[2])};
+double preset_number(const Properties& p, std::string_view name) {
+  return parse_number(p.preset(name)).value_or(0);
 }
 
 }  // namespace
@@ -72,11 +72,7 @@ std::optional<ColorInput> SceneReader::color_of(Properties& p, std::string_view 
     return spectrum_to_rgb(blackbody_spectrum(body->kelvin, body->scale), meaning);
   if (const Node* const* node = std::get_if<const Node*>(&v)) {
     if (!(*node)->plugin) return std::nullopt;
-    if ((*node)->kind != PluginKind::texture) {
-      p.wrong_type(name, property);
-      return std::nullopt;
-    }
-    return color(**node, meaning);
+    if ((*node)->kind == PluginKind::texture) return color(**node, meaning);
   }
   p.wrong_type(name, property);
   return std::nullopt;
@@ -93,19 +89,17 @@ std::optional<ColorInput> SceneReader::color(const Node& node, ColorMeaning mean
 }
 
 ColorInput SceneReader::color(Properties& p, std::string_view name) {
-  const Parameter& parameter = *find_parameter(p.node().kind, *p.node().plugin, name);
-  const Spectrum preset(float(parse_number(p.preset(name)).value_or(0)));
+  const Spectrum preset(float(preset_number(p, name)));
   const Property* property = p.find(name);
   if (!property) return preset;
-  return color_of(p, name, *property, meaning_of(parameter.type)).value_or(preset);
+  return color_of(p, name, *property, meaning_of(p.parameter(name).type)).value_or(preset);
 }
 
 ColorVolume SceneReader::color_volume(Properties& p, std::string_view name) {
-  const Parameter& parameter = *find_parameter(p.node().kind, *p.node().plugin, name);
-  const Spectrum preset(float(parse_number(p.preset(name)).value_or(0)));
+  const Spectrum preset(float(preset_number(p, name)));
   const Property* property = p.find(name);
   if (!property) return preset;
-  const ColorMeaning meaning = meaning_of(parameter.type);
+  const ColorMeaning meaning = meaning_of(p.parameter(name).type);
   if (const Node* const* node = std::get_if<const Node*>(&property->value);
       node && (*node)->kind == PluginKind::volume)
     return volume(**node, meaning).value_or(preset);
@@ -143,7 +137,7 @@ Spectrum SceneReader::constant_color(Properties& p, std::string_view name) {
 }
 
 FloatInput SceneReader::number_or_texture(Properties& p, std::string_view name) {
-  const double preset = parse_number(p.preset(name)).value_or(0);
+  const double preset = preset_number(p, name);
   const Property* property = p.find(name);
   if (!property) return preset;
   const PropertyValue& v = property->value;
@@ -167,14 +161,8 @@ FloatInput SceneReader::number_or_texture(Properties& p, std::string_view name) 
 }
 
 std::optional<TextureId> SceneReader::texture(Properties& p, std::string_view name) {
-  const Property* property = p.find(name);
-  if (!property) return std::nullopt;
-  const Node* const* node = std::get_if<const Node*>(&property->value);
-  if (!node) {
-    p.wrong_type(name, *property);
-    return std::nullopt;
-  }
-  return texture(**node);
+  const Node* const* node = p.value<const Node*>(name);
+  return node ? texture(**node) : std::nullopt;
 }
 
 double SceneReader::index_of_refraction(Properties& p, std::string_view name) {
@@ -199,13 +187,8 @@ double SceneReader::index_of_refraction(Properties& p, std::string_view name) {
 }
 
 std::string SceneReader::file(Properties& p, std::string_view name) {
-  const Property* property = p.find(name);
-  if (!property) return "";
-  const std::string* text = std::get_if<std::string>(&property->value);
-  if (!text) {
-    p.wrong_type(name, *property);
-    return "";
-  }
+  const std::string* text = p.value<std::string>(name);
+  if (!text) return "";
   if (const auto path = find_file(*text, *p.node().folders, access_)) return absolute_path(*path);
   p.error(name, "{}", not_found(*text, *p.node().folders));
   return "";

@@ -23,53 +23,40 @@ bool SceneReader::may_enter(const Node& node) {
   return false;
 }
 
-template <class Read>
-std::optional<uint32_t> SceneReader::once(const Node& node, Read read) {
-  if (const auto known = ids_.find(&node); known != ids_.end()) return known->second;
-  const std::optional<uint32_t> id = read();
-  ids_[&node] = id;
-  return id;
+template <class Id, class T>
+std::optional<Id> SceneReader::once(const Node& node, std::vector<T>& list, T initial) {
+  if (!ids_.contains(&node)) {
+    initial.where = node.where;
+    initial.label = {node.id};
+    std::optional<uint32_t> id;
+    if (read_into(node, initial)) {
+      id = uint32_t(list.size());
+      list.push_back(std::move(initial));
+    }
+    ids_[&node] = id;
+  }
+  const std::optional<uint32_t> id = ids_[&node];
+  return id ? std::optional(Id{*id}) : std::nullopt;
 }
 
 std::optional<TextureId> SceneReader::texture(const Node& node) {
-  const auto id = once(node, [&]() -> std::optional<uint32_t> {
-    TextureDescription texture{node.where, {node.id}, BitmapTexture{}};
-    if (!read_into(node, texture)) return std::nullopt;
-    description_.textures.push_back(std::move(texture));
-    return uint32_t(description_.textures.size() - 1);
-  });
-  return id ? std::optional(TextureId{*id}) : std::nullopt;
+  return once<TextureId>(node, description_.textures);
 }
 
 std::optional<MaterialId> SceneReader::material(const Node& node) {
-  const auto id = once(node, [&]() -> std::optional<uint32_t> {
-    MaterialDescription material{node.where, {node.id}};
-    if (!read_into(node, material)) return std::nullopt;
-    description_.materials.push_back(std::move(material));
-    return uint32_t(description_.materials.size() - 1);
-  });
-  return id ? std::optional(MaterialId{*id}) : std::nullopt;
+  return once<MaterialId>(node, description_.materials);
 }
 
 std::optional<MediumId> SceneReader::medium(const Node& node) {
-  const auto id = once(node, [&]() -> std::optional<uint32_t> {
-    MediumDescription medium;
-    medium.where = node.where;
-    medium.label = {node.id};
-    if (!read_into(node, medium)) return std::nullopt;
-    description_.media.push_back(std::move(medium));
-    return uint32_t(description_.media.size() - 1);
-  });
-  return id ? std::optional(MediumId{*id}) : std::nullopt;
+  return once<MediumId>(node, description_.media);
 }
 
 std::optional<PhaseId> SceneReader::phase(const Node& node) {
-  const auto id = once(node, [&]() -> std::optional<uint32_t> {
-    PhaseDescription phase{node.where, {node.id}, IsotropicPhase{}};
-    if (!read_into(node, phase)) return std::nullopt;
-    return uint32_t(add_phase(std::move(phase)));
-  });
-  return id ? std::optional(PhaseId{*id}) : std::nullopt;
+  return once<PhaseId>(node, description_.phases);
+}
+
+std::optional<uint32_t> SceneReader::shape_group(const Node& node) {
+  return once<uint32_t>(node, description_.groups);
 }
 
 PhaseId SceneReader::add_phase(PhaseDescription phase) {
@@ -84,51 +71,32 @@ VolumeId SceneReader::add_volume(VolumeDescription volume) {
 
 std::optional<ColorVolume> SceneReader::volume(const Node& node, ColorMeaning meaning) {
   const auto [entry, is_new] = volumes_.try_emplace({&node, meaning});
-  if (is_new) {
-    MeantVolume volume{meaning, {}};
-    if (read_into(node, volume)) volumes_[{&node, meaning}] = volume.value;
-  }
-  return volumes_[{&node, meaning}];
+  if (MeantVolume volume{meaning, {}}; is_new && read_into(node, volume))
+    entry->second = volume.value;
+  return entry->second;
 }
 
 std::shared_ptr<const VolumeGrid> SceneReader::volume_grid(const std::string& file,
                                                            const SourceLocation& where,
                                                            bool& is_float32) {
   const auto [entry, is_new] = volume_files_.try_emplace(file);
-  if (is_new) try {
-      entry->second = std::make_shared<VolumeFile>(access_.read_volume(file));
-    } catch (const ReadError& error) {
-      report_.error(where, "{}", error.what());
-    }
+  if (is_new)
+    if (auto read = from_file(where, [&] { return access_.read_volume(file); }))
+      entry->second = std::make_shared<VolumeFile>(std::move(*read));
   if (!entry->second) return nullptr;
   is_float32 = entry->second->is_float32;
   return {entry->second, &entry->second->grid};
 }
 
-std::optional<uint32_t> SceneReader::shape_group(const Node& node) {
-  return once(node, [&]() -> std::optional<uint32_t> {
-    ShapeGroupDescription group{node.where, {node.id}, {}};
-    if (!read_into(node, group)) return std::nullopt;
-    description_.groups.push_back(std::move(group));
-    return uint32_t(description_.groups.size() - 1);
-  });
-}
-
-MaterialId SceneReader::grey_material(float reflectance, const SourceLocation& where) {
-  const auto [entry, is_new] = greys_.try_emplace(reflectance);
-  if (is_new) {
-    entry->second = MaterialId{uint32_t(description_.materials.size())};
-    description_.materials.push_back({where, {}, DiffuseMaterial{Spectrum(reflectance)}});
-  }
-  return entry->second;
-}
-
-MaterialId SceneReader::null_material(const SourceLocation& where) {
-  if (!null_) {
-    null_ = MaterialId{uint32_t(description_.materials.size())};
+MaterialId SceneReader::shared_material(std::optional<float> reflectance,
+                                        const SourceLocation& where) {
+  const auto [entry, is_new] = shared_materials_.try_emplace(
+      reflectance, MaterialId{uint32_t(description_.materials.size())});
+  if (is_new && reflectance)
+    description_.materials.push_back({where, {}, DiffuseMaterial{Spectrum(*reflectance)}});
+  else if (is_new)
     description_.materials.push_back({where, {}, NullMaterial{}});
-  }
-  return *null_;
+  return entry->second;
 }
 
 std::shared_ptr<const TriangleMesh> SceneReader::mesh(const std::string& plugin,
@@ -140,11 +108,9 @@ std::shared_ptr<const TriangleMesh> SceneReader::mesh(const std::string& plugin,
                   options.max_smooth_angle.value_or(-1), options.shape_index,
                   options.obj_part.value_or(-1), file);
   const auto [entry, is_new] = meshes_.try_emplace(key);
-  if (is_new) try {
-      entry->second = std::make_shared<TriangleMesh>(access_.read_mesh(plugin, file, options));
-    } catch (const ReadError& error) {
-      report_.error(where, "{}", error.what());
-    }
+  if (is_new)
+    if (auto read = from_file(where, [&] { return access_.read_mesh(plugin, file, options); }))
+      entry->second = std::make_shared<TriangleMesh>(std::move(*read));
   return entry->second;
 }
 
@@ -171,63 +137,11 @@ void SceneReader::top_level(const NodeTree& tree) {
   Properties p(scene, report_);
   // Everything is read in the order of the file, also what nobody refers to: Mitsuba does it, too.
   const Node* integrator = p.child(PluginKind::integrator);
-  for (PluginKind kind :
-       {PluginKind::texture, PluginKind::bsdf, PluginKind::shape, PluginKind::emitter,
-        PluginKind::sensor, PluginKind::medium, PluginKind::phase, PluginKind::volume,
-        PluginKind::film, PluginKind::sampler, PluginKind::rfilter})
-    p.children(kind);
-  for (const Property& property : scene.properties) {
-    const Node* const* child = std::get_if<const Node*>(&property.value);
-    if (!child || !(*child)->plugin) continue;
-    const Node& node = **child;
-    switch (node.kind) {
-      case PluginKind::texture:
-        if (MeantColor constant{ColorMeaning::unbounded, {}};
-            std::holds_alternative<ReadInto<MeantColor>>(node.plugin->reader))
-          read_into(node, constant);
-        else
-          texture(node);
-        break;
-      case PluginKind::bsdf:
-        material(node);
-        break;
-      case PluginKind::medium:
-        medium(node);
-        break;
-      case PluginKind::phase:
-        phase(node);
-        break;
-      case PluginKind::shape:
-        shape(node, description_.shapes, false);
-        break;
-      case PluginKind::emitter:
-        // One that belongs to a surface may stand here to be referred to.
-        if (std::holds_alternative<ReadInto<AreaEmission>>(node.plugin->reader))
-          surface_lights_.try_emplace(&node, false);
-        else if (LightDescription light{node.where, {node.id}, PointLight{}, {}, {}, 1, {}};
-                 read_into(node, light))
-          description_.lights.push_back(std::move(light));
-        break;
-      case PluginKind::sensor:
-        if (SensorDescription sensor; read_into(node, sensor)) {
-          if (sensor.kind == SensorKind::irradiancemeter)
-            report_.error(node.where, "{} must stand in a shape", describe(node));
-          description_.sensors.push_back(std::move(sensor));
-        }
-        break;
-      case PluginKind::film:
-        if (FilmDescription film; true) read_into(node, film);
-        break;
-      case PluginKind::sampler:
-        if (SamplerDescription sampler; true) read_into(node, sampler);
-        break;
-      case PluginKind::rfilter:
-        if (FilterDescription filter; true) read_into(node, filter);
-        break;
-      default:
-        break;
-    }
-  }
+  for (int kind = 0; kind < kPluginKinds; ++kind)
+    if (PluginKind(kind) != PluginKind::subsurface) p.children(PluginKind(kind));
+  for (const Property& property : scene.properties)
+    if (const Node* const* node = std::get_if<const Node*>(&property.value))
+      if ((*node)->plugin) top_level(**node);
   p.finish();
   for (const auto& [node, used] : surface_lights_)
     if (!used)
@@ -237,6 +151,47 @@ void SceneReader::top_level(const NodeTree& tree) {
     read_into(*integrator, description_.integrator);
   }
   check_scene(tree, integrator != nullptr);
+}
+
+void SceneReader::top_level(const Node& node) {
+  const auto checked_only = [&](auto unused) { read_into(node, unused); };
+  switch (node.kind) {
+    case PluginKind::texture:
+      if (std::holds_alternative<ReadInto<MeantColor>>(node.plugin->reader))
+        return checked_only(MeantColor{ColorMeaning::unbounded, {}});
+      return void(texture(node));
+    case PluginKind::bsdf:
+      return void(material(node));
+    case PluginKind::medium:
+      return void(medium(node));
+    case PluginKind::phase:
+      return void(phase(node));
+    case PluginKind::shape:
+      return shape(node, description_.shapes, false);
+    case PluginKind::emitter:
+      // One that belongs to a surface may stand here to be referred to.
+      if (std::holds_alternative<ReadInto<AreaEmission>>(node.plugin->reader))
+        surface_lights_.try_emplace(&node, false);
+      else if (LightDescription light{node.where, {node.id}, PointLight{}, {}, {}, 1, {}};
+               read_into(node, light))
+        description_.lights.push_back(std::move(light));
+      return;
+    case PluginKind::sensor:
+      if (SensorDescription sensor; read_into(node, sensor)) {
+        if (sensor.kind == SensorKind::irradiancemeter)
+          report_.error(node.where, "{} must stand in a shape", describe(node));
+        description_.sensors.push_back(std::move(sensor));
+      }
+      return;
+    case PluginKind::film:
+      return checked_only(FilmDescription{});
+    case PluginKind::sampler:
+      return checked_only(SamplerDescription{});
+    case PluginKind::rfilter:
+      return checked_only(FilterDescription{});
+    default:
+      return;
+  }
 }
 
 std::optional<AreaEmission> SceneReader::emission(const Node& node) {

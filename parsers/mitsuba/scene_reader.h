@@ -45,16 +45,17 @@ class SceneReader {
   // ---- Plugins ----
   std::optional<TextureId> texture(const Node& node);
   std::optional<MaterialId> material(const Node& node);
-  /// A diffuse grey; all that ask for the same share it.
-  MaterialId grey_material(float reflectance, const SourceLocation& where);
-  /// Surfaces that let everything pass share one material.
-  MaterialId null_material(const SourceLocation& where);
+  /// A diffuse grey, or one that lets everything pass; all that ask for the same share it.
+  MaterialId shared_material(std::optional<float> reflectance, const SourceLocation& where);
   std::optional<MediumId> medium(const Node& node);
   std::optional<PhaseId> phase(const Node& node);
   /// What a volume yields; nothing after an error.
   std::optional<ColorVolume> volume(const Node& node, ColorMeaning meaning);
   PhaseId add_phase(PhaseDescription phase);
   VolumeId add_volume(VolumeDescription volume);
+  /// What `read` returns; nothing, after an error at `where`, if it throws ReadError.
+  template <class Read>
+  std::optional<std::invoke_result_t<Read>> from_file(const SourceLocation& where, Read read);
   /// The file read once; null after an error.
   std::shared_ptr<const VolumeGrid> volume_grid(const std::string& file,
                                                 const SourceLocation& where, bool& is_float32);
@@ -85,6 +86,8 @@ class SceneReader {
 
  private:
   void top_level(const NodeTree& tree);
+  /// A plugin at the top of the scene, but for its integrator.
+  void top_level(const Node& node);
   /// Reads the irradiance meters on a shape of the scene.
   void sensors_on_shape(const Node& node, bool misplaced, size_t shape);
   void check_scene(const NodeTree& tree, bool have_integrator);
@@ -108,19 +111,31 @@ class SceneReader {
   std::vector<const Node*> active_;
   /// Lights at the top of the scene that belong to surfaces, and whether a shape refers to them.
   std::unordered_map<const Node*, bool> surface_lights_;
-  std::map<float, MaterialId> greys_;
-  std::optional<MaterialId> null_;
+  /// Those that shapes without a BSDF share: by their reflectance, and the one that is invisible.
+  std::map<std::optional<float>, MaterialId> shared_materials_;
   /// Volumes that have been read, by the meaning that was asked for.
   std::map<std::pair<const Node*, ColorMeaning>, std::optional<ColorVolume>> volumes_;
   std::map<std::string, std::shared_ptr<const VolumeFile>> volume_files_;
   std::map<std::string, std::shared_ptr<const TriangleMesh>> meshes_;
   std::map<std::string, std::unique_ptr<MaterialLibrary>> libraries_;
 
-  template <class Read>
-  std::optional<uint32_t> once(const Node& node, Read read);
+  /// The index in `list` of what the plugin makes of `initial`; it is read once.
+  template <class Id, class T>
+  std::optional<Id> once(const Node& node, std::vector<T>& list, T initial = {});
   /// Whether the plugin may be read now: it contains neither itself nor too many others.
   bool may_enter(const Node& node);
 };
+
+template <class Read>
+std::optional<std::invoke_result_t<Read>> SceneReader::from_file(const SourceLocation& where,
+                                                                 Read read) {
+  try {
+    return read();
+  } catch (const ReadError& error) {
+    report_.error(where, "{}", error.what());
+    return std::nullopt;
+  }
+}
 
 template <class T>
 bool SceneReader::read_into(const Node& node, T& result) {

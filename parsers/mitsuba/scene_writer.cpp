@@ -120,12 +120,7 @@ void SceneWriter::sensor(const SensorDescription& s) {
 void SceneWriter::light(const LightDescription& l) {
   LightDescription d = l;
   // The direction to the sun is one in the world.
-  if (auto* sky = std::get_if<SkyLight>(&d.model)) {
-    const std::array<double, 3> local = std::exchange(sky->sun, {});
-    for (int i = 0; i < 3; ++i)
-      for (int j = 0; j < 3; ++j)
-        sky->sun[size_t(i)] += l.to_world[i][size_t(j)] * local[size_t(j)];
-  }
+  if (auto* sky = std::get_if<SkyLight>(&d.model)) sky->sun = l.to_world.turned(sky->sun);
   std::visit(
       [&](const auto& model) {
         out_.open("emitter", model.name());

@@ -35,45 +35,48 @@ class SceneWriter {
   void fields(const MaterialModel& model);
   template <HasFields T>
   void fields(const T& description);
+  template <class M>
+  void one_field(const FieldFacts& facts, const M& value);
   /// What is open is the plugin of that description: its fields and what is lost of it.
   template <HasFields T>
   void plugin(std::string_view tag, const T& description);
   void color(std::string_view name, const ColorInput& input);
   void number(std::string_view name, const FloatInput& input);
-  void field(const FieldFacts& facts, const Choice& choice);
-  void field(const FieldFacts& facts, bool value);
-  void field(const FieldFacts& facts, double value);
-  void field(const FieldFacts& facts, const std::optional<double>& value);
-  void field(const FieldFacts& facts, const std::string& value);
-  void field(const FieldFacts& facts, const ColorInput& value);
-  void field(const FieldFacts& facts, const std::optional<ColorInput>& value);
-  void field(const FieldFacts& facts, const FloatInput& value);
-  void field(const FieldFacts& facts, int value);
-  void field(const FieldFacts& facts, const Spectrum& value);
-  void field(const FieldFacts& facts, const ColorVolume& value);
-  void field(const FieldFacts& facts, const FloatVolume& value);
-  void field(const FieldFacts& facts, const std::variant<std::array<double, 6>, VolumeId>& value);
-  void field(const FieldFacts& facts, const std::vector<double>& value);
-  void field(const FieldFacts& facts, const Matrix4& value);
-  void field(const FieldFacts& facts, const std::optional<TextureId>& value);
-  void field(const FieldFacts& facts, const std::array<double, 3>& value);
-  void field(const FieldFacts& facts, uint64_t value);
-  void field(const FieldFacts& facts, const std::optional<std::array<double, 3>>& value);
+  using Facts = FieldFacts;
+  void field(const Facts& f, const Choice& c) { out_.string(f.name(), f.words[c.index]); }
+  void field(const Facts& f, bool value) { out_.boolean(f.name(), value); }
+  void field(const Facts& f, int value) { out_.integer(f.name(), value); }
+  void field(const Facts& f, uint64_t value) { out_.integer(f.name(), int64_t(value)); }
+  void field(const Facts& f, double value);
+  void field(const Facts& f, const std::string& value) { out_.string(f.name(), value); }
+  void field(const Facts& f, const ColorInput& value) { color(f.name(), value); }
+  void field(const Facts& f, const FloatInput& value);
+  void field(const Facts& f, const Spectrum& value) { color(f.name(), ColorInput(value)); }
+  void field(const Facts& f, const ColorVolume& value) { volume(f.name(), value); }
+  void field(const Facts& f, const FloatVolume& value);
+  void field(const Facts& f, const std::variant<std::array<double, 6>, VolumeId>& value);
+  void field(const Facts& f, const std::vector<double>& value);
+  void field(const Facts& f, const Matrix4& value) { out_.transform(f.name(), value); }
+  void field(const Facts& f, const std::array<double, 3>& value) { out_.point(f.name(), value); }
   /// Two parameters, or one that is a list.
-  void field(const FieldFacts& facts, const std::array<double, 2>& value);
-  void field(const FieldFacts& facts, const std::optional<CropWindow>& value);
-  void field(const FieldFacts& facts, const FilterDescription& value);
-  void field(const FieldFacts& facts, const UvTransform& value);
-  void field(const FieldFacts&, PhaseId value) { phase(value); }
-  void field(const FieldFacts& facts, TextureId value);
-  void field(const FieldFacts& facts, const Roughness& value);
-  void field(const FieldFacts& facts, const std::optional<Roughness>& value);
-  void field(const FieldFacts& facts, MaterialId value);
-  void field(const FieldFacts& facts, const MaterialShares& value);
+  void field(const Facts& f, const std::array<double, 2>& value);
+  void field(const Facts& f, const CropWindow& value);
+  void field(const Facts& f, const FilterDescription& value);
+  void field(const Facts& f, const UvTransform& value);
+  void field(const Facts&, PhaseId value) { phase(value); }
+  void field(const Facts& f, TextureId value) { out_.reference(f.name(), texture_id(value)); }
+  void field(const Facts& f, const Roughness& value);
+  void field(const Facts&, MaterialId value) { out_.reference({}, material_id(value)); }
+  void field(const Facts& f, const MaterialShares& value);
+  /// What may be absent.
+  template <class M>
+  void field(const Facts& f, const std::optional<M>& value) {
+    if (value) one_field(f, *value);
+  }
   /// What has no form in a file.
   template <class T>
-  void field(const FieldFacts& facts, const T&) {
-    if (!facts.name().empty()) lose(fmt::format("the parameter \"{}\" is missing", facts.name()));
+  void field(const Facts& f, const T&) {
+    lose(fmt::format("the parameter \"{}\" is missing", f.name()));
   }
 
   void volume(std::string_view name, VolumeId id);
@@ -106,14 +109,22 @@ class SceneWriter {
   std::vector<std::string> texture_ids_, material_ids_, medium_ids_, group_ids_;
 };
 
+template <class M>
+void SceneWriter::one_field(const FieldFacts& facts, const M& value) {
+  constexpr bool nests = kIsId<M> || std::is_same_v<M, FilterDescription> ||
+                         std::is_same_v<M, ColorInput> || std::is_same_v<M, FloatInput>;
+  if constexpr (!nests)
+    if (facts.name().empty()) return;
+  if constexpr (std::is_enum_v<M> && !kIsId<M>)
+    field(facts, Choice{size_t(value)});
+  else
+    field(facts, value);
+}
+
 template <HasFields T>
 void SceneWriter::fields(const T& description) {
-  for_each_field(description, [&]<class M>(const FieldFacts& facts, const M& value) {
-    if (!facts.given || facts.unwritten || facts.initial) return;
-    if constexpr (std::is_enum_v<M> && !kIsId<M>)
-      field(facts, Choice{size_t(value)});
-    else
-      field(facts, value);
+  for_each_field(description, [&](const FieldFacts& facts, const auto& value) {
+    if (facts.given && !facts.unwritten && !facts.initial) one_field(facts, value);
   });
 }
 

@@ -12,15 +12,30 @@ namespace {
 
 using namespace parameter_words;
 
-constexpr std::array<std::string_view, kPluginKinds> kTags{
-    "scene", "integrator", "sensor",  "film",   "rfilter", "sampler", "shape",
-    "bsdf",  "texture",    "emitter", "medium", "phase",   "volume",  "subsurface"};
+/// The elements of plugins, and which others may stand inside each.
+struct Element {
+  std::string_view tag, contents;
+};
+constexpr std::array<Element, kPluginKinds> kElements{
+    {{"scene",
+      "integrator sensor film rfilter sampler shape bsdf texture emitter medium phase volume "
+      "subsurface"},
+     {"integrator", "integrator texture"},
+     {"sensor", "film sampler medium texture sensor shape"},
+     {"film", "rfilter texture"},
+     {"rfilter", ""},
+     {"sampler", ""},
+     {"shape", "shape bsdf texture emitter sensor medium subsurface rfilter"},
+     {"bsdf", "bsdf texture phase"},
+     {"texture", "texture volume"},
+     {"emitter", "texture medium volume"},
+     {"medium", "volume phase texture emitter"},
+     {"phase", "phase volume texture"},
+     {"volume", "volume texture"},
+     {"subsurface", ""}}};
 
-constexpr Parameter kBsdfCommon[] = {{.name = "ensure_energy_conservation",
-                                      .type = boolean,
-                                      .preset = "true",
-                                      .note = "scales reflectances above 1 down",
-                                      .versions = v0}};
+constexpr Parameter kEnsureConservation{"ensure_energy_conservation",       boolean, "true",
+                                        "scales reflectances above 1 down", any,     v0};
 constexpr Parameter kShapeCommon[] = {
     {"to_world", transform, "", plugins::kMovable},
     {.name = "silhouette_sampling_weight", .type = number, .versions = v3, .support = inert}};
@@ -39,82 +54,39 @@ bool has_word(std::string_view words, std::string_view name) {
 }  // namespace
 
 std::string_view tag_of(PluginKind kind) {
-  return kTags[size_t(kind)];
+  return kElements[size_t(kind)].tag;
 }
 
 std::optional<PluginKind> kind_of_tag(std::string_view tag) {
-  for (size_t i = 0; i < kTags.size(); ++i)
-    if (kTags[i] == tag) return PluginKind(i);
+  for (size_t i = 0; i < kElements.size(); ++i)
+    if (kElements[i].tag == tag) return PluginKind(i);
   return std::nullopt;
 }
 
 bool may_contain(PluginKind outer, PluginKind inner) {
-  using enum PluginKind;
-  switch (outer) {
-    case PluginKind::scene:
-      return inner != PluginKind::scene;
-    case integrator:
-      return inner == integrator || inner == PluginKind::texture;
-    case sensor:
-      return inner == film || inner == sampler || inner == medium || inner == PluginKind::texture ||
-             inner == sensor || inner == shape;
-    case film:
-      return inner == rfilter || inner == PluginKind::texture;
-    case shape:
-      return inner == shape || inner == bsdf || inner == PluginKind::texture || inner == emitter ||
-             inner == sensor || inner == medium || inner == subsurface || inner == rfilter;
-    case bsdf:
-      return inner == bsdf || inner == PluginKind::texture || inner == phase;
-    case PluginKind::texture:
-      return inner == PluginKind::texture || inner == volume;
-    case emitter:
-      return inner == PluginKind::texture || inner == medium || inner == volume;
-    case medium:
-      return inner == volume || inner == phase || inner == PluginKind::texture || inner == emitter;
-    case phase:
-      return inner == phase || inner == volume || inner == PluginKind::texture;
-    case volume:
-      return inner == volume || inner == PluginKind::texture;
-    default:
-      return false;
-  }
+  return has_word(kElements[size_t(outer)].contents, tag_of(inner));
 }
 
 std::string_view type_name(ParameterType type) {
-  switch (type) {
-    case ParameterType::boolean:
-      return "boolean";
-    case ParameterType::integer:
-      return "integer";
-    case ParameterType::number:
-      return "float";
-    case ParameterType::string:
-      return "string";
-    case ParameterType::point:
-      return "point or vector";
-    case ParameterType::transform:
-      return "transform";
-    case ParameterType::file:
-      return "file name";
-    case ParameterType::ior:
-      return "float or name of a material";
-    case ParameterType::texture:
-      return "texture";
-    case ParameterType::number_or_texture:
-      return "float or texture";
-    case ParameterType::reflectance:
-    case ParameterType::unbounded:
-    case ParameterType::emission:
-      return "colour or texture";
-    case ParameterType::volume_only:
-      return "volume";
-    case ParameterType::number_or_volume:
-      return "float or volume";
-    case ParameterType::albedo:
-    case ParameterType::coefficient:
-      return "colour or volume";
-  }
-  return "";
+  constexpr std::string_view names[] = {"boolean",
+                                        "integer",
+                                        "float",
+                                        "string",
+                                        "point or vector",
+                                        "transform",
+                                        "file name",
+                                        "float or name of a material",
+                                        "texture",
+                                        "float or texture",
+                                        "colour or texture",
+                                        "colour or texture",
+                                        "colour or texture",
+                                        "volume",
+                                        "float or volume",
+                                        "colour or volume",
+                                        "colour or volume"};
+  static_assert(std::size(names) == size_t(ParameterType::coefficient) + 1);
+  return names[size_t(type)];
 }
 
 ParameterList inert_parameters(ParameterType type, std::string_view names, FileVersions versions) {
@@ -126,24 +98,12 @@ ParameterList inert_parameters(ParameterType type, std::string_view names, FileV
 
 const Vocabulary& Vocabulary::built_in() {
   static const Vocabulary all = [] {
+    using namespace plugins;
     Vocabulary v;
-    const auto add = [&](PluginKind kind, const auto& plugins) {
-      v.plugins_[size_t(kind)].assign(plugins.begin(), plugins.end());
-    };
-    add(PluginKind::scene, plugins::scenes());
-    add(PluginKind::integrator, plugins::integrators());
-    add(PluginKind::sensor, plugins::sensors());
-    add(PluginKind::film, plugins::films());
-    add(PluginKind::rfilter, plugins::rfilters());
-    add(PluginKind::sampler, plugins::samplers());
-    add(PluginKind::shape, plugins::shapes());
-    add(PluginKind::bsdf, plugins::bsdfs());
-    add(PluginKind::texture, plugins::textures());
-    add(PluginKind::emitter, plugins::emitters());
-    add(PluginKind::medium, plugins::media());
-    add(PluginKind::phase, plugins::phases());
-    add(PluginKind::volume, plugins::volumes());
-    add(PluginKind::subsurface, plugins::subsurfaces());
+    // In the order of PluginKind.
+    v.plugins_ = {scenes(),   integrators(), sensors(), films(),      rfilters(),
+                  samplers(), shapes(),      bsdfs(),   textures(),   emitters(),
+                  media(),    phases(),      volumes(), subsurfaces()};
     return v;
   }();
   return all;
@@ -165,7 +125,7 @@ const ParameterList& common_parameters(PluginKind kind) {
   static const std::array<ParameterList, kPluginKinds> lists = [] {
     std::array<ParameterList, kPluginKinds> all;
     const auto list = [&](PluginKind k) -> ParameterList& { return all[size_t(k)]; };
-    list(PluginKind::bsdf) = kBsdfCommon;
+    list(PluginKind::bsdf) = kEnsureConservation;
     list(PluginKind::shape) = kShapeCommon;
     list(PluginKind::emitter) = parameter<LightDescription>("sampling_weight");
     list(PluginKind::sensor) = plugins::sensor_parameters();

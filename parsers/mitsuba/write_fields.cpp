@@ -96,37 +96,14 @@ void SceneWriter::medium(const MediumDescription& m, const std::string& id) {
 
 void SceneWriter::fields(const MaterialModel& model) {
   model.for_each_field([&](const FieldFacts& facts, const FieldValue& value) {
-    if (facts.given) with_value(value, [&](const auto& v) { field(facts, v); });
+    if (facts.given && !facts.unwritten && !facts.initial)
+      with_value(value, [&](const auto& v) { one_field(facts, v); });
   });
 }
 
-void SceneWriter::field(const FieldFacts& facts, const Choice& choice) {
-  if (!facts.name().empty()) out_.string(facts.name(), facts.words[choice.index]);
-}
-
-void SceneWriter::field(const FieldFacts& facts, bool value) {
-  if (!facts.name().empty()) out_.boolean(facts.name(), value);
-}
-
 void SceneWriter::field(const FieldFacts& facts, double value) {
-  if (!facts.name().empty()) out_.number(facts.name(), value);
+  out_.number(facts.name(), value);
   if (is_relative_index(facts)) out_.number("ext_ior", 1);
-}
-
-void SceneWriter::field(const FieldFacts& facts, const std::optional<double>& value) {
-  if (value) field(facts, *value);
-}
-
-void SceneWriter::field(const FieldFacts& facts, const std::string& value) {
-  if (!facts.name().empty()) out_.string(facts.name(), value);
-}
-
-void SceneWriter::field(const FieldFacts& facts, const ColorInput& value) {
-  color(facts.name(), value);
-}
-
-void SceneWriter::field(const FieldFacts& facts, const std::optional<ColorInput>& value) {
-  if (value) field(facts, *value);
 }
 
 void SceneWriter::field(const FieldFacts& facts, const FloatInput& value) {
@@ -139,18 +116,6 @@ void SceneWriter::field(const FieldFacts& facts, const FloatInput& value) {
     number(facts.name(), value);
   }
   if (is_relative_index(facts)) out_.number("ext_ior", 1);
-}
-
-void SceneWriter::field(const FieldFacts& facts, int value) {
-  if (!facts.name().empty()) out_.integer(facts.name(), value);
-}
-
-void SceneWriter::field(const FieldFacts& facts, const Spectrum& value) {
-  if (!facts.name().empty()) color(facts.name(), ColorInput(value));
-}
-
-void SceneWriter::field(const FieldFacts& facts, const ColorVolume& value) {
-  volume(facts.name(), value);
 }
 
 void SceneWriter::field(const FieldFacts& facts, const FloatVolume& value) {
@@ -169,27 +134,6 @@ void SceneWriter::field(const FieldFacts& facts, const std::vector<double>& valu
   out_.string(facts.name(), fmt::format("{}", fmt::join(value, ", ")));
 }
 
-void SceneWriter::field(const FieldFacts& facts, const Matrix4& value) {
-  out_.transform(facts.name(), value);
-}
-
-void SceneWriter::field(const FieldFacts& facts, const std::optional<TextureId>& value) {
-  if (value) field(facts, *value);
-}
-
-void SceneWriter::field(const FieldFacts& facts, const std::array<double, 3>& value) {
-  out_.point(facts.name(), value);
-}
-
-void SceneWriter::field(const FieldFacts& facts, uint64_t value) {
-  out_.integer(facts.name(), int64_t(value));
-}
-
-void SceneWriter::field(const FieldFacts& facts,
-                        const std::optional<std::array<double, 3>>& value) {
-  if (value) field(facts, *value);
-}
-
 void SceneWriter::field(const FieldFacts& facts, const std::array<double, 2>& value) {
   if (facts.parameters.size() == 2)
     for (size_t i = 0; i < 2; ++i) out_.number(facts.parameters[i].name, value[i]);
@@ -197,9 +141,8 @@ void SceneWriter::field(const FieldFacts& facts, const std::array<double, 2>& va
     out_.string(facts.name(), fmt::format("{}, {}", value[0], value[1]));
 }
 
-void SceneWriter::field(const FieldFacts& facts, const std::optional<CropWindow>& value) {
-  if (!value) return;
-  const int numbers[] = {value->x, value->y, value->width, value->height};
+void SceneWriter::field(const FieldFacts& facts, const CropWindow& value) {
+  const int numbers[] = {value.x, value.y, value.width, value.height};
   for (size_t i = 0; i < 4; ++i) out_.integer(facts.parameters[i].name, numbers[i]);
 }
 
@@ -217,10 +160,6 @@ void SceneWriter::field(const FieldFacts&, const UvTransform& uv) {
   out_.transform("to_uv", m);
 }
 
-void SceneWriter::field(const FieldFacts& facts, TextureId value) {
-  out_.reference(facts.name(), texture_id(value));
-}
-
 void SceneWriter::field(const FieldFacts& facts, const Roughness& r) {
   out_.string("distribution", kMicrofacetNames[size_t(r.distribution)]);
   if (!facts.has_parameter("alpha_u") || r.alpha_u == r.alpha_v) {
@@ -232,18 +171,10 @@ void SceneWriter::field(const FieldFacts& facts, const Roughness& r) {
   if (!r.sample_visible) out_.boolean("sample_visible", false);
 }
 
-void SceneWriter::field(const FieldFacts& facts, const std::optional<Roughness>& value) {
-  if (value) field(facts, *value);
-}
-
-void SceneWriter::field(const FieldFacts&, MaterialId value) {
-  out_.reference({}, material_id(value));
-}
-
 void SceneWriter::field(const FieldFacts& facts, const MaterialShares& value) {
   std::vector<double> weights;
   for (const auto& [weight, id] : value) weights.push_back(weight);
-  out_.string(facts.name(), fmt::format("{}", fmt::join(weights, ", ")));
+  field(facts, weights);
   for (const auto& [weight, id] : value) out_.reference({}, material_id(id));
 }
 

@@ -43,6 +43,19 @@ const ConductorEntry* find_conductor(std::string_view name) {
   return nullptr;
 }
 
+const Spectrum* index_of_file(std::string_view part, std::string_view file) {
+  constexpr std::string_view folder = "data/ior/";
+  const bool real = part == "eta";
+  const std::string_view ending = real ? ".eta.spd" : ".k.spd";
+  if ((!real && part != "k") || !file.starts_with(folder) || !file.ends_with(ending))
+    return nullptr;
+  file.remove_prefix(folder.size());
+  file.remove_suffix(ending.size());
+  const ConductorEntry* entry = find_conductor(file);
+  if (!entry) return nullptr;
+  return real ? &entry->eta : &entry->k;
+}
+
 std::vector<std::string> dielectric_names() {
   std::vector<std::string> names;
   for (const DielectricEntry& e : kDielectrics) names.push_back(e.name);

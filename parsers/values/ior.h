@@ -31,6 +31,10 @@ std::span<const ConductorEntry> conductors();
 std::optional<double> find_dielectric(std::string_view name);
 const ConductorEntry* find_conductor(std::string_view name);
 
+/// The part of a conductor's index, called "eta" or "k", in a file that comes with Mitsuba, by the
+/// file's name: data/ior/Au.eta.spd and the like. Null for others.
+const Spectrum* index_of_file(std::string_view part, std::string_view file);
+
 std::vector<std::string> dielectric_names();
 std::vector<std::string> conductor_names();
 

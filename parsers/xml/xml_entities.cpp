@@ -4,7 +4,7 @@
 #include <deque>
 #include <map>
 
-#include "mitsuba/scene_files.h"
+#include "files/file_access.h"
 #include "values/text.h"
 #include "xml/xml_text.h"
 

@@ -6,8 +6,8 @@
 #include "app/commands.h"
 #include "app/program.h"
 #include "base/diagnostics.h"
+#include "evaluate/report/vocabulary_text.h"
 #include "mitsuba/vocabulary.h"
-#include "mitsuba/vocabulary_text.h"
 #include "pbrt/vocabulary.h"
 #include "scene/mitsuba_differences.h"
 

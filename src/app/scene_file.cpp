@@ -8,7 +8,7 @@
 #include "app/commands.h"
 #include "app/program.h"
 #include "app/scene_operand.h"
-#include "mitsuba/scene_files.h"
+#include "files/file_access.h"
 #include "pbrt/pbrt.h"
 
 namespace duet {

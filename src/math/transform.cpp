@@ -78,6 +78,21 @@ Matrix4 Matrix4::rotate(double degrees, double x, double y, double z) {
   return r;
 }
 
+std::array<double, 3> Matrix4::turned(const std::array<double, 3>& direction) const {
+  std::array<double, 3> d{};
+  for (size_t i = 0; i < 3; ++i)
+    for (size_t j = 0; j < 3; ++j) d[i] += m[i][j] * direction[j];
+  return d;
+}
+
+std::optional<Matrix4> Matrix4::look_along(const std::array<double, 3>& origin,
+                                           const std::array<double, 3>& direction) {
+  const auto [x, y, z] = direction;
+  const bool mostly_x = std::abs(x) > std::abs(y);
+  return look_at(origin, {origin[0] + x, origin[1] + y, origin[2] + z},
+                 mostly_x ? std::array<double, 3>{0, 1, 0} : std::array<double, 3>{1, 0, 0});
+}
+
 std::optional<Matrix4> Matrix4::look_at(const std::array<double, 3>& origin,
                                         const std::array<double, 3>& target,
                                         const std::array<double, 3>& up) {

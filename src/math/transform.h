@@ -22,6 +22,8 @@ struct Matrix4 {
   bool is_affine() const;
   /// Determinant of the upper left 3×3 block.
   double determinant3() const;
+  /// Where it takes a direction or difference of points.
+  std::array<double, 3> turned(const std::array<double, 3>& direction) const;
   /// Nothing if the matrix is singular (or so nearly that the inverse is not finite).
   std::optional<Matrix4> inverse() const;
 
@@ -29,6 +31,10 @@ struct Matrix4 {
   static Matrix4 scale(double x, double y, double z);
   /// Rotation by `degrees` about an axis of any length; the identity for a zero axis.
   static Matrix4 rotate(double degrees, double x, double y, double z);
+  /// Turns +z into the direction from `origin`, in some way around it; nothing for a zero
+  /// direction.
+  static std::optional<Matrix4> look_along(const std::array<double, 3>& origin,
+                                           const std::array<double, 3>& direction);
   /// Camera to world: the camera at `origin` looks along +z at `target`, x to its left, y up
   /// (Mitsuba's convention). Nothing if the directions are degenerate.
   static std::optional<Matrix4> look_at(const std::array<double, 3>& origin,

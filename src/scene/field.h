@@ -178,28 +178,4 @@ bool operator==(const T& a, const T& b) {
   return std::apply([&](const auto&... fields) { return (same(fields) && ...); }, kFields<T>);
 }
 
-/// The parameters of a tuple of fields, one after the other.
-template <class Tuple>
-constexpr auto joined_parameters(const Tuple& fields) {
-  return std::apply(
-      [](const auto&... f) {
-        std::array<Parameter, (0 + ... + std::tuple_size_v<decltype(f.parameters)>)> out{};
-        [[maybe_unused]] size_t next = 0;
-        [[maybe_unused]] const auto add = [&](const auto& list) {
-          for (const Parameter& p : list) out[next++] = p;
-        };
-        (add(f.parameters), ...);
-        return out;
-      },
-      fields);
-}
-
-/// The parameter of that name of T's fields: a mistake in it does not compile.
-template <HasFields T>
-consteval Parameter parameter_of(std::string_view name) {
-  for (const Parameter& p : joined_parameters(T::fields()))
-    if (p.name == name) return p;
-  throw "no field has this parameter";
-}
-
 }  // namespace duet

@@ -5,8 +5,8 @@
 #include <nlohmann/json.hpp>
 
 #include "app/workplace.h"
+#include "evaluate/report/vocabulary_text.h"
 #include "mitsuba/vocabulary.h"
-#include "mitsuba/vocabulary_text.h"
 #include "scene/mitsuba_differences.h"
 
 using namespace duet;

@@ -1,8 +1,8 @@
 // Sensors, lights, textures, films and integrators that are rarely met, as both Mitsubas mean them.
-#include "mitsuba/sun_position.h"
-#include "mitsuba/sun_radiance.h"
 #include "parsers/plugin_checks.h"
 #include "support/tables.h"
+#include "values/sun_position.h"
+#include "values/sun_radiance.h"
 
 using namespace duet;
 using namespace duet::test;

@@ -2,10 +2,10 @@
 #include <doctest/doctest.h>
 
 #include "evaluate/report/description_text.h"
+#include "evaluate/report/vocabulary_text.h"
 #include "materials/materials.h"
 #include "math/warp.h"
 #include "mitsuba/plugins/bsdf.h"
-#include "mitsuba/vocabulary_text.h"
 #include "mitsuba/writer.h"
 #include "scene/builder.h"
 #include "scene/content_hash.h"

@@ -47,21 +47,25 @@ constexpr Parameter kExtEta{.name = "ext_eta",
                             .preset = "air",
                             .note = "index outside, by which eta and k are divided",
                             .versions = v0};
-constexpr Parameter kEta = parameter_of<ConductorMaterial>("eta"),
-                    kK = parameter_of<ConductorMaterial>("k"),
-                    kScale = parameter_of<ConductorMaterial>("specular_reflectance");
-constexpr Parameter kConductor[] = {kMetal, kEta, kK, kExtEta, kScale};
-constexpr Parameter kRoughConductor[] = {kMetal,        kEta,   kK,      kExtEta, kScale,
-                                         kDistribution, kAlpha, kAlphaU, kAlphaV, kSampleVisible};
+ParameterList of_conductor(std::string_view names) {
+  return parameters_of<ConductorMaterial>(names);
+}
 
 }  // namespace
 
 Plugin conductor() {
-  return {.name = "conductor", .parameters = kConductor, .reader = &read_conductor};
+  return bsdf<ConductorMaterial>(
+      {.parameters = {kMetal, of_conductor("eta k"), kExtEta, of_conductor("specular_reflectance")},
+       .reader = &read_conductor});
 }
 
 Plugin roughconductor() {
-  return {.name = "roughconductor", .parameters = kRoughConductor, .reader = &read_conductor};
+  return bsdf<ConductorMaterial>(
+      {.name = "roughconductor",
+       .parameters = {kMetal, of_conductor("eta k"), kExtEta,
+                      of_conductor("specular_reflectance distribution alpha alpha_u alpha_v "
+                                   "sample_visible")},
+       .reader = &read_conductor});
 }
 
 }  // namespace duet::plugins

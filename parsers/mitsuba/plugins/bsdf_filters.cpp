@@ -17,38 +17,32 @@ void read_filter_of_light(SceneReader& s, Properties& p, MaterialDescription& ou
   out.model = m;
 }
 
+/// `own` is the parameter of its effect on polarised light.
 template <FilterKindOfLight kKind>
-Plugin filter_of_light(std::span<const Parameter> parameters) {
+Plugin filter_of_light(const Parameter& own) {
   return {.name = FilterMaterial::kKinds[size_t(kKind)],
           .versions = v3,
-          .parameters = parameters,
+          .parameters = {parameters_of<FilterMaterial>(),
+                         inert_parameters(number_or_texture, "theta"), own},
           .reader = &read_filter_of_light<kKind>,
           .note = "for light without polarisation, with a warning"};
 }
 
-constexpr Parameter kTransmittance = parameter_of<FilterMaterial>("transmittance");
-constexpr Parameter kTheta{.name = "theta", .type = number_or_texture, .support = inert};
-constexpr Parameter kPolarizer[] = {
-    kTransmittance,
-    kTheta,
-    {.name = "polarizing", .type = boolean, .note = "either way half passes", .support = inert}};
-constexpr Parameter kRetarder[] = {
-    kTransmittance, kTheta, {.name = "delta", .type = number_or_texture, .support = inert}};
-constexpr Parameter kCircular[] = {
-    kTransmittance, kTheta, {.name = "left_handed", .type = boolean, .support = inert}};
-
 }  // namespace
 
 Plugin circular() {
-  return filter_of_light<FilterKindOfLight::circular>(kCircular);
+  return filter_of_light<FilterKindOfLight::circular>(
+      {.name = "left_handed", .type = boolean, .support = inert});
 }
 
 Plugin polarizer() {
-  return filter_of_light<FilterKindOfLight::polarizer>(kPolarizer);
+  return filter_of_light<FilterKindOfLight::polarizer>(
+      {.name = "polarizing", .type = boolean, .note = "either way half passes", .support = inert});
 }
 
 Plugin retarder() {
-  return filter_of_light<FilterKindOfLight::retarder>(kRetarder);
+  return filter_of_light<FilterKindOfLight::retarder>(
+      {.name = "delta", .type = number_or_texture, .support = inert});
 }
 
 }  // namespace duet::plugins

@@ -2,7 +2,6 @@
 // thread.
 #include "mitsuba/plugins/bsdf.h"
 #include "mitsuba/plugins/bsdfs.h"
-#include "mitsuba/plugins/two_lobes.h"
 #include "weave/weave.h"
 
 namespace duet::plugins {
@@ -36,7 +35,7 @@ Spectrum cloth_color(Properties& p, const WeaveColor& color) {
       p.report().error(property->where, "the colour has a negative component");
       x = 0;
     }
-  return {float(value[0]), float(value[1]), float(value[2])};
+  return to_spectrum(value);
 }
 
 void read_irawan(SceneReader& s, Properties& p, MaterialDescription& out) {
@@ -44,22 +43,21 @@ void read_irawan(SceneReader& s, Properties& p, MaterialDescription& out) {
   if (path.empty()) return;
   WardMaterial m;
   m.alpha_u = m.alpha_v = kClothRoughness;
-  try {
+  const auto weave = s.from_file(p.where("filename"), [&] {
     const auto text = s.files().read(path);
     if (!text) throw ReadError(path + ": cannot be read");
-    const Weave weave = parse_weave(*text, path);
-    Spectrum diffuse, specular;
-    std::vector<size_t> cells(weave.yarns.size());
-    for (const uint32_t yarn : weave.pattern) ++cells[yarn];
-    for (size_t i = 0; i < cells.size(); ++i) {
-      const float share = float(double(cells[i]) / double(weave.pattern.size()));
-      diffuse += cloth_color(p, weave.yarns[i].diffuse) * share;
-      specular += cloth_color(p, weave.yarns[i].specular) * share;
-    }
-    m.diffuse_reflectance = diffuse, m.specular_reflectance = specular;
-  } catch (const ReadError& error) {
-    return s.report().error(p.where("filename"), "{}", error.what());
+    return parse_weave(*text, path);
+  });
+  if (!weave) return;
+  Spectrum diffuse, specular;
+  std::vector<size_t> cells(weave->yarns.size());
+  for (const uint32_t yarn : weave->pattern) ++cells[yarn];
+  for (size_t i = 0; i < cells.size(); ++i) {
+    const float share = float(double(cells[i]) / double(weave->pattern.size()));
+    diffuse += cloth_color(p, weave->yarns[i].diffuse) * share;
+    specular += cloth_color(p, weave->yarns[i].specular) * share;
   }
+  m.diffuse_reflectance = diffuse, m.specular_reflectance = specular;
   conserve_energy(s, p, m.diffuse_reflectance, m.specular_reflectance);
   s.approximate_loudly(p.node().where,
                        "the woven cloth has the average colours of its yarns and a wide highlight: "
@@ -68,12 +66,13 @@ void read_irawan(SceneReader& s, Properties& p, MaterialDescription& out) {
 }
 
 constexpr const char* kNormalised = "Mitsuba 0.6 refuses it, too: highlights are normalised";
+constexpr const char* kNoThreads = "threads are not simulated";
 constexpr Parameter kCloth[] = {
     {.name = "filename", .type = file, .note = "a .wv file", .required = true},
-    {.name = "repeat_u", .type = number, .note = "threads are not simulated", .support = inert},
-    {.name = "repeat_v", .type = number, .note = "threads are not simulated", .support = inert},
-    {.name = "ks_multiplier", .type = number, .note = kNormalised, .support = refused},
-    {.name = "kd_multiplier", .type = number, .note = kNormalised, .support = refused}};
+    {"repeat_u", number, "", kNoThreads, any, both, inert},
+    {"repeat_v", number, "", kNoThreads, any, both, inert},
+    {"ks_multiplier", number, "", kNormalised, any, both, refused},
+    {"kd_multiplier", number, "", kNormalised, any, both, refused}};
 
 }  // namespace
 

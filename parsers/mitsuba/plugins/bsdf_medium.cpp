@@ -1,8 +1,9 @@
 // BSDFs by the coefficients of a medium.
 #include "mitsuba/plugins/bsdf.h"
 #include "mitsuba/plugins/bsdfs.h"
+#include "mitsuba/plugins/tables.h"
+#include "values/dipole.h"
 #include "values/medium_presets.h"
-#include "values/text.h"
 
 namespace duet::plugins {
 
@@ -20,13 +21,8 @@ Coefficients read_coefficients(SceneReader& s, Properties& p) {
     p.error(pair ? (p.has("sigma_s") ? "sigma_s" : "sigma_a") : "material",
             "only one of a material, \"sigma_s\" with \"sigma_a\", and \"sigma_t\" with \"albedo\" "
             "can be given");
-  const std::string name = p.string("material");
-  const MediumPreset* preset = find_medium_preset(name);
-  if (!preset) {
-    p.error("material", "no medium is known by the name {}{}", in_quotes(name),
-            did_you_mean(to_lower(name), medium_preset_names()));
-    return {Spectrum(1), Spectrum(0)};
-  }
+  const MediumPreset* preset = medium_preset(p);
+  if (!preset) return {Spectrum(1), Spectrum(0)};
   Coefficients c{preset->sigma_s, preset->sigma_a};
   if (pair) {
     if (p.has("sigma_s")) c.sigma_s = s.color(p, "sigma_s");
@@ -72,60 +68,37 @@ void read_sssbrdf(SceneReader& s, Properties& p, MaterialDescription& out) {
   const Spectrum* sigma_a = std::get_if<Spectrum>(&c.sigma_a);
   if (!sigma_s || !sigma_a)
     return p.error("sigma_s", "the coefficients of \"sssbrdf\" cannot be textures");
-  const float g = float(p.number("g"));
-  // Total diffuse reflectance of the dipole: Jensen et al., "A Practical Model for Subsurface Light
-  // Transport", 2001, section 2.4; internal reflection by their fit.
-  const double eta = m.eta;
-  const double fdr = -1.440 / (eta * eta) + 0.710 / eta + 0.668 + 0.0636 * eta;
-  const double a = (1 + fdr) / (1 - fdr);
+  const double g = double(float(p.number("g")));
   Spectrum base;
-  for (int i = 0; i < 3; ++i) {
-    const double reduced = double((*sigma_s)[i]) * (1 - double(g));
-    const double sum = reduced + double((*sigma_a)[i]);
-    const double albedo = sum > 0 ? reduced / sum : 0;
-    const double root = std::sqrt(3 * (1 - albedo));
-    const double total = 0.5 * albedo * (1 + std::exp(-4.0 / 3 * a * root)) * std::exp(-root);
-    // What the base of a plastic must be so that the light it gives back is the same.
-    base[i] = float(std::min(total * eta * eta / (1 + total * eta * eta * fdr), 1.0));
-  }
+  for (int i = 0; i < 3; ++i)
+    base[i] =
+        float(base_like_dipole(double((*sigma_s)[i]) * (1 - g), double((*sigma_a)[i]), m.eta));
   m.diffuse_reflectance = base;
   out.model = m;
 }
 
 constexpr Parameter kMediumName{"material", string, "skin1", "name of a medium"};
-constexpr Parameter kScattering = parameter_of<ThinLayerMaterial>("sigma_s"),
-                    kAbsorption = parameter_of<ThinLayerMaterial>("sigma_a");
 constexpr Parameter kExtinction{"sigma_t", unbounded, "", "extinction coefficient"};
 constexpr Parameter kAlbedo{"albedo", reflectance, "", "share that is scattered"};
-constexpr Parameter kThinLayer[] = {kMediumName, kScattering,
-                                    kAbsorption, kExtinction,
-                                    kAlbedo,     parameter_of<ThinLayerMaterial>("thickness")};
-constexpr Parameter kDipole[] = {
-    kMediumName,
-    kScattering,
-    kAbsorption,
-    kExtinction,
-    kAlbedo,
-    parameter_of<DielectricMaterial>("int_ior"),
-    parameter_of<DielectricMaterial>("ext_ior"),
-    {"g", number, "0", "mean cosine of scattering"},
-    kDistribution,
-    kAlpha,
-    kSampleVisible,
-};
+constexpr Parameter kMeanCosine{"g", number, "0", "mean cosine of scattering"};
+
+ParameterList coefficients() {
+  return {kMediumName, parameters_of<ThinLayerMaterial>("sigma_s sigma_a"), kExtinction, kAlbedo};
+}
 
 }  // namespace
 
 Plugin hk() {
   return {.name = "hk",
-          .parameters = kThinLayer,
+          .parameters = {coefficients(), parameter<ThinLayerMaterial>("thickness")},
           .reader = &read_hk,
           .note = "may hold a phase function: isotropic or hg; Mitsuba 3 has none"};
 }
 
 Plugin sssbrdf() {
   return {.name = "sssbrdf",
-          .parameters = kDipole,
+          .parameters = {coefficients(), parameters_of<DielectricMaterial>("int_ior ext_ior"),
+                         kMeanCosine, kDistribution, kAlpha, kSampleVisible},
           .reader = &read_sssbrdf,
           .note = "a rough plastic with the reflectance of a dipole; Mitsuba 3 has none",
           .support = approximated};

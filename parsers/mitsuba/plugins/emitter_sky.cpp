@@ -5,8 +5,8 @@
 
 #include "mitsuba/plugins/emitters.h"
 #include "mitsuba/plugins/plugin.h"
-#include "mitsuba/sun_position.h"
-#include "mitsuba/sun_radiance.h"
+#include "values/sun_position.h"
+#include "values/sun_radiance.h"
 
 namespace duet::plugins {
 
@@ -32,18 +32,18 @@ SunAngles read_time_and_place(Properties& p) {
   return sun_angles(time, read_place(p));
 }
 
-double limited(Properties& p, std::string_view name, double least, double most) {
-  const double value = p.number(name);
+double limited(Properties& p, std::string_view name, double value, double least, double most) {
   if (value >= least && value <= most) return value;
   p.error(name, "the {} {} is not between {} and {}", name, value, least, most);
   return least;
 }
 
-/// Turbidity and the ground.
+/// What the fields say; turbidity, ground and stretch have limits.
 void read_air(SceneReader& s, Properties& p, SkyLight& sky) {
-  sky.turbidity = limited(p, "turbidity", 1, 10);
-  sky.albedo = s.constant_color(p, "albedo");
+  read_values(s, p, sky);
+  sky.turbidity = limited(p, "turbidity", sky.turbidity, 1, 10);
   if (sky.albedo.max() > 1) p.error("albedo", "the albedo of the ground is at most 1");
+  if (p.knows("stretch")) sky.stretch = limited(p, "stretch", sky.stretch, 1, 2);
 }
 
 /// The direction to the sun that a file gives, or nothing.
@@ -65,13 +65,7 @@ std::optional<Triple> given_direction(Properties& p) {
 /// A direction in the world as one in the sky's own space.
 Triple seen_from_sky(const Triple& direction, const Matrix4& to_world) {
   const auto to_local = to_world.inverse();
-  if (!to_local) return direction;
-  Triple d;
-  for (int i = 0; i < 3; ++i) {
-    const auto& row = (*to_local)[i];
-    d[size_t(i)] = row[0] * direction[0] + row[1] * direction[1] + row[2] * direction[2];
-  }
-  return d;
+  return to_local ? to_local->turned(direction) : direction;
 }
 
 void warn_below_horizon(SceneReader& s, Properties& p, const SkyLight& sky) {
@@ -80,18 +74,8 @@ void warn_below_horizon(SceneReader& s, Properties& p, const SkyLight& sky) {
                        describe(p.node()));
 }
 
-/// x to the north, z up, where azimuths run to the east by south: as in Mitsuba 3.
-std::array<double, 3> direction_3x(const SunAngles& a) {
-  constexpr double pi = std::numbers::pi;
-  const double azimuth = a.azimuth - pi, s = std::sin(a.zenith);
-  return {s * std::cos(azimuth), s * std::sin(azimuth), std::cos(a.zenith)};
-}
-
 void read_sky_3x(SceneReader& s, Properties& p, SkyLight& sky) {
   read_air(s, p, sky);
-  sky.sun_scale = p.number("sun_scale");
-  sky.sky_scale = p.number("sky_scale");
-  sky.sun_aperture = p.number("sun_aperture");
   if (!(sky.sun_aperture > 0 && sky.sun_aperture < 180))
     p.error("sun_aperture", "the aperture of the sun is between 0 and 180 degrees, not {}",
             sky.sun_aperture);
@@ -112,24 +96,16 @@ Matrix4 y_up() {
 /// What "sky", "sun" and "sunsky" of 0.6 have in common.
 void read_0x(SceneReader& s, Properties& p, SkyLight& sky, LightDescription& out) {
   out.to_world = p.transform("to_world");
-  // With y up: x to the east and −z to the north.
   Triple y_up_sun;
   if (const auto given = given_direction(p)) {
     y_up_sun = seen_from_sky(*given, out.to_world);
   } else {
-    const SunAngles a = read_time_and_place(p);
-    const double r = std::sin(a.zenith);
-    y_up_sun = {r * std::sin(a.azimuth), std::cos(a.zenith), -r * std::cos(a.azimuth)};
+    y_up_sun = sun_direction_0x(read_time_and_place(p));
   }
   sky.sun = {y_up_sun[0], -y_up_sun[2], y_up_sun[1]};
   if (sky.sun[2] < 0) s.report().error(p.node().where, "the sun is below the horizon");
   out.to_world = out.to_world * y_up();
   read_weight(p, out);
-}
-
-void read_stretch(Properties& p, SkyLight& sky) {
-  sky.stretch = limited(p, "stretch", 1, 2);
-  sky.extend = p.boolean("extend");
 }
 
 /// The disk of 0.x, which is stretched away from the zenith like the sky; its brightness is that of
@@ -148,13 +124,10 @@ SunDisk sun_disk(const SkyLight& sky, double stretch) {
 
 /// A sun without a size, seen from the world; `to_world` is the sky's.
 LightDescription directional_sun(const SunDisk& disk, double scale, const LightDescription& sky) {
-  Triple d{};
-  for (int i = 0; i < 3; ++i)
-    for (int j = 0; j < 3; ++j)
-      d[size_t(i)] -= sky.to_world[i][size_t(j)] * disk.direction[size_t(j)];
+  const auto [x, y, z] = sky.to_world.turned(disk.direction);
   LightDescription out = sky;
   out.model = DirectionalLight{disk.irradiance * float(scale)};
-  out.to_world = light_along(d).value_or(Matrix4{});
+  out.to_world = Matrix4::look_along({}, {-x, -y, -z}).value_or(Matrix4{});
   return out;
 }
 
@@ -175,7 +148,6 @@ void read_sky(SceneReader& s, Properties& p, LightDescription& out) {
   SkyLight sky;
   read_air(s, p, sky);
   read_0x(s, p, sky, out);
-  read_stretch(p, sky);
   sky.sky_scale = p.number("scale");
   sky.sun_scale = 0;
   out.model = sky;
@@ -187,7 +159,7 @@ void read_sun(SceneReader& s, Properties& p, LightDescription& out) {
   read_0x(s, p, sky, out);
   sky.sky_scale = 0;
   sky.sun_scale = p.number("scale");
-  sky.disk = sun_disk(sky, limited(p, "stretch", 1, 2));
+  sky.disk = sun_disk(sky, limited(p, "stretch", p.number("stretch"), 1, 2));
   if (const auto aperture = read_sun_aperture(p)) {
     sky.sun_aperture = *aperture;
     out.model = sky;
@@ -200,10 +172,9 @@ void read_sunsky_0x(SceneReader& s, Properties& p, LightDescription& out) {
   SkyLight sky;
   read_air(s, p, sky);
   read_0x(s, p, sky, out);
-  read_stretch(p, sky);
   const double scale = p.number("scale");
-  sky.sky_scale = p.has("sky_scale") ? p.number("sky_scale") : scale;
-  sky.sun_scale = p.has("sun_scale") ? p.number("sun_scale") : scale;
+  if (!p.has("sky_scale")) sky.sky_scale = scale;
+  if (!p.has("sun_scale")) sky.sun_scale = scale;
   sky.disk = sun_disk(sky, sky.stretch);
   if (const auto aperture = read_sun_aperture(p)) {
     sky.sun_aperture = *aperture;
@@ -224,7 +195,7 @@ void read_sunsky(SceneReader& s, Properties& p, LightDescription& out) {
   if (const auto given = given_direction(p)) {
     sky.sun = seen_from_sky(*given, out.to_world);
   } else {
-    sky.sun = direction_3x(read_time_and_place(p));
+    sky.sun = sun_direction_3x(read_time_and_place(p));
   }
   warn_below_horizon(s, p, sky);
   out.model = sky;
@@ -239,8 +210,8 @@ void read_timed_sunsky(SceneReader& s, Properties& p, LightDescription& out) {
   time.year = p.integer("start_year");
   time.month = p.integer("start_month");
   time.day = p.integer("start_day");
-  time.hour = limited(p, "window_start_time", 0, 24);
-  sky.sun = direction_3x(sun_angles(time, read_place(p)));
+  time.hour = limited(p, "window_start_time", p.number("window_start_time"), 0, 24);
+  sky.sun = sun_direction_3x(sun_angles(time, read_place(p)));
   s.approximate_loudly(p.node().where,
                        "nothing moves: the sun stands where it is at the start of the time");
   warn_below_horizon(s, p, sky);

@@ -13,12 +13,6 @@ void read_weight(Properties& p, LightDescription& out) {
   out.sampling_weight = p.number("sampling_weight");
 }
 
-std::optional<Matrix4> light_along(const Triple& direction) {
-  // Turning the light around its direction changes nothing: any "up" will do.
-  const bool mostly_x = std::abs(direction[0]) > std::abs(direction[1]);
-  return Matrix4::look_at({0, 0, 0}, direction, mostly_x ? Triple{0, 1, 0} : Triple{1, 0, 0});
-}
-
 namespace {
 
 template <bool kDirectional>
@@ -74,7 +68,7 @@ void read_directional(SceneReader& s, Properties& p, LightDescription& out) {
   check_not_both_places(p, "direction");
   read_light<DirectionalLight>(s, p, out);
   if (!p.has("direction")) return;
-  if (const auto m = light_along(p.triple("direction")))
+  if (const auto m = Matrix4::look_along({}, p.triple("direction")))
     out.to_world = *m;
   else
     p.error("direction", "the direction of a light cannot be zero");
@@ -118,9 +112,9 @@ std::vector<Plugin> emitters() {
         inert_parameters(boolean, "cache", v0), inert_parameters(boolean, "mis_compensation", v3)},
        &read_envmap},
       {"directionalarea", v3, radiance, &read_area<true>,
-       "stands in a shape; only methods that walk from lights carry it"},
+       "stands in a shape; only methods with light sub-paths carry it"},
       light<CollimatedLight>(
-          {.versions = v0, .note = "only methods that walk from lights carry it"}),
+          {.versions = v0, .note = "only methods with light sub-paths carry it"}),
   };
   for (Plugin& sky : skies()) all.push_back(std::move(sky));
   all.push_back(refused_plugin("volumelight", v3,

@@ -10,7 +10,5 @@ std::vector<Plugin> skies();
 
 /// The share of the light in the choice of a light.
 void read_weight(Properties& p, LightDescription& out);
-/// The transform of a light that shines along +z in this direction; nothing if it is zero.
-std::optional<Matrix4> light_along(const Triple& direction);
 
 }  // namespace duet::plugins

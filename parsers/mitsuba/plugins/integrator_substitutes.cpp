@@ -16,10 +16,8 @@ constexpr std::string_view kNoDerivatives = "images are the same, derivatives ar
 
 template <class T>
 void read_without_derivatives(SceneReader& s, Properties& p, IntegratorDescription& out) {
-  T method;
-  read_values(s, p, method);
-  note_substitute(s, p, method.method_name(), kNoDerivatives);
-  out.method = method;
+  read_method<T>(s, p, out);
+  note_substitute(s, p, std::get<T>(out.method).method_name(), kNoDerivatives);
 }
 
 void read_direct_projective(SceneReader& s, Properties& p, IntegratorDescription& out) {

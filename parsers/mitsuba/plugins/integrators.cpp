@@ -7,15 +7,11 @@ namespace duet::plugins {
 
 namespace {
 
-void read_volpath(SceneReader& s, Properties& p, IntegratorDescription& out) {
-  VolumePathIntegratorDescription path;
-  read_values(s, p, path);
+void keep_name(SceneReader&, Properties& p, VolumePathIntegratorDescription& path) {
   if (p.node().type == "volpathmis") path.name = VolumePathName::volpathmis;
-  out.method = path;
 }
 
-void read_direct(SceneReader& s, Properties& p, IntegratorDescription& out) {
-  DirectIntegratorDescription direct;
+void read_counts(SceneReader&, Properties& p, DirectIntegratorDescription& direct) {
   if (p.has("shading_samples")) {
     if (!p.is_0x() && (p.has("emitter_samples") || p.has("bsdf_samples")))
       p.error(
@@ -33,15 +29,10 @@ void read_direct(SceneReader& s, Properties& p, IntegratorDescription& out) {
             : p.has("bsdf_samples")                                   ? "bsdf_samples"
                                                                       : "shading_samples",
             "more than {} samples at each hit are too many", most);
-  read_values(s, p, direct);
-  out.method = direct;
 }
 
-void read_ao(SceneReader& s, Properties& p, IntegratorDescription& out) {
-  OcclusionIntegratorDescription ao;
-  read_values(s, p, ao);
+void limit_rays(SceneReader&, Properties&, OcclusionIntegratorDescription& ao) {
   ao.ray_length = std::max(ao.ray_length, 0.0);
-  out.method = ao;
 }
 
 constexpr Parameter kShadingSamples{"shading_samples", integer, "", "sets both of the following",
@@ -56,27 +47,20 @@ void append(std::vector<Plugin>& all, std::vector<Plugin> more) {
 
 std::vector<Plugin> integrators() {
   using Volpath = VolumePathIntegratorDescription;
+  using Direct = DirectIntegratorDescription;
   const ParameterList hide = inert_parameters(boolean, "hide_emitters");
   std::vector<Plugin> all{
       method<AutoIntegratorDescription>(
           {.name = "auto", .note = "Duet's own: whichever method suits the scene (docs/auto.md)"}),
       method<PathIntegratorDescription>({.name = "path"}),
-      method<Volpath>({.name = "volpath",
-                       .reader = &read_volpath,
-                       .note = "path tracing through participating media"}),
-      method<Volpath>({.name = "volpath_simple",
-                       .versions = v0,
-                       .reader = &read_volpath,
-                       .note = "by volpath"}),
-      method<Volpath>({.name = "volpathmis",
-                       .versions = v3,
-                       .reader = &read_volpath,
-                       .note = "by volpath, which has spectral MIS as well"},
-                      kSpectralMis),
-      {"direct",
-       both,
-       {kShadingSamples, parameters_of<DirectIntegratorDescription>()},
-       &read_direct},
+      method<Volpath>({.name = "volpath", .note = "path tracing through participating media"}),
+      method<Volpath>({.name = "volpath_simple", .versions = v0, .note = "by volpath"}),
+      method<Volpath, keep_name>({.name = "volpathmis",
+                                  .versions = v3,
+                                  .note = "by volpath, which has spectral MIS as well"},
+                                 kSpectralMis),
+      method<Direct, read_counts>(
+          {.name = "direct", .parameters = {kShadingSamples, parameters_of<Direct>()}}),
   };
   append(all, bidirectional_integrators());
   append(all,
@@ -84,10 +68,8 @@ std::vector<Plugin> integrators() {
           aov(), moment()});
   append(all, substituted_integrators());
   append(all, {field_integrator(), multichannel(),
-               method<OcclusionIntegratorDescription>({.name = "ao",
-                                                       .versions = v0,
-                                                       .reader = &read_ao,
-                                                       .note = "in Duet; Mitsuba 3 has none"}),
+               method<OcclusionIntegratorDescription, limit_rays>(
+                   {.name = "ao", .versions = v0, .note = "in Duet; Mitsuba 3 has none"}),
                refused_plugin("motion", v0, "ways of points between two frames are no light"),
                refused_plugin("volprim_rf_basic", v3,
                               "radiance fields of volume primitives are not scenes of surfaces and "

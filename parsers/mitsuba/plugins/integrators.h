@@ -21,18 +21,20 @@ void note_substitute(SceneReader& s, const Properties& p, std::string_view metho
 /// The integrator that stands in `p`; null after an error.
 const Node* nested_integrator(SceneReader& s, Properties& p);
 
-template <class T>
+/// What its fields say; kCheck as for read_model().
+template <class T, auto kCheck = nullptr>
 void read_method(SceneReader& s, Properties& p, IntegratorDescription& out) {
   T method;
   read_values(s, p, method);
+  if constexpr (requires { kCheck(s, p, method); }) kCheck(s, p, method);
   out.method = std::move(method);
 }
 
 /// A method by what its description says; `more` are parameters that change nothing.
-template <class T>
+template <class T, auto kCheck = nullptr>
 Plugin method(Plugin row, const ParameterList& more = {}) {
   if (row.parameters.empty()) row.parameters = {parameters_of<T>(), more};
-  if (std::holds_alternative<std::monostate>(row.reader)) row.reader = &read_method<T>;
+  if (std::holds_alternative<std::monostate>(row.reader)) row.reader = &read_method<T, kCheck>;
   return row;
 }
 

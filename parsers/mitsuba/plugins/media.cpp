@@ -22,13 +22,8 @@ Spectrum quotient(const Spectrum& a, const Spectrum& b) {
 
 /// A preset of Mitsuba 0.6. It multiplies the published numbers by 100.
 void read_preset(Properties& p, Spectrum& sigma_s, Spectrum& sigma_a, Spectrum& g) {
-  const std::string name = p.string("material");
-  const MediumPreset* preset = find_medium_preset(name);
-  if (!preset) {
-    p.error("material", "no medium is known by the name {}{}", in_quotes(name),
-            did_you_mean(to_lower(name), medium_preset_names()));
-    return;
-  }
+  const MediumPreset* preset = medium_preset(p);
+  if (!preset) return;
   constexpr float kScale = 100;
   sigma_s = preset->sigma_s * kScale;
   sigma_a = preset->sigma_a * kScale;
@@ -177,6 +172,15 @@ Parameter of_material(std::string_view name) {
 }
 
 }  // namespace
+
+const MediumPreset* medium_preset(Properties& p) {
+  const std::string name = p.string("material");
+  const MediumPreset* preset = find_medium_preset(name);
+  if (!preset)
+    p.error("material", "no medium is known by the name {}{}", in_quotes(name),
+            did_you_mean(to_lower(name), medium_preset_names()));
+  return preset;
+}
 
 std::vector<Plugin> media() {
   const auto of_medium = [](std::string_view name) { return parameter<MediumDescription>(name); };

@@ -20,11 +20,8 @@ std::vector<double> weight_list(Properties& p, std::string_view name) {
   return numbers;
 }
 
-void read_hg(SceneReader& s, Properties& p, PhaseDescription& out) {
-  HenyeyGreensteinPhase hg;
-  read_values(s, p, hg);
+void check_hg(SceneReader&, Properties& p, HenyeyGreensteinPhase& hg) {
   if (!(std::abs(hg.g) < 1)) p.error("g", "the anisotropy lies between -1 and 1, unlike {}", hg.g);
-  out.model = hg;
 }
 
 void read_tabphase(SceneReader&, Properties& p, PhaseDescription& out) {
@@ -80,13 +77,13 @@ void read_fibre_phase(SceneReader& s, Properties& p, PhaseDescription& out) {
   s.approximate_loudly(p.node().where,
                        fmt::format("the phase function \"{}\" is isotropic", p.node().type));
   for (const char* name : {"ks", "kd", "exponent", "stddev"})
-    if (find_parameter(PluginKind::phase, *p.node().plugin, name)) p.find(name);
+    if (p.knows(name)) p.find(name);
   out.model = IsotropicPhase{};
 }
 
-template <class T>
+template <class T, auto kCheck = nullptr>
 Plugin phase(Plugin row = {}) {
-  return plugin_of<T, PhaseDescription>(std::move(row));
+  return plugin_of<T, PhaseDescription, kCheck>(std::move(row));
 }
 
 /// A parameter of a plugin that is approximated by another, which has no such parameter.
@@ -99,7 +96,7 @@ constexpr Parameter without_effect(std::string_view name) {
 std::vector<Plugin> phases() {
   return {
       phase<IsotropicPhase>(),
-      phase<HenyeyGreensteinPhase>({.reader = &read_hg}),
+      phase<HenyeyGreensteinPhase, check_hg>(),
       phase<RayleighPhase>(),
       phase<BlendPhase>({.versions = v3, .note = "holds two phase functions"}),
       phase<SggxPhase>({.versions = v3, .reader = &read_sggx, .note = "see `sggx-flakes` below"}),

@@ -10,21 +10,21 @@ namespace duet::plugins {
 using namespace parameter_words;
 
 /// What `row` leaves open follows from T: its name, its parameters and how it is read into a
-/// Description, if that has a model. `more` are parameters that only files of Mitsuba know; they
-/// are listed last.
-template <class T, class Description>
+/// Description, if that has a model; kCheck is that of read_model(). `more` are parameters that
+/// only files of Mitsuba know; they are listed last.
+template <class T, class Description, auto kCheck = nullptr>
 Plugin plugin_of(Plugin row, const ParameterList& more = {}) {
   if (row.name.empty()) row.name = T{}.name();
   if (row.parameters.empty()) row.parameters = ParameterList(parameters_of<T>(), more);
   if constexpr (requires(Description & d, T model) { d.model = model; })
     if (std::holds_alternative<std::monostate>(row.reader))
-      row.reader = &read_model<T, Description>;
+      row.reader = &read_model<T, kCheck, Description>;
   return row;
 }
 
-template <class T>
+template <class T, auto kCheck = nullptr>
 Plugin texture(Plugin row = {}, const ParameterList& more = {}) {
-  return plugin_of<T, TextureDescription>(std::move(row), more);
+  return plugin_of<T, TextureDescription, kCheck>(std::move(row), more);
 }
 
 }  // namespace duet::plugins

@@ -1,6 +1,4 @@
 // Sensors that measure.
-#include <cmath>
-
 #include "mitsuba/plugins/plugin.h"
 #include "mitsuba/plugins/sensors.h"
 
@@ -10,10 +8,7 @@ namespace {
 
 /// The transform whose +z is `direction`, from `origin`.
 Matrix4 look_along(Properties& p, const Triple& origin, const Triple& direction) {
-  const Triple up =
-      std::abs(direction[0]) > std::abs(direction[1]) ? Triple{0, 1, 0} : Triple{1, 0, 0};
-  const Triple target{origin[0] + direction[0], origin[1] + direction[1], origin[2] + direction[2]};
-  if (const auto m = Matrix4::look_at(origin, target, up)) return *m;
+  if (const auto m = Matrix4::look_along(origin, direction)) return *m;
   p.error("direction", "the direction of a sensor cannot be zero");
   return {};
 }

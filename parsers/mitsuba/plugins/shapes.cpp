@@ -89,24 +89,24 @@ void read_cylinder(SceneReader& s, Properties& p, ShapeDescription& out) {
   s.attach_to_surface(p, out);
 }
 
-/// What curves have, whose faces cannot be turned.
-void attach_to_curves(SceneReader& s, Properties& p, ShapeDescription& out) {
+/// Curves, whose faces cannot be turned; `read` reads the file, if there is one.
+template <class Read>
+void set_curves(SceneReader& s, Properties& p, const std::string& file, Read read,
+                ShapeDescription& out) {
   s.attach_to_surface(p, out);
   if (out.emission)
     s.report().error(out.emission->where, "{} cannot emit light", describe(p.node()));
+  if (file.empty()) return;
+  if (auto curves = s.from_file(p.where("filename"), read))
+    out.geometry = CurvesShape{std::make_shared<CurveSet>(std::move(*curves)), file};
 }
 
 void read_curves_shape(SceneReader& s, Properties& p, ShapeDescription& out) {
   const CurveKind kind =
       p.node().plugin->name == "bsplinecurve" ? CurveKind::bspline : CurveKind::linear;
   const std::string file = s.file(p, "filename");
-  attach_to_curves(s, p, out);
-  if (file.empty()) return;
-  try {
-    out.geometry = CurvesShape{std::make_shared<CurveSet>(s.files().read_curves(file, kind)), file};
-  } catch (const ReadError& error) {
-    s.report().error(p.where("filename"), "{}", error.what());
-  }
+  set_curves(
+      s, p, file, [&] { return s.files().read_curves(file, kind); }, out);
 }
 
 void read_hair_shape(SceneReader& s, Properties& p, ShapeDescription& out) {
@@ -117,14 +117,8 @@ void read_hair_shape(SceneReader& s, Properties& p, ShapeDescription& out) {
   if (reduction > 0)
     s.approximate_loudly(p.where("reduction"), "no hair is left out: \"reduction\" is ignored");
   s.approximate(p.node().where, "the joints of hair are spheres, not mitres");
-  attach_to_curves(s, p, out);
-  if (file.empty()) return;
-  try {
-    out.geometry =
-        CurvesShape{std::make_shared<CurveSet>(s.files().read_hair(file, float(radius))), file};
-  } catch (const ReadError& error) {
-    s.report().error(p.where("filename"), "{}", error.what());
-  }
+  set_curves(
+      s, p, file, [&] { return s.files().read_hair(file, float(radius)); }, out);
 }
 
 void read_instance(SceneReader& s, Properties& p, ShapeDescription& out) {

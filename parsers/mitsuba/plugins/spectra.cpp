@@ -46,7 +46,7 @@ void read_rawconstant(SceneReader& s, Properties& p, MeantColor& out) {
   const Property* value = p.find("value");
   const Triple* triple = value ? std::get_if<Triple>(&value->value) : nullptr;
   if (triple)
-    out.value = {float((*triple)[0]), float((*triple)[1]), float((*triple)[2])};
+    out.value = to_spectrum(*triple);
   else if (value)
     out.value = s.constant_color(p, "value");
 }

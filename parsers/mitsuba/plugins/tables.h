@@ -3,6 +3,7 @@
 
 #include "mitsuba/plugins/bsdfs.h"
 #include "mitsuba/plugins/textures.h"
+#include "values/medium_presets.h"
 
 namespace duet::plugins {
 
@@ -21,6 +22,9 @@ std::vector<Plugin> phases();
 std::vector<Plugin> media();
 std::vector<Plugin> subsurfaces();
 std::vector<Plugin> volumes();
+
+/// The coefficients of the parameter "material"; null after an error.
+const MediumPreset* medium_preset(Properties& p);
 
 // The parameters that all plugins of a kind have.
 ParameterList sensor_parameters();

@@ -16,9 +16,7 @@ WrapMode read_wrap_mode(Properties& p, std::string_view name) {
                                    {"white", WrapMode::one}});
 }
 
-void read_bitmap(SceneReader& s, Properties& p, TextureDescription& out) {
-  BitmapTexture t;
-  read_values(s, p, t);
+void read_modes(SceneReader& s, Properties& p, BitmapTexture& t) {
   enum class Filter { nearest, bilinear, other };
   const Filter filter = p.choice<Filter>("filter_type", {{"bilinear", Filter::bilinear},
                                                          {"nearest", Filter::nearest},
@@ -38,7 +36,6 @@ void read_bitmap(SceneReader& s, Properties& p, TextureDescription& out) {
                                                      {"g", TextureChannel::green},
                                                      {"b", TextureChannel::blue},
                                                      {"a", TextureChannel::alpha}});
-  out.model = t;
 }
 
 }  // namespace
@@ -49,10 +46,9 @@ void check_gamma(Properties& p, std::optional<double> gamma) {
 }
 
 Plugin bitmap() {
-  return texture<BitmapTexture>(
-      {.reader = &read_bitmap},
-      {inert_parameters(number, "max_anisotropy", v0), inert_parameters(boolean, "cache", v0),
-       inert_parameters(boolean, "accel", v3), inert_parameters(string, "format", v3)});
+  return texture<BitmapTexture, read_modes>(
+      {}, {inert_parameters(number, "max_anisotropy", v0), inert_parameters(boolean, "cache", v0),
+           inert_parameters(boolean, "accel", v3), inert_parameters(string, "format", v3)});
 }
 
 }  // namespace duet::plugins

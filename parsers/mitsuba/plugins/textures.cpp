@@ -9,32 +9,23 @@ namespace duet::plugins {
 
 namespace {
 
-void read_checkerboard(SceneReader& s, Properties& p, TextureDescription& out) {
-  CheckerboardTexture t;
+void check_checkerboard(SceneReader&, Properties& p, CheckerboardTexture& t) {
   t.swap_values = !p.is_0x();
-  read_values(s, p, t);
-  out.model = t;
 }
 
-void read_mesh_attribute(SceneReader& s, Properties& p, TextureDescription& out) {
-  MeshAttributeTexture t;
-  read_values(s, p, t);
+void check_mesh_attribute(SceneReader&, Properties& p, MeshAttributeTexture& t) {
   if (p.has("name") && !t.attribute.starts_with("vertex_") && !t.attribute.starts_with("face_"))
     p.error("name", "the name of a mesh attribute begins with \"vertex_\" or \"face_\", unlike {}",
             in_quotes(t.attribute));
-  out.model = t;
 }
 
 void read_vertexcolors(SceneReader&, Properties&, TextureDescription& out) {
   out.model = MeshAttributeTexture{"vertex_color", 1};
 }
 
-void read_wireframe(SceneReader& s, Properties& p, TextureDescription& out) {
-  WireframeTexture t;
-  read_values(s, p, t);
+void check_wireframe(SceneReader&, Properties&, WireframeTexture& t) {
   if (t.line_width == 0.0) t.line_width.reset();
   t.step_width = std::clamp(t.step_width, 0.0, 1.0);
-  out.model = t;
 }
 
 }  // namespace
@@ -44,8 +35,8 @@ std::vector<Plugin> textures() {
                        *kInSpace = "Duet's own, that of pbrt; looked up in the world";
   return {
       bitmap(),
-      texture<CheckerboardTexture>({.reader = &read_checkerboard}),
-      texture<MeshAttributeTexture>({.versions = v3, .reader = &read_mesh_attribute}),
+      texture<CheckerboardTexture, check_checkerboard>(),
+      texture<MeshAttributeTexture, check_mesh_attribute>({.versions = v3}),
       {.name = "vertexcolors", .versions = v0, .reader = &read_vertexcolors},
       texture<ScaledTextureDescription>({.versions = v0, .note = "holds a texture"}),
       uniform(),
@@ -60,9 +51,8 @@ std::vector<Plugin> textures() {
       texture<CurvatureTexture>(
           {.versions = v0,
            .note = "not on curves; instances show that of the shape before it is placed"}),
-      texture<WireframeTexture>(
+      texture<WireframeTexture, check_wireframe>(
           {.versions = v0,
-           .reader = &read_wireframe,
            .note =
                "on meshes and cubes, other shapes are all interior; instances show the lines of "
                "the mesh before it is placed"}),

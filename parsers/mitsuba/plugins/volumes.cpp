@@ -18,7 +18,7 @@ void read_constvolume(SceneReader& s, Properties& p, MeantVolume& out) {
   p.transform("to_world");  // of interest to extinction_box() only
   const Property* value = p.find("value");
   if (const Triple* triple = value ? std::get_if<Triple>(&value->value) : nullptr) {
-    out.value = Spectrum(float((*triple)[0]), float((*triple)[1]), float((*triple)[2]));
+    out.value = to_spectrum(*triple);
     return;
   }
   out.value = s.color_volume(p, "value");

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <filesystem>
 
-#include "mitsuba/scene_files.h"
+#include "files/file_access.h"
 
 namespace duet {
 

@@ -28,7 +28,7 @@ struct MaskMaterial {
     using enum ParameterType;
     using M = MaskMaterial;
     return std::tuple(
-        field(&M::opacity, Parameter{"opacity", number_or_texture, "0.5"}).shown(", opacity "),
+        field(&M::opacity, Parameter{"opacity", number_or_texture, kInitial}).shown(", opacity "),
         field(&M::nested));
   }
   static constexpr const char* name() { return "mask"; }
@@ -45,7 +45,7 @@ struct BlendMaterial {
     using namespace parameter_words;
     using enum ParameterType;
     using M = BlendMaterial;
-    return std::tuple(field(&M::weight, Parameter{"weight", number_or_texture, "0.5",
+    return std::tuple(field(&M::weight, Parameter{"weight", number_or_texture, kInitial,
                                                   "share of the second material, from 0 to 1"})
                           .shown(", weight "),
                       field(&M::first), field(&M::second));
@@ -71,16 +71,16 @@ struct MixtureMaterial {
 
 namespace parameter_words {
 inline constexpr Parameter kFlipInvalidNormals{
-    .name = "flip_invalid_normals", .type = boolean, .preset = "true", .versions = v3};
+    .name = "flip_invalid_normals", .type = boolean, .preset = kInitial, .versions = v3};
 inline constexpr Parameter kUseShadowingFunction{.name = "use_shadowing_function",
                                                  .type = boolean,
-                                                 .preset = "true",
+                                                 .preset = kInitial,
                                                  .versions = v3,
                                                  .preset_0x = "false"};
 inline constexpr Parameter kDropsLeaks{
     .name = "drops_leaks",
     .type = boolean,
-    .preset = "true",
+    .preset = kInitial,
     .note =
         "Duet's own: light that the surface has on another side than the perturbed normal is "
         "lost; pbrt lets it through"};
@@ -100,7 +100,7 @@ struct BumpMapMaterial {
     return std::tuple(field(&M::height).shown(" ").read_by_plugin(),
                       field(&M::scale, Parameter{.name = "scale",
                                                  .type = number,
-                                                 .preset = "1",
+                                                 .preset = kInitial,
                                                  .note = "multiplies the height",
                                                  .versions = v3}),
                       field(&M::flip_invalid_normals, kFlipInvalidNormals),

@@ -8,19 +8,19 @@
 namespace duet {
 
 namespace parameter_words {
-inline constexpr Parameter kCoatIndex{"eta", number, "1.5", "index of the coat over the outside's",
-                                      positive};
-inline constexpr Parameter kCoatAlphaU{"alpha_u", number_or_texture, "0",
+inline constexpr Parameter kCoatIndex{"eta", number, kInitial,
+                                      "index of the coat over the outside's", positive};
+inline constexpr Parameter kCoatAlphaU{"alpha_u", number_or_texture, kInitial,
                                        "roughness of the coat; below 0.001 it is smooth"};
-inline constexpr Parameter kCoatAlphaV{"alpha_v", number_or_texture, "0"};
-inline constexpr Parameter kGap{"thickness", number_or_texture, "0.01",
+inline constexpr Parameter kCoatAlphaV{"alpha_v", number_or_texture, kInitial};
+inline constexpr Parameter kGap{"thickness", number_or_texture, kInitial,
                                 "optical thickness between coat and base"};
-inline constexpr Parameter kGapAlbedo{"albedo", reflectance, "0", "of the medium in between"};
-inline constexpr Parameter kGapG{"g", number_or_texture, "0", "mean cosine of its scattering"};
-inline constexpr Parameter kGapDepth{"max_depth", number, "10",
+inline constexpr Parameter kGapAlbedo{"albedo", reflectance, kInitial, "of the medium in between"};
+inline constexpr Parameter kGapG{"g", number_or_texture, kInitial, "mean cosine of its scattering"};
+inline constexpr Parameter kGapDepth{"max_depth", number, kInitial,
                                      "events between coat and base that are followed", positive};
 inline constexpr Parameter kGapWalks{
-    "samples", number, "1", "random walks per value, where there is no closed form", positive};
+    "samples", number, kInitial, "random walks per value, where there is no closed form", positive};
 }  // namespace parameter_words
 
 /// What both coats have: α of a correlated GGX distribution, and the layer under it. Only the upper
@@ -55,11 +55,11 @@ struct CoatedDiffuseMaterial : CoatLayer {
   static constexpr auto fields() {
     using namespace parameter_words;
     using enum ParameterType;
-    return std::tuple_cat(
-        std::tuple(field(&CoatedDiffuseMaterial::reflectance,
-                         Parameter{"reflectance", ParameterType::reflectance, "0.5", "of the base"})
-                       .shown(" ")),
-        layer_fields());
+    return std::tuple_cat(std::tuple(field(&CoatedDiffuseMaterial::reflectance,
+                                           Parameter{"reflectance", ParameterType::reflectance,
+                                                     kInitial, "of the base"})
+                                         .shown(" ")),
+                          layer_fields());
   }
   static constexpr const char* name() { return "coateddiffuse"; }
   Scattering scattering() const;
@@ -82,20 +82,21 @@ struct CoatedConductorMaterial : CoatLayer {
     return std::tuple_cat(
         std::tuple(
             field(&M::conductor_eta,
-                  Parameter{"conductor_eta", unbounded, "0", "index of the metal"})
+                  Parameter{"conductor_eta", unbounded, kInitial, "index of the metal"})
                 .shown(" ")
                 .when(has_index),
-            field(&M::conductor_k, Parameter{"conductor_k", unbounded, "1"})
+            field(&M::conductor_k, Parameter{"conductor_k", unbounded, kInitial})
                 .shown(" and ")
                 .when(has_index),
             field(&M::reflectance, Parameter{"reflectance", ParameterType::reflectance, "",
                                              "of the metal along the normal, instead of its index"})
                 .shown(" "),
             field(&M::conductor_alpha_u,
-                  Parameter{"conductor_alpha_u", number_or_texture, "0",
+                  Parameter{"conductor_alpha_u", number_or_texture, kInitial,
                             "roughness of the metal; below 0.001 it is smooth"})
                 .shown(", metal alpha "),
-            field(&M::conductor_alpha_v, Parameter{"conductor_alpha_v", number_or_texture, "0"})
+            field(&M::conductor_alpha_v,
+                  Parameter{"conductor_alpha_v", number_or_texture, kInitial})
                 .shown(" and ")),
         layer_fields());
   }

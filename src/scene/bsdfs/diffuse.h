@@ -15,7 +15,7 @@ struct DiffuseMaterial {
     return std::tuple(
         field(&DiffuseMaterial::reflectance, Parameter{.name = "reflectance",
                                                        .type = ParameterType::reflectance,
-                                                       .preset = "0.5",
+                                                       .preset = kInitial,
                                                        .aliases = "diffuse_reflectance"})
             .shown(" "));
   }
@@ -34,13 +34,13 @@ struct RoughDiffuseMaterial {
     using enum ParameterType;
     using M = RoughDiffuseMaterial;
     return std::tuple(
-        field(&M::reflectance, Parameter{"reflectance", ParameterType::reflectance, "0.5"})
+        field(&M::reflectance, Parameter{"reflectance", ParameterType::reflectance, kInitial})
             .shown(" "),
-        field(&M::alpha, Parameter{"alpha", number_or_texture, "0.2",
+        field(&M::alpha, Parameter{"alpha", number_or_texture, kInitial,
                                    "roughness as that of a Beckmann distribution"})
             .shown(", alpha "),
         field(&M::use_fast_approx,
-              Parameter{"use_fast_approx", boolean, "false", "without interreflection"}));
+              Parameter{"use_fast_approx", boolean, kInitial, "without interreflection"}));
   }
   static constexpr const char* name() { return "roughdiffuse"; }
   Scattering scattering() const { return {.diffuse = true}; }
@@ -54,7 +54,7 @@ struct DiffuseTransmitterMaterial {
     using namespace parameter_words;
     using enum ParameterType;
     return std::tuple(field(&DiffuseTransmitterMaterial::transmittance,
-                            Parameter{"transmittance", reflectance, "0.5"})
+                            Parameter{"transmittance", reflectance, kInitial})
                           .shown(" "));
   }
   static constexpr const char* name() { return "difftrans"; }

@@ -23,25 +23,26 @@ struct HairMaterial {
     constexpr auto pigments = [](const M& m) { return !m.sigma_a; };
     return std::tuple(
         field(&M::longitudinal_roughness,
-              Parameter{"longitudinal_roughness", number, "0.3", "", fraction})
+              Parameter{"longitudinal_roughness", number, kInitial, "", fraction})
             .shown(", roughness "),
         field(&M::azimuthal_roughness,
-              Parameter{"azimuthal_roughness", number, "0.3", "", fraction})
+              Parameter{"azimuthal_roughness", number, kInitial, "", fraction})
             .shown(" and "),
         field(&M::scale_tilt,
-              Parameter{"scale_tilt", number, "2", "angle of the scales in degrees"}),
+              Parameter{"scale_tilt", number, kInitial, "angle of the scales in degrees"}),
         field(&M::eta, Parameter{"int_ior", ior, "amber", "index of refraction inside"}, kExterior),
-        field(&M::eumelanin, Parameter{"eumelanin", number, "1.3", "concentration", not_negative})
+        field(&M::eumelanin,
+              Parameter{"eumelanin", number, kInitial, "concentration", not_negative})
             .shown(", eumelanin ")
             .when(pigments),
         field(&M::pheomelanin,
-              Parameter{"pheomelanin", number, "0.2", "concentration", not_negative})
+              Parameter{"pheomelanin", number, kInitial, "concentration", not_negative})
             .shown(", pheomelanin ")
             .when(pigments),
         field(&M::sigma_a,
               Parameter{"sigma_a", unbounded, "", "absorption per radius, instead of pigments"})
             .shown(", sigma_a "),
-        field(&M::scale, Parameter{"scale", number, "1", "multiplies sigma_a", not_negative})
+        field(&M::scale, Parameter{"scale", number, kInitial, "multiplies sigma_a", not_negative})
             .when([](const M& m) { return m.sigma_a.has_value(); }));
   }
   static constexpr const char* name() { return "hair"; }

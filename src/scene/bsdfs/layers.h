@@ -19,7 +19,7 @@ struct CoatingMaterial {
     using M = CoatingMaterial;
     return std::tuple(
         field(&M::eta, kGlass, kExterior).shown(", eta "), field(&M::thickness, kThickness),
-        field(&M::sigma_a, Parameter{"sigma_a", unbounded, "0", "absorption per thickness"}),
+        field(&M::sigma_a, Parameter{"sigma_a", unbounded, kInitial, "absorption per thickness"}),
         field(&M::specular_reflectance, kSpecularReflectance),
         isotropic_roughness_field(&M::roughness), field(&M::nested));
   }

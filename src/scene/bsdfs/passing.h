@@ -26,7 +26,7 @@ struct FilterMaterial {
     using enum ParameterType;
     using M = FilterMaterial;
     return std::tuple(field(&M::kind),
-                      field(&M::transmittance, Parameter{"transmittance", reflectance, "1"})
+                      field(&M::transmittance, Parameter{"transmittance", reflectance, kInitial})
                           .shown(", transmittance "));
   }
   const char* name() const { return kKinds[size_t(kind)]; }

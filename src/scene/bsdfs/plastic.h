@@ -19,7 +19,7 @@ struct PlasticMaterial {
     return std::tuple(field(&M::eta, kPolymer, kExterior).shown(", eta "),
                       field(&M::diffuse_reflectance, kDiffuseBase).shown(", diffuse "),
                       field(&M::specular_reflectance, kSpecularReflectance),
-                      field(&M::nonlinear, Parameter{"nonlinear", boolean, "false",
+                      field(&M::nonlinear, Parameter{"nonlinear", boolean, kInitial,
                                                      "colour shifts by scattering inside the "
                                                      "coating"}),
                       isotropic_roughness_field(&M::roughness));

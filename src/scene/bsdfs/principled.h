@@ -36,12 +36,11 @@ struct PrincipledThinMaterial {
 };
 
 namespace parameter_words {
-constexpr Parameter principled_weight(std::string_view name, std::string_view preset = "0",
-                                      std::string_view note = "") {
-  return {name, number_or_texture, preset, note};
+constexpr Parameter principled_weight(std::string_view name, std::string_view note = "") {
+  return {name, number_or_texture, kInitial, note};
 }
 constexpr Parameter sampling_rate(std::string_view name) {
-  return {name, number, "1", "", not_negative};
+  return {name, number, kInitial, "", not_negative};
 }
 }  // namespace parameter_words
 
@@ -50,8 +49,8 @@ constexpr auto PrincipledMaterial::fields() {
   using enum ParameterType;
   using M = PrincipledMaterial;
   return std::tuple(
-      field(&M::base_color, Parameter{"base_color", reflectance, "0.5"}).shown(" "),
-      field(&M::roughness, principled_weight("roughness", "0.5")).shown(", roughness "),
+      field(&M::base_color, Parameter{"base_color", reflectance, kInitial}).shown(" "),
+      field(&M::roughness, principled_weight("roughness")).shown(", roughness "),
       field(&M::anisotropic, principled_weight("anisotropic")),
       field(&M::metallic, principled_weight("metallic")).shown(", metallic "),
       field(&M::spec_trans, principled_weight("spec_trans")),
@@ -77,17 +76,17 @@ constexpr auto PrincipledThinMaterial::fields() {
   using enum ParameterType;
   using M = PrincipledThinMaterial;
   return std::tuple(
-      field(&M::base_color, Parameter{"base_color", reflectance, "0.5"}).shown(" "),
-      field(&M::roughness, principled_weight("roughness", "0.5")).shown(", roughness "),
+      field(&M::base_color, Parameter{"base_color", reflectance, kInitial}).shown(" "),
+      field(&M::roughness, principled_weight("roughness")).shown(", roughness "),
       field(&M::anisotropic, principled_weight("anisotropic")),
       field(&M::spec_trans, principled_weight("spec_trans")),
-      field(&M::eta, principled_weight("eta", "1.5")),
+      field(&M::eta, principled_weight("eta")),
       field(&M::spec_tint, principled_weight("spec_tint")),
       field(&M::sheen, principled_weight("sheen")),
       field(&M::sheen_tint, principled_weight("sheen_tint")),
       field(&M::flatness, principled_weight("flatness")),
       field(&M::diff_trans,
-            principled_weight("diff_trans", "0", "from 0 (reflection) to 2 (transmission)")),
+            principled_weight("diff_trans", "from 0 (reflection) to 2 (transmission)")),
       field(&M::spec_reflectance_sampling_rate,
             sampling_rate("specular_reflectance_sampling_rate")),
       field(&M::spec_transmittance_sampling_rate,

@@ -29,23 +29,24 @@ struct UberMaterial {
     using enum ParameterType;
     using M = UberMaterial;
     return std::tuple(
-        field(&M::diffuse_reflectance, Parameter{"diffuse_reflectance", reflectance, "0.25"})
+        field(&M::diffuse_reflectance, Parameter{"diffuse_reflectance", reflectance, kInitial})
             .shown(", diffuse "),
-        field(&M::diffuse_transmittance, Parameter{"diffuse_transmittance", reflectance, "0"})
+        field(&M::diffuse_transmittance, Parameter{"diffuse_transmittance", reflectance, kInitial})
             .shown(" and "),
-        field(&M::glossy_reflectance, Parameter{"glossy_reflectance", reflectance, "0.25",
+        field(&M::glossy_reflectance, Parameter{"glossy_reflectance", reflectance, kInitial,
                                                 "scales the reflection off the rough interface"})
             .shown(", glossy "),
-        field(&M::glossy_transmittance, Parameter{"glossy_transmittance", reflectance, "0"})
+        field(&M::glossy_transmittance, Parameter{"glossy_transmittance", reflectance, kInitial})
             .shown(" and "),
-        field(&M::specular_reflectance, Parameter{"specular_reflectance", reflectance, "0",
+        field(&M::specular_reflectance, Parameter{"specular_reflectance", reflectance, kInitial,
                                                   "scales the reflection off the smooth interface"})
             .shown(", specular "),
-        field(&M::specular_transmittance, Parameter{"specular_transmittance", reflectance, "0"})
+        field(&M::specular_transmittance,
+              Parameter{"specular_transmittance", reflectance, kInitial})
             .shown(" and "),
-        field(&M::opacity, Parameter{"opacity", reflectance, "1", "the rest passes straight"})
+        field(&M::opacity, Parameter{"opacity", reflectance, kInitial, "the rest passes straight"})
             .shown(", opacity "),
-        field(&M::eta, Parameter{"eta", number_or_texture, "1.5", "index inside over outside"}),
+        field(&M::eta, Parameter{"eta", number_or_texture, kInitial, "index inside over outside"}),
         roughness_field(&M::roughness));
   }
   static constexpr const char* name() { return "uber"; }
@@ -64,10 +65,10 @@ struct SubstrateMaterial {
     using enum ParameterType;
     using M = SubstrateMaterial;
     return std::tuple(
-        field(&M::diffuse_reflectance, Parameter{"diffuse_reflectance", reflectance, "0.5"})
+        field(&M::diffuse_reflectance, Parameter{"diffuse_reflectance", reflectance, kInitial})
             .shown(" "),
         field(&M::specular_reflectance,
-              Parameter{"specular_reflectance", reflectance, "0.5", "along the normal"})
+              Parameter{"specular_reflectance", reflectance, kInitial, "along the normal"})
             .shown(", specular "),
         roughness_field(&M::roughness));
   }

@@ -9,9 +9,9 @@
 namespace duet {
 
 namespace parameter_words {
-inline constexpr Parameter kGlossyReflectance{"specular_reflectance", reflectance, "0.2",
+inline constexpr Parameter kGlossyReflectance{"specular_reflectance", reflectance, kInitial,
                                               "of the glossy lobe"};
-inline constexpr Parameter kDiffuseReflectance{"diffuse_reflectance", reflectance, "0.5",
+inline constexpr Parameter kDiffuseReflectance{"diffuse_reflectance", reflectance, kInitial,
                                                "of the diffuse lobe"};
 }  // namespace parameter_words
 
@@ -23,10 +23,10 @@ struct PhongMaterial {
     using namespace parameter_words;
     using enum ParameterType;
     using M = PhongMaterial;
-    return std::tuple(
-        field(&M::exponent, Parameter{"exponent", number_or_texture, "30"}).shown(", exponent "),
-        field(&M::diffuse_reflectance, kDiffuseReflectance).shown(", diffuse "),
-        field(&M::specular_reflectance, kGlossyReflectance).shown(", specular "));
+    return std::tuple(field(&M::exponent, Parameter{"exponent", number_or_texture, kInitial})
+                          .shown(", exponent "),
+                      field(&M::diffuse_reflectance, kDiffuseReflectance).shown(", diffuse "),
+                      field(&M::specular_reflectance, kGlossyReflectance).shown(", specular "));
   }
   static constexpr const char* name() { return "phong"; }
   Scattering scattering() const { return {.diffuse = true, .rough_reflection = true}; }
@@ -44,11 +44,11 @@ struct WardMaterial {
     using enum ParameterType;
     using M = WardMaterial;
     return std::tuple(
-        field(&M::variant, Parameter{"variant", string, "balanced", "ward, ward-duer or balanced"})
+        field(&M::variant, Parameter{"variant", string, kInitial, "ward, ward-duer or balanced"})
             .words(kVariants),
-        field(&M::alpha_u, Parameter{"alpha_u", number_or_texture, "0.1", "along the tangent"})
+        field(&M::alpha_u, Parameter{"alpha_u", number_or_texture, kInitial, "along the tangent"})
             .shown(", alpha "),
-        field(&M::alpha_v, Parameter{"alpha_v", number_or_texture, "0.1", "along the bitangent"})
+        field(&M::alpha_v, Parameter{"alpha_v", number_or_texture, kInitial, "along the bitangent"})
             .shown(" and "),
         field(&M::diffuse_reflectance, kDiffuseReflectance).shown(", diffuse "),
         field(&M::specular_reflectance, kGlossyReflectance).shown(", specular "));

@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "mitsuba/substitution.h"
+#include "xml/substitution.h"
 #include "xml/xml_document.h"
 
 namespace duet {

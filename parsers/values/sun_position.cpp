@@ -1,6 +1,7 @@
-#include "mitsuba/sun_position.h"
+#include "values/sun_position.h"
 
 #include <cmath>
+#include <numbers>
 
 #include "math/angles.h"
 
@@ -42,6 +43,16 @@ SunAngles sun_angles(const SunTime& time, const SunPlace& place) {
                                             std::sin(latitude) * std::cos(hour_angle));
   constexpr double earth_radius = 6371.01, astronomical_unit = 149597890;  // km
   return {zenith + earth_radius / astronomical_unit * std::sin(zenith), azimuth};
+}
+
+std::array<double, 3> sun_direction_3x(const SunAngles& a) {
+  const double azimuth = a.azimuth - std::numbers::pi, s = std::sin(a.zenith);
+  return {s * std::cos(azimuth), s * std::sin(azimuth), std::cos(a.zenith)};
+}
+
+std::array<double, 3> sun_direction_0x(const SunAngles& a) {
+  const double s = std::sin(a.zenith);
+  return {s * std::sin(a.azimuth), std::cos(a.zenith), -s * std::cos(a.azimuth)};
 }
 
 }  // namespace duet

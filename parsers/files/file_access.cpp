@@ -1,4 +1,4 @@
-#include "mitsuba/scene_files.h"
+#include "files/file_access.h"
 
 #include <algorithm>
 #include <filesystem>

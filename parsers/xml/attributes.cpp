@@ -1,4 +1,4 @@
-#include "mitsuba/attributes.h"
+#include "xml/attributes.h"
 
 #include "values/text.h"
 

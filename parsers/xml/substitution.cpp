@@ -1,4 +1,4 @@
-#include "mitsuba/substitution.h"
+#include "xml/substitution.h"
 
 #include <algorithm>
 #include <cctype>

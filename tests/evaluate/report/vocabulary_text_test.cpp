@@ -1,5 +1,5 @@
 // The list of plugins that people read.
-#include "mitsuba/vocabulary_text.h"
+#include "evaluate/report/vocabulary_text.h"
 
 #include <doctest/doctest.h>
 

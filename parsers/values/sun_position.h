@@ -23,4 +23,10 @@ struct SunAngles {
 /// Source: Blanco-Muriel et al., "Computing the Solar Vector", Solar Energy 70(5), 2001.
 SunAngles sun_angles(const SunTime& time, const SunPlace& place);
 
+/// The direction to it as Mitsuba 3 places it: x to the north, z up, azimuths from the south to the
+/// east.
+std::array<double, 3> sun_direction_3x(const SunAngles& angles);
+/// The same of Mitsuba 0.x: x to the east, −z to the north, y up.
+std::array<double, 3> sun_direction_0x(const SunAngles& angles);
+
 }  // namespace duet

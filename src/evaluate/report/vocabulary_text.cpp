@@ -1,4 +1,4 @@
-#include "mitsuba/vocabulary_text.h"
+#include "evaluate/report/vocabulary_text.h"
 
 #include <algorithm>
 

@@ -1,4 +1,4 @@
-#include "mitsuba/sun_radiance.h"
+#include "values/sun_radiance.h"
 
 #include <algorithm>
 #include <cmath>
