@@ -414,7 +414,8 @@ void Checker<Vertex>::eye_subpath(Weights weights, const Ray& camera_ray, int ma
       if (!found && scene_.environment) {
         connection = connect_escape(scene_, weights, subpath, transmittance);
         const float pick = scene_.picker.probability(scene_.environment_index);
-        direct = double(scene_.environment->pdf_direct(subpath.from, subpath.ray.direction).value * pick);
+        direct = double(scene_.environment->pdf_direct(subpath.from, subpath.ray.direction).value *
+                        pick);
         emission = double(scene_.environment->emission_density(subpath.ray.direction) * pick);
       } else if (found && scene_.light_on(*s.shape)) {
         connection = connect_hit(scene_, weights, subpath, s, d2, transmittance);
