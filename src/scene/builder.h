@@ -18,7 +18,7 @@ namespace duet {
 
 struct HeightField;
 
-/// Makes what shapes and lights ask for, each thing once and none that nobody asks for. After an
+/// Makes what shapes and lights ask for, each thing once and lazily. After an
 /// error a function returns null or something harmless, so that the remaining errors are found too.
 class SceneBuilder {
  public:
