@@ -186,6 +186,11 @@ Triple Properties::triple(std::string_view name) {
                                          : Triple{};
 }
 
+void Properties::only_one(std::string_view name, std::string_view other, std::string_view at) {
+  if (has(name) && has(other))
+    error(at.empty() ? name : at, "either \"{}\" or \"{}\" can be given", name, other);
+}
+
 Matrix4 Properties::transform(std::string_view name) {
   Motion motion;
   const Matrix4 value = transform(name, motion);

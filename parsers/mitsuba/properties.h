@@ -65,6 +65,14 @@ class Properties {
   void error(std::string_view name, fmt::format_string<Args...> text, Args&&... args) {
     report_.error(where(name), text, std::forward<Args>(args)...);
   }
+  /// Reports that the plugin needs something.
+  template <class... Args>
+  void needs(fmt::format_string<Args...> what, Args&&... args) {
+    report_.error(node_.where, "{} needs {}", describe(node_),
+                  fmt::format(what, std::forward<Args>(args)...));
+  }
+  /// An error if both are given; at `name`, or where `at` is.
+  void only_one(std::string_view name, std::string_view other, std::string_view at = "");
   /// Reports that the value has a type that the parameter cannot have.
   void wrong_type(std::string_view name, const Property& property);
   /// Checks a number from a property against the range of its parameter.

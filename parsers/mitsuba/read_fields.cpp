@@ -76,9 +76,8 @@ std::vector<MaterialId> nested_bsdfs(SceneReader& s, Properties& p, size_t least
   const auto children = p.children(PluginKind::bsdf);
   if (children.size() >= least && children.size() <= most)
     return read_all(children, [&](const Node& node) { return s.material(node); });
-  s.report().error(p.node().where, "{} needs {}{} nested BSDF{}, not {}", describe(p.node()), least,
-                   least == most ? "" : " or " + std::to_string(most), most == 1 ? "" : "s",
-                   children.size());
+  p.needs("{}{} nested BSDF{}, not {}", least, least == most ? "" : " or " + std::to_string(most),
+          most == 1 ? "" : "s", children.size());
   return {};
 }
 
@@ -86,8 +85,7 @@ std::vector<PhaseId> nested_phases(SceneReader& s, Properties& p, size_t count) 
   const auto children = p.children(PluginKind::phase);
   if (children.size() == count)
     return read_all(children, [&](const Node& node) { return s.phase(node); });
-  s.report().error(p.node().where, "{} needs {} phase functions, not {}", describe(p.node()), count,
-                   children.size());
+  p.needs("{} phase functions, not {}", count, children.size());
   return {};
 }
 
@@ -130,7 +128,7 @@ void FieldReader::read(const FieldFacts& facts, UvTransform& value) {
 
 void FieldReader::read_nested(TextureId& value) {
   const Node* node = p_.child(PluginKind::texture);
-  if (!node) s_.report().error(p_.node().where, "{} needs a texture", describe(p_.node()));
+  if (!node) p_.needs("a texture");
   const auto id = node ? s_.texture(*node) : std::nullopt;
   if (id) value = *id;
   complete_ = complete_ && id;

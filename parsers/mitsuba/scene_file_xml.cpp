@@ -47,17 +47,6 @@ bool read_version(SceneFileXml& file, Report& report) {
   return true;
 }
 
-/// Xerces, which 0.x uses, lets a root name its schema.
-void remove_schema(pugi::xml_node root) {
-  for (pugi::xml_attribute a = root.first_attribute(); a;) {
-    const pugi::xml_attribute next = a.next_attribute();
-    const std::string_view name = a.name();
-    if (name == "xmlns" || name.starts_with("xmlns:") || name.starts_with("xsi:"))
-      root.remove_attribute(a);
-    a = next;
-  }
-}
-
 }  // namespace
 
 std::optional<SceneFileXml> parse_scene_file(std::string bytes, const std::string& path,
@@ -80,7 +69,8 @@ std::optional<SceneFileXml> parse_scene_file(std::string bytes, const std::strin
     file.xml = XmlDocument::parse(with_entities->replace_entities(access.read, report), report);
     if (!file.xml) return std::nullopt;
   }
-  remove_schema(file.xml->root());
+  // Xerces, which 0.x uses, lets a root name its schema.
+  file.xml->remove_schema();
   return file;
 }
 

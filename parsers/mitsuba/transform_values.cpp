@@ -1,6 +1,5 @@
 #include <cmath>
 
-#include "math/angles.h"
 #include "mitsuba/property_values.h"
 #include "values/text.h"
 
@@ -93,20 +92,13 @@ class StepReader {
       c_.report.error(a_.where_all(), "the axis of a rotation cannot be zero");
       return std::nullopt;
     }
-    Matrix4 m = Matrix4::rotate(*angle, x, y, z);
-    if (c_.version.is_0x() || std::abs(length - 1) < 1e-5) return m;
+    if (c_.version.is_0x() || std::abs(length - 1) < 1e-5) return Matrix4::rotate(*angle, x, y, z);
     // Mitsuba 2 and 3 put the axis into Rodrigues' formula as it is.
     c_.report.warning(a_.where(),
                       "Mitsuba 3 does not normalise the axis of a rotation: one of length {} also "
                       "stretches",
                       length);
-    const double s = std::sin(*angle * kRadians);
-    const double d = 1 - std::cos(*angle * kRadians);
-    const double c = 1 - d;
-    m[0] = {c + x * x * d, x * y * d - z * s, x * z * d + y * s, 0};
-    m[1] = {x * y * d + z * s, c + y * y * d, y * z * d - x * s, 0};
-    m[2] = {x * z * d - y * s, y * z * d + x * s, c + z * z * d, 0};
-    return m;
+    return Matrix4::rotate_by_formula(*angle, x, y, z);
   }
 
   std::optional<Matrix4> look_at() {

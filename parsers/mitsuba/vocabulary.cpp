@@ -96,6 +96,12 @@ ParameterList inert_parameters(ParameterType type, std::string_view names, FileV
   return list;
 }
 
+std::vector<Plugin> plugins::joined(std::initializer_list<std::vector<Plugin>> lists) {
+  std::vector<Plugin> all;
+  for (const std::vector<Plugin>& list : lists) all.insert(all.end(), list.begin(), list.end());
+  return all;
+}
+
 const Vocabulary& Vocabulary::built_in() {
   static const Vocabulary all = [] {
     using namespace plugins;

@@ -46,4 +46,15 @@ SourceLocation XmlDocument::where(pugi::xml_attribute attribute) const {
   return at_name(attribute.name(), 0);
 }
 
+void XmlDocument::remove_schema() {
+  pugi::xml_node element = root();
+  for (pugi::xml_attribute a = element.first_attribute(); a;) {
+    const pugi::xml_attribute next = a.next_attribute();
+    const std::string_view name = a.name();
+    if (name == "xmlns" || name.starts_with("xmlns:") || name.starts_with("xsi:"))
+      element.remove_attribute(a);
+    a = next;
+  }
+}
+
 }  // namespace duet

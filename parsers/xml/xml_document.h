@@ -16,6 +16,8 @@ class XmlDocument {
   /// type declares are left as they are.
   static std::unique_ptr<XmlDocument> parse(XmlText text, Report& report);
 
+  /// Takes away the root's attributes that name a schema.
+  void remove_schema();
   pugi::xml_node root() const { return document_.document_element(); }
   /// Where the element's "<" is.
   SourceLocation where(pugi::xml_node element) const;

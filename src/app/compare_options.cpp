@@ -1,7 +1,6 @@
 #include "app/compare_options.h"
 
 #include <fmt/ranges.h>
-#include <glob.h>
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
@@ -39,16 +38,6 @@ std::optional<double> samples(const std::string& option, const std::string& text
   return parse_amount(option, text, {{"", 1}}, 1e-3, 1e15);
 }
 
-std::vector<std::string> split_names(const std::string& text) {
-  std::vector<std::string> parts;
-  for (size_t from = 0; from <= text.size();) {
-    const size_t to = std::min(text.find(',', from), text.size());
-    if (to > from) parts.push_back(text.substr(from, to - from));
-    from = to + 1;
-  }
-  return parts;
-}
-
 }  // namespace
 
 Requirement parse_requirement(const std::string& text) {
@@ -70,19 +59,7 @@ Requirement parse_requirement(const std::string& text) {
 }
 
 std::vector<std::string> set_of_images(const std::string& operand, const char* what, Log& log) {
-  std::error_code ignored;
-  std::vector<std::string> files;
-  if (fs::is_directory(operand, ignored)) {
-    for (const std::string& name : images_in(operand))
-      files.push_back((fs::path(operand) / name).string());
-  } else if (operand.find_first_of("*?") != std::string::npos && !fs::exists(operand, ignored)) {
-    glob_t found{};
-    if (glob(operand.c_str(), 0, nullptr, &found) == 0)
-      files.assign(found.gl_pathv, found.gl_pathv + found.gl_pathc);
-    globfree(&found);
-  } else {
-    files = split_names(operand);
-  }
+  const std::vector<std::string> files = images_of_set(operand);
   if (files.size() < 2)
     throw UsageError(
         fmt::format("--batches: \"{}\" means {}; it must mean two images at least, as a pattern in "

@@ -15,35 +15,6 @@ namespace duet {
 
 namespace {
 
-std::string only_in(FileVersions v) {
-  return v == FileVersions::all ? "" : fmt::format(", {} only", versions_name(v));
-}
-
-void print_parameter(const Parameter& p) {
-  std::string line =
-      fmt::format("    {:28} {:12} {}", p.name, support_name(p.support), type_name(p.type));
-  if (p.required) line += ", required";
-  if (!p.preset.empty()) line += fmt::format(", default {}", p.preset);
-  if (!p.preset_0x.empty()) line += fmt::format(" (in 0.x {})", p.preset_0x);
-  line += only_in(p.versions);
-  if (!p.aliases.empty()) line += fmt::format(", also {}", p.aliases);
-  if (!p.note.empty()) line += fmt::format(": {}", p.note);
-  fmt::print("{}\n", line);
-}
-
-void print_kind(PluginKind kind) {
-  for (const Plugin& p : Vocabulary::built_in().plugins(kind)) {
-    fmt::print("{} {:{}} {}{}{}{}\n", tag_of(kind), p.name, 31 - int(tag_of(kind).size()),
-               support_name(p.support), only_in(p.versions),
-               p.aliases.empty() ? "" : fmt::format(", also {}", p.aliases),
-               p.note.empty() ? "" : fmt::format(": {}", p.note));
-    for (const Parameter& q : p.parameters) print_parameter(q);
-  }
-  if (common_parameters(kind).empty()) return;
-  fmt::print("every {}\n", tag_of(kind));
-  for (const Parameter& q : common_parameters(kind)) print_parameter(q);
-}
-
 int list_plugins(const std::string& kind_name, bool markdown) {
   if (markdown) {
     if (!kind_name.empty()) throw UsageError("--markdown prints all kinds; name none");
@@ -59,7 +30,7 @@ int list_plugins(const std::string& kind_name, bool markdown) {
                                    did_you_mean(kind_name, tags), fmt::join(tags, " ")));
     tags = {kind_name};
   }
-  for (const std::string& tag : tags) print_kind(*kind_of_tag(tag));
+  for (const std::string& tag : tags) fmt::print("{}", plugin_list(*kind_of_tag(tag)));
   return kSuccess;
 }
 

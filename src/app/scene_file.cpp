@@ -8,49 +8,20 @@
 #include "app/commands.h"
 #include "app/program.h"
 #include "app/scene_operand.h"
-#include "files/file_access.h"
-#include "pbrt/pbrt.h"
+#include "evaluate/report/read_scene.h"
 
 namespace duet {
 
 namespace {
 
-MitsubaOptions mitsuba_options(const ReadOptions& options, const Program& program) {
-  MitsubaOptions mitsuba;
-  mitsuba.search_paths = options.search_paths;
-  for (const std::string& define : options.defines)
-    mitsuba.defines.push_back(parse_assignment("-D", define));
-  mitsuba.files.read = [&program, on_disk = with_disk({}).read](const std::string& path) {
+ReadingOptions reading_options(const ReadOptions& o, const Program& program) {
+  ReadingOptions reading{{}, o.search_paths, o.methods, o.pbrt_version, {}};
+  for (const std::string& define : o.defines)
+    reading.defines.push_back(parse_assignment("-D", define));
+  reading.files.read = [&program, on_disk = with_disk({}).read](const std::string& path) {
     return path == kStandardInput ? program.standard_input : on_disk(path);
   };
-  mitsuba.replacing_methods = options.methods;
-  return mitsuba;
-}
-
-LoadedScene load_pbrt(const std::string& file, const ReadOptions& options, Program& program) {
-  Diagnostics diagnostics;
-  InputFiles files;
-  pbrt::Options pbrt;
-  if (options.pbrt_version != 0) pbrt.version = pbrt::Version(options.pbrt_version);
-  pbrt.search_paths = options.search_paths;
-  pbrt.replaces_integrator = !options.methods.empty();
-  pbrt.exists = files.watch({}).exists;
-  auto scene = pbrt::read_pbrt(file, pbrt, diagnostics);
-  pbrt.exists = nullptr;
-  report(diagnostics, options.strict, program.log);
-  return {std::move(scene.value().description),
-          fmt::format("pbrt-v{}", int(scene->version)),
-          {},
-          std::move(files),
-          diagnostics.all()};
-}
-
-/// One triangle, for those who do not look.
-TriangleMesh some_mesh(const std::string&, const std::string&, const MeshOptions&) {
-  TriangleMesh mesh;
-  mesh.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
-  mesh.triangles = {{0, 1, 2}};
-  return mesh;
+  return reading;
 }
 
 }  // namespace
@@ -76,21 +47,14 @@ void add_read_options(CLI::App& c, ReadOptions& o) {
 
 void check_defines(const ReadOptions& options, const Program& program) {
   if (options.defines.empty()) return;
-  MitsubaOptions mitsuba = mitsuba_options(options, program);
-  // Meshes have no parameters, and reading them twice would take long.
-  mitsuba.files.read_mesh = some_mesh;
-  mitsuba.files.read_obj_parts = [](const std::string& file, const MeshOptions& o) {
-    return ObjFile{{{"", some_mesh("obj", file, o)}}, ""};
-  };
+  const ReadingOptions reading = reading_options(options, program);
   std::set<std::string> names;
   for (const std::string& file : options.scenes) {
-    if (pbrt::is_pbrt_file(file)) continue;
-    Diagnostics ignored;
-    const auto scene = read_mitsuba(file, mitsuba, ignored);
-    if (!scene) return;
-    for (const auto& [name, value] : scene->parameters) names.insert(name);
+    const auto own = parameters_of_scene(file, reading);
+    if (!own) return;
+    names.insert(own->begin(), own->end());
   }
-  for (const auto& [name, value] : mitsuba.defines) {
+  for (const auto& [name, value] : reading.defines) {
     if (names.contains(name)) continue;
     const std::vector<std::string> known(names.begin(), names.end());
     std::string list;
@@ -119,15 +83,10 @@ LoadedScene load_scene(const std::string& file, const ReadOptions& options, Prog
     program.log.error("cannot read {}: {}", file, why);
     throw SceneFailure(why, true);
   }
-  if (pbrt::is_pbrt_file(file)) return load_pbrt(file, options, program);
   Diagnostics diagnostics;
-  InputFiles files;
-  MitsubaOptions mitsuba = mitsuba_options(options, program);
-  mitsuba.files = files.watch(std::move(mitsuba.files));
-  auto scene = read_mitsuba(file, mitsuba, diagnostics);
+  auto scene = read_scene(file, reading_options(options, program), diagnostics);
   report(diagnostics, options.strict, program.log);
-  return {std::move(scene.value().description), std::move(scene->version),
-          std::move(scene->parameters), std::move(files), diagnostics.all()};
+  return std::move(scene.value());
 }
 
 }  // namespace duet

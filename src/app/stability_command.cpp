@@ -13,6 +13,7 @@
 #include "app/signals.h"
 #include "base/atomic_file.h"
 #include "base/diagnostics.h"
+#include "evaluate/stability/selection.h"
 #include "evaluate/stability/table.h"
 
 namespace duet {
@@ -34,44 +35,6 @@ std::string catalogue_folder(const std::string& option) {
   for (const char* folder : {DUET_STABILITY_SOURCE, DUET_STABILITY_INSTALLED})
     if (std::filesystem::exists(std::string(folder) + "/catalogue.json", ignored)) return folder;
   return DUET_STABILITY_INSTALLED;
-}
-
-/// Rows by their names or by the numbers of their failures; all, or all fast ones, if none is
-/// named.
-std::vector<const Row*> select_rows(const Catalogue& catalogue, const StabilityOptions& o) {
-  std::vector<const Row*> rows;
-  std::vector<std::string> names;
-  for (const Row& row : catalogue.rows) names.push_back(row.name);
-  for (const std::string& wanted : o.cases) {
-    const bool known = std::any_of(catalogue.rows.begin(), catalogue.rows.end(), [&](const Row& r) {
-      return r.name == wanted || (r.number > 0 && fmt::to_string(r.number) == wanted);
-    });
-    if (!known)
-      throw UsageError(fmt::format("there is no case \"{}\"{}; duet stability --list names them",
-                                   wanted, did_you_mean(wanted, names)));
-  }
-  for (const Row& row : catalogue.rows) {
-    const auto is_this = [&](const std::string& wanted) {
-      return wanted == row.name || (row.number > 0 && wanted == fmt::to_string(row.number));
-    };
-    const bool named = std::any_of(o.cases.begin(), o.cases.end(), is_this);
-    if ((o.cases.empty() || named) && (!o.fast || row.fast)) rows.push_back(&row);
-  }
-  if (rows.empty()) throw UsageError("none of these cases is part of --fast");
-  return rows;
-}
-
-std::vector<std::string> select_methods(const std::string& list) {
-  const std::vector<std::string> known(kMethods.begin(), kMethods.end());
-  if (list.empty()) return known;
-  std::vector<std::string> methods;
-  for (const std::string& name : CLI::detail::split(list, ',')) {
-    if (std::find(known.begin(), known.end(), name) == known.end())
-      throw UsageError(fmt::format("--methods: there is no method \"{}\"{}; there are {}", name,
-                                   did_you_mean(name, known), fmt::join(known, ", ")));
-    methods.push_back(name);
-  }
-  return methods;
 }
 
 void print_list(const std::vector<const Row*>& rows) {
@@ -103,10 +66,21 @@ std::string whole_command(const StabilityOptions& o) {
                      o.folder.empty() ? "" : " --catalogue " + o.folder, o.markdown);
 }
 
+/// What `select` finds; that there is nothing of the kind is wrong usage.
+template <class Select>
+auto selected(Select select) {
+  try {
+    return select();
+  } catch (const std::out_of_range& e) {
+    throw UsageError(e.what());
+  }
+}
+
 int run_stability(const StabilityOptions& o, Program& program) {
   const Catalogue catalogue = read_catalogue(catalogue_folder(o.folder));
-  const std::vector<const Row*> rows = select_rows(catalogue, o);
-  const std::vector<std::string> methods = select_methods(o.methods);
+  const std::vector<const Row*> rows =
+      selected([&] { return select_rows(catalogue, o.cases, o.fast); });
+  const std::vector<std::string> methods = selected([&] { return select_methods(o.methods); });
   for (const std::string& path : {o.markdown, o.json})
     if (const std::string why = path.empty() ? "" : prepare_file(path); !why.empty())
       throw UsageError(fmt::format("cannot write {}: {}", path, why));

@@ -32,6 +32,7 @@ class BidirectionalIntegrator final : public CameraIntegrator {
                       const PassControl& control, RenderCounters& counters) override;
   Spectrum radiance(const Scene& scene, const CameraPath& path, Sampler& sampler,
                     RenderCounters& counters, std::span<float> values) const override;
+  std::unique_ptr<PathWorkspace> make_workspace(const Scene& scene) const override;
 
  private:
   template <class Vertex>
@@ -48,7 +49,8 @@ class BidirectionalIntegrator final : public CameraIntegrator {
   bool has_technique(int s, int t) const;
   void splat(Film& film, std::span<const LightSplat> splats, int threads, RenderCounters& counters);
 
-  // bidirectional_eye.cpp. `Vertex` is PathVertex, or MediaVertex in scenes with media.
+  // bidirectional_eye.cpp, bidirectional_connect.h and bidirectional_thesis.cpp. `Vertex` is
+  // PathVertex, or MediaVertex in scenes with media.
   template <class Vertex>
   Spectrum trace(const Scene& scene, const CameraPath& path, Sampler& sampler,
                  RenderCounters& counters, std::span<float> values) const;

@@ -106,6 +106,7 @@ void CameraIntegrator::render_tile(const Scene& scene, const Film& film, FilmTil
   const float weight = camera.ray_weight();
   const bool unit_box = film.filter().is_unit_box();
   std::vector<float> values(channels_.size());
+  const std::unique_ptr<PathWorkspace> workspace = make_workspace(scene);
   [[maybe_unused]] std::optional<NextRays> next;
   const PixelBounds& b = tile.sampled();
   // One sample of all pixels before the next: pixels share sums, and these must not depend on how
@@ -124,7 +125,8 @@ void CameraIntegrator::render_tile(const Scene& scene, const Film& film, FilmTil
           lens = sampler.next_2d();
         }
         std::fill(values.begin(), values.end(), 0.0f);
-        CameraPath path{camera.sample_ray(position, lens), pixel, i, weight};
+        CameraPath path{
+            camera.sample_ray(position, lens), pixel, i, weight, nullptr, workspace.get()};
         if constexpr (kWithNextRays)
           if ((next = camera.next_rays(position, lens))) path.next = &*next;
         sample(scene, path, sampler, counters, values);

@@ -28,6 +28,11 @@ struct CameraOutput {
   TechniqueOutput techniques = TechniqueOutput::none;
 };
 
+/// What a method needs to trace a path and keeps for the next one of the same tile.
+struct PathWorkspace {
+  virtual ~PathWorkspace() = default;
+};
+
 /// Where a path from the camera begins.
 struct CameraPath {
   Ray ray;
@@ -36,6 +41,7 @@ struct CameraPath {
   float weight = 1;  ///< of the ray, by which the colours are multiplied
   /// Those beside it, if a layer needs them and the camera has any.
   const NextRays* next = nullptr;
+  PathWorkspace* workspace = nullptr;  ///< what make_workspace() has made for the tile
 };
 
 /// A method that estimates the radiance along one camera ray at a time.
@@ -57,6 +63,7 @@ class CameraIntegrator : public Integrator {
   /// set by the caller.
   virtual Spectrum radiance(const Scene& scene, const CameraPath& path, Sampler& sampler,
                             RenderCounters& counters, std::span<float> values) const = 0;
+  virtual std::unique_ptr<PathWorkspace> make_workspace(const Scene&) const { return nullptr; }
   /// Adds a layer of three channels that radiance() fills; returns the first of them.
   size_t add_colour_layer(const std::string& name);
   /// Has the film gather the moments that layers ask for, which a sample cannot tell where passes

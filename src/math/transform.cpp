@@ -67,11 +67,13 @@ Matrix4 Matrix4::scale(double x, double y, double z) {
 
 Matrix4 Matrix4::rotate(double degrees, double x, double y, double z) {
   const double l = std::sqrt(x * x + y * y + z * z);
-  Matrix4 r;
-  if (!(l > 0)) return r;
-  x /= l, y /= l, z /= l;
+  return l > 0 ? rotate_by_formula(degrees, x / l, y / l, z / l) : Matrix4{};
+}
+
+Matrix4 Matrix4::rotate_by_formula(double degrees, double x, double y, double z) {
   const double angle = degrees * kRadians;
   const double s = std::sin(angle), c = std::cos(angle), d = 1 - c;
+  Matrix4 r;
   r[0] = {c + x * x * d, x * y * d - z * s, x * z * d + y * s, 0};
   r[1] = {x * y * d + z * s, c + y * y * d, y * z * d - x * s, 0};
   r[2] = {x * z * d - y * s, y * z * d + x * s, c + z * z * d, 0};

@@ -31,6 +31,8 @@ struct Matrix4 {
   static Matrix4 scale(double x, double y, double z);
   /// Rotation by `degrees` about an axis of any length; the identity for a zero axis.
   static Matrix4 rotate(double degrees, double x, double y, double z);
+  /// Rodrigues' formula with the axis as it is: one of another length than one also stretches.
+  static Matrix4 rotate_by_formula(double degrees, double x, double y, double z);
   /// Turns +z into the direction from `origin`, in some way around it; nothing for a zero
   /// direction.
   static std::optional<Matrix4> look_along(const std::array<double, 3>& origin,

@@ -18,8 +18,8 @@ namespace duet {
 
 struct HeightField;
 
-/// Makes what shapes and lights ask for, each thing once and none that nobody asks for. After an
-/// error a function returns null or something harmless, so that the remaining errors are found too.
+/// Instantiates lazily what shapes and lights ask for, each thing once. After an error a function
+/// returns null or something harmless, so that the remaining errors are found too.
 class SceneBuilder {
  public:
   /// `use` says whether the place_…() functions will be called. Then the caller holds the meshes of

@@ -22,6 +22,50 @@ TEST_CASE("bsdf: presets") {
   }
 }
 
+namespace {
+
+/// What the file leaves open is what the description begins with, also where a default is the name
+/// of a material or one of several that a roughness has.
+template <class M>
+void check_defaults(const M& initial = {}, const std::string& inside = "") {
+  const std::string type = initial.name();
+  CAPTURE(type);
+  const M read = read_bsdf<M>("3.0.0", "<bsdf type='" + type + "'>" + inside + "</bsdf>");
+  CHECK(MaterialModel(read) == MaterialModel(initial));
+}
+
+template <class M>
+M rough() {
+  M m;
+  m.roughness.emplace();
+  return m;
+}
+
+}  // namespace
+
+TEST_CASE("bsdf: defaults are those of the descriptions") {
+  check_defaults<DiffuseMaterial>();
+  check_defaults<ConductorMaterial>();
+  check_defaults<ConductorMaterial>(rough<ConductorMaterial>());
+  check_defaults<DielectricMaterial>();
+  check_defaults<DielectricMaterial>(rough<DielectricMaterial>());
+  check_defaults<ThinDielectricMaterial>();
+  check_defaults<PlasticMaterial>();
+  check_defaults<PlasticMaterial>(rough<PlasticMaterial>());
+  check_defaults<PolarizedPlasticMaterial>();
+  check_defaults<PrincipledMaterial>();
+  check_defaults<PrincipledThinMaterial>();
+  check_defaults<PhongMaterial>();
+  check_defaults<WardMaterial>();
+  check_defaults<RoughDiffuseMaterial>();
+  check_defaults<DiffuseTransmitterMaterial>();
+  check_defaults<HairMaterial>();
+  check_defaults<CoatedDiffuseMaterial>();
+  check_defaults<CoatedConductorMaterial>();
+  check_defaults<SubstrateMaterial>();
+  check_defaults<UberMaterial>();
+}
+
 TEST_CASE("bsdf: models of 0.6 that Mitsuba 3 has not") {
   for (const char* version : {"0.6.0", "3.0.0"}) {
     CHECK(bsdf<PhongMaterial>(version, "phong") == PhongMaterial{});

@@ -56,10 +56,11 @@ struct ChalkMaterial {
   static constexpr auto fields() {
     using namespace parameter_words;
     return std::tuple(
-        field(&ChalkMaterial::color, Parameter{"chalk_color", reflectance, "0.75"}).shown(" "),
+        field(&ChalkMaterial::color, Parameter{"chalk_color", reflectance, kInitial}).shown(" "),
         field(&ChalkMaterial::dust,
-              Parameter{"dust", number, "0", "share that is absorbed", fraction})
-            .shown(", dust "));
+              Parameter{"dust", number, kInitial, "share that is absorbed", fraction})
+            .shown(", dust ")
+            .terse());
   }
   static constexpr const char* name() { return "chalk"; }
   Scattering scattering() const { return {.diffuse = true}; }
@@ -129,6 +130,11 @@ TEST_CASE("a foreign BSDF is listed, written, printed and counted") {
 
   const MitsubaXml xml = write_mitsuba_xml(d);
   CHECK(xml.text.find("<bsdf type=\"chalk\"") != xml.text.npos);
+  CHECK(xml.text.find("name=\"dust\" value=\"0.5\"") != xml.text.npos);
+  // A terse field is written only where it says something.
+  const MitsubaXml clean = write_mitsuba_xml(good("3.0.0", "<bsdf type='chalk'/>"));
+  CHECK(clean.text.find("chalk_color") != clean.text.npos);
+  CHECK(clean.text.find("dust") == clean.text.npos);
   MitsubaOptions options;
   options.vocabulary = &vocabulary();
   const ReadResult again = read_with(options, xml.text);

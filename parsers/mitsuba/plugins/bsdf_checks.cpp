@@ -28,12 +28,11 @@ void check_ward(SceneReader& s, Properties& p, WardMaterial& m) {
   conserve_energy(s, p, m.diffuse_reflectance, m.specular_reflectance);
 }
 
-bool check_coating(SceneReader& s, Properties& p, CoatingMaterial& m) {
+bool check_coating(SceneReader&, Properties& p, CoatingMaterial& m) {
   if (!(m.eta > 1))
     p.error("int_ior", "the index of refraction of a coating must be larger inside than outside");
   const size_t count = p.children(PluginKind::bsdf).size();
-  if (count != 1)
-    s.report().error(p.node().where, "{} needs one nested BSDF, not {}", describe(p.node()), count);
+  if (count != 1) p.needs("one nested BSDF, not {}", count);
   return count == 1;
 }
 
@@ -48,8 +47,7 @@ void check_pplastic(SceneReader&, Properties& p, PolarizedPlasticMaterial& m) {
 }
 
 void check_principled(SceneReader&, Properties& p, PrincipledMaterial&) {
-  if (p.has("eta") && p.has("specular"))
-    p.error("eta", "either \"eta\" or \"specular\" can be given");
+  p.only_one("eta", "specular");
 }
 
 }  // namespace duet::plugins

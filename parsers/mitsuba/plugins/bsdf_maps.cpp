@@ -12,8 +12,7 @@ std::optional<ColorInput> only_texture(SceneReader& s, Properties& p, std::strin
   const auto children = p.children(PluginKind::texture);
   const bool named = !name.empty() && p.has(name);
   if (children.size() + (named ? 1 : 0) != 1) {
-    s.report().error(p.node().where, "{} needs one texture, not {}", describe(p.node()),
-                     children.size() + (named ? 1 : 0));
+    p.needs("one texture, not {}", children.size() + (named ? 1 : 0));
     return std::nullopt;
   }
   if (named) return s.color(p, name);

@@ -33,13 +33,8 @@ void read_light(SceneReader& s, Properties& p, LightDescription& out) {
   if (const Node* medium = p.child(PluginKind::medium)) out.medium = s.medium(*medium);
 }
 
-void check_not_both_places(Properties& p, std::string_view name) {
-  if (p.has(name) && p.has("to_world"))
-    p.error("to_world", "either \"{}\" or \"to_world\" can be given", name);
-}
-
 void read_point(SceneReader& s, Properties& p, LightDescription& out) {
-  check_not_both_places(p, "position");
+  p.only_one("position", "to_world", "to_world");
   Triple position = p.triple("position");
   read_light<PointLight>(s, p, out);
   const Matrix4& m = out.to_world;
@@ -65,7 +60,7 @@ void read_projector(SceneReader& s, Properties& p, LightDescription& out) {
 }
 
 void read_directional(SceneReader& s, Properties& p, LightDescription& out) {
-  check_not_both_places(p, "direction");
+  p.only_one("direction", "to_world", "to_world");
   read_light<DirectionalLight>(s, p, out);
   if (!p.has("direction")) return;
   if (const auto m = Matrix4::look_along({}, p.triple("direction")))
@@ -93,7 +88,7 @@ Plugin light(Plugin row = {}, const ParameterList& more = {}) {
 std::vector<Plugin> emitters() {
   const auto of_map = [](std::string_view name) { return parameter<EnvironmentMapLight>(name); };
   const Parameter radiance = parameter<AreaEmission>("radiance");
-  std::vector<Plugin> all{
+  const std::vector<Plugin> own{
       {"area", both, radiance, &read_area<false>, "stands in a shape"},
       light<PointLight>({.reader = &read_point},
                         Parameter{"position", point, "0 0 0", "either this or to_world"}),
@@ -116,11 +111,11 @@ std::vector<Plugin> emitters() {
       light<CollimatedLight>(
           {.versions = v0, .note = "only methods with light sub-paths carry it"}),
   };
-  for (Plugin& sky : skies()) all.push_back(std::move(sky));
-  all.push_back(refused_plugin("volumelight", v3,
-                               "a volume that emits is not computed, nor is it in Mitsuba 3.9",
-                               "radiance to_world"));
-  return all;
+  return joined({own,
+                 skies(),
+                 {refused_plugin("volumelight", v3,
+                                 "a volume that emits is not computed, nor is it in Mitsuba 3.9",
+                                 "radiance to_world")}});
 }
 
 }  // namespace duet::plugins

@@ -7,9 +7,9 @@
 
 namespace duet::plugins {
 
-const Node* nested_integrator(SceneReader& s, Properties& p) {
+const Node* nested_integrator(Properties& p) {
   const Node* nested = p.child(PluginKind::integrator);
-  if (!nested) s.report().error(p.node().where, "{} needs an integrator", describe(p.node()));
+  if (!nested) p.needs("an integrator");
   return nested;
 }
 
@@ -80,7 +80,7 @@ void read_aov(SceneReader& s, Properties& p, IntegratorDescription& out) {
 }
 
 void read_moment(SceneReader& s, Properties& p, IntegratorDescription& out) {
-  const Node* nested = nested_integrator(s, p);
+  const Node* nested = nested_integrator(p);
   if (!nested) return;
   s.read_into(*nested, out);
   out.moments = true;
@@ -114,8 +114,7 @@ void read_multichannel(SceneReader& s, Properties& p, IntegratorDescription& out
         layers.push_back(std::move(layer));
     }
   }
-  if (!whole.image && whole.aovs.layers.empty())
-    s.report().error(p.node().where, "{} needs an integrator", describe(p.node()));
+  if (!whole.image && whole.aovs.layers.empty()) p.needs("an integrator");
   out = std::move(whole);
 }
 

@@ -40,7 +40,7 @@ void read_vpl(SceneReader& s, Properties& p, IntegratorDescription& out) {
 }
 
 void read_as_nested(SceneReader& s, Properties& p, IntegratorDescription& out) {
-  const Node* nested = nested_integrator(s, p);
+  const Node* nested = nested_integrator(p);
   if (!nested || !s.read_into(*nested, out)) return;
   const std::string_view name = p.node().plugin->name;
   note_substitute(s, p, nested->type,

@@ -39,17 +39,13 @@ constexpr Parameter kShadingSamples{"shading_samples", integer, "", "sets both o
                                     positive};
 constexpr Parameter kSpectralMis{"use_spectral_mis", boolean, "true", "", any, v3, inert};
 
-void append(std::vector<Plugin>& all, std::vector<Plugin> more) {
-  for (Plugin& p : more) all.push_back(std::move(p));
-}
-
 }  // namespace
 
 std::vector<Plugin> integrators() {
   using Volpath = VolumePathIntegratorDescription;
   using Direct = DirectIntegratorDescription;
   const ParameterList hide = inert_parameters(boolean, "hide_emitters");
-  std::vector<Plugin> all{
+  const std::vector<Plugin> from_camera{
       method<AutoIntegratorDescription>(
           {.name = "auto", .note = "Duet's own: whichever method suits the scene (docs/auto.md)"}),
       method<PathIntegratorDescription>({.name = "path"}),
@@ -62,20 +58,19 @@ std::vector<Plugin> integrators() {
       method<Direct, read_counts>(
           {.name = "direct", .parameters = {kShadingSamples, parameters_of<Direct>()}}),
   };
-  append(all, bidirectional_integrators());
-  append(all,
-         {method<DepthIntegratorDescription>({.name = "depth", .versions = v3, .parameters = hide}),
-          aov(), moment()});
-  append(all, substituted_integrators());
-  append(all, {field_integrator(), multichannel(),
-               method<OcclusionIntegratorDescription, limit_rays>(
-                   {.name = "ao", .versions = v0, .note = "in Duet; Mitsuba 3 has none"}),
-               refused_plugin("motion", v0, "ways of points between two frames are no light"),
-               refused_plugin("volprim_rf_basic", v3,
-                              "radiance fields of volume primitives are not scenes of surfaces and "
-                              "media",
-                              "max_depth srgb_primitives")});
-  return all;
+  const std::vector<Plugin> of_fields{
+      method<DepthIntegratorDescription>({.name = "depth", .versions = v3, .parameters = hide}),
+      aov(), moment()};
+  const std::vector<Plugin> others{
+      field_integrator(), multichannel(),
+      method<OcclusionIntegratorDescription, limit_rays>(
+          {.name = "ao", .versions = v0, .note = "in Duet; Mitsuba 3 has none"}),
+      refused_plugin("motion", v0, "ways of points between two frames are no light"),
+      refused_plugin("volprim_rf_basic", v3,
+                     "radiance fields of volume primitives are not scenes of surfaces and media",
+                     "max_depth srgb_primitives")};
+  return joined(
+      {from_camera, bidirectional_integrators(), of_fields, substituted_integrators(), others});
 }
 
 std::vector<Plugin> scenes() {

@@ -19,7 +19,7 @@ Plugin multichannel();
 void note_substitute(SceneReader& s, const Properties& p, std::string_view method,
                      std::string_view why = "");
 /// The integrator that stands in `p`; null after an error.
-const Node* nested_integrator(SceneReader& s, Properties& p);
+const Node* nested_integrator(Properties& p);
 
 /// What its fields say; kCheck as for read_model().
 template <class T, auto kCheck = nullptr>

@@ -130,12 +130,9 @@ void read_homogeneous(SceneReader& s, Properties& p, MediumDescription& out) {
 void read_heterogeneous(SceneReader& s, Properties& p, MediumDescription& out) {
   out.scale = p.number("scale");
   const bool density = p.has("density");
-  if (density && p.has("sigma_t"))
-    p.error("sigma_t", "either \"density\" or \"sigma_t\" can be given");
-  if (p.is_0x() && !density && !p.has("sigma_t"))
-    s.report().error(p.node().where, "{} needs the parameter \"density\"", describe(p.node()));
-  if (p.is_0x() && !p.has("albedo"))
-    s.report().error(p.node().where, "{} needs the parameter \"albedo\"", describe(p.node()));
+  p.only_one("density", "sigma_t", "sigma_t");
+  if (p.is_0x() && !density && !p.has("sigma_t")) p.needs("the parameter \"density\"");
+  if (p.is_0x() && !p.has("albedo")) p.needs("the parameter \"albedo\"");
   out.sigma_t = s.color_volume(p, density ? "density" : "sigma_t");
   const Spectrum* constant = std::get_if<Spectrum>(&out.sigma_t);
   if (constant && !p.is_0x()) out.sigma_t = extinction_box(s, p, *constant);

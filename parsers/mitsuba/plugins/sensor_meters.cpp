@@ -13,12 +13,6 @@ Matrix4 look_along(Properties& p, const Triple& origin, const Triple& direction)
   return {};
 }
 
-/// Mitsuba 0.6 only has to_world.
-void check_no_to_world(Properties& p, std::string_view name) {
-  if (p.has(name) && p.has("to_world"))
-    p.error(name, "either \"{}\" or \"to_world\" can be given", name);
-}
-
 void read_target(SceneReader& s, Properties& p, SensorDescription& out) {
   if (p.has("target")) out.target_point = p.triple("target");
   const auto shapes = p.children(PluginKind::shape);
@@ -40,8 +34,8 @@ void read_target(SceneReader& s, Properties& p, SensorDescription& out) {
 void read_radiancemeter(SceneReader& s, Properties& p, SensorDescription& out) {
   out.kind = SensorKind::radiancemeter;
   read_sensor(s, p, out);
-  check_no_to_world(p, "origin");
-  check_no_to_world(p, "direction");
+  p.only_one("origin", "to_world");
+  p.only_one("direction", "to_world");
   if (p.has("origin") != p.has("direction"))
     p.error(p.has("origin") ? "origin" : "direction",
             "\"origin\" and \"direction\" are given together or not at all");
@@ -59,7 +53,7 @@ void read_irradiancemeter(SceneReader& s, Properties& p, SensorDescription& out)
 void read_distant(SceneReader& s, Properties& p, SensorDescription& out) {
   out.kind = SensorKind::distant;
   read_sensor(s, p, out);
-  check_no_to_world(p, "direction");
+  p.only_one("direction", "to_world");
   const Triple direction = p.triple("direction");
   if (p.has("direction")) out.to_world = look_along(p, {0, 0, 0}, direction);
   read_target(s, p, out);
@@ -81,8 +75,7 @@ void read_batch(SceneReader& s, Properties& p, SensorDescription& out) {
     part.sampler = {};
     out.parts.push_back(std::move(part));
   }
-  if (out.parts.empty() && !s.report().has_errors())
-    s.report().error(p.node().where, "{} needs a sensor", describe(p.node()));
+  if (out.parts.empty() && !s.report().has_errors()) p.needs("a sensor");
 }
 
 }  // namespace

@@ -18,8 +18,7 @@ double diagonal_fov(double focal_length) {
 
 std::pair<double, FovAxis> read_fov(Properties& p) {
   if (p.has("fov")) {
-    if (p.has("focal_length"))
-      p.error("focal_length", "either \"fov\" or \"focal_length\" can be given");
+    p.only_one("fov", "focal_length", "focal_length");
     const FovAxis axis = FovAxis(p.choice("fov_axis", kFovAxes));
     return {p.optional_number("fov").value_or(45), axis};
   }
@@ -112,36 +111,35 @@ ParameterList of_sensor(std::string_view names) {
   return parameters_of<SensorDescription>(names);
 }
 
+/// What `row` leaves open follows from the kind.
+template <SensorKind kKind>
+Plugin camera(Plugin row) {
+  row.name = sensor_name(kKind);
+  if (std::holds_alternative<std::monostate>(row.reader)) row.reader = &read_camera<kKind>;
+  return row;
+}
+
 }  // namespace
 
 std::vector<Plugin> sensors() {
+  using enum SensorKind;
   const ParameterList fov = of_sensor("fov fov_axis focal_length");
   const ParameterList no_focus = inert_parameters(number, "focus_distance");
   constexpr Parameter aperture{
       .name = "aperture_radius", .type = number, .range = not_negative, .required = true};
-  std::vector<Plugin> all{
-      {"perspective",
-       both,
-       {fov, of_sensor("principal_point_offset_x principal_point_offset_y"), no_focus, kResponse},
-       &read_camera<SensorKind::perspective>},
-      {"thinlens",
-       both,
-       {fov, aperture, of_sensor("focus_distance"), kResponse},
-       &read_camera<SensorKind::thinlens>},
-      {"orthographic", both, {no_focus, kResponse}, &read_camera<SensorKind::orthographic>},
-  };
-  for (Plugin& meter : meters(kResponse)) all.push_back(std::move(meter));
-  for (Plugin& camera : std::vector<Plugin>{
-           {.name = "fluencemeter",
-  .versions = v0,
-  .reader = &read_camera<SensorKind::fluencemeter>,
-  .note = "one pixel"},
-           {.name = "spherical", .versions = v0, .reader = &read_camera<SensorKind::spherical>},
-           {"telecentric", v0, of_sensor("aperture_radius focus_distance"),
-            &read_camera<SensorKind::telecentric>},
-           {"perspective_rdist", v0, {fov, of_sensor("kc"), no_focus}, &read_perspective_rdist}})
-    all.push_back(std::move(camera));
-  return all;
+  const ParameterList offset = of_sensor("principal_point_offset_x principal_point_offset_y");
+  return joined(
+      {{camera<perspective>({.parameters = {fov, offset, no_focus, kResponse}}),
+        camera<thinlens>({.parameters = {fov, aperture, of_sensor("focus_distance"), kResponse}}),
+        camera<orthographic>({.parameters = {no_focus, kResponse}})},
+       meters(kResponse),
+       {camera<fluencemeter>({.versions = v0, .note = "one pixel"}),
+        camera<spherical>({.versions = v0}),
+        camera<telecentric>(
+            {.versions = v0, .parameters = of_sensor("aperture_radius focus_distance")}),
+        camera<perspective_rdist>({.versions = v0,
+                                   .parameters = {fov, of_sensor("kc"), no_focus},
+                                   .reader = &read_perspective_rdist})}});
 }
 
 ParameterList sensor_parameters() {

@@ -1,14 +1,13 @@
 // Shapes.
 #include "mitsuba/plugins/shapes.h"
 
-#include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "mitsuba/plugins/plugin.h"
 #include "mitsuba/plugins/tables.h"
 #include "mitsuba/property_values.h"
 #include "values/text.h"
+#include "volume/surface_grid.h"
 
 namespace duet::plugins {
 
@@ -33,21 +32,10 @@ void read_sdfgrid(SceneReader& s, Properties& p, ShapeDescription& out) {
   bool is_float32;
   const auto volume = s.volume_grid(file, where, is_float32);
   if (!volume) return;
-  if (volume->channels != 1)
-    return s.report().error(where, "{} has {} channels: distances have one", in_quotes(file),
-                            volume->channels);
-  if (*std::min_element(volume->size.begin(), volume->size.end()) < 2)
-    return s.report().error(where, "{} needs two nodes at least along each axis", in_quotes(file));
-  if (volume->node_count() > size_t(std::numeric_limits<int>::max()))
-    return s.report().error(where, "{} has too many nodes", in_quotes(file));
-  auto grid = std::make_shared<SdfGrid>();
-  grid->size = volume->size;
-  grid->values = volume->values;
+  auto grid = s.from_file(where, [&] { return surface_of(*volume, in_quotes(file)); });
+  if (!grid) return;
   grid->smooth_normals = normals == Normals::smooth;
-  grid->cells = surface_cells(*grid);
-  if (grid->cells.empty())
-    return s.report().error(where, "{} is nowhere zero: it has no surface", in_quotes(file));
-  out.geometry = SdfGridShape{std::move(grid), file};
+  out.geometry = SdfGridShape{std::make_shared<SdfGrid>(std::move(*grid)), file};
 }
 
 void read_sphere(SceneReader& s, Properties& p, ShapeDescription& out) {
@@ -124,16 +112,10 @@ void read_hair_shape(SceneReader& s, Properties& p, ShapeDescription& out) {
 void read_instance(SceneReader& s, Properties& p, ShapeDescription& out) {
   out.to_world = p.transform("to_world", out.motion);
   const Node* node = p.child(PluginKind::shape);
-  if (!node) {
-    s.report().error(p.node().where, "{} needs a reference to a shape group", describe(p.node()));
-    return;
-  }
+  if (!node) return p.needs("a reference to a shape group");
   if (!node->plugin) return;
-  if (!std::holds_alternative<ReadInto<ShapeGroupDescription>>(node->plugin->reader)) {
-    s.report().error(p.node().where, "{} needs a shape group, not {}", describe(p.node()),
-                     describe(*node));
-    return;
-  }
+  if (!std::holds_alternative<ReadInto<ShapeGroupDescription>>(node->plugin->reader))
+    return p.needs("a shape group, not {}", describe(*node));
   if (const auto group = s.shape_group(*node)) out.geometry = InstanceShape{*group};
 }
 
@@ -152,8 +134,7 @@ void read_heightfield(SceneReader& s, Properties& p, ShapeDescription& out) {
   const auto textures = p.children(PluginKind::texture);
   s.attach_to_surface(p, out);
   if (textures.size() + (p.has("filename") ? 1 : 0) != 1)
-    return s.report().error(p.node().where, "{} needs one image: a \"filename\" or a texture",
-                            describe(p.node()));
+    return p.needs("one image: a \"filename\" or a texture");
   if (!textures.empty()) {
     const auto heights = s.texture(*textures[0].node);
     if (!heights) return;
@@ -177,6 +158,11 @@ Parameter flip_normals() {
 }
 
 namespace {
+
+template <class T>
+Plugin surface(const ParameterList& parameters) {
+  return {.name = T::name(), .parameters = parameters, .reader = &read_surface<T>};
+}
 
 Plugin hair_shape() {
   constexpr Parameter threshold{
@@ -213,14 +199,14 @@ std::vector<Plugin> shapes() {
       obj(),
       ply(),
       serialized(),
-      {"rectangle", both, flat, &read_surface<RectangleShape>},
-      {"cube", both, flat, &read_surface<CubeShape>},
+      surface<RectangleShape>(flat),
+      surface<CubeShape>(flat),
       {"sphere",
        both,
        {Parameter{"center", point, "0 0 0"},
         Parameter{"radius", number, "1", "in 3.x a negative one turns the normals"}, flip},
        &read_sphere},
-      {"disk", both, flip, &read_surface<DiskShape>},
+      surface<DiskShape>(flip),
       {"cylinder",
        both,
        {Parameter{"p0", point, "0 0 0"}, Parameter{"p1", point, "0 0 1"},

@@ -74,49 +74,40 @@ void read_blackbody(SceneReader&, Properties& p, MeantColor& out) {
     out.value = spectrum_to_rgb(blackbody_spectrum(*kelvin, 1), out.meaning);
 }
 
-constexpr Parameter kRequiredNumbers[] = {
-    {.name = "wavelength_min", .type = number, .required = true},
-    {.name = "wavelength_max", .type = number, .required = true}};
-constexpr Parameter kWavelengths{.name = "wavelengths", .type = string, .required = true};
-constexpr Parameter kValues{.name = "values", .type = string, .required = true};
-constexpr Parameter kValue{"value", number, "1"};
-constexpr const char* kRange = "wavelength_min wavelength_max";
-
 }  // namespace
 
-Plugin uniform() {
-  return {"uniform", v3, {kValue, inert_parameters(number, kRange)}, &read_uniform};
-}
-Plugin srgb() {
-  constexpr Parameter color{.name = "color", .type = ParameterType::unbounded, .required = true};
-  return {"srgb", v3, {color, Parameter{"unbounded", boolean, "false"}}, &read_srgb};
-}
-Plugin d65() {
-  constexpr Parameter color{"color", ParameterType::unbounded, "1"}, scale{"scale", number, "1"};
-  constexpr Parameter value{"value", number, "1", "", any, both, inert};
-  return {.name = "d65",
-          .versions = v3,
-          .parameters = {color, scale, value},
-          .reader = &read_d65,
-          .aliases = "srgb_d65"};
-}
-Plugin rawconstant() {
-  constexpr Parameter value{.name = "value", .type = ParameterType::unbounded, .required = true};
-  return {"rawconstant", v3, value, &read_rawconstant};
-}
-Plugin irregular() {
-  return {"irregular", v3, {kWavelengths, kValues}, &read_irregular};
-}
-Plugin regular() {
-  return {"regular", v3, {kRequiredNumbers, kValues}, &read_regular};
-}
-Plugin blackbody() {
-  constexpr Parameter temperature{.name = "temperature",
-                                  .type = number,
-                                  .note = "in kelvin",
-                                  .range = positive,
-                                  .required = true};
-  return {"blackbody", v3, {temperature, inert_parameters(number, kRange)}, &read_blackbody};
+std::vector<Plugin> spectra() {
+  const auto required = [](std::string_view name, ParameterType type, std::string_view note,
+                           NumberRange range) {
+    return Parameter{name, type, "", note, range, both, done, "", "", true};
+  };
+  const Parameter color = required("color", unbounded, "", any);
+  const Parameter wavelengths = required("wavelengths", string, "", any);
+  const Parameter values = required("values", string, "", any);
+  const ParameterList range = inert_parameters(number, "wavelength_min wavelength_max");
+  return {
+      {"uniform", v3, {Parameter{"value", number, "1"}, range}, &read_uniform},
+      {"srgb", v3, {color, Parameter{"unbounded", boolean, "false"}}, &read_srgb},
+      {"d65",
+       v3,
+       {Parameter{"color", unbounded, "1"}, Parameter{"scale", number, "1"},
+        Parameter{"value", number, "1", "", any, both, inert}},
+       &read_d65,
+       "",
+       done,
+       "srgb_d65"},
+      {"rawconstant", v3, required("value", unbounded, "", any), &read_rawconstant},
+      {"irregular", v3, {wavelengths, values}, &read_irregular},
+      {"regular",
+       v3,
+       {required("wavelength_min", number, "", any), required("wavelength_max", number, "", any),
+        values},
+       &read_regular},
+      {"blackbody",
+       v3,
+       {required("temperature", number, "in kelvin", positive), range},
+       &read_blackbody},
+  };
 }
 
 }  // namespace duet::plugins

@@ -26,6 +26,9 @@ std::vector<Plugin> volumes();
 /// The coefficients of the parameter "material"; null after an error.
 const MediumPreset* medium_preset(Properties& p);
 
+/// One list after the other.
+std::vector<Plugin> joined(std::initializer_list<std::vector<Plugin>> lists);
+
 // The parameters that all plugins of a kind have.
 ParameterList sensor_parameters();
 ParameterList film_parameters();

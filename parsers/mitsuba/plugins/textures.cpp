@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "mitsuba/plugins/plugin.h"
+#include "mitsuba/plugins/tables.h"
 #include "values/text.h"
 
 namespace duet::plugins {
@@ -33,19 +34,14 @@ void check_wireframe(SceneReader&, Properties&, WireframeTexture& t) {
 std::vector<Plugin> textures() {
   constexpr const char *kPbrt = "Duet's own, that of pbrt",
                        *kInSpace = "Duet's own, that of pbrt; looked up in the world";
-  return {
+  const std::vector<Plugin> of_coordinates{
       bitmap(),
       texture<CheckerboardTexture, check_checkerboard>(),
       texture<MeshAttributeTexture, check_mesh_attribute>({.versions = v3}),
       {.name = "vertexcolors", .versions = v0, .reader = &read_vertexcolors},
       texture<ScaledTextureDescription>({.versions = v0, .note = "holds a texture"}),
-      uniform(),
-      srgb(),
-      d65(),
-      rawconstant(),
-      irregular(),
-      regular(),
-      blackbody(),
+  };
+  const std::vector<Plugin> others{
       texture<VolumeTextureDescription>({.versions = v3, .note = "looked up in the world"}),
       texture<GridLinesTexture>({.versions = v0}),
       texture<CurvatureTexture>(
@@ -67,6 +63,7 @@ std::vector<Plugin> textures() {
       texture<ProductDescription>({.note = "Duet's own, pbrt's `scale`"}),
       texture<SolidCheckerboardDescription>({.note = kInSpace}),
   };
+  return joined({of_coordinates, spectra(), others});
 }
 
 }  // namespace duet::plugins

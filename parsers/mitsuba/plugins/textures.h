@@ -16,12 +16,6 @@ Plugin bitmap();
 /// An error unless the parameter "gamma" has a value that means something.
 void check_gamma(Properties& p, std::optional<double> gamma);
 // spectra.cpp
-Plugin uniform();
-Plugin srgb();
-Plugin d65();
-Plugin rawconstant();
-Plugin irregular();
-Plugin regular();
-Plugin blackbody();
+std::vector<Plugin> spectra();
 
 }  // namespace duet::plugins

@@ -50,10 +50,7 @@ void read_gridvolume(SceneReader& s, Properties& p, MeantVolume& out) {
 
 void read_volcache(SceneReader& s, Properties& p, MeantVolume& out) {
   const Node* nested = p.child(PluginKind::volume);
-  if (!nested) {
-    s.report().error(p.node().where, "{} needs a volume", describe(p.node()));
-    return;
-  }
+  if (!nested) return p.needs("a volume");
   if (const auto value = s.volume(*nested, out.meaning)) out.value = *value;
 }
 

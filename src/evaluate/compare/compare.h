@@ -87,6 +87,9 @@ std::vector<Comparison> compare_directories(const CompareSettings& settings,
 
 /// Image files in a directory and those below it, as sorted paths relative to it.
 std::vector<std::string> images_in(const std::string& directory);
+/// The files that a set of images consists of: a directory, a pattern with * and ? as in a shell,
+/// or names with commas between them.
+std::vector<std::string> images_of_set(const std::string& set);
 
 /// The outcomes as a page, which mentions the command that made it, and as JUnit's XML, which
 /// continuous integration servers read.

@@ -1,5 +1,6 @@
 // Comparisons of several images: two sets of renders, or two directories.
 #include <fmt/format.h>
+#include <glob.h>
 
 #include <algorithm>
 #include <filesystem>
@@ -136,6 +137,28 @@ std::string summary_of(const CompareSettings& o, const std::vector<Comparison>& 
   add(count([](const Comparison& c) { return c.only_in == "reference"; }),
       fmt::format("MISSING in {}", o.image));
   return text;
+}
+
+std::vector<std::string> images_of_set(const std::string& set) {
+  std::error_code ignored;
+  std::vector<std::string> files;
+  if (fs::is_directory(set, ignored)) {
+    for (const std::string& name : images_in(set)) files.push_back((fs::path(set) / name).string());
+    return files;
+  }
+  if (set.find_first_of("*?") != std::string::npos && !fs::exists(set, ignored)) {
+    glob_t found{};
+    if (glob(set.c_str(), 0, nullptr, &found) == 0)
+      files.assign(found.gl_pathv, found.gl_pathv + found.gl_pathc);
+    globfree(&found);
+    return files;
+  }
+  for (size_t from = 0; from <= set.size();) {
+    const size_t to = std::min(set.find(',', from), set.size());
+    if (to > from) files.push_back(set.substr(from, to - from));
+    from = to + 1;
+  }
+  return files;
 }
 
 }  // namespace duet

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "evaluate/report/fingerprint.h"
-#include "mitsuba/mitsuba.h"
+#include "files/file_access.h"
 
 namespace duet {
 

@@ -90,6 +90,22 @@ std::string parameter_rows(const ParameterList& parameters) {
   return out;
 }
 
+std::string only_in(FileVersions v) {
+  return v == FileVersions::all ? "" : fmt::format(", {} only", versions_name(v));
+}
+
+std::string parameter_line(const Parameter& p) {
+  std::string line =
+      fmt::format("    {:28} {:12} {}", p.name, support_name(p.support), type_name(p.type));
+  if (p.required) line += ", required";
+  if (!p.preset.empty()) line += fmt::format(", default {}", p.preset);
+  if (!p.preset_0x.empty()) line += fmt::format(" (in 0.x {})", p.preset_0x);
+  line += only_in(p.versions);
+  if (!p.aliases.empty()) line += fmt::format(", also {}", p.aliases);
+  if (!p.note.empty()) line += fmt::format(": {}", p.note);
+  return line + "\n";
+}
+
 }  // namespace
 
 std::string_view support_name(Support support) {
@@ -142,6 +158,21 @@ std::string compatibility_section(PluginKind kind, const Vocabulary& vocabulary)
 std::string compatibility_markdown() {
   std::string out(kIntroduction);
   for (int i = 0; i < kPluginKinds; ++i) out += "\n" + compatibility_section(PluginKind(i));
+  return out;
+}
+
+std::string plugin_list(PluginKind kind, const Vocabulary& vocabulary) {
+  std::string out;
+  for (const Plugin& p : vocabulary.plugins(kind)) {
+    out += fmt::format("{} {:{}} {}{}{}{}\n", tag_of(kind), p.name, 31 - int(tag_of(kind).size()),
+                       support_name(p.support), only_in(p.versions),
+                       p.aliases.empty() ? "" : fmt::format(", also {}", p.aliases),
+                       p.note.empty() ? "" : fmt::format(": {}", p.note));
+    for (const Parameter& q : p.parameters) out += parameter_line(q);
+  }
+  if (common_parameters(kind).empty()) return out;
+  out += fmt::format("every {}\n", tag_of(kind));
+  for (const Parameter& q : common_parameters(kind)) out += parameter_line(q);
   return out;
 }
 

@@ -15,6 +15,9 @@ std::string compatibility_markdown();
 std::string compatibility_section(PluginKind kind,
                                   const Vocabulary& vocabulary = Vocabulary::built_in());
 
+/// The plugins of one kind and their parameters, a line each, as `duet plugins` prints them.
+std::string plugin_list(PluginKind kind, const Vocabulary& vocabulary = Vocabulary::built_in());
+
 /// "done", "approximated", … as both show it.
 std::string_view support_name(Support support);
 /// "0.x", "3.x" or "0.x, 3.x".

@@ -5,80 +5,21 @@
 #include <algorithm>
 #include <filesystem>
 #include <fstream>
-#include <nlohmann/json.hpp>
 #include <set>
 
 #include "base/diagnostics.h"
 #include "evaluate/stability/checks.h"
+#include "evaluate/stability/json_object.h"
 
 namespace duet::stability {
 
 namespace {
 
-using Json = nlohmann::json;
-
 std::vector<std::string> method_names() {
   return {kMethods.begin(), kMethods.end()};
 }
 
-/// One object of the file: its keys are asked for one by one, and one that nobody asked for is an
-/// error.
-class Object {
- public:
-  Object(const Json& json, std::string where) : json_(json), where_(std::move(where)) {
-    if (!json.is_object()) fail("an object is needed here");
-  }
-  [[noreturn]] void fail(const std::string& text) const {
-    throw CatalogueError(where_ + ": " + text);
-  }
-  const std::string& where() const { return where_; }
-  bool has(const std::string& key) const { return json_.contains(key); }
-
-  /// Null if the key is not there.
-  const Json* find(const std::string& key) {
-    asked_.push_back(key);
-    const auto at = json_.find(key);
-    return at == json_.end() ? nullptr : &*at;
-  }
-  template <class T>
-  T get(const std::string& key, T otherwise) {
-    const Json* j = find(key);
-    if (!j) return otherwise;
-    try {
-      return j->get<T>();
-    } catch (const Json::exception&) {
-      fail(fmt::format("\"{}\" has the wrong type", key));
-    }
-  }
-  std::string text(const std::string& key) {
-    const std::string value = get<std::string>(key, "");
-    if (value.empty()) fail(fmt::format("\"{}\" is missing", key));
-    return value;
-  }
-  int count(const std::string& key, int otherwise, int least) {
-    const int value = get<int>(key, otherwise);
-    if (value < least || value > 1 << 20)
-      fail(fmt::format("\"{}\" is to be a whole number from {} on", key, least));
-    return value;
-  }
-  std::optional<double> number(const std::string& key) {
-    if (!has(key)) return find(key), std::nullopt;
-    return get<double>(key, 0);
-  }
-  /// To be called when everything has been asked for.
-  void check_keys() const {
-    for (const auto& [key, value] : json_.items())
-      if (std::find(asked_.begin(), asked_.end(), key) == asked_.end())
-        fail(fmt::format("unknown key \"{}\"{}", key, did_you_mean(key, asked_)));
-  }
-
- private:
-  const Json& json_;
-  std::string where_;
-  std::vector<std::string> asked_;
-};
-
-Settings read_settings(const Object& from, const Json* j) {
+Settings read_settings(const JsonObject& from, const JsonValue* j) {
   Settings settings;
   if (!j) return settings;
   if (!j->is_object()) from.fail("names with values are needed");
@@ -89,13 +30,13 @@ Settings read_settings(const Object& from, const Json* j) {
   return settings;
 }
 
-void check_method(const Object& from, const std::string& name) {
+void check_method(const JsonObject& from, const std::string& name) {
   const std::vector<std::string> known = method_names();
   if (std::find(known.begin(), known.end(), name) == known.end())
     from.fail(fmt::format("there is no method \"{}\"{}", name, did_you_mean(name, known)));
 }
 
-MethodSettings read_method_settings(const Object& from, const Json* j) {
+MethodSettings read_method_settings(const JsonObject& from, const JsonValue* j) {
   MethodSettings all;
   if (!j) return all;
   if (!j->is_object()) from.fail("settings of methods are needed");
@@ -107,10 +48,10 @@ MethodSettings read_method_settings(const Object& from, const Json* j) {
 }
 
 /// "holds", {"fails": [least, most], "why": …} or {"not applicable": why}.
-Expectation read_expectation(const Object& row, const std::string& method, const Json& j) {
+Expectation read_expectation(const JsonObject& row, const std::string& method, const JsonValue& j) {
   Expectation e;
   if (j == "holds") return e;
-  Object o(j, fmt::format("{}, \"{}\"", row.where(), method));
+  JsonObject o(j, fmt::format("{}, \"{}\"", row.where(), method));
   if (o.has("not applicable")) {
     e.verdict = Expected::not_applicable;
     e.why = o.text("not applicable");
@@ -126,8 +67,8 @@ Expectation read_expectation(const Object& row, const std::string& method, const
   return e;
 }
 
-void read_methods(Object& o, Row& row) {
-  const Json* j = o.find("methods");
+void read_methods(JsonObject& o, Row& row) {
+  const JsonValue* j = o.find("methods");
   if (!j || !j->is_object()) o.fail("\"methods\" has to say what is expected of each");
   for (const auto& [method, ignored] : j->items())
     if (method != "*") check_method(o, method);
@@ -142,11 +83,11 @@ void read_methods(Object& o, Row& row) {
   }
 }
 
-std::vector<Variant> read_variants(const Object& row, const Json* j) {
+std::vector<Variant> read_variants(const JsonObject& row, const JsonValue* j) {
   std::vector<Variant> variants;
   if (!j) return {Variant{}};
-  for (const Json& one : *j) {
-    Object o(one, row.where() + ", variant");
+  for (const JsonValue& one : *j) {
+    JsonObject o(one, row.where() + ", variant");
     Variant v;
     v.label = o.text("label");
     v.defines = read_settings(o, o.find("define"));
@@ -159,18 +100,18 @@ std::vector<Variant> read_variants(const Object& row, const Json* j) {
   return variants;
 }
 
-Draw read_draw(const Object& row, const Json* j) {
+Draw read_draw(const JsonObject& row, const JsonValue* j) {
   Draw draw;
   if (!j) return draw;
-  Object o(*j, row.where() + ", draw");
+  JsonObject o(*j, row.where() + ", draw");
   draw.count = o.count("count", 0, 1);
-  const Json* names = o.find("define");
+  const JsonValue* names = o.find("define");
   if (!names || !names->is_object()) o.fail("\"define\" is missing");
   for (const auto& [name, from] : names->items()) {
     Draw::Name n{name, {}, 0, 0};
     if (!from.is_array() || from.size() < 2) o.fail(fmt::format("\"{}\" needs a list", name));
     if (from[0].is_string()) {
-      for (const Json& text : from) n.texts.push_back(text.get<std::string>());
+      for (const JsonValue& text : from) n.texts.push_back(text.get<std::string>());
     } else {
       n.least = from[0], n.most = from[1];
       if (!(n.least > 0) || !(n.most > n.least))
@@ -182,7 +123,7 @@ Draw read_draw(const Object& row, const Json* j) {
   return draw;
 }
 
-std::string scene_file(const Object& from, const std::string& folder, const std::string& name) {
+std::string scene_file(const JsonObject& from, const std::string& folder, const std::string& name) {
   if (name.empty()) return "";
   std::string path = folder + "/" + name;
   if (!name.ends_with(".xml")) path += "/scene.xml";
@@ -191,17 +132,17 @@ std::string scene_file(const Object& from, const std::string& folder, const std:
   return path;
 }
 
-Reference read_reference(const Object& row, const Json* j, const std::string& folder) {
+Reference read_reference(const JsonObject& row, const JsonValue* j, const std::string& folder) {
   Reference r;
   if (!j) return r;
-  Object o(*j, row.where() + ", reference");
+  JsonObject o(*j, row.where() + ", reference");
   r.method = o.get<std::string>("method", "");
   if (!r.method.empty() && r.method != "self") check_method(o, r.method);
   r.scene = scene_file(o, folder, o.get<std::string>("scene", ""));
   r.defines = read_settings(o, o.find("define"));
   r.parameters = read_settings(o, o.find("parameters"));
-  if (const Json* sum = o.find("sum"))
-    for (const Json& one : *sum) r.sum.push_back(read_settings(o, &one));
+  if (const JsonValue* sum = o.find("sum"))
+    for (const JsonValue& one : *sum) r.sum.push_back(read_settings(o, &one));
   r.fixed = o.get<bool>("fixed", false);
   r.independent = o.get<bool>("independent", false);
   r.spp = o.count("spp", 0, 0);
@@ -211,14 +152,14 @@ Reference read_reference(const Object& row, const Json* j, const std::string& fo
   return r;
 }
 
-Region read_region(Object& o, const std::string& key) {
+Region read_region(JsonObject& o, const std::string& key) {
   const Region whole{0, 0, 1, 1}, r = o.get<Region>(key, whole);
   if (!(r[0] >= 0 && r[0] < r[2] && r[2] <= 1 && r[1] >= 0 && r[1] < r[3] && r[3] <= 1))
     o.fail(fmt::format("\"{}\" needs x0, y0, x1, y1 between 0 and 1", key));
   return r;
 }
 
-void check_statistic(const Object& o, const Row& row) {
+void check_statistic(const JsonObject& o, const Row& row) {
   std::vector<std::string> known;
   for (const Check& c : checks()) known.emplace_back(c.name);
   const auto at = std::find(known.begin(), known.end(), row.check);
@@ -233,11 +174,11 @@ void check_statistic(const Object& o, const Row& row) {
   if (row.margin && !check.margin) o.fail(fmt::format("check \"{}\" has no margin", row.check));
 }
 
-Row read_row(const Json& j, const std::string& folder, size_t index) {
+Row read_row(const JsonValue& j, const std::string& folder, size_t index) {
   Row row;
-  Object o(j, fmt::format("{}/catalogue.json: row {}", folder,
-                          j.is_object() && j.contains("name") ? j["name"].dump()
-                                                              : fmt::to_string(index + 1)));
+  JsonObject o(j, fmt::format("{}/catalogue.json: row {}", folder,
+                              j.is_object() && j.contains("name") ? j["name"].dump()
+                                                                  : fmt::to_string(index + 1)));
   row.name = o.text("name");
   row.number = o.count("number", 0, 0);
   row.title = o.text("title");
@@ -302,20 +243,20 @@ Catalogue read_catalogue(const std::string& folder) {
   const std::string path = folder + "/catalogue.json";
   std::ifstream file(path);
   if (!file) throw CatalogueError(fmt::format("cannot read the catalogue {}", path));
-  Json json;
+  JsonValue json;
   try {
-    json = Json::parse(file);
-  } catch (const Json::exception& e) {
+    json = JsonValue::parse(file);
+  } catch (const JsonValue::exception& e) {
     throw CatalogueError(fmt::format("{}: {}", path, e.what()));
   }
   if (!json.is_array()) throw CatalogueError(path + ": a list of rows is needed");
   Catalogue catalogue;
   catalogue.folder = folder;
   std::set<std::string> names;
-  for (const Json& j : json) {
+  for (const JsonValue& j : json) {
     try {
       catalogue.rows.push_back(read_row(j, folder, catalogue.rows.size()));
-    } catch (const Json::exception& e) {
+    } catch (const JsonValue::exception& e) {
       throw CatalogueError(
           fmt::format("{}: row {}: {}", path, catalogue.rows.size() + 1, e.what()));
     }
