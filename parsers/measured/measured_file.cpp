@@ -1,9 +1,12 @@
 #include "measured/measured_file.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <limits>
 #include <map>
+
+#include "values/color.h"
 
 namespace duet {
 
@@ -101,13 +104,54 @@ MeasuredTable::Grid read_grid(ByteReader& in, const Fields& fields, const char* 
   return grid;
 }
 
+/// What each entry of a spectrum adds to its colour under D65.
+std::vector<Spectrum> color_weights(const std::vector<float>& wavelengths) {
+  std::vector<SpectrumSample> samples;
+  for (const float w : wavelengths) samples.push_back({double(w), 1});
+  // Colours of spectra are clamped to be positive: what a little less makes of white is not.
+  constexpr double kLess = 0.125;
+  const Spectrum white = spectrum_to_rgb(samples, ColorMeaning::unbounded);
+  std::vector<Spectrum> weights;
+  for (SpectrumSample& s : samples) {
+    s.value = 1 - kLess;
+    weights.push_back((white - spectrum_to_rgb(samples, ColorMeaning::unbounded)) *
+                      float(1 / kLess));
+    s.value = 1;
+  }
+  return weights;
+}
+
+/// The field "spectra" as colours.
+MeasuredTable::Grid read_spectra(ByteReader& in, const Fields& fields, const MeasuredTable& t) {
+  const std::vector<float> wavelengths = read_angles(in, fields, "wavelengths");
+  constexpr size_t kMost = 10000;
+  if (wavelengths.size() > kMost) in.fail("has {} wavelengths", wavelengths.size());
+  const MeasuredTable::Grid spectra =
+      read_grid(in, fields, "spectra", {t.phi.size(), t.theta.size(), wavelengths.size()}, false);
+  const std::vector<Spectrum> weights = color_weights(wavelengths);
+  MeasuredTable::Grid rgb;
+  rgb.size = spectra.size;
+  const size_t nodes = spectra.nodes(), directions = t.phi.size() * t.theta.size();
+  rgb.values.resize(directions * 3 * nodes);
+  std::vector<Spectrum> sum(nodes);
+  for (size_t d = 0; d < directions; ++d) {
+    std::fill(sum.begin(), sum.end(), Spectrum(0.0f));
+    for (size_t w = 0; w < wavelengths.size(); ++w)
+      for (size_t i = 0; i < nodes; ++i)
+        sum[i] +=
+            weights[w] * std::max(spectra.values[(d * wavelengths.size() + w) * nodes + i], 0.0f);
+    for (int c = 0; c < 3; ++c)
+      for (size_t i = 0; i < nodes; ++i)
+        rgb.values[(d * 3 + size_t(c)) * nodes + i] = std::max(sum[i][c], 0.0f);
+  }
+  return rgb;
+}
+
 }  // namespace
 
 MeasuredTable parse_measured(ByteReader& in) {
   in.end_text();
   const Fields fields = read_header(in);
-  if (!fields.contains("rgb") && fields.contains("spectra"))
-    in.fail("has spectra; a file in RGB (its name ends in _rgb.bsdf) is needed");
   MeasuredTable t;
   t.theta = read_angles(in, fields, "theta_i");
   t.phi = read_angles(in, fields, "phi_i");
@@ -115,7 +159,9 @@ MeasuredTable parse_measured(ByteReader& in) {
   t.sigma = read_grid(in, fields, "sigma", {}, false);
   t.vndf = read_grid(in, fields, "vndf", {t.phi.size(), t.theta.size()}, true);
   t.luminance = read_grid(in, fields, "luminance", {t.phi.size(), t.theta.size()}, true);
-  t.rgb = read_grid(in, fields, "rgb", {t.phi.size(), t.theta.size(), 3}, false);
+  t.rgb = !fields.contains("rgb") && fields.contains("spectra")
+              ? read_spectra(in, fields, t)
+              : read_grid(in, fields, "rgb", {t.phi.size(), t.theta.size(), 3}, false);
   const Field& jacobian = find(in, fields, "jacobian", kUint8, 1);
   if (jacobian.shape[0] != 1 || jacobian.offset >= in.size())
     in.fail("the field \"jacobian\" is not one byte");

@@ -13,15 +13,22 @@ namespace {
 
 using enum Status;
 
-#define DUET_FILM_SPECS                                                                            \
-  {"xresolution", kInteger, "1280"}, {"yresolution", kInteger, "720"},                             \
-      {"cropwindow", kNumber, "", "left, right, top and bottom, as shares", 4},                    \
-      {"pixelbounds", kInteger, "", "the same in pixels", 4},                                      \
-      {"filename", kString, "", "", 1, inert}, {"diagonal", kNumber, "35", "", 1, inert},          \
-      {"maxcomponentvalue", kNumber, "", "bright samples are not cut", 1, ignored},                \
-      {"maxsampleluminance", kNumber, "", "bright samples are not cut", 1, ignored, Versions::v3}, \
-  {                                                                                                \
-    "savefp16", kBoolean, "true", "half or single precision in EXR files"                          \
+#define DUET_FILM_SPECS                                                                             \
+  {"xresolution", kInteger, "1280"}, {"yresolution", kInteger, "720"},                              \
+      {"cropwindow", kNumber, "", "left, right, top and bottom, as shares", 4},                     \
+      {"pixelbounds", kInteger, "", "the same in pixels", 4},                                       \
+      {"filename", kString, "", "", 1, inert},                                                      \
+      {"diagonal", kNumber, "35", "", 1, inert}, {"maxcomponentvalue",                              \
+                                                  kNumber,                                          \
+                                                  "",                                               \
+                                                  "what a sample may bring at most",                \
+                                                  1,                                                \
+                                                  done,                                             \
+                                                  Versions::v4},                                    \
+      {"maxsampleluminance", kNumber, "", "the luminance that a sample may bring at most", 1, done, \
+       Versions::v3},                                                                               \
+  {                                                                                                 \
+    "savefp16", kBoolean, "true", "half or single precision in EXR files"                           \
   }
 
 constexpr Spec kRgbFilm[] = {
@@ -38,6 +45,15 @@ constexpr Spec kGbufferFilm[] = {
     {"sensor", kString, "cie1931"},
     {"coordinatesystem", kString, "camera", "", 1, inert},
 };
+constexpr Spec kSpectralFilm[] = {
+    DUET_FILM_SPECS,
+    {"iso", kNumber, "100"},
+    {"whitebalance", kNumber, "0"},
+    {"sensor", kString, "cie1931"},
+    {"nbuckets", kInteger, "16", "", 1, inert},
+    {"lambdamin", kNumber, "", "", 1, inert},
+    {"lambdamax", kNumber, "", "", 1, inert},
+};
 constexpr Spec kImageFilm[] = {DUET_FILM_SPECS, {"scale", kNumber, "1"}};
 
 #undef DUET_FILM_SPECS
@@ -48,6 +64,20 @@ constexpr std::string_view kSensors[] = {
     "canon_eos_5ds",  "canon_eos_m",        "hasselblad_l1d_20c",  "nikon_d810",
     "nikon_d850",     "sony_ilce_6400",     "sony_ilce_7m3",       "sony_ilce_7rm3",
     "sony_ilce_9"};
+
+/// What is cut off samples: in v4 by their XYZ after the exposure, in v3 by their luminance.
+void read_limit(Values& v, FilmDescription& film, double scale) {
+  const bool v3 = v.reader().version() == Version::v3;
+  const char* name = v3 ? "maxsampleluminance" : "maxcomponentvalue";
+  if (!v.has(name)) return;
+  SampleLimit limit;
+  limit.most = v.positive(name);
+  limit.sensor = to_xyz(v.reader().film_color_space);
+  if (v3) limit.sensor[0] = limit.sensor[2] = limit.sensor[1];
+  for (auto& row : limit.sensor)
+    for (double& x : row) x *= v3 ? 1 : scale;
+  film.sample_limit = limit;
+}
 
 /// What the film makes of colours: exposure, white balance and its colour space.
 void read_response(Values& v, FilmDescription& film, double exposure_time) {
@@ -69,6 +99,7 @@ void read_response(Values& v, FilmDescription& film, double exposure_time) {
     }
     if (kelvin > 0) response = white_balance(kelvin, reader.film_color_space);
   }
+  read_limit(v, film, scale);
   for (auto& row : response)
     for (double& x : row) x *= scale;
   const Matrix3 none{{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
@@ -107,7 +138,7 @@ void read_crop(Values& v, FilmDescription& film) {
 constexpr Record<int> kFilms[] = {
     {"rgb", Versions::v4, done, "", kRgbFilm, 1},
     {"gbuffer", Versions::v4, approximated, "without its further layers", kGbufferFilm, 1},
-    {"spectral", Versions::v4, refused, "spectra", {}, 0},
+    {"spectral", Versions::v4, approximated, "by its colours alone", kSpectralFilm, 1},
     {"image", Versions::v3, done, "", kImageFilm, 1},
 };
 

@@ -3,7 +3,7 @@
 
 #include "math/angles.h"
 #include "pbrt/emission.h"
-#include "pbrt/light_images.h"
+#include "pbrt/light_values.h"
 #include "pbrt/records.h"
 #include "pbrt/values.h"
 #include "pbrt/vocabulary.h"
@@ -13,13 +13,6 @@ namespace duet::pbrt {
 namespace {
 
 using enum Status;
-
-/// "scale", a colour in v3.
-Spectrum scale_of(Values& v) {
-  const Parameter* p = v.given("scale");
-  if (!p || p->type == Type::number) return Spectrum(float(v.number("scale")));
-  return v.reader().constant_color(*p, ColorMeaning::emission);
-}
 
 /// From the space where the light sits at the origin and shines along +z.
 Matrix4 aimed(const std::array<double, 3>& from, const std::array<double, 3>& to) {
@@ -173,7 +166,7 @@ void read_infinite(Values& v) {
   if (!v3 && v.has("L"))
     v.reader().report().error(v.where("L"), "a light has either \"L\" or a file");
   map.tint = v3 ? emitted_color(v, "L") * scale : scale;
-  if (!v3) map.layout = EnvironmentLayout::equal_area;
+  map.layout = v3 ? EnvironmentLayout::row_centers : EnvironmentLayout::equal_area;
   if (v.has("illuminance")) map.illuminance = v.not_negative("illuminance");
   add(v, map, z_up(), read_portal(v));
 }
@@ -239,7 +232,8 @@ void read_projection(Values& v) {
 
 constexpr Record<void (*)(Values&)> kLights[] = {
     {"point", Versions::both, done, "", kPoint, read_point},
-    {"spot", Versions::both, done, "", kSpot, read_spot},
+    {"spot", Versions::both, done, "in v3, too, with v4's edge, t²(3 - 2t) instead of t⁴", kSpot,
+     read_spot},
     {"distant", Versions::both, done, "", kDistant, read_distant},
     {"infinite", Versions::both, done, "", kInfinite, read_infinite},
     {"exinfinite", Versions::v3, done, "", kInfinite, read_infinite},
@@ -247,50 +241,9 @@ constexpr Record<void (*)(Values&)> kLights[] = {
     {"projection", Versions::both, done, "", kProjection, read_projection},
 };
 
-constexpr Spec kArea[] = {
-    {"L", kColor, "1", "radiance"},
-    {"twosided", kBoolean, "false"},
-    {"filename", kString, "", "an image over the texture coordinates", 1, done, Versions::v4},
-    DUET_LIGHT_SPECS};
-
 #undef DUET_LIGHT_SPECS
 
-constexpr Record<int> kAreaLights[] = {
-    {"diffuse", Versions::both, done, "", kArea, 1},
-    {"area", Versions::v3, done, "", kArea, 1},
-};
-
 }  // namespace
-
-std::optional<AreaEmission> read_area_light(Reader& reader, const Plugin& plugin,
-                                            const std::function<double()>& area) {
-  const auto* record = find_record<int>(reader, plugin, kAreaLights);
-  if (!record) return std::nullopt;
-  Values v(reader, plugin, record->parameters);
-  AreaEmission emission;
-  emission.where = plugin.where;
-  emission.two_sided = v.boolean("twosided");
-  Spectrum scale = scale_of(v);
-  const double sides = emission.two_sided ? 2 : 1;
-  const auto flux = [&] { return kPi * std::max(area(), 1e-30) * sides; };
-  if (!v.has("filename")) {
-    if (v.has("power")) scale *= float(v.not_negative("power") / flux());
-    emission.radiance = emitted_color(v, "L") * scale;
-    return emission;
-  }
-  if (v.has("L")) reader.report().error(v.where("L"), "a light has either \"L\" or a file");
-  BitmapTexture image;
-  image.file = v.file("filename");
-  if (image.file.empty()) return std::nullopt;
-  scale_to_power(v, scale, image, [&](const TextureTexels& pixels) {
-    return flux() * double(pixels.mean().luminance());
-  });
-  image.wrap_u = image.wrap_v = WrapMode::clamp;
-  image.to_uv.m = {{{1, 0, 0}, {0, -1, 1}}};
-  const TextureId texture = reader.add_texture(image, plugin.where);
-  emission.radiance = reader.add_texture(ScaledTextureDescription{texture, scale}, plugin.where);
-  return emission;
-}
 
 void read_light(Reader& reader, const Plugin& plugin) {
   if (const auto* record = find_record<void (*)(Values&)>(reader, plugin, kLights)) {
@@ -301,7 +254,7 @@ void read_light(Reader& reader, const Plugin& plugin) {
 
 void list_lights(std::vector<Row>& rows) {
   list(rows, "LightSource", kLights);
-  list(rows, "AreaLightSource", kAreaLights);
+  list_area_lights(rows);
 }
 
 }  // namespace duet::pbrt

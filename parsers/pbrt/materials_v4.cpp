@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "measured/measured_file.h"
 #include "pbrt/materials.h"
 
 namespace duet::pbrt {
@@ -175,7 +176,25 @@ std::optional<MaterialId> read_interface(Values& v) {
   return v.reader().add_material(NullMaterial{}, v.where());
 }
 
-constexpr Spec kMeasured[] = {{"filename", kString, "", "a .bsdf file in RGB"}};
+constexpr Spec kMeasured[] = {{"filename", kString, "", "a .bsdf file; spectra become RGB"}};
+
+std::optional<MaterialId> read_measured_material(Values& v) {
+  if (!v.has("filename")) {
+    v.reader().report().error(v.where(), "\"string filename\" is needed");
+    return std::nullopt;
+  }
+  const std::string file = v.file("filename");
+  if (file.empty()) return std::nullopt;
+  try {
+    MeasuredMaterial m{std::make_shared<MeasuredTable>(read_measured(file)), file};
+    return two_sided(v, v.reader().add_material(m, v.where()));
+  } catch (const ReadError& e) {
+    v.reader().report().error(v.where("filename"), "{}", e.what());
+  } catch (const std::bad_alloc&) {
+    v.reader().report().error(v.where("filename"), "{} is too large for the memory", file);
+  }
+  return std::nullopt;
+}
 
 const Record<ReadMaterial> kMaterials[] = {
     {"diffuse", Versions::v4, done, "", kDiffuse, read_diffuse},
@@ -191,7 +210,7 @@ const Record<ReadMaterial> kMaterials[] = {
     {"coateddiffuse", Versions::v4, done, "", kCoatedDiffuse, read_coated_diffuse},
     {"coatedconductor", Versions::v4, done, "", kCoatedConductor, read_coated_conductor},
     {"subsurface", Versions::v4, approximated, kWalkInstead, subsurface_specs(), read_subsurface},
-    {"measured", Versions::v4, refused, "measured spectra", kMeasured, nullptr},
+    {"measured", Versions::v4, done, "", kMeasured, read_measured_material},
 };
 
 #undef DUET_ROUGHNESS_SPECS

@@ -13,10 +13,10 @@ using enum Status;
 
 constexpr Spec kCurve[] = {
     {"P", kPoint3, "", "control points", 0},
-    {"type", kString, "flat", "flat, cylinder or ribbon: all are tubes here"},
+    {"type", kString, "flat", "flat, cylinder or ribbon"},
     {"basis", kString, "bezier", "bezier or bspline"},
     {"degree", kInteger, "3", "2 or 3"},
-    {"width", kNumber, "1", "diameter of the tube"},
+    {"width", kNumber, "1", "across the ribbon"},
     {"width0", kNumber, "", "at the beginning"},
     {"width1", kNumber, "", "at the end"},
     {"N", kNormal, "", "of ribbons", 0, ignored},
@@ -37,8 +37,10 @@ void read_curve(Values& v) {
   if (type != "flat" && type != "cylinder" && type != "ribbon")
     report.error(v.where("type"), "a curve's type is flat, cylinder or ribbon, not {}",
                  in_quotes(type));
-  else if (type != "cylinder")
-    v.reader().approximate(v.where("type"), fmt::format("{} curves by round tubes", type));
+  else if (type == "ribbon")
+    v.reader().approximate(v.where("type"),
+                           "ribbons with a side of their own by such that face "
+                           "each ray");
   const double width = v.number("width");
   curve.width0 = v.has("width0") ? v.number("width0") : width;
   curve.width1 = v.has("width1") ? v.number("width1") : width;
@@ -50,12 +52,13 @@ void read_curve(Values& v) {
   // Tubes keep their radii under transforms, and pbrt's widths stretch.
   const double scale = std::cbrt(std::abs(v.reader().state().ctm[0].determinant3()));
   for (TubePoint& t : tubes.points) t.radius *= float(scale);
+  tubes.profile = type == "cylinder" ? CurveProfile::round_ribbon : CurveProfile::ribbon;
   v.reader().add_shape(v.plugin(), {.geometry = CurvesShape{
                                         std::make_shared<const CurveSet>(std::move(tubes)), ""}});
 }
 
 constexpr Record<ReadShape> kCurves[] = {
-    {"curve", Versions::both, approximated, "round tubes, also where pbrt has ribbons", kCurve,
+    {"curve", Versions::both, done, "of hair: tubes, which scatter light as its ribbons do", kCurve,
      read_curve},
 };
 

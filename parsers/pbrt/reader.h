@@ -63,7 +63,7 @@ class Reader {
   /// The path of a file; "" after an error. Relative names are looked for beside the main file.
   std::string file(const std::string& name, const SourceLocation& where);
 
-  // ---- Colours (values.cpp) ----
+  // ---- Colours (colors.cpp) ----
   Spectrum constant_color(const Parameter& p, ColorMeaning meaning);
   /// Light of a black body whose spectrum is 1 at its peak.
   Spectrum black_body(double kelvin);
@@ -132,6 +132,9 @@ class Reader {
   std::string spectrum_file(const std::string& name, const SourceLocation& where);
   bool is_awaited(MaterialId material) const;
   void finish_shapes();
+  /// Hair knows by the direction of its normal how far from the middle light meets it, and a tube
+  /// has the normals that pbrt's model takes for granted on its ribbons.
+  void make_hair_round();
   MaterialId with_alpha(const Plugin& shape, MaterialId material);
 
   std::string file_;

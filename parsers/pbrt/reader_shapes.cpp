@@ -97,7 +97,27 @@ void Reader::add_shape(const Plugin& from, ShapeParts parts) {
   list.push_back(std::move(shape));
 }
 
+void Reader::make_hair_round() {
+  const std::function<bool(MaterialId)> is_hair = [&](MaterialId id) {
+    const MaterialModel& model = scene_.materials[size_t(id)].model;
+    const std::vector<MaterialId> nested = model.nested();
+    return model.is<HairMaterial>() || std::any_of(nested.begin(), nested.end(), is_hair);
+  };
+  const auto visit = [&](std::vector<ShapeDescription>& shapes) {
+    for (ShapeDescription& s : shapes) {
+      auto* curves = std::get_if<CurvesShape>(&s.geometry);
+      if (!curves || !is_hair(s.material)) continue;
+      auto tubes = std::make_shared<CurveSet>(*curves->curves);
+      tubes->profile = CurveProfile::tube;
+      curves->curves = std::move(tubes);
+    }
+  };
+  visit(scene_.shapes);
+  for (ShapeGroupDescription& g : scene_.groups) visit(g.shapes);
+}
+
 void Reader::finish_shapes() {
+  make_hair_round();
   for (const Waiting& w : waiting_) {
     ShapeDescription& shape = (w.group ? scene_.groups[*w.group].shapes : scene_.shapes)[w.index];
     if (const auto own = interiors_.find(w.material); own != interiors_.end()) {

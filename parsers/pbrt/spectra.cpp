@@ -44,7 +44,8 @@ Triple xyz_of(const std::array<double, 2>& xy) {
   return {xy[0] / xy[1], 1, (1 - xy[0] - xy[1]) / xy[1]};
 }
 
-/// The matrix whose columns are the primaries, such that they sum to the white.
+}  // namespace
+
 Matrix3 to_xyz(uint8_t color_space) {
   const auto& xy = kColorSpaces[color_space].xy;
   Matrix3 m;
@@ -57,6 +58,8 @@ Matrix3 to_xyz(uint8_t color_space) {
     for (size_t j = 0; j < 3; ++j) row[j] *= scale[j];
   return m;
 }
+
+namespace {
 
 /// Chromaticity of daylight: Judd, MacAdam & Wyszecki 1964, as CIE 15 has it. Below 4000 K that of
 /// a black body: Kim et al. 2002.

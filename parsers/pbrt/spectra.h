@@ -25,6 +25,8 @@ std::optional<uint8_t> find_color_space(std::string_view name);
 
 using Matrix3 = std::array<std::array<double, 3>, 3>;
 Matrix3 operator*(const Matrix3& a, const Matrix3& b);
+/// From a colour space to CIE XYZ, with luminance one for its white: the columns are its primaries.
+Matrix3 to_xyz(uint8_t color_space);
 /// From a colour space to linear sRGB, without adaptation to another white.
 Matrix3 to_linear_srgb(uint8_t color_space);
 /// From linear sRGB to a colour space.

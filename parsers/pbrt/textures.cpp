@@ -1,9 +1,7 @@
-// Textures.
+// Textures: images, constants and what is made of others.
 #include <algorithm>
-#include <array>
 
-#include "pbrt/records.h"
-#include "pbrt/values.h"
+#include "pbrt/texture_readers.h"
 #include "pbrt/vocabulary.h"
 #include "values/text.h"
 
@@ -11,91 +9,23 @@ namespace duet::pbrt {
 
 namespace {
 
-using enum Status;
-
-/// A texture while it is read: of colours, or of numbers.
-struct Request {
-  bool is_color;
-  ColorMeaning meaning = ColorMeaning::reflectance;
-};
-/// Only the one that was asked for counts.
-struct Made {
-  ColorInput color = Spectrum(0.0f);
-  FloatInput number = 0.0;
-};
-
-#define DUET_MAPPING_SPECS                                                                      \
-  {"mapping", kString, "uv", "uv, spherical, cylindrical or planar"}, {"uscale", kNumber, "1"}, \
-      {"vscale", kNumber, "1"}, {"udelta", kNumber, "0"}, {"vdelta", kNumber, "0"},             \
-      {"v1", kVector3, "1 0 0"}, {                                                              \
-    "v2", kVector3, "0 1 0"                                                                     \
-  }
-constexpr Types kEither = kColorTexture | kNumberTexture;
-
-/// From the world to the space of the texture: the transform that held at the directive.
-Matrix4 from_world(Values& v) {
-  const Matrix4& ctm = v.reader().state().ctm[0];
-  if (!v.reader().check_transform(ctm, v.where())) return {};
-  return *ctm.inverse();
-}
-
-/// From the surface's coordinates to the texture's (s, t).
-UvTransform mapping(Values& v) {
-  UvTransform m;
-  const std::string kind = v.string("mapping");
-  if (kind == "uv")
-    m.m = {
-        {{v.number("uscale"), 0, v.number("udelta")}, {0, v.number("vscale"), v.number("vdelta")}}};
-  else if (kind != "spherical" && kind != "cylindrical" && kind != "planar")
-    v.reader().report().error(v.where("mapping"), "there is no mapping {}", in_quotes(kind));
-  return m;
-}
-
-/// The texture looked up where its mapping says, unless that is by the surface's coordinates.
-TextureId mapped(Values& v, TextureId texture) {
-  const std::string kind = v.string("mapping");
-  MappedTextureDescription m;
-  m.inner = texture;
-  m.from_world = from_world(v);
-  if (kind == "spherical") {
-    m.kind = SpaceMapKind::spherical;
-  } else if (kind == "cylindrical") {
-    m.kind = SpaceMapKind::cylindrical;
-  } else if (kind == "planar") {
-    m.kind = SpaceMapKind::planar;
-    const auto a = v.point("v1"), b = v.point("v2");
-    // The third coordinate is not looked at, but files have only transforms with an inverse.
-    Matrix4 plane;
-    plane.m = {
-        {{a[0], a[1], a[2], v.number("udelta")},
-         {b[0], b[1], b[2], v.number("vdelta")},
-         {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0], 0},
-         {0, 0, 0, 1}}};
-    m.from_world = plane * m.from_world;
-  } else {
-    return texture;
-  }
-  return v.reader().add_texture(m, v.where());
-}
-
-/// Both forms of a texture that is not constant.
-void set(Made& made, TextureId id) {
-  made.color = id;
-  made.number = id;
-}
-
 /// A number as a colour; textures are the same.
 ColorInput as_color(const FloatInput& input) {
   if (const double* constant = std::get_if<double>(&input)) return Spectrum(float(*constant));
   return std::get<TextureId>(input);
 }
 
-/// What was asked for, as a colour.
+}  // namespace
+
+void set(Made& made, TextureId id) {
+  made.color = id;
+  made.number = id;
+}
+
 ColorInput input_of(const Request& request, const Made& made) {
   return request.is_color ? made.color : as_color(made.number);
 }
 
-/// A value of one of the texture's own parameters.
 void read_input(Values& v, const Request& request, std::string_view name, Made& made) {
   const Parameter* p = v.given(name);
   if (request.is_color) {
@@ -107,6 +37,10 @@ void read_input(Values& v, const Request& request, std::string_view name, Made& 
     made.number = v.float_input(name);
   }
 }
+
+namespace {
+
+using enum Status;
 
 constexpr Spec kConstant[] = {{"value", kEither, "1"}};
 
@@ -182,42 +116,15 @@ void read_image(Values& v, const Request& request, Made& made) {
   id = mapped(v, id);
   if (const double scale = v.number("scale"); scale != 1)
     id = reader.add_texture(ScaledTextureDescription{id, Spectrum(float(scale))}, v.where());
-  if (reader.version() == Version::v4 && v.boolean("invert"))
+  const auto invert = [&] {
     id = reader.add_texture(FunctionDescription{id, TextureFunction::inverse}, v.where());
-  set(made, id);
-}
-
-constexpr Spec kChecks[] = {{"tex1", kEither, "1"},
-                            {"tex2", kEither, "0"},
-                            {"dimension", kInteger, "2"},
-                            {"aamode", kString, "closedform", "", 1, inert, Versions::v3},
-                            DUET_MAPPING_SPECS};
-
-void read_checkerboard(Values& v, const Request& request, Made& made) {
-  Reader& reader = v.reader();
-  Made first, second;
-  read_input(v, request, "tex1", first);
-  read_input(v, request, "tex2", second);
-  const ColorInput a = input_of(request, first), b = input_of(request, second);
-  const int dimension = v.integer("dimension");
-  if (dimension == 3) {
-    set(made, reader.add_texture(SolidCheckerboardDescription{a, b, from_world(v)}, v.where()));
-    return;
+  };
+  if (reader.version() == Version::v4) {
+    if (v.boolean("invert"))
+      invert();
+    else if (request.is_color && v.number("scale") > 1)
+      invert(), invert();  // the smaller of it and 1, as reflectances of images are
   }
-  if (dimension != 2)
-    reader.report().error(v.where("dimension"), "a checkerboard has 2 or 3 dimensions, not {}",
-                          dimension);
-  CheckerboardTexture board;
-  board.to_uv = mapping(v);
-  const bool by_uv = v.string("mapping") == "uv";
-  // Textures in it keep their own mapping: then the board says only which of the two it is.
-  board.color0 = by_uv ? a : ColorInput(Spectrum(0.0f));
-  board.color1 = by_uv ? b : ColorInput(Spectrum(1.0f));
-  // Mitsuba's squares are half as wide.
-  for (auto& row : board.to_uv.m)
-    for (double& x : row) x *= 0.5;
-  TextureId id = reader.add_texture(board, v.where());
-  if (!by_uv) id = reader.add_texture(MixDescription{a, b, mapped(v, id)}, v.where());
   set(made, id);
 }
 
@@ -303,96 +210,12 @@ void read_direction_mix(Values& v, const Request& request, Made& made) {
                                    v.where()));
 }
 
-constexpr Spec kBilerp[] = {{"v00", kEither, "0"},
-                            {"v01", kEither, "1"},
-                            {"v10", kEither, "0"},
-                            {"v11", kEither, "1"},
-                            DUET_MAPPING_SPECS};
-
-void read_bilerp(Values& v, const Request& request, Made& made) {
-  BilerpDescription b;
-  const auto corner = [&](const char* name) {
-    Made value;
-    read_input(v, request, name, value);
-    const ColorInput input = input_of(request, value);
-    if (const Spectrum* constant = std::get_if<Spectrum>(&input)) return *constant;
-    v.reader().report().error(v.where(name), "a corner of bilerp is no texture");
-    return Spectrum(0.0f);
-  };
-  b.v00 = corner("v00"), b.v01 = corner("v01"), b.v10 = corner("v10"), b.v11 = corner("v11");
-  b.to_uv = mapping(v);
-  set(made, mapped(v, v.reader().add_texture(b, v.where())));
-}
-
-constexpr Spec kDots[] = {{"inside", kEither, "1", "around the dots, as pbrt has it"},
-                          {"outside", kEither, "0", "in the dots"},
-                          DUET_MAPPING_SPECS};
-
-void read_dots(Values& v, const Request& request, Made& made) {
-  Reader& reader = v.reader();
-  Made inside, outside;
-  read_input(v, request, "inside", inside);
-  read_input(v, request, "outside", outside);
-  // pbrt's images have "inside" around the dots and "outside" in them.
-  const ColorInput a = input_of(request, outside), b = input_of(request, inside);
-  DotsDescription dots;
-  dots.to_uv = mapping(v);
-  if (v.string("mapping") == "uv") {
-    dots.inside = a, dots.outside = b;
-    set(made, reader.add_texture(dots, v.where()));
-    return;
-  }
-  // Textures in it keep their own mapping.
-  const TextureId where = mapped(v, reader.add_texture(dots, v.where()));
-  set(made, reader.add_texture(MixDescription{b, a, where}, v.where()));
-}
-
-constexpr Spec kNoise[] = {{"octaves", kInteger, "8"}, {"roughness", kNumber, "0.5"}};
-constexpr Spec kMarble[] = {{"octaves", kInteger, "8"},
-                            {"roughness", kNumber, "0.5"},
-                            {"scale", kNumber, "1"},
-                            {"variation", kNumber, "0.2"}};
-
-void add_noise(Values& v, NoiseKind kind, Made& made) {
-  NoiseTextureDescription n;
-  n.kind = kind;
-  n.from_world = from_world(v);
-  if (kind != NoiseKind::windy) {
-    n.octaves = std::clamp(v.integer("octaves"), 1, 32);
-    n.roughness = v.number("roughness");
-  }
-  if (kind == NoiseKind::marble) n.scale = v.number("scale"), n.variation = v.number("variation");
-  set(made, v.reader().add_texture(n, v.where()));
-}
-
-template <NoiseKind kind>
-void read_noise(Values& v, const Request&, Made& made) {
-  add_noise(v, kind, made);
-}
-
-using ReadTexture = void (*)(Values&, const Request&, Made&);
 constexpr Record<ReadTexture> kTextures[] = {
     {"constant", Versions::both, done, "", kConstant, read_constant},
     {"imagemap", Versions::both, done, "never blurred by its distance", kImage, read_image},
-    {"checkerboard", Versions::both, done, "never blurred by its distance", kChecks,
-     read_checkerboard},
     {"scale", Versions::both, done, "", kScale, read_scale},
     {"mix", Versions::both, done, "", kMixTexture, read_mix_texture},
     {"directionmix", Versions::v4, done, "", kDirectionMix, read_direction_mix},
-    {"bilerp", Versions::both, done, "", kBilerp, read_bilerp},
-    {"dots", Versions::both, done, "", kDots, read_dots},
-    {"fbm", Versions::both, done, "never blurred by its distance", kNoise,
-     read_noise<NoiseKind::fbm>},
-    {"wrinkled", Versions::both, done, "never blurred by its distance", kNoise,
-     read_noise<NoiseKind::wrinkled>},
-    {"windy",
-     Versions::both,
-     done,
-     "never blurred by its distance",
-     {},
-     read_noise<NoiseKind::windy>},
-    {"marble", Versions::both, done, "never blurred by its distance", kMarble,
-     read_noise<NoiseKind::marble>},
     {"uv", Versions::v3, refused, "texture coordinates as colours", {}, nullptr},
     {"ptex",
      Versions::both,
@@ -402,7 +225,15 @@ constexpr Record<ReadTexture> kTextures[] = {
      nullptr},
 };
 
-#undef DUET_MAPPING_SPECS
+const std::vector<Record<ReadTexture>>& textures() {
+  static const std::vector<Record<ReadTexture>> all = [] {
+    std::vector<Record<ReadTexture>> list(std::begin(kTextures), std::end(kTextures));
+    const auto patterns = pattern_textures();
+    list.insert(list.end(), patterns.begin(), patterns.end());
+    return list;
+  }();
+  return all;
+}
 
 }  // namespace
 
@@ -414,7 +245,7 @@ void read_texture(Reader& reader, const Plugin& plugin, const std::string& name,
                           in_quotes(kind));
     return;
   }
-  const auto* record = find_record<ReadTexture>(reader, plugin, kTextures);
+  const auto* record = find_record<ReadTexture>(reader, plugin, textures());
   Made made;
   if (request.is_color)
     made.color = Spectrum(0.5f);
@@ -432,7 +263,7 @@ void read_texture(Reader& reader, const Plugin& plugin, const std::string& name,
 }
 
 void list_textures(std::vector<Row>& rows) {
-  list(rows, "Texture", kTextures);
+  list(rows, "Texture", std::span<const Record<ReadTexture>>(textures()));
 }
 
 }  // namespace duet::pbrt

@@ -55,6 +55,13 @@ warning. Names that are in no table are warnings with the nearest known one.
 - Lights of v4 have the luminance that their scale says, whatever their spectrum; those of v3 are taken as they are.
 - Surfaces that pbrt finds by formulas become meshes where Duet has no such shape; a patch that is not flat is divided
   finely enough not to be seen.
+- Files of v3 may have parameters of another type than the known one, textures and materials that there are not, and
+  directives on the wrong side of WorldBegin: pbrt-v3 goes on without them, and so does Duet, with a warning.
+- Several infinite lights add up.
+- Curves that are no hair face each ray as pbrt's do; only the methods that follow light from the camera alone can render
+  such ribbons.
+- Where light is scattered beneath surfaces paths have no limit of depth. A walk in a medium differs from pbrt's profiles
+  where the surface is curved or thin: light that pbrt absorbs in the depth comes out on the other side.
 - Textures are looked up without blur: pbrt blurs them by ray differentials, which many samples make small.
 - The sensor's exposure, white balance and colour space are applied to the finished image.
 

@@ -28,6 +28,7 @@ std::string vocabulary_markdown();
 // Each appends the plugins of a file.
 void list_shapes(std::vector<Row>& rows);
 void list_lights(std::vector<Row>& rows);
+void list_area_lights(std::vector<Row>& rows);
 void list_materials(std::vector<Row>& rows);
 void list_textures(std::vector<Row>& rows);
 void list_media(std::vector<Row>& rows);

@@ -70,15 +70,19 @@ void outside_only_callback(const RTCFilterFunctionNArguments* args) {
 }
 
 RTCGeometry make_curve_geometry(RTCDevice device, const CurveSet& curves) {
-  RTCGeometry g = rtcNewGeometry(device, curves.kind == CurveKind::bspline
+  const bool ribbon = curves.profile != CurveProfile::tube;
+  RTCGeometry g = rtcNewGeometry(device, ribbon ? RTC_GEOMETRY_TYPE_FLAT_BSPLINE_CURVE
+                                         : curves.kind == CurveKind::bspline
                                              ? RTC_GEOMETRY_TYPE_ROUND_BSPLINE_CURVE
                                              : RTC_GEOMETRY_TYPE_ROUND_LINEAR_CURVE);
+  // Ribbons are intersected as chains of straight pieces: as many as there can be.
+  if (ribbon) rtcSetGeometryTessellationRate(g, 16);
   static_assert(sizeof(TubePoint) == 4 * sizeof(float));
   rtcSetSharedGeometryBuffer(g, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT4, curves.points.data(),
                              0, sizeof(TubePoint), curves.points.size());
   rtcSetSharedGeometryBuffer(g, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT, curves.segments.data(),
                              0, sizeof(uint32_t), curves.segments.size());
-  if (curves.outside_only) {
+  if (curves.outside_only && !ribbon) {
     rtcSetGeometryIntersectFilterFunction(g, outside_only_callback);
     rtcSetGeometryOccludedFilterFunction(g, outside_only_callback);
   }

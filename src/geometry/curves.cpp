@@ -67,10 +67,47 @@ Vector3f along_v(const CurveCenter& c, const Vector3f& axis, const Vector3f& sid
   return c.first + outwards * c.radius_slope + (sideways * twist - axis * bend) * c.radius;
 }
 
+/// A point of a ribbon. Its texture coordinates go along the curve and across it.
+Surface make_ribbon_surface(const Shape& shape, const Ray& ray, const Hit& hit) {
+  const CurveSet& curves = *shape.curves;
+  const CurveCenter c = curve_center(curves, hit.primitive, hit.u);
+  Surface s;
+  s.shape = &shape;
+  s.primitive = hit.primitive;
+  s.barycentric = {hit.u, 0};
+  s.position = ray.origin + ray.direction * hit.t;
+  const Vector3f axis(normalized_or_zero(Normal3f(c.first)));
+  Vector3f across = cross(ray.direction, axis);
+  if (!(length_squared(across) > 1e-12f)) across = Frame(Normal3f(ray.direction)).s;
+  across = normalize(across);
+  const Vector3f facing = cross(across, axis);
+  const float offset = c.radius > 0 ? dot(s.position - c.position, across) / c.radius : 0.0f;
+  const float share = 0.5f + 0.5f * std::clamp(offset, -1.0f, 1.0f);
+  Vector3f normal = facing, side = across;
+  if (curves.profile == CurveProfile::round_ribbon) {
+    const float angle = kPi * (share - 0.5f);
+    // As in pbrt: it turns towards the middle, as that of a gutter does.
+    normal = facing * std::cos(angle) - across * std::sin(angle);
+    side = across * std::cos(angle) + facing * std::sin(angle);
+  }
+  const Normal3f n(normal);
+  s.ng = n;
+  // Other rays see another ribbon: they start where they are clear of all of them, as in pbrt.
+  s.offset = 2 * c.radius * (std::abs(n.x) + std::abs(n.y) + std::abs(n.z)) +
+             kOffsetScale * max_abs(s.position);
+  const float segments = float(curves.segments.size());
+  s.uv = {(hit.u + float(hit.primitive)) / segments, share};
+  s.dp_du = c.first * segments;
+  s.dp_dv = side * (2 * c.radius);
+  s.shading = length_squared(axis) > 0 ? Frame::from_tangent(n, axis) : Frame(n);
+  return s;
+}
+
 }  // namespace
 
 Surface make_curve_surface(const Shape& shape, const Ray& ray, const Hit& hit) {
   const CurveSet& curves = *shape.curves;
+  if (curves.profile != CurveProfile::tube) return make_ribbon_surface(shape, ray, hit);
   const CurveCenter c = curve_center(curves, hit.primitive, hit.u);
   Surface s;
   s.shape = &shape;

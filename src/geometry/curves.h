@@ -22,9 +22,18 @@ enum class CurveKind : uint8_t {
   bspline,  ///< uniform cubic B-splines with open ends; positions and radii are interpolated alike
 };
 
+/// What the radius of a curve makes of it. Ribbons are pbrt's: they face each ray, so the curve has
+/// no surface that would be the same for all of them.
+enum class CurveProfile : uint8_t {
+  tube,
+  ribbon,        ///< its normal is as close to the ray as the curve allows (B-splines only)
+  round_ribbon,  ///< its normal turns by half a circle across it, as that of a tube nearly does
+};
+
 /// Many curves, as segments between neighbouring points.
 struct CurveSet {
   CurveKind kind = CurveKind::linear;
+  CurveProfile profile = CurveProfile::tube;
   std::vector<TubePoint> points;
   /// The first of the 2 (linear) or 4 (B-spline) points of each segment.
   std::vector<uint32_t> segments;

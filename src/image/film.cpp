@@ -80,27 +80,45 @@ PixelBounds PixelBounds::intersect(const PixelBounds& o) const {
   return {std::max(x0, o.x0), std::max(y0, o.y0), std::min(x1, o.x1), std::min(y1, o.y1)};
 }
 
-FilmTile::FilmTile(const PixelBounds& sampled, const PixelBounds& stored, int channels)
+float SampleLimit::share(const float* rgb) const {
+  double largest = 0;
+  for (const auto& row : sensor)
+    largest = std::max(largest,
+                       row[0] * double(rgb[0]) + row[1] * double(rgb[1]) + row[2] * double(rgb[2]));
+  return largest > most ? float(most / largest) : 1.0f;
+}
+
+FilmTile::FilmTile(const PixelBounds& sampled, const PixelBounds& stored, int channels,
+                   const std::optional<SampleLimit>& limit)
     : sampled_(sampled),
       stored_(stored),
       channels_(channels),
+      limit_(limit),
       data_(size_t(stored.width()) * stored.height() * (channels + 1)) {}
 
 void FilmTile::add_to_pixel(int x, int y, std::span<const float> values) {
   if (!stored_.contains(x, y)) return;
   double* s = sums(x, y);
   *s++ += 1;
+  if (limit_) {
+    const float share = limit_->share(values.data());
+    for (size_t c = 0; c < 3; ++c) *s++ += double(share * values[c]);
+    values = values.subspan(3);
+  }
   for (const float v : values) *s++ += double(v);
 }
 
 void FilmTile::add_sample(const ReconstructionFilter& filter, const Point2f& p,
                           std::span<const float> values) {
+  const size_t limited = limit_ ? 3 : 0;
+  const float share = limit_ ? limit_->share(values.data()) : 1.0f;
   for_reached_rows(filter, p, stored_, [&](int x0, int y, std::span<const float> wx, float wy) {
     double* s = sums(x0, y);
     for (const float w0 : wx) {
       const float w = w0 * wy;
       *s++ += w;
-      for (const float v : values) *s++ += double(w) * v;
+      for (size_t c = 0; c < limited; ++c) *s++ += double(w) * (share * values[c]);
+      for (size_t c = limited; c < values.size(); ++c) *s++ += double(w) * values[c];
     }
   });
 }
@@ -112,8 +130,10 @@ Film::Film(const FilmLayout& layout, std::vector<std::string> channels)
       filter_(layout.filter),
       response_(layout.response),
       channels_(std::move(channels)) {
+  const bool colored = channels_.size() >= 3 && channels_[0] == "R";
+  const std::optional<SampleLimit> limit = colored ? layout.sample_limit : std::nullopt;
   for_tiles(layout, filter_.border(), [&](const PixelBounds& sampled, const PixelBounds& stored) {
-    tiles_.emplace_back(sampled, stored, int(channels_.size()));
+    tiles_.emplace_back(sampled, stored, int(channels_.size()), limit);
   });
 }
 

@@ -28,14 +28,30 @@ struct PixelBounds {
   }
 };
 
+/// What a film makes of linear sRGB: exposure, white balance, the primaries of its colour space.
+using FilmResponse = std::array<std::array<double, 3>, 3>;
+
+/// What a single sample may bring. Where the largest of the three values that `sensor` makes of its
+/// colour is above `most`, the colour is scaled down to that: noise turns into bias.
+struct SampleLimit {
+  FilmResponse sensor{{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
+  double most = 1;
+  bool operator==(const SampleLimit&) const = default;
+
+  /// What the colour R, G and B is to be multiplied by.
+  float share(const float* rgb) const;
+};
+
 /// The sums of the samples taken in one square of the film. A sample also counts for pixels beyond
 /// the square, as far as the filter reaches; tiles keep those sums apart, so that threads share
 /// nothing and the film adds them in the same order whatever ran when. Sums are of doubles, sample
 /// by sample: a constant stays one however many samples it has.
 class FilmTile {
  public:
-  /// `sampled` are the pixels in which samples are taken, `stored` those they may count for.
-  FilmTile(const PixelBounds& sampled, const PixelBounds& stored, int channels);
+  /// `sampled` are the pixels in which samples are taken, `stored` those they may count for. A
+  /// limit is that of the first three channels.
+  FilmTile(const PixelBounds& sampled, const PixelBounds& stored, int channels,
+           const std::optional<SampleLimit>& limit = std::nullopt);
 
   const PixelBounds& sampled() const { return sampled_; }
   const PixelBounds& stored() const { return stored_; }
@@ -59,6 +75,7 @@ class FilmTile {
   }
   PixelBounds sampled_, stored_;
   int channels_;
+  std::optional<SampleLimit> limit_;
   uint64_t samples_ = 0;
   std::vector<double> data_;
 };
@@ -68,9 +85,6 @@ struct Splat {
   Point2f position;
   Spectrum value;
 };
-
-/// What a film makes of linear sRGB: exposure, white balance, the primaries of its colour space.
-using FilmResponse = std::array<std::array<double, 3>, 3>;
 
 /// What a film looks like before it has samples.
 struct FilmLayout {
@@ -82,6 +96,8 @@ struct FilmLayout {
   bool ends_at_crop = false;
   /// Of the channels R, G and B; without, they stay as they are.
   std::optional<FilmResponse> response = std::nullopt;
+  /// Of the samples' channels R, G and B; splats have no limit.
+  std::optional<SampleLimit> sample_limit = std::nullopt;
 };
 
 /// A film is the set of its tiles. Their grid is anchored at the full image's origin, so that a

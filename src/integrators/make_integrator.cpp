@@ -213,8 +213,8 @@ void check_support(const SceneDescription& scene, const IntegratorDescription& i
     case Obstacle::one_way_surfaces:
       return diagnostics.error(*found.one_way_surface,
                                "integrator \"{}\" cannot follow light through curves of this "
-                               "material from its source, because rays see them from outside "
-                               "only; \"{}\" can",
+                               "kind from its source, because rays see them from outside only, "
+                               "or as ribbons that face each of them; \"{}\" can",
                                integrator_name(integrator), limits.media ? "volpath" : "path");
     case Obstacle::none:
     case Obstacle::sensor:

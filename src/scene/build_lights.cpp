@@ -213,6 +213,8 @@ std::vector<std::string> EnvironmentMapLight::losses() const {
   if (gamma) lost.emplace_back("the gamma value of an environment map is missing");
   if (tint != Spectrum(1.0f)) lost.emplace_back("the tint of an environment map is missing");
   if (illuminance) lost.emplace_back("the illuminance of an environment map is missing");
+  if (layout == EnvironmentLayout::row_centers)
+    lost.emplace_back("the rows of an environment map begin and end at the poles");
   if (layout == EnvironmentLayout::equal_area)
     lost.emplace_back(
         "an environment map of equal areas is taken for one by latitude and longitude");
@@ -286,13 +288,25 @@ LightPointer EnvironmentMapLight::build(SceneBuilder& b, const LightDescription&
                           width, height, BilinearDistribution::kMaxWidth);
     return nullptr;
   }
-  std::vector<Spectrum> texels(size_t(width) * size_t(height));
-  for (int y = 0; y < height; ++y)
-    for (int x = 0; x < width; ++x)
-      texels[size_t(y) * size_t(width) + size_t(x)] = image->color(x, y) * (tint * float(scale));
+  const auto color = [&](int x, int y) {
+    return image->color(x, std::clamp(y, 0, height - 1)) * (tint * float(scale));
+  };
+  // Between the centres of rows there are their means, so that what is linear between rows at the
+  // poles and halfway is linear between the centres.
+  const bool centers = layout == EnvironmentLayout::row_centers;
+  const int rows = centers ? 2 * height + 1 : height;
+  std::vector<Spectrum> texels(size_t(width) * size_t(rows));
+  for (int y = 0; y < rows; ++y)
+    for (int x = 0; x < width; ++x) {
+      Spectrum& texel = texels[size_t(y) * size_t(width) + size_t(x)];
+      if (!centers)
+        texel = color(x, y);
+      else
+        texel = (color(x, (y + 1) / 2 - 1) + color(x, y / 2)) * 0.5f;
+    }
   // Room for the light's own copy.
   b.drop_pixels();
-  return std::make_unique<EnvironmentMap>(width, height, std::move(texels), d.to_world);
+  return std::make_unique<EnvironmentMap>(width, rows, std::move(texels), d.to_world);
 }
 
 }  // namespace duet

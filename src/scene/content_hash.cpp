@@ -121,8 +121,11 @@ class Hasher {
     add(m.positions), add(m.normals), add(m.uvs), add(m.triangles), add(m.attributes);
     add(m.computed_normals);
   }
+  void add(const SampleLimit& l) { add(l.sensor), add(l.most); }
   void add(const TubePoint& p) { add(p.position), add(p.radius); }
-  void add(const CurveSet& c) { add(c.kind), add(c.points), add(c.segments), add(c.outside_only); }
+  void add(const CurveSet& c) {
+    add(c.kind), add(c.profile), add(c.points), add(c.segments), add(c.outside_only);
+  }
   void add(const SdfGrid& g) { add(g.size), add(g.values), add(g.cells), add(g.smooth_normals); }
   void add(const VolumeGrid& g) {
     add(g.size), add(g.channels), add(g.lower), add(g.upper), add(g.values);

@@ -109,7 +109,9 @@ struct ConstantLight {
 /// How an image covers the sphere of directions around a scene: by latitude and longitude, with the
 /// light's +y up; or as a square of equal areas (math/equal_area.h), with what is there +z up here
 /// +y, so that both have their poles at the same place.
-enum class EnvironmentLayout { latitude_longitude, equal_area };
+/// `latitude_longitude` has its first and last row at the poles, `row_centers` half a row away from
+/// them, as pbrt-v3 has.
+enum class EnvironmentLayout { latitude_longitude, equal_area, row_centers };
 /// An image around the scene.
 struct EnvironmentMapLight {
   std::string file;  ///< resolved path

@@ -93,6 +93,7 @@ struct FilmDescription {
   ComponentFormat component_format = ComponentFormat::half;
   std::optional<ToneMapping> tone_mapping;
   std::optional<FilmResponse> response;
+  std::optional<SampleLimit> sample_limit;
 
   static constexpr std::string_view kPixelFormats[] = {
       "luminance", "luminance_alpha", "rgb", "rgba", "xyz", "xyza"};
@@ -118,12 +119,13 @@ struct FilmDescription {
                                               "float16 or float32; uint32 becomes float32"})
             .words(kComponentFormats)
             .read_by_plugin(),
-        field(&F::filter), field(&F::tone_mapping), field(&F::response));
+        field(&F::filter), field(&F::tone_mapping), field(&F::response), field(&F::sample_limit));
   }
   std::vector<std::string> losses() const {
     std::vector<std::string> lost;
     if (tone_mapping) lost.emplace_back("the tone mapping of \"ldrfilm\" is missing");
     if (response) lost.emplace_back("the response of a film is missing");
+    if (sample_limit) lost.emplace_back("the limit of what a sample may bring is missing");
     return lost;
   }
 };

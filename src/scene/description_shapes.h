@@ -95,6 +95,8 @@ struct CurvesShape {
     return curves && curves->kind == CurveKind::bspline ? "bsplinecurve" : "linearcurve";
   }
   std::vector<std::string> losses() const {
+    if (curves && curves->profile != CurveProfile::tube)
+      return {"curves that are ribbons facing each ray are tubes"};
     if (!curves || curves->outside_only) return {};
     return {"the hair of Mitsuba 0.6 has to be written as a file of curves with their radius"};
   }

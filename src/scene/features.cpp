@@ -178,7 +178,9 @@ class List {
 
 bool is_one_way(const SceneDescription& scene, const ShapeDescription& s) {
   const auto* tubes = std::get_if<CurvesShape>(&s.geometry);
-  return tubes && tubes->curves->outside_only && transmits(scene, s.material);
+  if (!tubes) return false;
+  return tubes->curves->profile != CurveProfile::tube ||
+         (tubes->curves->outside_only && transmits(scene, s.material));
 }
 
 SceneFeatures scene_features(const SceneDescription& scene) {

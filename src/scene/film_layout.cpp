@@ -22,7 +22,8 @@ FilmLayout film_layout(FilmDescription& film, const std::optional<Point2i>& size
       throw std::out_of_range(
           fmt::format("the window reaches beyond the image of {}x{}", film.width, film.height));
   }
-  return {{film.width, film.height}, window, film.filter, film.crop && !crop, film.response};
+  return {{film.width, film.height}, window,        film.filter,
+          film.crop && !crop,        film.response, film.sample_limit};
 }
 
 }  // namespace duet

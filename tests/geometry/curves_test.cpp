@@ -225,4 +225,70 @@ TEST_SUITE("curves") {
       CHECK(hits > 100);
     }
   }
+
+  TEST_CASE("ribbons face each ray, and new rays start clear of them") {
+    CurveSet c;
+    c.kind = CurveKind::bspline;
+    c.profile = CurveProfile::ribbon;
+    c.points = {{{-3, 0, 0}, 0.1f}, {{-1, 0, 0}, 0.1f}, {{1, 0, 0}, 0.1f}, {{3, 0, 0}, 0.1f}};
+    c.segments = {0};
+    const Tubes flat(c);
+    c.profile = CurveProfile::round_ribbon;
+    const Tubes round(c);
+    Surface s;
+    float t;
+    REQUIRE(flat.hit({{0, 0.05f, 5}, {0, 0, -1}, INFINITY}, s, t));
+    CHECK(t == doctest::Approx(5));
+    CHECK(near(Vector3f(s.ng), {0, 0, 1}));
+    CHECK(near(Vector3f(s.shading.n), {0, 0, 1}));
+    CHECK(s.uv.x == doctest::Approx(0.5).epsilon(1e-3));
+    CHECK(s.uv.y == doctest::Approx(0.25).epsilon(1e-3));
+    CHECK(near(s.dp_dv, {0, -0.2f, 0}));
+    CHECK_FALSE(flat.hit({{0, 0.101f, 5}, {0, 0, -1}, INFINITY}, s, t));
+    // From the side it is as wide, and its normal is across the curve, however the ray comes.
+    REQUIRE(flat.hit({{5, 5, 0.05f}, normalize(Vector3f(-1, -1, 0)), INFINITY}, s, t));
+    CHECK(near(Vector3f(s.ng), {0, 1, 0}));
+    CHECK(s.position.x == doctest::Approx(0).scale(1));
+    // A quarter from its edge the normal of the other kind has turned by an eighth of a circle.
+    REQUIRE(round.hit({{0, 0.05f, 5}, {0, 0, -1}, INFINITY}, s, t));
+    const float h = std::sqrt(0.5f);
+    CHECK(near(Vector3f(s.ng), {0, -h, h}));
+    CHECK(near(s.dp_dv, Vector3f(0, -h, -h) * 0.2f));
+    for (int i = 0; i < 200; ++i) {
+      const float z = 1 - 2 * (float(i) + 0.5f) / 200, phi = 2.4f * float(i);
+      const float r = std::sqrt(1 - z * z);
+      const Vector3f w(r * std::cos(phi), r * std::sin(phi), z);
+      if (dot(w, s.ng) <= 0) continue;
+      CHECK_FALSE(round.accel->occluded(spawn_ray(s, w)));
+    }
+  }
+
+  TEST_CASE("ribbons are met where the curve is within half their width of the ray") {
+    CurveSet c = two_curves(CurveKind::bspline);
+    c.profile = CurveProfile::ribbon;
+    const Tubes ribbons(c);
+    int met = 0;
+    for (int i = 0; i < 4000; ++i) {
+      const float a = std::fmod(float(i) * 0.7548777f, 1.0f),
+                  b = std::fmod(float(i) * 0.5698403f, 1.0f);
+      const Ray ray{
+          {3 * a - 1.5f, 2 * b - 0.5f, 4}, normalize(Vector3f(0.2f, a - 0.5f, -2)), INFINITY};
+      float nearest = INFINITY;  // distance over the radius
+      bool inner = false;        // not at the end of a segment
+      for (uint32_t segment = 0; segment < c.segments.size(); ++segment)
+        for (int k = 0; k <= 400; ++k) {
+          const CurveCenter p = curve_center(c, segment, float(k) / 400);
+          const float d = length(cross(p.position - ray.origin, ray.direction)) / p.radius;
+          if (d < nearest) nearest = d, inner = k > 8 && k < 392;
+        }
+      Surface s;
+      float t;
+      const bool hit = ribbons.hit(ray, s, t);
+      met += hit;
+      // Ends are cut across the curve.
+      if (nearest < 0.97f && inner) CHECK(hit);
+      if (nearest > 1.03f) CHECK_FALSE(hit);
+    }
+    CHECK(met > 100);
+  }
 }

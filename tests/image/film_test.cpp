@@ -52,6 +52,33 @@ std::array<float, 2> pattern(const Point2f& p) {
 
 }  // namespace
 
+TEST_CASE("samples have a limit, by what a sensor makes of their colours") {
+  // The sensor sees half of red and nothing of blue.
+  const SampleLimit limit{{{{0.5, 0, 0}, {0, 1, 0}, {0, 0, 0}}}, 2};
+  for (const FilterKind kind : {FilterKind::box, FilterKind::gaussian}) {
+    FilmLayout layout{{1, 1}, {0, 0, 1, 1}, describe(kind)};
+    layout.sample_limit = limit;
+    Film film(layout, {"R", "G", "B", "A"});
+    Film other(layout, {"X", "Y", "Z", "A"});
+    for (Film* f : {&film, &other}) {
+      FilmTile& tile = f->tiles().front();
+      for (const std::array<float, 4>& v : {std::array<float, 4>{8, 0, 6, 3}, {3, 1, 100, 5}}) {
+        if (f->filter().is_unit_box())
+          tile.add_to_pixel(0, 0, v);
+        else
+          tile.add_sample(f->filter(), {0.5f, 0.5f}, v);
+      }
+    }
+    // The first is halved, the second is not.
+    const Image image = film.develop();
+    CHECK(image.data[0] == doctest::Approx(3.5));
+    CHECK(image.data[1] == doctest::Approx(0.5));
+    CHECK(image.data[2] == doctest::Approx(51.5));
+    CHECK(image.data[3] == doctest::Approx(4));
+    CHECK(other.develop().data[0] == doctest::Approx(5.5));
+  }
+}
+
 TEST_CASE("a crop window has the very pixels of the full image") {
   const Point2i size{50, 37};
   for (const FilterKind kind : kKinds) {

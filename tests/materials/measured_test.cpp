@@ -9,6 +9,7 @@
 #include "math/warp.h"
 #include "measured/measured_file.h"
 #include "support/bsdf_checks.h"
+#include "values/color.h"
 
 using namespace duet;
 using namespace duet::test;
@@ -66,6 +67,53 @@ std::string error_of(const std::string& bytes) {
     return e.what();
   }
   return "";
+}
+
+/// A file of the table with spectra instead of colours.
+std::string spectral_file(const MeasuredTable& t, const std::vector<float>& wavelengths,
+                          const std::vector<float>& spectra) {
+  struct Entry {
+    std::string name;
+    std::vector<uint64_t> shape;
+    const std::vector<float>* values;
+  };
+  const uint64_t phis = t.phi.size(), thetas = t.theta.size();
+  const auto grid = [](const MeasuredTable::Grid& g, std::vector<uint64_t> outer) {
+    outer.push_back(g.size[1]), outer.push_back(g.size[0]);
+    return outer;
+  };
+  const std::vector<Entry> entries{
+      {"phi_i", {phis}, &t.phi},
+      {"theta_i", {thetas}, &t.theta},
+      {"wavelengths", {wavelengths.size()}, &wavelengths},
+      {"ndf", grid(t.ndf, {}), &t.ndf.values},
+      {"sigma", grid(t.sigma, {}), &t.sigma.values},
+      {"vndf", grid(t.vndf, {phis, thetas}), &t.vndf.values},
+      {"luminance", grid(t.luminance, {phis, thetas}), &t.luminance.values},
+      {"spectra", grid(t.rgb, {phis, thetas, wavelengths.size()}), &spectra}};
+  std::string head, body;
+  const auto put = [](std::string& to, const auto& v) {
+    to.append(reinterpret_cast<const char*>(&v), sizeof v);
+  };
+  const auto field = [&](const std::string& name, const std::vector<uint64_t>& shape, uint8_t type,
+                         uint64_t offset) {
+    put(head, uint16_t(name.size())), head += name, put(head, uint16_t(shape.size()));
+    put(head, type), put(head, offset);
+    for (const uint64_t n : shape) put(head, n);
+  };
+  // The places of the arrays are known once the header's length is.
+  for (int round = 0; round < 2; ++round) {
+    const uint64_t header = head.size();
+    head.assign("tensor_file", 12), body.clear();
+    put(head, uint8_t(1)), put(head, uint8_t(0)), put(head, uint32_t(entries.size() + 1));
+    for (const Entry& e : entries) {
+      field(e.name, e.shape, 10, header + body.size());
+      for (const float v : *e.values) put(body, v);
+    }
+    field("jacobian", {1}, 1, header + body.size());
+    put(body, uint8_t(t.has_jacobian));
+  }
+  return head + body;
 }
 
 }  // namespace
@@ -161,5 +209,33 @@ TEST_SUITE("measured materials") {
     REQUIRE(at != std::string::npos);
     negative[at + 3] = char(negative[at + 3] | 0x80);
     CHECK(error_of(negative).find("the field \"vndf\" has the value -") != std::string::npos);
+  }
+
+  TEST_CASE("spectra become the colours that they have under daylight") {
+    MeasuredTable t = parse(bytes_of("isotropic.bsdf"));
+    // Straight lines from 400 nm to 800 nm, another one at each node.
+    const std::vector<float> wavelengths{360, 400, 500, 600, 700, 800, 830};
+    std::vector<float> spectra;
+    const size_t nodes = t.rgb.nodes(), count = wavelengths.size();
+    const auto value = [&](size_t i, size_t w) {
+      return t.rgb.values[i] * (1 + 0.1f * float(w)) / (1 + 0.001f * float(i));
+    };
+    for (size_t d = 0; d < t.phi.size() * t.theta.size(); ++d)
+      for (size_t w = 0; w < count; ++w)
+        for (size_t i = 0; i < nodes; ++i) spectra.push_back(value(d * 3 * nodes + i, w));
+    const MeasuredTable read = parse(spectral_file(t, wavelengths, spectra));
+    CHECK(read.vndf == t.vndf);
+    CHECK(read.rgb.size == t.rgb.size);
+    REQUIRE(read.rgb.values.size() == t.rgb.values.size());
+    for (size_t d = 0; d < t.phi.size() * t.theta.size(); ++d)
+      for (size_t i = 0; i < nodes; i += 7) {
+        std::vector<SpectrumSample> samples;
+        for (size_t w = 0; w < count; ++w)
+          samples.push_back({double(wavelengths[w]), double(value(d * 3 * nodes + i, w))});
+        const Spectrum expected = spectrum_to_rgb(samples, ColorMeaning::unbounded);
+        for (size_t c = 0; c < 3; ++c)
+          CHECK(double(read.rgb.values[(d * 3 + c) * nodes + i]) ==
+                doctest::Approx(double(expected[int(c)])).epsilon(1e-3).scale(0.01));
+      }
   }
 }

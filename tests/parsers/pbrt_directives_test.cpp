@@ -185,6 +185,22 @@ TEST_CASE("pbrt film: windows, exposure and filters by pbrt's defaults") {
       film("\"float iso\" 200", "Camera \"perspective\" \"float shutterclose\" .25\n");
   REQUIRE(bright.response.has_value());
   CHECK((*bright.response)[1][1] == doctest::Approx(0.5));
+  const SceneDescription spectral =
+      pbrt_scene("Film \"spectral\" \"integer nbuckets\" 8\nWorldBegin\n");
+  CHECK(spectral.sensors.at(0).film.width == 1280);
+  REQUIRE(spectral.approximations.size() == 1);
+  CHECK(spectral.approximations[0].message == "film spectral by its colours alone");
+  CHECK_FALSE(film("").sample_limit.has_value());
+  const FilmDescription limited = film("\"float iso\" 200 \"float maxcomponentvalue\" 5");
+  REQUIRE(limited.sample_limit.has_value());
+  CHECK(limited.sample_limit->most == 5);
+  // Of white, Y is one and Z is the largest, and the exposure counts.
+  const float white[3] = {10, 10, 10};
+  CHECK(limited.sample_limit->share(white) ==
+        doctest::Approx(5 / (2 * 10 * 1.08906)).epsilon(1e-3));
+  const SceneDescription old = pbrt_scene(
+      "Film \"image\" \"float maxsampleluminance\" 5 \"float scale\" 3\nWorldBegin\nWorldEnd\n");
+  CHECK(old.sensors.at(0).film.sample_limit->share(white) == doctest::Approx(0.5).epsilon(1e-3));
   CHECK(film("").filter.kind == FilterKind::gaussian);
   CHECK(film("").filter.reach_x == 1.5);
   const FilterDescription wide =

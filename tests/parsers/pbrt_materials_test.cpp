@@ -2,7 +2,9 @@
 #include <doctest/doctest.h>
 
 #include "image/image_io.h"
+#include "lights/environment.h"
 #include "pbrt/pbrt.h"
+#include "scene/build.h"
 #include "support/files.h"
 #include "values/half_space.h"
 
@@ -11,14 +13,17 @@ using namespace duet::test;
 
 namespace {
 
-/// Four pixels: black, and three of luminance one, red, green and white as far as that goes.
 constexpr const char* kImage = "image.exr";
+
+Image four_pixels() {
+  Image image(2, 2, {"R", "G", "B"});
+  image.data = {0, 0, 0, 0.5f, 0.25f, 0.75f, 1, 1, 1, 0.5f, 0.5f, 0.5f};
+  return image;
+}
 
 SceneDescription scene_with_image(const std::string& text) {
   const TemporaryDirectory folder;
-  Image image(2, 2, {"R", "G", "B"});
-  image.data = {0, 0, 0, 0.5f, 0.25f, 0.75f, 1, 1, 1, 0.5f, 0.5f, 0.5f};
-  write_exr(folder.path(kImage), image, {});
+  write_exr(folder.path(kImage), four_pixels(), {});
   Diagnostics diagnostics;
   auto read = pbrt::read_pbrt(folder.write("scene.pbrt", text), {}, diagnostics);
   std::string messages;
@@ -69,6 +74,36 @@ TEST_CASE("pbrt lights with an image have the power that they are given") {
       doctest::Approx(10 / (3.14159265 * 3.14159265 * 4 * 2 * luminance_of_image())).epsilon(1e-3));
 }
 
+TEST_CASE("pbrt-v3: the rows of an environment map are centred half a row from the poles") {
+  SceneDescription d =
+      v3_file("LightSource \"infinite\" \"string mapname\" \"image.exr\"\nShape \"sphere\"\n");
+  const auto& map = std::get<EnvironmentMapLight>(d.lights.at(0).model);
+  CHECK(map.layout == EnvironmentLayout::row_centers);
+  // The folder is gone: the same image again.
+  const TemporaryDirectory folder;
+  write_exr(folder.path(kImage), four_pixels(), {});
+  std::get<EnvironmentMapLight>(d.lights.at(0).model).file = folder.path(kImage);
+  Diagnostics diagnostics;
+  const auto scene = build_scene(d, {}, diagnostics);
+  REQUIRE(scene);
+  // The largest blue at an angle from +z.
+  const auto largest = [&](double degrees) {
+    const double theta = degrees * 3.14159265 / 180;
+    float most = 0;
+    for (int i = 0; i < 720; ++i) {
+      const double phi = i * 3.14159265 / 360;
+      const Vector3f w(float(std::sin(theta) * std::cos(phi)),
+                       float(std::sin(theta) * std::sin(phi)), float(std::cos(theta)));
+      most = std::max(most, scene->environment->emitted(w).b);
+    }
+    return most;
+  };
+  CHECK(largest(5) == doctest::Approx(0.75).epsilon(1e-3));
+  CHECK(largest(45) == doctest::Approx(0.75).epsilon(1e-3));
+  CHECK(largest(90) == doctest::Approx(0.625).epsilon(1e-3));
+  CHECK(largest(135) == doctest::Approx(1).epsilon(1e-3));
+}
+
 TEST_CASE("pbrt: numbers of an image are the mean of its colours in v4, the luminance in v3") {
   const auto channel = [](const SceneDescription& d) {
     return std::get<BitmapTexture>(d.textures.at(0).model).channel;
@@ -80,6 +115,19 @@ TEST_CASE("pbrt: numbers of an image are the mean of its colours in v4, the lumi
   CHECK(channel(v4_file(number)) == TextureChannel::number);
   CHECK(channel(v4_file(color)) == TextureChannel::all);
   CHECK(channel(v3_file(number)) == TextureChannel::all);
+}
+
+TEST_CASE("pbrt-v4: images that are scaled up end at one") {
+  const SceneDescription d = v4_file(
+      "Texture \"t\" \"spectrum\" \"imagemap\" \"string filename\" \"image.exr\" \"float scale\" "
+      "3\n");
+  // 1 − max(0, 1 − 3x).
+  CHECK(std::get<ScaledTextureDescription>(d.textures.at(1).model).scale == Spectrum(3));
+  for (const uint32_t i : {2u, 3u}) {
+    const auto& f = std::get<FunctionDescription>(d.textures.at(i).model);
+    CHECK(f.function == TextureFunction::inverse);
+    CHECK(f.inner == TextureId{i - 1});
+  }
 }
 
 TEST_CASE("pbrt subsurface: a texture of the reflectance tints what enters and leaves") {

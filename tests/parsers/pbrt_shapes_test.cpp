@@ -7,6 +7,9 @@
 
 #include "pbrt/curves.h"
 #include "pbrt/nurbs.h"
+#include "pbrt/pbrt.h"
+#include "scene/features.h"
+#include "support/files.h"
 
 using namespace duet;
 
@@ -199,4 +202,27 @@ TEST_CASE("pbrt curves: tubes go where Bezier curves do, as wide as they are") {
   }
   curve.points.pop_back();
   CHECK(!pbrt::check_curve(curve).empty());
+}
+
+TEST_CASE("pbrt curves are ribbons, but tubes where they are hair") {
+  const test::TemporaryDirectory folder;
+  const std::string curve =
+      "Shape \"curve\" \"point3 P\" [0 0 0 1 0 0 2 0 0 3 0 0] \"string type\" ";
+  Diagnostics diagnostics;
+  const auto read = pbrt::read_pbrt(
+      folder.write("scene.pbrt", "Film \"rgb\"\nWorldBegin\nNamedMaterial \"later\"\n" + curve +
+                                     "\"flat\"\nMaterial \"diffuse\"\n" + curve + "\"flat\"\n" +
+                                     curve + "\"cylinder\"\n" +
+                                     "MakeNamedMaterial \"later\" \"string type\" \"hair\"\n"),
+      {}, diagnostics);
+  REQUIRE(read.has_value());
+  const SceneDescription& d = read->description;
+  const auto profile = [&](size_t i) {
+    return std::get<CurvesShape>(d.shapes.at(i).geometry).curves->profile;
+  };
+  CHECK(profile(0) == CurveProfile::tube);
+  CHECK(profile(1) == CurveProfile::ribbon);
+  CHECK(profile(2) == CurveProfile::round_ribbon);
+  // Light cannot be followed to what faces each ray, nor into what is seen from outside only.
+  CHECK(scene_features(d).one_way_surfaces == 3);
 }

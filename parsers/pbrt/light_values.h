@@ -1,4 +1,4 @@
-// The power of lights whose image says how they shine.
+// What the parameters of lights have in common: scale and power.
 #pragma once
 
 #include <functional>
@@ -7,6 +7,9 @@
 #include "scene/texture_texels.h"
 
 namespace duet::pbrt {
+
+/// "scale", a colour in v3.
+Spectrum scale_of(Values& v);
 
 /// Multiplies `scale` so that the light has the power that "power" says, if that is given; `power`
 /// is what it has with the image alone. An image that cannot be read is an error.

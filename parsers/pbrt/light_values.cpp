@@ -1,4 +1,4 @@
-#include "pbrt/light_images.h"
+#include "pbrt/light_values.h"
 
 #include <algorithm>
 #include <cmath>
@@ -6,6 +6,12 @@
 #include "math/angles.h"
 
 namespace duet::pbrt {
+
+Spectrum scale_of(Values& v) {
+  const Parameter* p = v.given("scale");
+  if (!p || p->type == Type::number) return Spectrum(float(v.number("scale")));
+  return v.reader().constant_color(*p, ColorMeaning::emission);
+}
 
 void scale_to_power(Values& v, Spectrum& scale, const BitmapTexture& image,
                     const std::function<double(const TextureTexels&)>& power) {

@@ -1,0 +1,99 @@
+// Colours as files give them: numbers, spectra, names.
+#include <algorithm>
+#include <cmath>
+
+#include "pbrt/reader.h"
+#include "pbrt/spectra.h"
+#include "values/text.h"
+
+namespace duet::pbrt {
+
+namespace {
+
+/// A spectrum that is the same over all that can be seen.
+std::optional<double> constant_value(const std::vector<SpectrumSample>& samples) {
+  if (samples.empty() || samples.front().wavelength > 380 || samples.back().wavelength < 780)
+    return std::nullopt;
+  for (const SpectrumSample& s : samples)
+    if (s.value != samples.front().value) return std::nullopt;
+  return samples.front().value;
+}
+
+}  // namespace
+
+Spectrum Reader::constant_color(const Parameter& p, ColorMeaning meaning) {
+  const auto fail = [&](const std::string& why) {
+    report_.error(p.where, "parameter \"{}\": {}", p.name, why);
+    return Spectrum(0.0f);
+  };
+  if (p.type == Type::rgb || p.type == Type::xyz) {
+    const bool bounded = meaning == ColorMeaning::reflectance && p.type == Type::rgb;
+    bool outside = false;
+    for (const double x : p.numbers) {
+      if (!bounded || (x >= 0 && x <= 1)) continue;
+      outside = true;
+      if (version_ == Version::v4)
+        return fail(fmt::format("a reflectance is from 0 to 1, not {}", x));
+    }
+    Spectrum color = color_from_triple(p, meaning, film_color_space);
+    if (!outside) return color;
+    report_.warning(p.where, "parameter \"{}\": a reflectance is from 0 to 1; negative ones are 0",
+                    p.name);
+    for (int c = 0; c < 3; ++c) color[c] = std::max(color[c], 0.0f);
+    return color;
+  }
+  if (p.type == Type::blackbody) {
+    if (p.numbers[0] <= 0) return fail("a black body has a positive temperature");
+    // v3 has a scale behind each temperature.
+    const bool scaled = version_ == Version::v3;
+    if (p.numbers.size() != (scaled ? 2 : 1))
+      return fail(scaled ? "a black body is given by temperature and scale"
+                         : "a black body is given by its temperature");
+    return black_body(p.numbers[0]) * float(scaled ? p.numbers[1] : 1);
+  }
+  std::vector<SpectrumSample> samples;
+  if (!p.strings.empty()) {
+    const std::string& name = p.strings.front();
+    if (const auto metal = find_metal(name)) return in_working_space(*metal, film_color_space);
+    if (const auto glass = find_glass(name)) return Spectrum(float(*glass));
+    if (const auto light = find_illuminant(name)) return in_working_space(*light, film_color_space);
+    const std::string path = spectrum_file(name, p.where);
+    if (path.empty()) return Spectrum(0.0f);
+    try {
+      samples = read_spectrum_file(path);
+    } catch (const ReadError& e) {
+      return fail(e.what());
+    }
+  } else {
+    std::string why;
+    auto pairs = spectrum_samples(p.numbers, why);
+    if (!pairs) return fail(why);
+    samples = std::move(*pairs);
+  }
+  if (const auto constant = constant_value(samples))
+    return meaning == ColorMeaning::emission
+               ? in_working_space(equal_energy_rgb(*constant), film_color_space)
+               : Spectrum(float(*constant));
+  return in_working_space(spectrum_to_rgb(samples, meaning), film_color_space);
+}
+
+Spectrum Reader::black_body(double kelvin) {
+  std::vector<SpectrumSample> samples = blackbody_spectrum(kelvin, 1);
+  // By Wien's law the peak may lie outside of what can be seen.
+  const double wavelength = 2.8977721e6 / kelvin;
+  const double l = wavelength * 1e-9, c = 299792458, k = 1.3806488e-23, h = 6.62606957e-34;
+  const double peak =
+      2 * h * c * c / (std::pow(l, 5) * std::expm1(h * c / (l * k * kelvin))) * 1e-9;
+  for (SpectrumSample& s : samples) s.value /= peak;
+  return in_working_space(spectrum_to_rgb(samples, ColorMeaning::emission), film_color_space);
+}
+
+std::string Reader::spectrum_file(const std::string& name, const SourceLocation& where) {
+  const size_t dot = name.rfind('.');
+  if (dot != name.npos) return file(name, where);
+  report_.error(where, "there is no spectrum {}{}", in_quotes(name),
+                did_you_mean(name, spectrum_names()));
+  return "";
+}
+
+}  // namespace duet::pbrt
