@@ -31,6 +31,11 @@ std::vector<std::string> matches(const std::string& text, const std::string& exp
   return found;
 }
 
+/// Whether a folder of reference/ is from pbrt; the others are from Mitsuba.
+bool is_pbrt(const fs::path& reference) {
+  return reference.filename().string().starts_with("pbrt-");
+}
+
 std::vector<fs::path> entries(const fs::path& folder) {
   std::vector<fs::path> all;
   for (const auto& entry : fs::directory_iterator(folder)) all.push_back(entry.path());
@@ -104,6 +109,18 @@ TEST_CASE("the files of the notation have the identifiers and the types") {
   CHECK(rows > 25);
 }
 
+TEST_CASE("the table of pbrt's scenes is what their provenance says") {
+  std::string table;
+  for (const fs::path& reference : entries(kRoot / "reference")) {
+    if (!is_pbrt(reference)) continue;
+    const auto p = nlohmann::json::parse(read_file((reference / "provenance.json").string()));
+    table += fmt::format(
+        "| `{}` | {} | {} | {} |\n", reference.filename().string(), p["shows"].get<std::string>(),
+        p["light_transport_class"].get<std::string>(), with_commas(p["spp"].get<int>()));
+  }
+  CHECK(page("pbrt_scenes.md").ends_with("|---|---|---|---|\n" + table));
+}
+
 TEST_CASE("the tables of references have every scene and what the provenance of each image says") {
   const std::string text = page("references.md");
   for (const fs::path& scene : entries(kRoot / "scenes")) {
@@ -113,7 +130,7 @@ TEST_CASE("the tables of references have every scene and what the provenance of 
   }
   std::string table;
   for (const fs::path& reference : entries(kRoot / "reference")) {
-    if (!fs::exists(reference / "mean.exr")) continue;
+    if (!fs::exists(reference / "mean.exr") || is_pbrt(reference)) continue;
     const auto p = nlohmann::json::parse(read_file((reference / "provenance.json").string()));
     table += fmt::format("| `{}` | {} × {} | {} | {:.2f} % |\n", reference.filename().string(),
                          p["size"][0].get<int>(), p["size"][1].get<int>(),

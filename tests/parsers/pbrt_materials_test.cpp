@@ -94,7 +94,7 @@ TEST_CASE("pbrt-v3: the rows of an environment map are centred half a row from t
       const double phi = i * 3.14159265 / 360;
       const Vector3f w(float(std::sin(theta) * std::cos(phi)),
                        float(std::sin(theta) * std::sin(phi)), float(std::cos(theta)));
-      most = std::max(most, scene->environment->emitted(w).b);
+      most = std::max(most, scene->environment->emitted({}, w).b);
     }
     return most;
   };

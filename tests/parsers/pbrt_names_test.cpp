@@ -104,7 +104,7 @@ TEST_CASE("pbrt: several environments add up") {
   CHECK(scene->lights.size() == 3);
   REQUIRE(scene->environment);
   CHECK(scene->environment == scene->lights.at(scene->environment_index).get());
-  CHECK(scene->environment->emitted({0, 0, 1}) == Spectrum(1.5f, 2, 4));
+  CHECK(scene->environment->emitted({}, {0, 0, 1}) == Spectrum(1.5f, 2, 4));
 }
 
 TEST_CASE("pbrt-v3 takes no notice of parameters of another type, and of the first of two") {

@@ -3,14 +3,16 @@
 
 #include <doctest/doctest.h>
 
+#include <filesystem>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "evaluate/report/read_scene.h"
 #include "integrators/make_integrator.h"
 #include "integrators/pass.h"
-#include "mitsuba/mitsuba.h"
 #include "scene/build.h"
+#include "scene/film_layout.h"
 
 namespace duet::test {
 
@@ -27,18 +29,19 @@ class PreparedScene {
   explicit PreparedScene(const std::string& name, const Defines& defines = {},
                          const IntegratorOverride& method = {}) {
     Diagnostics diagnostics;
-    MitsubaOptions options;
+    ReadingOptions options;
     options.defines = defines;
-    auto read = read_mitsuba(source_path("scenes/" + name + "/scene.xml"), options, diagnostics);
+    const std::string file = source_path("scenes/" + name + "/scene.");
+    auto read = read_scene(file + (std::filesystem::exists(file + "pbrt") ? "pbrt" : "xml"),
+                           options, diagnostics);
     REQUIRE(read);
     SceneDescription& d = read->description;
-    const FilmDescription& film = d.sensors.at(0).film;
-    layout = {{film.width, film.height}, {0, 0, film.width, film.height}, film.filter};
-    layout.ends_at_crop = film.crop.has_value();
-    if (film.crop)
-      layout.crop = {film.crop->x, film.crop->y, film.crop->x + film.crop->width,
-                     film.crop->y + film.crop->height};
+    layout = film_layout(d.sensors.at(0).film);
     apply_override(d.integrator, method);
+    Diagnostics limits;
+    check_support(d, d.integrator, limits);
+    check_support(d.sensors.at(0), d.integrator, limits);
+    is_supported = !limits.has_errors();
     integrator = make_integrator(d.integrator);
     BuildOptions build;
     build.threads = 2;
@@ -59,6 +62,7 @@ class PreparedScene {
   }
 
   FilmLayout layout;
+  bool is_supported = true;  ///< the method can render the scene
   std::unique_ptr<Integrator> integrator;
   std::unique_ptr<Scene> scene;
 };
