@@ -133,6 +133,9 @@ TEST_CASE("what stands before a portal stays dark, by all methods") {
     CAPTURE(std::string(method));
     const Moments other = mean(method);
     CHECK(other.error() < 0.01 * path.mean());
-    CHECK(std::abs(other.mean() - path.mean()) < 5 * std::hypot(other.error(), path.error()));
+    // Merging blurs.
+    const double bias = std::string_view(method) == "vcm" ? 0.005 * path.mean() : 0.0;
+    CHECK(std::abs(other.mean() - path.mean()) <
+          bias + 5 * std::hypot(other.error(), path.error()));
   }
 }
