@@ -50,7 +50,7 @@ MUTATIONS = [
     ("null collisions forgotten in the weights", "src/media/heterogeneous.cpp",
      "w.light *= majorant / missed;", "", "light gets as far in a grid*"),
     ("the roulette of shadow rays is not made up for", "src/media/heterogeneous.cpp",
-     "w.value *= kRouletteTransmittance / most;", "", "light gets as far in a grid*"),
+     "transmittance *= kRouletteTransmittance / most;", "", "light gets as far in a grid*"),
     ("surfaces do not change the medium", "src/integrators/volpath.cpp",
      "if (separates) path.medium = scene.medium_beyond(s, sample->wi);", "", "a slab that only absorbs*"),
     ("what passes straight through lengthens the path", "src/integrators/volpath.cpp",
