@@ -118,6 +118,9 @@ void SceneWriter::sensor(const SensorDescription& s) {
 }
 
 void SceneWriter::light(const LightDescription& l) {
+  // Not even Duet reads it from XML.
+  if (std::holds_alternative<GoniometricLight>(l.model))
+    return lose("the light \"goniometric\" does not exist in Mitsuba 3");
   LightDescription d = l;
   // The direction to the sun is one in the world.
   if (auto* sky = std::get_if<SkyLight>(&d.model)) sky->sun = l.to_world.turned(sky->sun);

@@ -8,10 +8,6 @@ namespace duet::pbrt {
 
 namespace {
 
-/// pbrt scales lights so that RGB numbers are luminances over its integral of ȳ; where it does not,
-/// light is so many times brighter.
-constexpr float kUnscaled = 106.856895f;
-
 /// One channel per cell, for what multiplies the emission. pbrt takes a number that is given once
 /// for a grid of one cell, so that it fades towards the faces of the medium's box.
 std::vector<double> emission_scale(Values& v, std::array<int, 3>& size) {
@@ -100,15 +96,14 @@ EmissionDescription emission_by_temperature(Values& v, ColorVolume scale, Volume
   // Steps that are small beside the changes of a black body's light.
   constexpr int kSteps = 1024;
   constexpr double kColdest = 100;
-  const double offset =
-      v.number(v.has("temperatureoffset") ? "temperatureoffset" : "temperaturecutoff");
-  const double factor = v.number("temperaturescale");
   EmissionDescription e;
+  e.offset = v.number(v.has("temperatureoffset") ? "temperatureoffset" : "temperaturecutoff");
+  e.factor = v.number("temperaturescale");
   e.radiance = scale;
   e.temperature = temperature;
   e.hottest = std::max(hottest, 1.0);
   for (int i = 0; i <= kSteps; ++i) {
-    const double kelvin = (e.hottest * i / kSteps - offset) * factor;
+    const double kelvin = (e.hottest * i / kSteps - e.offset) * e.factor;
     e.colors.push_back(kelvin > kColdest ? v.reader().black_body(kelvin) * kUnscaled
                                          : Spectrum(0.0f));
   }

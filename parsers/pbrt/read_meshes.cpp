@@ -157,6 +157,7 @@ void read_ply_mesh(Values& v) {
   if (!mesh) return;
   const bool own_normals = mesh->own_normals;
   MeshSource source;
+  source.pbrt_file = path;
   if (mesh->is_whole_file) {
     source.file = path;
     source.plugin = "ply";

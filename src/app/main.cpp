@@ -79,6 +79,7 @@ int run(std::vector<std::string> arguments, Program& program) {
   app.formatter(std::make_shared<HelpFormatter>());
   add_render_command(app, program);
   add_info_command(app, program);
+  add_convert_command(app, program);
   add_compare_command(app, program);
   add_chart_command(app, program);
   add_plugins_command(app, program);

@@ -169,9 +169,12 @@ struct EmissionDescription {
   /// Colours of temperatures from 0 to `hottest` at equal steps, linear in between.
   std::vector<Spectrum> colors;
   double hottest = 0;
+  /// What `colors` are of: black bodies at (temperature − offset) · factor.
+  double offset = 0, factor = 1;
   static constexpr auto fields() {
     using E = EmissionDescription;
-    return plain_fields(&E::radiance, &E::temperature, &E::colors, &E::hottest);
+    return plain_fields(&E::radiance, &E::temperature, &E::colors, &E::hottest, &E::offset,
+                        &E::factor);
   }
 };
 

@@ -27,6 +27,8 @@ struct MeshSource {
   bool face_normals = false;
   bool flip_tex_coords = true;
   std::optional<double> max_smooth_angle;
+  /// The PLY file that pbrt reads as this mesh, or "".
+  std::string pbrt_file;
   /// Not the whole OBJ file: one of its parts, or those of one material.
   bool is_part = false;
   friend bool operator==(const MeshSource&, const MeshSource&) { return true; }

@@ -1,0 +1,134 @@
+// What Mitsuba 3 has in another form than other formats.
+#include <algorithm>
+
+#include "curves/curves_writer.h"
+#include "evaluate/convert/new_files.h"
+#include "mesh/ply_writer.h"
+#include "volume/vol_writer.h"
+
+namespace duet {
+
+namespace {
+
+/// Mitsuba 3 reads the file as this mesh.
+bool has_file(const MeshSource& s) {
+  return !s.file.empty() && !s.is_part && !s.max_smooth_angle;
+}
+
+void shape_files(ShapeDescription& s, NewFiles& files) {
+  if (auto* mesh = std::get_if<MeshShape>(&s.geometry); mesh && !has_file(mesh->source)) {
+    auto made = mesh->mesh;
+    // Normals that Mitsuba makes, too, are left to it.
+    if (made->computed_normals) {
+      TriangleMesh plain = *made;
+      plain.normals.clear();
+      made = std::make_shared<const TriangleMesh>(std::move(plain));
+    }
+    mesh->source = {};
+    mesh->source.file = mesh->mesh->computed_normals ? files.add("mesh", "ply", ply_bytes(*made))
+                                                     : files.add_mesh(mesh->mesh);
+    mesh->source.plugin = "ply";
+    mesh->source.flip_tex_coords = false;
+    mesh->source.face_normals = mesh->mesh->normals.empty();
+  }
+  if (auto* curves = std::get_if<CurvesShape>(&s.geometry); curves && curves->file.empty())
+    curves->file = files.add("curves", "txt", curves_text(*curves->curves));
+}
+
+void volume_file(VolumeDescription& v, NewFiles& files) {
+  const auto& n = v.grid->size;
+  if (v.nodes_on_faces && v.file.empty()) {
+    // The same nodes half a cell within a box that is larger by that.
+    std::array<double, 3> half;
+    for (size_t i = 0; i < 3; ++i) half[i] = n[i] > 1 ? 0.5 / (n[i] - 1) : 0;
+    v.to_world = v.to_world * Matrix4::translate(-half[0], -half[1], -half[2]) *
+                 Matrix4::scale(1 + 2 * half[0], 1 + 2 * half[1], 1 + 2 * half[2]);
+    v.nodes_on_faces = false;
+  }
+  if (v.file.empty() && v.grid->node_count() > 1) {
+    VolumeGrid grid = *v.grid;
+    grid.lower = {0, 0, 0}, grid.upper = {1, 1, 1};
+    v.file = files.add("grid", "vol", vol_bytes(grid));
+  }
+}
+
+void environment(SceneDescription& scene, LightDescription& l, NewFiles& files,
+                 std::vector<std::string>& losses) {
+  const auto* map = std::get_if<EnvironmentMapLight>(&l.model);
+  if (!map) return;
+  const bool has_form = map->layout == EnvironmentLayout::latitude_longitude;
+  if (has_form && map->tint == Spectrum(1.0f) && !map->gamma && !map->illuminance) return;
+  constexpr int kLargest = 4096;
+  const int own = environment_width(l);
+  const int width = map->layout == EnvironmentLayout::equal_area
+                        ? std::clamp(4 * own, 512, kLargest)
+                        : std::max(own, 2);
+  EnvironmentMapLight made;
+  made.file = files.add_image(
+      "environment", environment_image(scene, l, EnvironmentForm::latitude_longitude, width));
+  if (!has_form)
+    losses.emplace_back(
+        "an environment map is resampled to one by latitude and longitude, with rows at the poles");
+  l.model = made;
+}
+
+void brighten(LightDescription& l, double factor) {
+  const float f = float(factor);
+  const auto change = [&]<class T>(T& m) {
+    if constexpr (std::is_same_v<T, SkyLight>)
+      m.sky_scale *= factor, m.sun_scale *= factor;
+    else if constexpr (requires { m.intensity; })
+      m.intensity *= f;
+    else if constexpr (requires { m.radiance; })
+      m.radiance *= f;
+    else if constexpr (requires { m.power; })
+      m.power *= f;
+    else if constexpr (std::is_same_v<T, DirectionalLight>)
+      m.irradiance *= f;
+    else if constexpr (std::is_same_v<T, GoniometricLight>)
+      m.scale *= f;
+    else
+      m.scale *= factor;
+  };
+  std::visit(change, l.model);
+}
+
+/// Mitsuba's films have no exposure: as light adds up, it is the lights'.
+void move_exposure_to_lights(SceneDescription& scene) {
+  const auto& method = scene.integrator.method;
+  if (scene.sensors.size() != 1 || !scene.sensors[0].film.response ||
+      std::holds_alternative<OcclusionIntegratorDescription>(method) ||
+      std::holds_alternative<DepthIntegratorDescription>(method))
+    return;
+  const FilmResponse& r = *scene.sensors[0].film.response;
+  const double factor = r[1][1];
+  if (r != FilmResponse{{{factor, 0, 0}, {0, factor, 0}, {0, 0, factor}}}) return;
+  scene.sensors[0].film.response.reset();
+  for (LightDescription& l : scene.lights) brighten(l, factor);
+  for_each_shape(scene, [&](ShapeDescription& s) {
+    if (!s.emission) return;
+    if (auto* constant = std::get_if<Spectrum>(&s.emission->radiance)) {
+      *constant *= float(factor);
+      return;
+    }
+    const TextureId inner = std::get<TextureId>(s.emission->radiance);
+    s.emission->radiance = TextureId(scene.textures.size());
+    scene.textures.push_back(
+        {s.emission->where, {}, ScaledTextureDescription{inner, Spectrum(float(factor))}});
+  });
+  for (MediumDescription& m : scene.media)
+    if (m.emission)
+      if (auto* constant = std::get_if<Spectrum>(&m.emission->radiance)) *constant *= float(factor);
+}
+
+}  // namespace
+
+void prepare_for_mitsuba(SceneDescription& scene, NewFiles& files,
+                         std::vector<std::string>& losses) {
+  move_exposure_to_lights(scene);
+  for (LightDescription& l : scene.lights) environment(scene, l, files, losses);
+  for_each_shape(scene, [&](ShapeDescription& s) { shape_files(s, files); });
+  for (VolumeDescription& v : scene.volumes) volume_file(v, files);
+}
+
+}  // namespace duet

@@ -1,0 +1,72 @@
+// The files that a converted scene needs beside it.
+#pragma once
+
+#include <map>
+#include <memory>
+#include <set>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "evaluate/convert/convert_scene.h"
+#include "image/image.h"
+
+namespace duet {
+
+class NewFiles {
+ public:
+  explicit NewFiles(std::string scene_file);
+
+  /// A path as the scene says it: relative to the scene's folder where that is possible. Names of
+  /// new files stay.
+  std::string relative(const std::string& path) const;
+  /// The relative name of a new file: that of the scene with its extension, what it holds, a number
+  /// and the extension. Scenes of both formats may so lie in one folder.
+  std::string add(std::string_view what, std::string_view extension, std::string bytes);
+
+  std::string add_mesh(const std::shared_ptr<const TriangleMesh>& mesh);
+  std::string add_image(std::string_view what, const Image& image);
+
+  std::vector<ConvertedFile> take() { return std::move(files_); }
+
+ private:
+  std::string folder_, stem_;
+  std::vector<ConvertedFile> files_;
+  std::set<std::string> made_;
+  std::map<std::string, int, std::less<>> counts_;
+  /// Shapes may share a mesh.
+  std::map<const TriangleMesh*, std::string> meshes_;
+};
+
+/// Gives all shapes of the scene to `change`: those of groups and sensors, too.
+template <class Change>
+void for_each_shape(SceneDescription& scene, Change&& change) {
+  for (ShapeDescription& s : scene.shapes) change(s);
+  for (ShapeGroupDescription& g : scene.groups)
+    for (ShapeDescription& s : g.shapes) change(s);
+  for (SensorDescription& sensor : scene.sensors)
+    for (ShapeDescription& s : sensor.target_shape) change(s);
+}
+
+/// Names the images and measured materials of the scene relative to the new scene file.
+void name_files_again(SceneDescription& scene, const NewFiles& files);
+
+/// The description as Mitsuba 3 can have it; what changes is added to `losses`.
+void prepare_for_mitsuba(SceneDescription& scene, NewFiles& files,
+                         std::vector<std::string>& losses);
+/// The same for pbrt-v4.
+void prepare_for_pbrt(SceneDescription& scene, NewFiles& files, std::vector<std::string>& losses);
+
+/// Radiance of an environment of the scene, without its transform: in a form that can be looked up.
+enum class EnvironmentForm {
+  latitude_longitude,  ///< as Mitsuba's `envmap` has it
+  equal_area,          ///< as pbrt's "infinite" has it, +z in the middle
+};
+/// Each pixel is the mean over its share of the sphere. Throws std::runtime_error if the light
+/// cannot be built.
+Image environment_image(const SceneDescription& scene, const LightDescription& light,
+                        EnvironmentForm form, int width);
+/// The number of columns of the light's own image; 0 without one.
+int environment_width(const LightDescription& light);
+
+}  // namespace duet
