@@ -1,11 +1,12 @@
 // The camera with its film, filter and sampler.
+#include "pbrt/camera.h"
+
 #include <algorithm>
 #include <cmath>
 
 #include "math/angles.h"
 #include "pbrt/film.h"
 #include "pbrt/records.h"
-#include "pbrt/values.h"
 #include "pbrt/vocabulary.h"
 
 namespace duet::pbrt {
@@ -56,18 +57,6 @@ double pixel_aspect(const Window& w, const FilmDescription& film) {
   return std::abs(ratio - 1) < 1e-6 ? 1 : ratio;
 }
 
-/// Sets what is between the camera's space, with x to the right, and the description's.
-void place(SensorDescription& sensor, Reader& reader, const Matrix4& to_camera) {
-  const auto& ctm = reader.camera_state.ctm;
-  if (ctm[0] == ctm[1]) {
-    sensor.to_world = ctm[0] * to_camera;
-    return;
-  }
-  sensor.to_world = to_camera;
-  sensor.motion =
-      Motion({{reader.transform_times[0], ctm[0]}, {reader.transform_times[1], ctm[1]}});
-}
-
 /// Rays begin at the camera and go on.
 void no_clipping(SensorDescription& sensor) {
   sensor.near_clip = 1e-5;
@@ -99,7 +88,7 @@ void read_perspective(Values& v, SensorDescription& sensor) {
                    "a lens with pixels that are not square is not supported");
   }
   no_clipping(sensor);
-  place(sensor, v.reader(), Matrix4::scale(-1, stretch, 1));
+  place_camera(sensor, v.reader(), Matrix4::scale(-1, stretch, 1));
 }
 
 void read_orthographic(Values& v, SensorDescription& sensor) {
@@ -113,9 +102,9 @@ void read_orthographic(Values& v, SensorDescription& sensor) {
     sensor.focus_distance = v.positive("focaldistance") * scale;
   }
   no_clipping(sensor);
-  place(sensor, v.reader(),
-        Matrix4::translate(0.5 * (w.x0 + w.x1), 0.5 * (w.y0 + w.y1), 0) *
-            Matrix4::scale(-half, half * stretch, 1));
+  place_camera(sensor, v.reader(),
+               Matrix4::translate(0.5 * (w.x0 + w.x1), 0.5 * (w.y0 + w.y1), 0) *
+                   Matrix4::scale(-half, half * stretch, 1));
 }
 
 void read_spherical(Values& v, SensorDescription& sensor) {
@@ -131,8 +120,18 @@ void read_spherical(Values& v, SensorDescription& sensor) {
   // The first column shows pbrt's +x, and the columns go on to +z.
   Matrix4 turn;
   turn.m = {{{0, 0, -1, 0}, {0, 1, 0, 0}, {1, 0, 0, 0}, {0, 0, 0, 1}}};
-  place(sensor, v.reader(), turn);
+  place_camera(sensor, v.reader(), turn);
 }
+
+constexpr Spec kRealistic[] = {
+    {"lensfile", kString, "", "radius, thickness, refractive index and diameter of each surface"},
+    {"aperturediameter", kNumber, "1", "of the stop, in mm"},
+    {"focusdistance", kNumber, "10", "from the film"},
+    {"aperture", kString, "", "gaussian, square, pentagon, star or an image", 1, done,
+     Versions::v4},
+    {"simpleweighting", kBoolean, "true", "brightness does not depend on the lens", 1, done,
+     Versions::v3},
+    DUET_CAMERA_SPECS};
 
 #undef DUET_CAMERA_SPECS
 #undef DUET_LENS_SPECS
@@ -143,7 +142,8 @@ constexpr Record<ReadCamera> kCameras[] = {
     {"orthographic", Versions::both, done, "", kOrthographic, read_orthographic},
     {"spherical", Versions::v4, done, "", kSpherical, read_spherical},
     {"environment", Versions::v3, done, "", kSpherical, read_spherical},
-    {"realistic", Versions::both, refused, "cameras of real lenses", {}, nullptr},
+    {"realistic", Versions::both, done, "rays are traced through the lenses, without their colours",
+     kRealistic, read_realistic},
 };
 
 constexpr Spec kSampler[] = {
@@ -190,6 +190,17 @@ void read_sampler(Reader& reader, SensorDescription& sensor) {
 
 }  // namespace
 
+void place_camera(SensorDescription& sensor, Reader& reader, const Matrix4& to_camera) {
+  const auto& ctm = reader.camera_state.ctm;
+  if (ctm[0] == ctm[1]) {
+    sensor.to_world = ctm[0] * to_camera;
+    return;
+  }
+  sensor.to_world = to_camera;
+  sensor.motion =
+      Motion({{reader.transform_times[0], ctm[0]}, {reader.transform_times[1], ctm[1]}});
+}
+
 void finish_camera(Reader& reader) {
   SensorDescription sensor;
   Plugin standard{"Camera", "perspective", {}, {}};
@@ -205,7 +216,7 @@ void finish_camera(Reader& reader) {
   const double open = v.number("shutteropen"), close = v.number("shutterclose");
   if (close < open || (close == open && reader.version() == Version::v4))
     reader.report().error(v.where("shutterclose"), "the shutter closes before it opens");
-  read_film(reader, sensor.film, close - open);
+  read_film(reader, sensor, close - open);
   record->read(v, sensor);
   sensor.shutter = {open, close};
   sensor.medium = reader.camera_state.outside;

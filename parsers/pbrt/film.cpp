@@ -18,13 +18,8 @@ using enum Status;
       {"cropwindow", kNumber, "", "left, right, top and bottom, as shares", 4},                     \
       {"pixelbounds", kInteger, "", "the same in pixels", 4},                                       \
       {"filename", kString, "", "", 1, inert},                                                      \
-      {"diagonal", kNumber, "35", "", 1, inert}, {"maxcomponentvalue",                              \
-                                                  kNumber,                                          \
-                                                  "",                                               \
-                                                  "what a sample may bring at most",                \
-                                                  1,                                                \
-                                                  done,                                             \
-                                                  Versions::v4},                                    \
+      {"diagonal", kNumber, "35", "in mm; of realistic cameras"},                                   \
+      {"maxcomponentvalue", kNumber, "", "what a sample may bring at most", 1, done, Versions::v4}, \
       {"maxsampleluminance", kNumber, "", "the luminance that a sample may bring at most", 1, done, \
        Versions::v3},                                                                               \
   {                                                                                                 \
@@ -212,7 +207,8 @@ void read_filter(Reader& reader, FilmDescription& film) {
 
 }  // namespace
 
-void read_film(Reader& reader, FilmDescription& film, double exposure_time) {
+void read_film(Reader& reader, SensorDescription& sensor, double exposure_time) {
+  FilmDescription& film = sensor.film;
   Plugin standard{"Film", reader.version() == Version::v3 ? "image" : "rgb", {}, {}};
   const Plugin& plugin = reader.film ? *reader.film : standard;
   film.where = plugin.where;
@@ -233,6 +229,7 @@ void read_film(Reader& reader, FilmDescription& film, double exposure_time) {
   film.height = size("yresolution");
   if (reader.version() == Version::v3 || !v.boolean("savefp16"))
     film.component_format = ComponentFormat::single;
+  sensor.lenses.film_diagonal = 1e-3 * v.positive("diagonal");
   read_crop(v, film);
   read_response(v, film, exposure_time);
 }

@@ -6,6 +6,6 @@
 namespace duet::pbrt {
 
 /// What Film and PixelFilter say. The shutter is open for `exposure_time` seconds.
-void read_film(Reader& reader, FilmDescription& film, double exposure_time);
+void read_film(Reader& reader, SensorDescription& sensor, double exposure_time);
 
 }  // namespace duet::pbrt

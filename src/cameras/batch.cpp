@@ -17,7 +17,7 @@ inline const Camera& CameraBatch::camera_at(Point2f& film) const {
   return *cameras_[size_t(index)];
 }
 
-Ray CameraBatch::sample_ray(const Point2f& film, const Point2f& lens) const {
+CameraRay CameraBatch::sample_ray(const Point2f& film, const Point2f& lens) const {
   Point2f own = film;
   return camera_at(own).sample_ray(own, lens);
 }

@@ -14,7 +14,7 @@ class CameraBatch final : public Camera {
  public:
   /// One camera at least, each made for a film of `strip` pixels across.
   CameraBatch(std::vector<std::unique_ptr<Camera>> cameras, int strip);
-  Ray sample_ray(const Point2f& film, const Point2f& lens) const override;
+  CameraRay sample_ray(const Point2f& film, const Point2f& lens) const override;
   std::optional<NextRays> next_rays(const Point2f& film, const Point2f& lens) const override;
   bool connectible() const override { return false; }
   float importance(const Ray&, float) const override { return 0; }

@@ -16,6 +16,12 @@ struct CameraSample {
   float importance = 0;  ///< see Camera::importance()
 };
 
+/// A ray into the scene.
+struct CameraRay : Ray {
+  CameraRay(const Ray& ray, float weight_ = 1) : Ray(ray), weight(weight_) {}
+  float weight;  ///< what the radiance along it is to be multiplied by; may be zero
+};
+
 /// The rays through the film positions one pixel to the right and one below.
 struct NextRays {
   Ray right, below;
@@ -28,9 +34,8 @@ class Camera {
   virtual ~Camera() = default;
 
   /// The ray through a film position and, for lenses, a point of the unit square on the aperture.
-  /// It starts on the near and ends on the far clipping plane; its direction has unit length. Every
-  /// ray carries the same weight, ray_weight().
-  virtual Ray sample_ray(const Point2f& film, const Point2f& lens) const = 0;
+  /// It starts on the near and ends on the far clipping plane; its direction has unit length.
+  virtual CameraRay sample_ray(const Point2f& film, const Point2f& lens) const = 0;
 
   /// The neighbours of sample_ray()'s ray, through the same point of the lens. Empty if the film
   /// shows no picture.
@@ -49,9 +54,6 @@ class Camera {
 
   /// Whether `lens` matters.
   virtual bool has_lens() const { return false; }
-
-  /// What the radiance along a ray is to be multiplied by.
-  virtual float ray_weight() const { return 1; }
 
   /// Whether points of the scene can be connected with the lens. If not, importance() and
   /// sample_lens() say nothing, and light is found from this side only.

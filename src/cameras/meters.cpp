@@ -13,16 +13,16 @@ RadianceMeter::RadianceMeter(const Transform& to_world)
 IrradianceMeter::IrradianceMeter(const Shape& shape, const Point2i& film)
     : points_(shape), scale_{1 / float(film.x), 1 / float(film.y)} {}
 
-Ray IrradianceMeter::sample_ray(const Point2f& film, const Point2f& lens) const {
+CameraRay IrradianceMeter::sample_ray(const Point2f& film, const Point2f& lens) const {
   const ShapePoint p = points_.sample({film.x * scale_.x, film.y * scale_.y});
   const Vector3f direction = Frame(p.ns).to_world(square_to_cosine_hemisphere(lens));
   const float side = dot(p.ng, direction) < 0 ? -p.offset : p.offset;
-  return {p.position + Vector3f(p.ng) * side, direction, INFINITY};
+  return {{p.position + Vector3f(p.ng) * side, direction, INFINITY}, kPi};
 }
 
-Ray FluenceMeter::sample_ray(const Point2f& film, const Point2f&) const {
+CameraRay FluenceMeter::sample_ray(const Point2f& film, const Point2f&) const {
   const Vector3f w = square_to_sphere({film.x - std::floor(film.x), film.y - std::floor(film.y)});
-  return {to_world_(Point3f(0)), normalize(to_world_(w)), INFINITY};
+  return Ray{to_world_(Point3f(0)), normalize(to_world_(w)), INFINITY};
 }
 
 DistantMeter::DistantMeter(const Transform& to_world, Shape target)
@@ -36,7 +36,7 @@ void DistantMeter::surround(const Point3f& center, float radius) {
   direction_ = normalize(to_world_(Vector3f(0, 0, 1)));
 }
 
-Ray DistantMeter::sample_ray(const Point2f&, const Point2f& lens) const {
+CameraRay DistantMeter::sample_ray(const Point2f&, const Point2f& lens) const {
   Point3f target;
   if (point_) {
     target = *point_;
@@ -48,7 +48,7 @@ Ray DistantMeter::sample_ray(const Point2f&, const Point2f& lens) const {
   }
   // From outside of the scene, wherever the target is.
   const float back = distance(target, center_) + 2 * radius_;
-  return {target - direction_ * back, direction_, INFINITY};
+  return Ray{target - direction_ * back, direction_, INFINITY};
 }
 
 }  // namespace duet

@@ -25,7 +25,7 @@ class Meter : public Camera {
 class RadianceMeter final : public Meter {
  public:
   explicit RadianceMeter(const Transform& to_world);
-  Ray sample_ray(const Point2f&, const Point2f&) const override { return ray_; }
+  CameraRay sample_ray(const Point2f&, const Point2f&) const override { return ray_; }
 
  private:
   Ray ray_;
@@ -36,9 +36,8 @@ class RadianceMeter final : public Meter {
 class IrradianceMeter final : public Meter {
  public:
   IrradianceMeter(const Shape& shape, const Point2i& film);
-  Ray sample_ray(const Point2f& film, const Point2f& lens) const override;
+  CameraRay sample_ray(const Point2f& film, const Point2f& lens) const override;
   bool has_lens() const override { return true; }
-  float ray_weight() const override { return kPi; }
 
  private:
   ShapePoints points_;
@@ -49,7 +48,7 @@ class IrradianceMeter final : public Meter {
 class FluenceMeter final : public Meter {
  public:
   explicit FluenceMeter(const Transform& to_world) : to_world_(to_world) {}
-  Ray sample_ray(const Point2f& film, const Point2f& lens) const override;
+  CameraRay sample_ray(const Point2f& film, const Point2f& lens) const override;
 
  private:
   Transform to_world_;
@@ -64,7 +63,7 @@ class DistantMeter final : public Meter {
       : to_world_(to_world), point_(target) {}
   DistantMeter(const Transform& to_world, Shape target);
   void surround(const Point3f& center, float radius) override;
-  Ray sample_ray(const Point2f& film, const Point2f& lens) const override;
+  CameraRay sample_ray(const Point2f& film, const Point2f& lens) const override;
   bool has_lens() const override { return true; }
 
  private:

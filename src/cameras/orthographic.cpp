@@ -18,8 +18,8 @@ OrthographicCamera::OrthographicCamera(const OrthographicView& view)
   importance_ = 1 / axes_.volume();
 }
 
-Ray OrthographicCamera::sample_ray(const Point2f& film, const Point2f&) const {
-  return {corner_ + (right_ * film.x + down_ * film.y), direction_, length_};
+CameraRay OrthographicCamera::sample_ray(const Point2f& film, const Point2f&) const {
+  return Ray{corner_ + (right_ * film.x + down_ * film.y), direction_, length_};
 }
 
 std::optional<CameraSample> OrthographicCamera::sample_lens(const Point3f& from,
@@ -41,12 +41,12 @@ TelecentricCamera::TelecentricCamera(const OrthographicView& view, double apertu
   focus_ = normalize(view.to_world(Vector3f(0, 0, 1))) * float(focus_distance);
 }
 
-Ray TelecentricCamera::sample_ray(const Point2f& film, const Point2f& lens) const {
+CameraRay TelecentricCamera::sample_ray(const Point2f& film, const Point2f& lens) const {
   const Point2f disk = square_to_disk(lens);
   const Vector3f aside = lens_x_ * disk.x + lens_y_ * disk.y;
   const Vector3f direction = normalize(focus_ - aside);
   const Point3f origin = corner_ + (right_ * film.x + down_ * film.y) + aside;
-  return {origin + direction * near_, direction, length_};
+  return Ray{origin + direction * near_, direction, length_};
 }
 
 }  // namespace duet

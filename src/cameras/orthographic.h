@@ -16,7 +16,7 @@ struct OrthographicView {
 class OrthographicCamera final : public Camera {
  public:
   explicit OrthographicCamera(const OrthographicView& view);
-  Ray sample_ray(const Point2f& film, const Point2f& lens) const override;
+  CameraRay sample_ray(const Point2f& film, const Point2f& lens) const override;
   float importance(const Ray&, float) const override { return importance_; }
   std::optional<CameraSample> sample_lens(const Point3f& from, const Point2f& lens) const override;
 
@@ -36,7 +36,7 @@ class TelecentricCamera final : public Camera {
  public:
   /// Radius and distance in world units.
   TelecentricCamera(const OrthographicView& view, double aperture_radius, double focus_distance);
-  Ray sample_ray(const Point2f& film, const Point2f& lens) const override;
+  CameraRay sample_ray(const Point2f& film, const Point2f& lens) const override;
   float importance(const Ray&, float) const override { return 0; }
   std::optional<CameraSample> sample_lens(const Point3f&, const Point2f&) const override {
     return std::nullopt;

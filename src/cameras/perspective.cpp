@@ -30,7 +30,7 @@ Ray PerspectiveCamera::clipped_ray(const Point3f& origin, const Vector3f& direct
   return {origin + direction * near_, direction * inv_length, depth_ * (l2 * inv_length)};
 }
 
-Ray PerspectiveCamera::sample_ray(const Point2f& film, const Point2f&) const {
+CameraRay PerspectiveCamera::sample_ray(const Point2f& film, const Point2f&) const {
   return clipped_ray(eye_, film_direction(film));
 }
 
@@ -72,7 +72,7 @@ inline Vector3f ThinLensCamera::lens_point(const Point2f& lens) const {
   return lens_x_ * disk.x + lens_y_ * disk.y;
 }
 
-Ray ThinLensCamera::sample_ray(const Point2f& film, const Point2f& lens) const {
+CameraRay ThinLensCamera::sample_ray(const Point2f& film, const Point2f& lens) const {
   const Vector3f aside = lens_point(lens);
   return clipped_ray(eye_ + aside, film_direction(film) - aside * inv_focus_distance_);
 }
@@ -90,7 +90,7 @@ inline float DistortedCamera::stretch(float r2) const {
   return std::abs((1 + r2 * (k0_ + r2 * k1_)) * (1 + r2 * (3 * k0_ + 5 * k1_ * r2)));
 }
 
-Ray DistortedCamera::sample_ray(const Point2f& film, const Point2f&) const {
+CameraRay DistortedCamera::sample_ray(const Point2f& film, const Point2f&) const {
   const Vector3f shown = film_direction(film) - forward_;
   const float y = length(shown);
   // Newton's method from the distorted distance.

@@ -19,7 +19,7 @@ struct PerspectiveView {
 class PerspectiveCamera : public Camera {
  public:
   explicit PerspectiveCamera(const PerspectiveView& view);
-  Ray sample_ray(const Point2f& film, const Point2f& lens) const override;
+  CameraRay sample_ray(const Point2f& film, const Point2f& lens) const override;
   float importance(const Ray& ray, float t) const override;
   std::optional<CameraSample> sample_lens(const Point3f& from, const Point2f& lens) const override;
 
@@ -46,7 +46,7 @@ class PerspectiveCamera : public Camera {
 class ThinLensCamera final : public PerspectiveCamera {
  public:
   ThinLensCamera(const PerspectiveView& view, double aperture_radius, double focus_distance);
-  Ray sample_ray(const Point2f& film, const Point2f& lens) const override;
+  CameraRay sample_ray(const Point2f& film, const Point2f& lens) const override;
   std::optional<CameraSample> sample_lens(const Point3f& from, const Point2f& lens) const override;
   bool has_lens() const override { return true; }
 
@@ -64,7 +64,7 @@ class ThinLensCamera final : public PerspectiveCamera {
 class DistortedCamera final : public PerspectiveCamera {
  public:
   DistortedCamera(const PerspectiveView& view, double k0, double k1);
-  Ray sample_ray(const Point2f& film, const Point2f& lens) const override;
+  CameraRay sample_ray(const Point2f& film, const Point2f& lens) const override;
   float importance(const Ray& ray, float t) const override;
   std::optional<CameraSample> sample_lens(const Point3f& from, const Point2f& lens) const override;
 

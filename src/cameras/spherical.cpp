@@ -22,17 +22,17 @@ inline float SphericalCamera::density(float sin_theta) const {
   return float(film_.x) * float(film_.y) / (2 * kPi * kPi * std::max(sin_theta, 1e-6f));
 }
 
-Ray SphericalCamera::sample_ray(const Point2f& film, const Point2f&) const {
+CameraRay SphericalCamera::sample_ray(const Point2f& film, const Point2f&) const {
   if (equal_area_) {
     const Vector3f d =
         square_to_sphere_equal_area({film.x / float(film_.x), film.y / float(film_.y)});
-    return {eye_, normalize(x_ * d.y + y_ * d.z - z_ * d.x), INFINITY};
+    return Ray{eye_, normalize(x_ * d.y + y_ * d.z - z_ * d.x), INFINITY};
   }
   float sin_phi, cos_phi, sin_theta, cos_theta;
   sincos_turns(film.x / float(film_.x), sin_phi, cos_phi);
   sincos_turns(0.5f * film.y / float(film_.y), sin_theta, cos_theta);
   const Vector3f w = x_ * (sin_phi * sin_theta) + y_ * cos_theta - z_ * (cos_phi * sin_theta);
-  return {eye_, normalize(w), INFINITY};
+  return Ray{eye_, normalize(w), INFINITY};
 }
 
 float SphericalCamera::importance(const Ray& ray, float t) const {

@@ -14,7 +14,7 @@ class SphericalCamera final : public Camera {
  public:
   /// The transform turns and moves, no more.
   SphericalCamera(const Transform& to_world, const Point2i& film, bool equal_area = false);
-  Ray sample_ray(const Point2f& film, const Point2f& lens) const override;
+  CameraRay sample_ray(const Point2f& film, const Point2f& lens) const override;
   float importance(const Ray& ray, float t) const override;
   std::optional<CameraSample> sample_lens(const Point3f& from, const Point2f& lens) const override;
 

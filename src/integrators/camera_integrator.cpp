@@ -103,7 +103,6 @@ void CameraIntegrator::render_tile(const Scene& scene, const Film& film, FilmTil
                                    const SampleRange& range, RenderCounters& counters) const {
   const Camera& camera = *scene.camera;
   const bool has_lens = camera.has_lens();
-  const float weight = camera.ray_weight();
   const bool unit_box = film.filter().is_unit_box();
   std::vector<float> values(channels_.size());
   const std::unique_ptr<PathWorkspace> workspace = make_workspace(scene);
@@ -125,11 +124,11 @@ void CameraIntegrator::render_tile(const Scene& scene, const Film& film, FilmTil
           lens = sampler.next_2d();
         }
         std::fill(values.begin(), values.end(), 0.0f);
-        CameraPath path{
-            camera.sample_ray(position, lens), pixel, i, weight, nullptr, workspace.get()};
+        const CameraRay ray = camera.sample_ray(position, lens);
+        CameraPath path{ray, pixel, i, ray.weight, nullptr, workspace.get()};
         if constexpr (kWithNextRays)
           if ((next = camera.next_rays(position, lens))) path.next = &*next;
-        sample(scene, path, sampler, counters, values);
+        if (ray.weight != 0) sample(scene, path, sampler, counters, values);
         float zero = 0;
         for (const float v : values) zero += 0 * v;
         if (!(zero == 0)) {  // infinite or not a number

@@ -38,7 +38,7 @@ struct CameraPath {
   Ray ray;
   uint64_t pixel;    ///< y · width + x of the full image
   uint32_t sample;   ///< its number in the pixel
-  float weight = 1;  ///< of the ray, by which the colours are multiplied
+  float weight = 1;  ///< of the ray, by which the colours are multiplied; not zero
   /// Those beside it, if a layer needs them and the camera has any.
   const NextRays* next = nullptr;
   PathWorkspace* workspace = nullptr;  ///< what make_workspace() has made for the tile

@@ -3,6 +3,7 @@
 #include "cameras/meters.h"
 #include "cameras/orthographic.h"
 #include "cameras/perspective.h"
+#include "cameras/realistic.h"
 #include "cameras/spherical.h"
 #include "scene/builder.h"
 
@@ -38,6 +39,8 @@ std::unique_ptr<Camera> SceneBuilder::camera(SensorDescription& d, const Point2i
     case SensorKind::spherical:
       return std::make_unique<SphericalCamera>(to_world, film,
                                                d.sphere_mapping == SphereMapping::equal_area);
+    case SensorKind::realistic:
+      return realistic(d, film);
     case SensorKind::radiancemeter:
       return check_single_pixel(d, film) ? std::make_unique<RadianceMeter>(to_world) : nullptr;
     case SensorKind::irradiancemeter:
@@ -49,6 +52,43 @@ std::unique_ptr<Camera> SceneBuilder::camera(SensorDescription& d, const Point2i
     case SensorKind::batch:
       return batch(d, film);
   }
+  return nullptr;
+}
+
+std::optional<LensStop> SceneBuilder::lens_stop(const SensorDescription& d) {
+  if (d.lenses.stop != StopShape::image) return LensStop(d.lenses.stop);
+  const auto image = pixels(d.lenses.stop_image, {}, d.where);
+  if (!image) return std::nullopt;  // after an error
+  std::vector<float> values;
+  float largest = 0;
+  for (int y = 0; y < image->height(); ++y)
+    for (int x = 0; x < image->width(); ++x) {
+      const Spectrum c = image->color(x, y);
+      values.push_back(std::max(0.0f, (c.r + c.g + c.b) / 3));
+      largest = std::max(largest, values.back());
+    }
+  drop_pixels();
+  if (largest > 0) return LensStop(image->width(), image->height(), std::move(values));
+  diagnostics_.error(d.where, "the image of the lens's stop is black");
+  return std::nullopt;
+}
+
+std::unique_ptr<Camera> SceneBuilder::realistic(const SensorDescription& d, const Point2i& film) {
+  const LensDescription& l = d.lenses;
+  auto stop = lens_stop(d);
+  if (!stop) return nullptr;
+  LensSystem lens(l.surfaces, *std::move(stop));
+  const auto distance = lens.film_distance_for(l.focus_distance);
+  if (!distance) {
+    diagnostics_.error(d.where, "these lenses cannot be focused {:g} before the film",
+                       l.focus_distance);
+    return nullptr;
+  }
+  lens.set_film_distance(*distance);
+  auto camera = std::make_unique<RealisticCamera>(Transform(d.to_world), film, l.film_diagonal,
+                                                  std::move(lens), l.relative_to_pupil);
+  if (!camera->pupil().empty()) return camera;
+  diagnostics_.error(d.where, "no light passes these lenses");
   return nullptr;
 }
 
@@ -101,10 +141,7 @@ std::unique_ptr<Camera> SceneBuilder::batch(SensorDescription& d, const Point2i&
   std::vector<std::unique_ptr<Camera>> cameras;
   for (SensorDescription& part : d.parts) {
     auto made = camera(part, {film.x / count, film.y});
-    if (made && made->ray_weight() != 1)
-      diagnostics_.error(part.where, "a batch cannot hold a sensor that measures irradiance");
-    else if (made)
-      cameras.push_back(std::move(made));
+    if (made) cameras.push_back(std::move(made));
   }
   if (cameras.size() != d.parts.size()) return nullptr;
   return std::make_unique<CameraBatch>(std::move(cameras), film.x / count);

@@ -7,6 +7,7 @@
 #include <string>
 #include <tuple>
 
+#include "cameras/lens_stop.h"
 #include "materials/materials.h"
 #include "media/phase_functions.h"
 #include "scene/build.h"
@@ -129,6 +130,9 @@ class SceneBuilder {
 
   // build_cameras.cpp
   std::unique_ptr<Camera> camera(SensorDescription& d, const Point2i& film);
+  std::unique_ptr<Camera> realistic(const SensorDescription& d, const Point2i& film);
+  /// Nothing after an error.
+  std::optional<LensStop> lens_stop(const SensorDescription& d);
   std::unique_ptr<Camera> irradiance_meter(const SensorDescription& d, const Point2i& film);
   std::unique_ptr<Camera> distant_meter(SensorDescription& d, const Point2i& film);
   std::unique_ptr<Camera> batch(SensorDescription& d, const Point2i& film);

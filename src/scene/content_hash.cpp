@@ -121,6 +121,7 @@ class Hasher {
     add(m.positions), add(m.normals), add(m.uvs), add(m.triangles), add(m.attributes);
     add(m.computed_normals);
   }
+  void add(const LensSurface& s) { add(s.radius), add(s.thickness), add(s.ior), add(s.aperture); }
   void add(const SampleLimit& l) { add(l.sensor), add(l.most); }
   void add(const TubePoint& p) { add(p.position), add(p.radius); }
   void add(const CurveSet& c) {

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "cameras/lens_system.h"
 #include "image/film.h"
 #include "image/filter.h"
 #include "scene/description_shapes.h"
@@ -20,6 +21,7 @@ enum class SensorKind {
   telecentric,
   perspective_rdist,
   spherical,
+  realistic,
   radiancemeter,
   irradiancemeter,
   fluencemeter,
@@ -28,10 +30,10 @@ enum class SensorKind {
 };
 /// Its name in Mitsuba.
 constexpr const char* sensor_name(SensorKind k) {
-  constexpr const char* names[] = {
-      "perspective",       "thinlens",  "orthographic",  "telecentric",
-      "perspective_rdist", "spherical", "radiancemeter", "irradiancemeter",
-      "fluencemeter",      "distant",   "batch"};
+  constexpr const char* names[] = {"perspective",  "thinlens",          "orthographic",
+                                   "telecentric",  "perspective_rdist", "spherical",
+                                   "realistic",    "radiancemeter",     "irradiancemeter",
+                                   "fluencemeter", "distant",           "batch"};
   return names[size_t(k)];
 }
 /// Whether points of the scene can be connected with the sensor: Camera::connectible().
@@ -145,6 +147,21 @@ struct SamplerDescription {
   }
 };
 
+/// What a realistic camera looks through. Lengths are those of the camera's space.
+struct LensDescription {
+  std::vector<LensSurface> surfaces;  ///< from the scene to the film; the last thickness is found
+  double focus_distance = 10;         ///< from the film
+  double film_diagonal = 0.035;
+  StopShape stop = StopShape::disk;
+  std::string stop_image;          ///< resolved path, if the stop has the shape of an image
+  bool relative_to_pupil = false;  ///< brightness does not depend on the lens (RealisticCamera)
+  static constexpr auto fields() {
+    using L = LensDescription;
+    return plain_fields(&L::surfaces, &L::focus_distance, &L::film_diagonal, &L::stop,
+                        &L::stop_image, &L::relative_to_pupil);
+  }
+};
+
 struct SensorDescription {
   SourceLocation where;
   Label label;
@@ -160,6 +177,7 @@ struct SensorDescription {
   double aperture_radius = 0, focus_distance = 0;  ///< thinlens, telecentric
   std::array<double, 2> distortion{};              ///< perspective_rdist: of r³ and r⁵
   SphereMapping sphere_mapping = SphereMapping::latitude_longitude;  ///< spherical
+  LensDescription lenses;                                            ///< realistic
   uint32_t shape = 0;  ///< irradiancemeter: index in `shapes`
   /// distant: what it averages over; neither is the whole scene.
   std::optional<std::array<double, 3>> target_point;
@@ -211,7 +229,9 @@ struct SensorDescription {
         field(&S::distortion,
               Parameter{"kc", string, "0, 0", "radial distortion of third and fifth order"})
             .when([](const S& s) { return s.kind == SensorKind::perspective_rdist; }),
-        field(&S::sphere_mapping), field(&S::shape),
+        field(&S::sphere_mapping),
+        field(&S::lenses).when([](const S& s) { return s.kind == SensorKind::realistic; }),
+        field(&S::shape),
         field(&S::target_point, Parameter{"target", point, "(the scene)",
                                           "a point or a shape over which radiance is averaged"}),
         field(&S::target_shape), field(&S::parts), field(&S::medium), field(&S::film),
@@ -221,7 +241,8 @@ struct SensorDescription {
   std::vector<std::string> losses() const {
     std::vector<std::string> lost;
     if (kind == SensorKind::telecentric || kind == SensorKind::perspective_rdist ||
-        kind == SensorKind::spherical || kind == SensorKind::fluencemeter)
+        kind == SensorKind::spherical || kind == SensorKind::realistic ||
+        kind == SensorKind::fluencemeter)
       lost.push_back("the sensor \"" + std::string(name()) + "\" does not exist in Mitsuba 3");
     if (sphere_mapping == SphereMapping::equal_area)
       lost.emplace_back("the image of a spherical camera is one by latitude and longitude");

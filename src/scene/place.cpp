@@ -1,6 +1,7 @@
 // Moves what is in a scene that has been built.
 #include <algorithm>
 
+#include "cameras/realistic.h"
 #include "lights/environment.h"
 #include "scene/builder.h"
 
@@ -53,6 +54,11 @@ void SceneBuilder::place_light(uint32_t index, const Matrix4& to_world) {
 void SceneBuilder::place_sensor(const Matrix4& to_world) {
   SensorDescription& d = description_.sensors[options_.sensor];
   d.to_world = to_world;
+  if (d.kind == SensorKind::realistic && scene_->camera) {
+    // Its pupil takes long to find.
+    static_cast<RealisticCamera&>(*scene_->camera).place(Transform(to_world));
+    return;
+  }
   scene_->camera = camera(d, {d.film.width, d.film.height});
 }
 

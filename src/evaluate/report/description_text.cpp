@@ -229,6 +229,10 @@ std::string DescriptionText::sensor(const SensorDescription& s) const {
     t += fmt::format(", aperture radius {:g}, focus at {:g}", s.aperture_radius, s.focus_distance);
   if (s.kind == SensorKind::perspective_rdist)
     t += fmt::format(", distortion {:g} and {:g}", s.distortion[0], s.distortion[1]);
+  if (s.kind == SensorKind::realistic)
+    t += fmt::format(", {} surfaces of lenses, stop {}, focus at {:g}, film diagonal {:g}",
+                     s.lenses.surfaces.size(), kStopShapes[size_t(s.lenses.stop)],
+                     s.lenses.focus_distance, s.lenses.film_diagonal);
   if (s.target_point)
     t += fmt::format(", target ({:.4g}, {:.4g}, {:.4g})", (*s.target_point)[0],
                      (*s.target_point)[1], (*s.target_point)[2]);

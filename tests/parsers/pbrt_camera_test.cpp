@@ -1,0 +1,146 @@
+// Cameras of real lenses and films with layers in pbrt files.
+#include <doctest/doctest.h>
+
+#include "pbrt/pbrt.h"
+#include "support/transport_scene.h"
+
+using namespace duet;
+using namespace duet::test;
+
+namespace {
+
+const std::string kLens =
+    "# radius thickness index diameter\n50 4 1.5 24\n-50 2 1 24\n0 40 0 16 # the stop\n";
+
+struct CameraFile {
+  std::optional<SceneDescription> scene;
+  std::string messages;
+};
+
+/// A scene with a realistic camera of these parameters beside a lens file.
+CameraFile realistic(const std::string& lens, const std::string& parameters,
+                     const std::string& more = "", bool v3 = false) {
+  const TemporaryDirectory folder;
+  folder.write("lens.dat", lens);
+  const std::string file = folder.write(
+      "scene.pbrt", "Camera \"realistic\" \"string lensfile\" \"lens.dat\" " + parameters + "\n" +
+                        more + (v3 ? "Film \"image\"" : "Film \"rgb\" \"float diagonal\" 20") +
+                        " \"integer xresolution\" 24 \"integer yresolution\" 16\n"
+                        "PixelFilter \"box\"\nWorldBegin\n"
+                        "LightSource \"infinite\" \"rgb L\" [2 2 2]\n" +
+                        (v3 ? "WorldEnd\n" : ""));
+  Diagnostics diagnostics;
+  auto read = pbrt::read_pbrt(file, {}, diagnostics);
+  CameraFile out;
+  if (read) out.scene = std::move(read->description);
+  for (const Diagnostic& d : diagnostics.all()) out.messages += d.to_string() + "\n";
+  return out;
+}
+
+void check_message(const CameraFile& f, const std::string& message, bool has_scene = false) {
+  CHECK(f.scene.has_value() == has_scene);
+  CHECK_MESSAGE(f.messages.find(message) != f.messages.npos, f.messages, " lacks ", message);
+}
+
+}  // namespace
+
+TEST_CASE("pbrt's realistic camera: lens files and parameters") {
+  const CameraFile f = realistic(kLens, "\"float aperturediameter\" 8 \"float focusdistance\" 3");
+  REQUIRE_MESSAGE(f.scene, f.messages);
+  CHECK(f.messages.empty());
+  const SensorDescription& s = f.scene->sensors.at(0);
+  CHECK(s.kind == SensorKind::realistic);
+  REQUIRE(s.lenses.surfaces.size() == 3);
+  CHECK(s.lenses.surfaces[0] == LensSurface{0.05, 0.004, 1.5, 0.012});
+  CHECK(s.lenses.surfaces[2].ior == 1);
+  CHECK(s.lenses.surfaces[2].aperture == doctest::Approx(0.004));
+  CHECK(s.lenses.focus_distance == 3);
+  CHECK(s.lenses.film_diagonal == doctest::Approx(0.02));
+  CHECK_FALSE(s.lenses.relative_to_pupil);
+  // Defaults: 1 mm, 10 m.
+  const CameraFile standard = realistic(kLens, "");
+  CHECK(standard.scene->sensors.at(0).lenses.surfaces[2].aperture == doctest::Approx(0.0005));
+  CHECK(standard.scene->sensors.at(0).lenses.focus_distance == 10);
+  CHECK_FALSE(*standard.scene == *f.scene);
+  const CameraFile star = realistic(kLens, "\"string aperture\" \"star\"");
+  CHECK(star.scene->sensors.at(0).lenses.stop == StopShape::star);
+  // v3 is relative to the pupil unless it is told otherwise; then the shutter's time counts.
+  CHECK(realistic(kLens, "", "", true).scene->sensors.at(0).lenses.relative_to_pupil);
+  const CameraFile v3 =
+      realistic(kLens, "\"bool simpleweighting\" \"false\" \"float shutterclose\" .5", "", true);
+  CHECK_FALSE(v3.scene->sensors.at(0).lenses.relative_to_pupil);
+  REQUIRE(v3.scene->sensors.at(0).film.response);
+  CHECK((*v3.scene->sensors.at(0).film.response)[1][1] == 0.5);
+}
+
+TEST_CASE("pbrt's realistic camera: what is wrong with a lens file is said with its place") {
+  check_message(realistic(kLens + "7 8\n", ""),
+                "lens.dat:5:1: error: a lens file has four numbers");
+  check_message(realistic("# nothing\n", ""), "not 0 in all");
+  check_message(realistic("50 4 nan 24\n", ""), "lens.dat:1:6: error: a lens file holds nothing");
+  check_message(realistic("50 4 1e999 24\n", ""), "lens.dat:1:6: error:");
+  check_message(realistic("50 4 1.5 24\n-50 2 1 0\n", ""), "surface 2 has the diameter 0");
+  check_message(realistic("50 4 -1.5 24\n-50 2 1 3\n", ""), "surface 1 has the refractive index");
+  check_message(realistic("50 4 1.5 24\n", ""), "there must be air behind the last surface");
+  check_message(realistic("50 4 1.5 24\n-50 2 1 24\n", ""),
+                "scene.pbrt:1:20: warning: the lens file has no stop", true);
+  check_message(realistic(kLens, "\"float aperturediameter\" 20"),
+                "the lens's stop opens to 16 mm at most, not 20", true);
+  check_message(realistic(kLens, "\"float aperturediameter\" -1"), "scene.pbrt:1:51: error:");
+  check_message(realistic(kLens, "\"string aperture\" \"hexagon.png\""), "hexagon.png");
+  const TemporaryDirectory folder;
+  for (const char* parameters : {"\"string lensfile\" \"none.dat\"", ""}) {
+    Diagnostics diagnostics;
+    CHECK_FALSE(
+        pbrt::read_pbrt(folder.write("a.pbrt", std::string("Camera \"realistic\" ") + parameters +
+                                                   "\nFilm \"rgb\"\nWorldBegin\n"),
+                        {}, diagnostics));
+    REQUIRE(diagnostics.has_errors());
+    CHECK(diagnostics.all()[0].where.line == 1);
+  }
+}
+
+TEST_CASE("pbrt's realistic camera: lenses that cannot be focused, or block all light") {
+  const auto build = [](const CameraFile& f) {
+    REQUIRE(f.scene);
+    Diagnostics diagnostics;
+    CHECK_FALSE(build_scene(*f.scene, {}, diagnostics));
+    REQUIRE(diagnostics.has_errors());
+    return diagnostics.all()[0].to_string();
+  };
+  CHECK(build(realistic(kLens, "\"float focusdistance\" .1"))
+            .find("scene.pbrt:1:1: error: these lenses cannot be focused 0.1 before the film") !=
+        std::string::npos);
+  // Steeper than any light can leave it.
+  const CameraFile blocked =
+      realistic("50 4 1.5 24\n-50 2 1 24\n0 400 1 1\n2 0.1 1.5 0.0001\n0 40 0 16\n", "");
+  REQUIRE(blocked.scene);
+}
+
+TEST_CASE("realistic cameras are rendered by the methods that send rays from the camera") {
+  const std::string open = "\"float aperturediameter\" 8 \"float focusdistance\" 3";
+  const TransportScene scene(*realistic(kLens, open).scene);
+  // In even light the image is the irradiance of the pupil: the same by all methods.
+  const Image expected = scene.render("path", {}, 256, 1).image;
+  const auto mean = [](const Image& image) {
+    double sum = 0;
+    for (size_t i = 0; i < image.data.size(); i += 4) sum += double(image.data[i]);
+    return sum / double(image.data.size() / 4);
+  };
+  CHECK(mean(expected) > 0.03);
+  for (const char* method : {"volpath", "bdpt", "vcm"}) {
+    CAPTURE(method);
+    CHECK(mean(scene.render(method, {}, 64, 2).image) ==
+          doctest::Approx(mean(expected)).epsilon(0.02));
+  }
+  // The corners are darker by cos⁴ at least: 10 mm aside, some 52 mm away.
+  const float corner = expected.data[0], centre = expected.data[4 * size_t(8 * 24 + 12)];
+  CHECK(corner < centre * std::pow(std::cos(std::atan(9.5 / 52)), 4) * 1.05);
+  CHECK(corner > 0.5f * centre);
+  Diagnostics diagnostics;
+  IntegratorDescription ptracer;
+  apply_override(ptracer, {"ptracer", {}, {}});
+  check_support(realistic(kLens, open).scene->sensors.at(0), ptracer, diagnostics);
+  REQUIRE(diagnostics.has_errors());
+  CHECK(diagnostics.all()[0].message.find("needs a sensor") != std::string::npos);
+}
