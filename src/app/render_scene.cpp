@@ -266,8 +266,8 @@ class SceneRenderer {
     for (const std::string& p : written) text += " -> " + p;
     log_.info("{}", text);
     if (r.counters.nonfinite_samples > 0)
-      warn(fmt::format("{} of {} samples were not finite and count as black",
-                       r.counters.nonfinite_samples, r.counters.camera_paths));
+      warn(fmt::format("{} of {} samples were not finite, or above {:.0e}, and count as black",
+                       r.counters.nonfinite_samples, r.counters.camera_paths, ExactSum::kLargest));
   }
 
   /// Says so if the error that was asked for has not been reached.

@@ -1,84 +1,25 @@
-// The film: gathers weighted samples into pixels, tile by tile.
+// The film: gathers weighted samples and splats into pixels. All of its sums are exact, so it does
+// not matter in which order, by which threads and in which passes they were added up.
 #pragma once
 
-#include <array>
-#include <cstdint>
+#include <memory>
+#include <mutex>
 #include <optional>
 #include <span>
+#include <string>
 #include <vector>
 
-#include "image/filter.h"
+#include "image/film_tile.h"
 #include "image/image.h"
 #include "math/spectrum.h"
-#include "math/vector.h"
 
 namespace duet {
 
-/// A rectangle of whole pixels; `x1` and `y1` are one past the end.
-struct PixelBounds {
-  int x0 = 0, y0 = 0, x1 = 0, y1 = 0;
-  int width() const { return x1 - x0; }
-  int height() const { return y1 - y0; }
-  bool empty() const { return x1 <= x0 || y1 <= y0; }
-  bool contains(int x, int y) const { return x >= x0 && x < x1 && y >= y0 && y < y1; }
-  bool operator==(const PixelBounds&) const = default;
-  PixelBounds intersect(const PixelBounds& o) const;
-  PixelBounds grow(int border) const {
-    return {x0 - border, y0 - border, x1 + border, y1 + border};
-  }
-};
-
-/// What a film makes of linear sRGB: exposure, white balance, the primaries of its colour space.
-using FilmResponse = std::array<std::array<double, 3>, 3>;
-
-/// What a single sample may bring. Where the largest of the three values that `sensor` makes of its
-/// colour is above `most`, the colour is scaled down to that: noise turns into bias.
-struct SampleLimit {
-  FilmResponse sensor{{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
-  double most = 1;
-  bool operator==(const SampleLimit&) const = default;
-
-  /// What the colour R, G and B is to be multiplied by.
-  float share(const float* rgb) const;
-};
-
-/// The sums of the samples taken in one square of the film. A sample also counts for pixels beyond
-/// the square, as far as the filter reaches; tiles keep those sums apart, so that threads share
-/// nothing and the film adds them in the same order whatever ran when. Sums are of doubles, sample
-/// by sample: a constant stays one however many samples it has.
-class FilmTile {
- public:
-  /// `sampled` are the pixels in which samples are taken, `stored` those they may count for. A
-  /// limit is that of the first three channels.
-  FilmTile(const PixelBounds& sampled, const PixelBounds& stored, int channels,
-           const std::optional<SampleLimit>& limit = std::nullopt);
-
-  const PixelBounds& sampled() const { return sampled_; }
-  const PixelBounds& stored() const { return stored_; }
-
-  /// Adds a sample to a pixel (unit box filter only).
-  void add_to_pixel(int x, int y, std::span<const float> values);
-  /// Adds a sample at a film position to all pixels within the filter's reach.
-  void add_sample(const ReconstructionFilter& filter, const Point2f& position,
-                  std::span<const float> values);
-  /// Takes note of `count` more samples in every pixel.
-  void count_samples(uint32_t count) { samples_ += count; }
-  /// Samples that every pixel has, as far as they have been counted.
-  uint64_t samples() const { return samples_; }
-  /// Per stored pixel the sum of weights, then the weighted sum of each channel.
-  std::span<const double> data() const { return data_; }
-
- private:
-  friend class Film;
-  double* sums(int x, int y) {
-    return &data_[(size_t(y - stored_.y0) * stored_.width() + (x - stored_.x0)) * (channels_ + 1)];
-  }
-  PixelBounds sampled_, stored_;
-  int channels_;
-  std::optional<SampleLimit> limit_;
-  uint64_t samples_ = 0;
-  std::vector<double> data_;
-};
+/// Whether a film can add such a splat.
+inline bool film_can_add(const Spectrum& value) {
+  const float values[]{value.r, value.g, value.b};
+  return film_can_add(std::span<const float>(values));
+}
 
 /// Contribution of a light sub-path at a film position.
 struct Splat {
@@ -112,8 +53,8 @@ class Film {
 
   /// Bytes that the tiles of such a film take, without making them.
   static double tile_bytes(const FilmLayout& layout, size_t channels);
-  /// Bytes that splats and moments take besides.
-  double layer_bytes() const;
+  /// Bytes that splats and moments take besides, if a film with such layers has this layout.
+  double layer_bytes(const FilmLayout& layout) const;
 
   const ReconstructionFilter& filter() const { return filter_; }
   const PixelBounds& crop() const { return crop_; }
@@ -125,13 +66,15 @@ class Film {
   /// Makes room for splats that add to three channels from `first_channel` on. Returns the number
   /// of the layer.
   size_t add_splat_layer(size_t first_channel);
-  /// Adds splats, scaled by `scale`, to a layer. They go through the same filter as samples do, so
-  /// that a unit of light per pixel area adds one to each pixel. The sum does not depend on the
-  /// number of threads.
-  void add_splats(size_t layer, std::span<const Splat> splats, float scale, int threads);
+  /// Adds splats, scaled by `scale`, to a layer, from any thread. They go through the same filter
+  /// as samples do, so that a unit of light per pixel area adds one to each pixel.
+  void add_splats(size_t layer, std::span<const Splat> splats, float scale);
   /// Makes three channels from `first_channel` on the mean of the squares of what each pass makes
   /// of a pixel's first three channels, splats included: samples alone do not know of those.
   void add_moments(size_t first_channel);
+  /// Where the samples and splats of the next pass go: this film, or one beside it if the film is
+  /// to know the squares of passes.
+  Film& begin_pass();
   /// To be called after each pass with splats: these are divided by the number of passes.
   void end_pass();
   /// What the splats of a layer add to a channel of a pixel of the window.
@@ -142,33 +85,47 @@ class Film {
   /// The weighted means of the window's pixels, with splats; a pixel that nothing reached is zero.
   /// Where tiles have samples of different numbers, each tile counts for a pixel between them as
   /// much as its share of the filter, however many samples it has.
-  Image develop() const;
+  Image develop() const { return develop(std::span(this, 1)); }
   /// The mean of films of the same layout. Each that has samples in a tile counts the same there,
   /// so that numbers of samples which depend on other films leave the mean unbiased.
-  static Film mean(std::span<const Film> films);
+  static Image develop(std::span<const Film> films);
 
  private:
+  struct SplatLayer {
+    size_t first_channel;
+    std::vector<ExactSum> sums;  ///< three per pixel of the window
+  };
+
+  void add_means(std::span<const Film> films, std::vector<double>& sums) const;
+  void add_splat_means(std::span<const Film> films, Image& image) const;
+  void add_squares(std::span<const Film> films, Image& image) const;
   /// Applies the response to a developed image.
   void respond(Image& image) const;
+  /// The sums at a pixel of the window.
+  size_t window_index(int x, int y) const {
+    return 3 * (size_t(y - crop_.y0) * size_t(crop_.width()) + size_t(x - crop_.x0));
+  }
+  /// What the sums of splats at a pixel of the window are to be divided by.
+  double splat_filter(int x, int y) const;
+  void add_film(const Film& o);
+  void clear();
 
+  FilmLayout layout_;
   Point2i full_;
   PixelBounds crop_;
   PixelBounds image_;  ///< where there is light
   ReconstructionFilter filter_;
-  std::optional<FilmResponse> response_;
   std::vector<std::string> channels_;
   std::vector<FilmTile> tiles_;
-
-  struct SplatLayer {
-    size_t first_channel;
-    std::vector<double> sums;  ///< three per pixel of the window
-  };
   std::vector<SplatLayer> splats_;
+  /// One for every kTileSize rows of the window: who adds splats to them.
+  std::unique_ptr<std::mutex[]> splat_locks_;
   int passes_ = 0;
-  /// Where moments go. Sums over the passes of what each made of a pixel's colours, and of its
-  /// squares: three per pixel of the window, or none.
+  /// Where moments go, and sums of the squares of what each pass made of a pixel's colours: three
+  /// per pixel of the window, or none.
   std::vector<size_t> moment_channels_;
-  std::vector<double> colour_sums_, squares_;
+  std::vector<ExactSum> squares_;
+  std::unique_ptr<Film> pass_;  ///< the film of a pass, if there are moments
   /// Per column and row of the window: integral of the filter over image_.
   std::vector<double> filter_x_, filter_y_;
 };

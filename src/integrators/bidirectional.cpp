@@ -197,10 +197,13 @@ void BidirectionalIntegrator::iteration(const Scene& scene, Film& film, const Sa
   if (plan.keep_vertices)
     lights_.reserve(size_t(1.05 * pilot_->vertices_per_subpath * double(plan.subpaths)) + 1024,
                     plan.subpaths);
+  Film& sums = film.begin_pass();
   if (plan.subpaths > 0 && (plan.keep_vertices || plan.set.camera_connections))
     lights_.run(
         scene, plan,
-        [&](std::span<const LightSplat> splats) { splat(film, splats, control.threads, counters); },
+        [&](std::span<const LightSplat> splats, RenderCounters& of_block) {
+          splat(sums, splats, of_block);
+        },
         counters);
   if (set_.merges) {
     const std::vector<LightVertex>& v = lights_.vertices().vertices;
@@ -209,26 +212,27 @@ void BidirectionalIntegrator::iteration(const Scene& scene, Film& film, const Sa
         [&](uint32_t i) { return v[i].merges ? v[i].position : VertexGrid::nowhere(); },
         float(radius(samples.first)), control.threads);
   }
-  CameraIntegrator::render_samples(scene, film, samples, control, counters);
+  CameraIntegrator::render_samples(scene, sums, samples, control, counters);
   film.end_pass();
 }
 
-void BidirectionalIntegrator::splat(Film& film, std::span<const LightSplat> splats, int threads,
-                                    RenderCounters& counters) {
+void BidirectionalIntegrator::splat(Film& film, std::span<const LightSplat> splats,
+                                    RenderCounters& counters) const {
   if (film.splat_layer_count() == 0) return;
   const float scale = 1 / set_.light_paths;
+  std::vector<Splat> chosen;
   const auto add = [&](size_t layer, int depth, bool weighted) {
-    splat_buffer_.clear();
+    chosen.clear();
     for (const LightSplat& s : splats) {
       if (depth > 0 && s.depth != depth) continue;
       Splat out = s.splat;
       if (weighted) out.value *= s.weight;
-      if (is_finite(out.value))
-        splat_buffer_.push_back(out);
+      if (film_can_add(out.value))
+        chosen.push_back(out);
       else
         counters.nonfinite_samples += layer == 0;
     }
-    film.add_splats(layer, splat_buffer_, scale, threads);
+    film.add_splats(layer, chosen, scale);
   };
   add(0, 0, true);
   if (!layers_.enabled) return;

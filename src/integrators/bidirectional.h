@@ -47,7 +47,7 @@ class BidirectionalIntegrator final : public CameraIntegrator {
   double radius(uint32_t iteration) const;
   uint32_t light_subpaths(Point2i film) const;
   bool has_technique(int s, int t) const;
-  void splat(Film& film, std::span<const LightSplat> splats, int threads, RenderCounters& counters);
+  void splat(Film& film, std::span<const LightSplat> splats, RenderCounters& counters) const;
 
   // bidirectional_eye.cpp, bidirectional_connect.h and bidirectional_thesis.cpp. `Vertex` is
   // PathVertex, or MediaVertex in scenes with media.
@@ -98,7 +98,6 @@ class BidirectionalIntegrator final : public CameraIntegrator {
   SubpathSharing sharing_;
   LightPass lights_;
   VertexGrid grid_;
-  std::vector<Splat> splat_buffer_;
 };
 
 std::unique_ptr<Integrator> make_bidirectional(const BidirectionalIntegratorDescription& d,

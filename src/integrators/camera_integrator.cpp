@@ -108,13 +108,12 @@ void CameraIntegrator::render_tile(const Scene& scene, const Film& film, FilmTil
   const std::unique_ptr<PathWorkspace> workspace = make_workspace(scene);
   [[maybe_unused]] std::optional<NextRays> next;
   const PixelBounds& b = tile.sampled();
-  // One sample of all pixels before the next: pixels share sums, and these must not depend on how
-  // samples are divided into passes.
-  for (uint32_t i = range.first; i < range.first + range.count; ++i)
-    for (int y = b.y0; y < b.y1; ++y)
-      for (int x = b.x0; x < b.x1; ++x) {
-        const uint64_t pixel = uint64_t(y) * uint64_t(film.full_size().x) + uint64_t(x);
-        Sampler sampler(range.sequence, range.seed, range.scramble, pixel);
+  SampleAdder sums(tile);
+  for (int y = b.y0; y < b.y1; ++y)
+    for (int x = b.x0; x < b.x1; ++x) {
+      const uint64_t pixel = uint64_t(y) * uint64_t(film.full_size().x) + uint64_t(x);
+      Sampler sampler(range.sequence, range.seed, range.scramble, pixel);
+      for (uint32_t i = range.first; i < range.first + range.count; ++i) {
         sampler.start_sample(i);
         const Point2f u = sampler.next_2d();
         const Point2f position{float(x) + u.x, float(y) + u.y};
@@ -129,17 +128,16 @@ void CameraIntegrator::render_tile(const Scene& scene, const Film& film, FilmTil
         if constexpr (kWithNextRays)
           if ((next = camera.next_rays(position, lens))) path.next = &*next;
         if (ray.weight != 0) sample(scene, path, sampler, counters, values);
-        float zero = 0;
-        for (const float v : values) zero += 0 * v;
-        if (!(zero == 0)) {  // infinite or not a number
+        if (!film_can_add(values)) {
           ++counters.nonfinite_samples;
           std::fill(values.begin(), values.end(), 0.0f);
         }
         if (unit_box)
-          tile.add_to_pixel(x, y, values);
+          sums.add_to_pixel(x, y, values);
         else
-          tile.add_sample(film.filter(), position, values);
+          sums.add_sample(film.filter(), position, values);
       }
+    }
   tile.count_samples(range.count);
   counters.camera_paths += uint64_t(b.width()) * uint64_t(b.height()) * range.count;
 }

@@ -1,6 +1,7 @@
 #include "integrators/error_estimate.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <utility>
 
@@ -39,7 +40,7 @@ std::optional<double> batch_relative_rmse(const std::vector<Film>& films) {
 
 PartialMeans::PartialMeans(const Film& film) : channels_(color_channels(film)) {
   for (const FilmTile& t : film.tiles()) {
-    before_.emplace_back(t.data().size());
+    before_.emplace_back(t.sums().size());
     last_.emplace_back(size_t(t.stored().intersect(t.sampled()).width()) *
                        std::max(0, t.stored().intersect(t.sampled()).height()));
   }
@@ -48,7 +49,7 @@ PartialMeans::PartialMeans(const Film& film) : channels_(color_channels(film)) {
 }
 
 void PartialMeans::add_part(const Film& film) {
-  const size_t stride = film.channels().size() + 1;
+  std::array<double, 4> now{};  // the weight and the colours
   total_ = weight_ = pixels_ = 0;
   const double passes = film.passes(), new_passes = passes - passes_before_;
   // What the splats of this part alone add to a channel of a pixel; their mean is remembered.
@@ -67,10 +68,8 @@ void PartialMeans::add_part(const Film& film) {
     size_t i = 0;
     for (int y = own.y0; y < own.y1; ++y)
       for (int x = own.x0; x < own.x1; ++x, ++i) {
-        const size_t at =
-            (size_t(y - tile.stored().y0) * tile.stored().width() + size_t(x - tile.stored().x0)) *
-            stride;
-        const double* now = &tile.data()[at];
+        const size_t at = tile.index(x, y);
+        for (size_t c = 0; c <= size_t(channels_); ++c) now[c] = tile.sums()[at + c].value();
         const double* then = &before_[k][at];
         weight_ += now[0];
         pixels_ += 1;
@@ -92,7 +91,7 @@ void PartialMeans::add_part(const Film& film) {
         }
         last.weight = float(w);
       }
-    before_[k].assign(tile.data().begin(), tile.data().end());
+    for (size_t v = 0; v < before_[k].size(); ++v) before_[k][v] = tile.sums()[v].value();
   }
   passes_before_ = passes;
   ++parts_;

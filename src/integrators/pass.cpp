@@ -219,7 +219,7 @@ class Renderer {
   RenderResult result() const {
     RenderResult r;
     if (spp_ > 0) {
-      r.image = films_.size() > 1 ? Film::mean(films_).develop() : films_[0].develop();
+      r.image = Film::develop(films_);
       integrator_.finish(r.image, spp_);
     }
     r.counters = counters_;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <mutex>
 
 namespace duet {
 
@@ -67,13 +68,15 @@ Pilot run_pilot(const Scene& scene, Point2i film, LightPassPlan plan) {
   plan.windows = nullptr;
   LightPass lights;
   RenderCounters counters;
-  double light = 0;
-  const auto measure = [&](std::span<const LightSplat> splats) {
+  ExactSum light;
+  std::mutex lock;
+  const auto measure = [&](std::span<const LightSplat> splats, RenderCounters&) {
+    const std::lock_guard guard(lock);
     for (const LightSplat& s : splats)
-      if (is_finite(s.splat.value)) light += double(s.splat.value.max());
+      if (film_can_add(s.splat.value)) light.add(double(s.splat.value.max()));
   };
   if (!scene.lights.empty()) lights.run(scene, plan, measure, counters);
-  pilot.brightness = light / kPilotSubpaths / (double(film.x) * double(film.y));
+  pilot.brightness = light.value() / kPilotSubpaths / (double(film.x) * double(film.y));
   pilot.vertices_per_subpath = double(lights.vertices().vertices.size()) / kPilotSubpaths;
   return pilot;
 }

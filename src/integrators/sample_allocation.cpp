@@ -22,18 +22,16 @@ constexpr double kUnseenVariance = 0.05;
 double tile_variance(std::span<const Film> films, size_t k) {
   const FilmTile& tile = films[0].tiles()[k];
   const PixelBounds own = tile.stored().intersect(tile.sampled());
-  const size_t stride = films[0].channels().size() + 1;
   double sum = 0, pixels = 0;
   for (int y = own.y0; y < own.y1; ++y)
     for (int x = own.x0; x < own.x1; ++x) {
-      const size_t at = (size_t(y - tile.stored().y0) * size_t(tile.stored().width()) +
-                         size_t(x - tile.stored().x0)) *
-                        stride;
+      const size_t at = tile.index(x, y);
       for (size_t c = 1; c <= 3; ++c) {
         Moments means;
         for (const Film& f : films) {
-          const double* s = &f.tiles()[k].data()[at];
-          means.add(s[0] != 0 ? s[c] / s[0] : 0);
+          const ExactSum* s = &f.tiles()[k].sums()[at];
+          const double weight = s[0].value();
+          means.add(weight != 0 ? s[c].value() / weight : 0);
         }
         sum += means.variance();
       }

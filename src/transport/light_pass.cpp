@@ -1,6 +1,7 @@
 #include "transport/light_pass.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "base/parallel.h"
 #include "transport/light_subpath.h"
@@ -9,9 +10,24 @@ namespace duet {
 
 namespace {
 
-/// Sub-paths that one task traces, and tasks whose results are held at a time.
+/// Sub-paths that one task traces, and tasks whose results are held at a time: some for every
+/// thread, since they do not all take as long.
 constexpr uint32_t kSubpathsPerBlock = 1024;
-constexpr uint32_t kBlocksAtATime = 16;
+constexpr uint32_t kFewestBlocks = 16, kTasksPerThread = 4;
+
+uint32_t blocks_at_a_time(int threads) {
+  return std::max(kFewestBlocks, kTasksPerThread * uint32_t(std::max(1, threads)));
+}
+
+/// Makes room at the end of a list for the blocks' parts of it; returns where each begins.
+template <class T, class Part>
+std::vector<size_t> make_room(std::vector<T>& list, uint32_t blocks, const Part& part) {
+  std::vector<size_t> begins;
+  size_t end = list.size();
+  for (uint32_t i = 0; i < blocks; ++i) begins.push_back(std::exchange(end, end + part(i).size()));
+  list.resize(end);
+  return begins;
+}
 /// Keeps the random numbers of light sub-paths apart from those of the pixels.
 constexpr uint64_t kLightStream = 0x6c69676874ull;
 /// The same for what happens in media, on sub-paths and on their shadow rays.
@@ -29,7 +45,7 @@ double LightPass::memory_bytes(const LightPassPlan& plan, int vertices_per_subpa
           : 0.0;
   const double kept = plan.keep_vertices ? vertices * sizeof(LightVertex) + 6 : 0.0;
   const double at_a_time =
-      std::min(double(plan.subpaths), double(kSubpathsPerBlock * kBlocksAtATime));
+      std::min(double(plan.subpaths), double(kSubpathsPerBlock) * blocks_at_a_time(plan.threads));
   return double(plan.subpaths) * (kept + pdfs) +
          at_a_time * kGrowth * (vertices * (sizeof(LightVertex) + sizeof(LightSplat)) + pdfs);
 }
@@ -101,36 +117,60 @@ void LightPass::trace(const Scene& scene, const LightPassPlan& plan, Range range
   }
 }
 
-void LightPass::run(const Scene& scene, const LightPassPlan& plan,
-                    const std::function<void(std::span<const LightSplat>)>& splats,
+void LightPass::append_blocks(const LightPassPlan& plan, uint32_t count) {
+  const auto append = [&](auto& list, const auto& part, const auto& changed) {
+    const std::vector<size_t> begins = make_room(list, count, part);
+    parallel_for(count, plan.threads, [&](size_t i) {
+      std::transform(part(uint32_t(i)).begin(), part(uint32_t(i)).end(),
+                     list.begin() + ptrdiff_t(begins[i]),
+                     [&](const auto& value) { return changed(value, i); });
+    });
+    return begins;
+  };
+  const auto same = [](const auto& value, size_t) { return value; };
+  const auto& blocks = blocks_;
+  if (plan.keep_vertices) {
+    const auto begins = append(
+        vertices_.vertices, [&](uint32_t i) -> auto& { return blocks[i].vertices.vertices; }, same);
+    append(
+        vertices_.ends, [&](uint32_t i) -> auto& { return blocks[i].vertices.ends; },
+        [&](uint32_t end, size_t i) { return uint32_t(begins[i]) + end; });
+    append(
+        vertices_.lengths, [&](uint32_t i) -> auto& { return blocks[i].vertices.lengths; }, same);
+  }
+  if (!plan.windows) return;
+  const auto begins = append(
+      pdf_lists_, [&](uint32_t i) -> auto& { return blocks[i].pdf_lists; }, same);
+  append(
+      pdf_ends_, [&](uint32_t i) -> auto& { return blocks[i].pdf_ends; },
+      [&](uint32_t end, size_t i) { return uint32_t(begins[i]) + end; });
+  append(
+      end_pdfs_, [&](uint32_t i) -> auto& { return blocks[i].end_pdfs; }, same);
+}
+
+void LightPass::run(const Scene& scene, const LightPassPlan& plan, const TakeSplats& splats,
                     RenderCounters& counters) {
   vertices_.clear();
   pdf_lists_.clear();
   pdf_ends_.clear();
   end_pdfs_.clear();
-  blocks_.resize(kBlocksAtATime);
-  for (uint32_t wave = 0; wave < plan.subpaths; wave += kSubpathsPerBlock * kBlocksAtATime) {
+  const uint32_t at_a_time = blocks_at_a_time(plan.threads);
+  blocks_.resize(at_a_time);
+  for (uint32_t wave = 0; wave < plan.subpaths; wave += kSubpathsPerBlock * at_a_time) {
     const uint32_t left = (plan.subpaths - wave + kSubpathsPerBlock - 1) / kSubpathsPerBlock;
-    const uint32_t count = std::min(left, kBlocksAtATime);
+    const uint32_t count = std::min(left, at_a_time);
     parallel_for(count, plan.threads, [&](size_t i) {
       const uint32_t first = wave + uint32_t(i) * kSubpathsPerBlock;
       const uint32_t end = std::min(first + kSubpathsPerBlock, plan.subpaths);
+      Block& block = blocks_[i];
       if (scene.media.empty())
-        trace<PathVertex>(scene, plan, {first, end}, blocks_[i]);
+        trace<PathVertex>(scene, plan, {first, end}, block);
       else
-        trace<MediaVertex>(scene, plan, {first, end}, blocks_[i]);
+        trace<MediaVertex>(scene, plan, {first, end}, block);
+      if (!block.splats.empty()) splats(block.splats, block.counters);
     });
-    for (uint32_t i = 0; i < count; ++i) {
-      const Block& b = blocks_[i];
-      counters.add(b.counters);
-      if (!b.splats.empty()) splats(b.splats);
-      if (plan.keep_vertices) vertices_.append(b.vertices);
-      if (!plan.windows) continue;
-      const uint32_t offset = uint32_t(pdf_lists_.size());
-      pdf_lists_.insert(pdf_lists_.end(), b.pdf_lists.begin(), b.pdf_lists.end());
-      for (const uint32_t e : b.pdf_ends) pdf_ends_.push_back(offset + e);
-      end_pdfs_.insert(end_pdfs_.end(), b.end_pdfs.begin(), b.end_pdfs.end());
-    }
+    for (uint32_t i = 0; i < count; ++i) counters.add(blocks_[i].counters);
+    append_blocks(plan, count);
   }
 }
 

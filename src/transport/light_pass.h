@@ -37,10 +37,11 @@ struct LightSplat {
 /// Runs light passes; keeps its memory from one to the next.
 class LightPass {
  public:
-  /// Traces the plan's sub-paths. `splats` takes what the camera sees, many at a time and always in
-  /// the same order, whatever the number of threads.
-  void run(const Scene& scene, const LightPassPlan& plan,
-           const std::function<void(std::span<const LightSplat>)>& splats,
+  /// Takes what the camera sees of many sub-paths; called from several threads at a time, in any
+  /// order. The counters are its own.
+  using TakeSplats = std::function<void(std::span<const LightSplat>, RenderCounters&)>;
+  /// Traces the plan's sub-paths.
+  void run(const Scene& scene, const LightPassPlan& plan, const TakeSplats& splats,
            RenderCounters& counters);
 
   const LightVertices& vertices() const { return vertices_; }
@@ -77,6 +78,9 @@ class LightPass {
              SubpathPdfs* pdfs, Block& block) const;
   template <class Vertex>
   void trace(const Scene& scene, const LightPassPlan& plan, Range range, Block& block) const;
+
+  /// Adds the results of the first blocks to those of the pass, in their order.
+  void append_blocks(const LightPassPlan& plan, uint32_t count);
 
   std::vector<Block> blocks_;
   LightVertices vertices_;

@@ -106,11 +106,4 @@ MediaVertex LightVertex::unpack(const Scene& scene) const {
                      {throughput, partials, int(depth)});
 }
 
-void LightVertices::append(const LightVertices& o) {
-  const uint32_t first = uint32_t(vertices.size());
-  vertices.insert(vertices.end(), o.vertices.begin(), o.vertices.end());
-  for (const uint32_t e : o.ends) ends.push_back(first + e);
-  lengths.insert(lengths.end(), o.lengths.begin(), o.lengths.end());
-}
-
 }  // namespace duet

@@ -62,7 +62,6 @@ struct LightVertices {
     const uint32_t first = i == 0 ? 0 : ends[i - 1];
     return {list.data() + first, ends[i] - first};
   }
-  void append(const LightVertices& o);
 };
 
 }  // namespace duet

@@ -25,6 +25,7 @@ FilterDescription describe(FilterKind kind) {
 /// Fills a tile with samples that depend on the pixel only, as a renderer does.
 template <class Value>
 void fill_tile(const Film& film, FilmTile& tile, int spp, const Value& value) {
+  SampleAdder sums(tile);
   for (int y = tile.sampled().y0; y < tile.sampled().y1; ++y)
     for (int x = tile.sampled().x0; x < tile.sampled().x1; ++x) {
       Sampler sampler(SampleSequence::independent, 3, 0, uint64_t(y) * 1000 + uint64_t(x));
@@ -34,9 +35,9 @@ void fill_tile(const Film& film, FilmTile& tile, int spp, const Value& value) {
         const Point2f p{float(x) + u.x, float(y) + u.y};
         const std::array<float, 2> v = value(p);
         if (film.filter().is_unit_box())
-          tile.add_to_pixel(x, y, v);
+          sums.add_to_pixel(x, y, v);
         else
-          tile.add_sample(film.filter(), p, v);
+          sums.add_sample(film.filter(), p, v);
       }
     }
 }
@@ -61,12 +62,12 @@ TEST_CASE("samples have a limit, by what a sensor makes of their colours") {
     Film film(layout, {"R", "G", "B", "A"});
     Film other(layout, {"X", "Y", "Z", "A"});
     for (Film* f : {&film, &other}) {
-      FilmTile& tile = f->tiles().front();
+      SampleAdder sums(f->tiles().front());
       for (const std::array<float, 4>& v : {std::array<float, 4>{8, 0, 6, 3}, {3, 1, 100, 5}}) {
         if (f->filter().is_unit_box())
-          tile.add_to_pixel(0, 0, v);
+          sums.add_to_pixel(0, 0, v);
         else
-          tile.add_sample(f->filter(), {0.5f, 0.5f}, v);
+          sums.add_sample(f->filter(), {0.5f, 0.5f}, v);
       }
     }
     // The first is halved, the second is not.
@@ -144,7 +145,7 @@ TEST_CASE("splats beyond the window do not count where the image ends there") {
         const bool beyond = p.x < 8 || p.y < 8 || p.x >= 24 || p.y >= 24;
         splats.push_back({p, Spectrum(beyond ? 100.0f : 1.0f)});
       }
-    film.add_splats(layer, splats, 1.0f / (kPerPixel * kPerPixel), 2);
+    film.add_splats(layer, splats, 1.0f / (kPerPixel * kPerPixel));
     film.end_pass();
     const Image image = film.develop();
     for (size_t i = 0; i < image.data.size(); ++i)
@@ -178,11 +179,11 @@ TEST_CASE("pixels are means weighted by the filter at the distance of the sample
       throw std::runtime_error("no tile");
     };
     if (kind == FilterKind::box) {
-      tile_of(p).add_to_pixel(15, 7, a);
-      tile_of(q).add_to_pixel(16, 6, b);
+      SampleAdder(tile_of(p)).add_to_pixel(15, 7, a);
+      SampleAdder(tile_of(q)).add_to_pixel(16, 6, b);
     } else {
-      tile_of(p).add_sample(film.filter(), p, a);
-      tile_of(q).add_sample(film.filter(), q, b);
+      SampleAdder(tile_of(p)).add_sample(film.filter(), p, a);
+      SampleAdder(tile_of(q)).add_sample(film.filter(), q, b);
     }
     const Image image = film.develop();
     for (int y = 0; y < 40; ++y)
@@ -207,27 +208,27 @@ TEST_CASE("each film counts the same in a mean, however many samples its tiles h
       for (FilmTile& tile : f.tiles()) tile.count_samples(uint32_t(spp));
       return f;
     };
-    std::vector<Film> films{film(2), film(2), film(6)};
+    std::vector<Film> films;
+    for (const int spp : {2, 2, 6}) films.push_back(film(spp));
     fill(films[0], 2, pattern);
     fill(films[1], 2, pattern);
     const Image before = films[0].develop();
     // The same samples three times: the weight of the film must not show.
     for (int i = 0; i < 3; ++i) fill(films[2], 2, pattern);
-    CHECK(Film::mean(std::span(films).first(2)).develop().data == before.data);
-    const Film all = Film::mean(films);
-    const Image mean = all.develop();
+    CHECK(Film::develop(std::span(films).first(2)).data == before.data);
+    const Image mean = Film::develop(films);
     for (size_t i = 0; i < mean.data.size(); ++i)
       CHECK(mean.data[i] == doctest::Approx(before.data[i]).epsilon(1e-6));
-    CHECK(all.tiles()[0].samples() == 10);
 
-    std::vector<Film> unequal{film(1), film(4)};
+    std::vector<Film> unequal;
+    for (const int spp : {1, 4}) unequal.push_back(film(spp));
     fill(unequal[0], 1, [](const Point2f&) { return std::array<float, 2>{1, 0}; });
     fill(unequal[1], 4, [](const Point2f&) { return std::array<float, 2>{3, 0}; });
     if (kind == FilterKind::box) {
-      CHECK(Film::mean(unequal).develop().pixel(5, 5)[0] == doctest::Approx(2));
+      CHECK(Film::develop(unequal).pixel(5, 5)[0] == doctest::Approx(2));
       // One that has no samples yet is not black.
       unequal.push_back(film(0));
-      CHECK(Film::mean(unequal).develop().pixel(5, 5)[0] == doctest::Approx(2));
+      CHECK(Film::develop(unequal).pixel(5, 5)[0] == doctest::Approx(2));
     }
   }
 }
@@ -254,8 +255,8 @@ TEST_CASE("a film without passes does not darken the splats of a mean") {
   }
   const Splat splat{{3.5f, 4.5f}, Spectrum(2.0f)};
   for (size_t i = 0; i < 2; ++i) {
-    films[i].add_splats(0, std::span(&splat, 1), 1, 1);
+    films[i].add_splats(0, std::span(&splat, 1), 1);
     films[i].end_pass();
   }
-  CHECK(Film::mean(films).develop().pixel(3, 4)[0] == 2);
+  CHECK(Film::develop(films).pixel(3, 4)[0] == 2);
 }

@@ -25,12 +25,11 @@ std::string constant_light() {
 }
 
 /// All sums of a film, whose bits the rounding to an image would hide, and the image.
-std::vector<double> sums(const Film& film) {
-  std::vector<double> all;
+std::vector<ExactSum> sums(const Film& film) {
+  std::vector<ExactSum> all;
   for (const FilmTile& tile : film.tiles())
-    all.insert(all.end(), tile.data().begin(), tile.data().end());
-  const Image image = film.develop();
-  all.insert(all.end(), image.data.begin(), image.data.end());
+    all.insert(all.end(), tile.sums().begin(), tile.sums().end());
+  for (const float v : film.develop().data) all.emplace_back().add(double(v));
   return all;
 }
 
@@ -73,7 +72,7 @@ TEST_CASE("the image is the same bit for bit however its samples are divided int
           const auto method = s.method(name, {{"max_depth", "4"}});
           return sums(after_passes(s, *method, layout, passes, tiles));
         };
-        const std::vector<double> whole = render({12});
+        const std::vector<ExactSum> whole = render({12});
         CHECK(std::any_of(whole.begin(), whole.end(), [](double v) { return v > 0; }));
         CHECK(render({1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1}) == whole);
         CHECK(render({1, 2, 4, 5}) == whole);

@@ -37,6 +37,7 @@ class FakeIntegrator final : public Integrator {
                    RenderCounters& counters) const {
     if (milliseconds_ > 0) std::this_thread::sleep_for(std::chrono::milliseconds(milliseconds_));
     const PixelBounds& b = tile.sampled();
+    SampleAdder sums(tile);
     for (uint32_t i = range.first; i < range.first + range.count; ++i)
       for (int y = b.y0; y < b.y1; ++y)
         for (int x = b.x0; x < b.x1; ++x) {
@@ -46,7 +47,7 @@ class FakeIntegrator final : public Integrator {
           const Point2f u = s.next_2d();
           const float v = 1 + float(x % 3) + 2 * (s.next_1d() - 0.5f);
           const float values[3] = {v * brightness_, v * u.x * brightness_, brightness_};
-          tile.add_sample(film.filter(), {float(x) + u.x, float(y) + u.y}, values);
+          sums.add_sample(film.filter(), {float(x) + u.x, float(y) + u.y}, values);
         }
     tile.count_samples(range.count);
     counters.camera_paths += uint64_t(b.width()) * b.height() * range.count;

@@ -41,7 +41,7 @@ MemoryEstimate estimate_memory(const Integrator& integrator, const FilmLayout& l
   Film small({{1, 1}, {0, 0, 1, 1}, layout.filter}, channels);
   integrator.prepare(small);
   const double tiles = Film::tile_bytes(layout, channels.size());
-  const double film = tiles + pixels * small.layer_bytes();
+  const double film = tiles + small.layer_bytes(layout);
   const int films = budget.target_error ? kErrorBatches : 1;
 
   const PixelBytes b = pixel_bytes(integrator, half);
