@@ -53,7 +53,12 @@ SampleAdder::SampleAdder(FilmTile& tile)
       fine_(tile.sums_.size()) {}
 
 void SampleAdder::take(std::span<const float> values) {
-  if (added_ == kSamplesAtATime) flush();
+  if (added_ == kSamplesAtATime) {
+    move_to_tile();
+    std::fill(coarse_.begin(), coarse_.end(), 0.0);
+    std::fill(fine_.begin(), fine_.end(), 0.0);
+    added_ = 0;
+  }
   ++added_;
   std::copy(values.begin(), values.end(), sample_.begin() + 1);
   if (tile_.limit_) {
@@ -99,12 +104,9 @@ void SampleAdder::add_sample(const ReconstructionFilter& filter, const Point2f& 
       [&](int x0, int y, std::span<const float> wx, float wy) { add(tile_.index(x0, y), wx, wy); });
 }
 
-void SampleAdder::flush() {
-  for (size_t i = 0; i < coarse_.size(); ++i) {
+void SampleAdder::move_to_tile() {
+  for (size_t i = 0; i < coarse_.size(); ++i)
     tile_.sums_[i].add_units(std::llrint(coarse_[i] * 0x1p32), std::llrint(fine_[i] * 0x1p64));
-    coarse_[i] = fine_[i] = 0;
-  }
-  added_ = 0;
 }
 
 }  // namespace duet

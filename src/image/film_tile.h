@@ -94,7 +94,7 @@ class FilmTile {
 class SampleAdder {
  public:
   explicit SampleAdder(FilmTile& tile);
-  ~SampleAdder() { flush(); }
+  ~SampleAdder() { move_to_tile(); }
   SampleAdder(const SampleAdder&) = delete;
   SampleAdder& operator=(const SampleAdder&) = delete;
 
@@ -108,13 +108,13 @@ class SampleAdder {
   void take(std::span<const float> values);
   /// Adds the sample to neighbouring pixels with these weights; `at` is where their sums begin.
   void add(size_t at, std::span<const float> weights, float factor);
-  void flush();
+  void move_to_tile();
 
   FilmTile& tile_;
   std::vector<double> sample_;    ///< one, for the sum of weights, and the values of the sample
   std::vector<double> weighted_;  ///< the same for a row of pixels
   bool is_large_ = false;         ///< the sample goes to the tile itself
-  uint32_t added_ = 0;            ///< samples since the last flush
+  uint32_t added_ = 0;            ///< samples since sums were moved to the tile
   std::vector<double> coarse_, fine_;
 };
 

@@ -1,7 +1,6 @@
 #include "integrators/error_estimate.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <utility>
 
@@ -40,16 +39,17 @@ std::optional<double> batch_relative_rmse(const std::vector<Film>& films) {
 
 PartialMeans::PartialMeans(const Film& film) : channels_(color_channels(film)) {
   for (const FilmTile& t : film.tiles()) {
-    before_.emplace_back(t.sums().size());
-    last_.emplace_back(size_t(t.stored().intersect(t.sampled()).width()) *
-                       std::max(0, t.stored().intersect(t.sampled()).height()));
+    const PixelBounds own = t.stored().intersect(t.sampled());
+    const size_t pixels = own.empty() ? 0 : size_t(own.width()) * size_t(own.height());
+    before_.emplace_back(pixels);
+    last_.emplace_back(pixels);
   }
   if (film.splat_layer_count() > 0)
     splats_before_.resize(size_t(film.crop().width()) * size_t(film.crop().height()) * 3);
 }
 
 void PartialMeans::add_part(const Film& film) {
-  std::array<double, 4> now{};  // the weight and the colours
+  Sums now{};
   total_ = weight_ = pixels_ = 0;
   const double passes = film.passes(), new_passes = passes - passes_before_;
   // What the splats of this part alone add to a channel of a pixel; their mean is remembered.
@@ -70,7 +70,7 @@ void PartialMeans::add_part(const Film& film) {
       for (int x = own.x0; x < own.x1; ++x, ++i) {
         const size_t at = tile.index(x, y);
         for (size_t c = 0; c <= size_t(channels_); ++c) now[c] = tile.sums()[at + c].value();
-        const double* then = &before_[k][at];
+        const Sums then = std::exchange(before_[k][i], now);
         weight_ += now[0];
         pixels_ += 1;
         Pixel& last = last_[k][i];
@@ -91,7 +91,6 @@ void PartialMeans::add_part(const Film& film) {
         }
         last.weight = float(w);
       }
-    for (size_t v = 0; v < before_[k].size(); ++v) before_[k][v] = tile.sums()[v].value();
   }
   passes_before_ = passes;
   ++parts_;

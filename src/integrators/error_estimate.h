@@ -1,6 +1,7 @@
 // How far a rendered image may be from its limit, judged from the spread of its parts.
 #pragma once
 
+#include <array>
 #include <optional>
 #include <vector>
 
@@ -19,9 +20,9 @@ std::optional<double> batch_relative_rmse(const std::vector<Film>& films);
 class PartialMeans {
  public:
   explicit PartialMeans(const Film& film);
-  /// Bytes that it takes for a film whose tiles take `tile_bytes`.
-  static double memory_bytes(double tile_bytes, double pixels, bool has_splats) {
-    return tile_bytes + pixels * double(sizeof(Pixel) + (has_splats ? 3 * sizeof(double) : 0));
+  /// Bytes that it takes for a film of so many pixels.
+  static double memory_bytes(double pixels, bool has_splats) {
+    return pixels * double(sizeof(Sums) + sizeof(Pixel) + (has_splats ? 3 * sizeof(double) : 0));
   }
   /// Takes note of what has been added to the film since the last call.
   void add_part(const Film& film);
@@ -32,9 +33,11 @@ class PartialMeans {
     float mean[3];
     float weight;  ///< of the samples in the part
   };
-  std::vector<std::vector<double>> before_;  ///< the sums of each tile at the last call
-  std::vector<std::vector<Pixel>> last_;     ///< the last part's means, of each tile's own pixels
-  std::vector<double> splats_before_;        ///< means of the splats, if the film has any
+  /// Of a pixel: the weight, and the weighted colours.
+  using Sums = std::array<double, 4>;
+  std::vector<std::vector<Sums>> before_;  ///< at the last call, of each tile's own pixels
+  std::vector<std::vector<Pixel>> last_;   ///< the last part's means, of the same pixels
+  std::vector<double> splats_before_;      ///< means of the splats, if the film has any
   double passes_before_ = 0;
   int parts_ = 0;
   int channels_ = 0;

@@ -55,7 +55,7 @@ MemoryEstimate estimate_memory(const Integrator& integrator, const FilmLayout& l
     const double comparing = pixels * (b.sums + films * b.image);
     e.copies = std::max({comparing, film + developing, writing});
   } else {
-    e.copies = PartialMeans::memory_bytes(tiles, pixels, small.splat_layer_count() > 0) +
+    e.copies = PartialMeans::memory_bytes(pixels, small.splat_layer_count() > 0) +
                std::max(developing, writing);
   }
   e.films *= kSlack, e.copies *= kSlack;
