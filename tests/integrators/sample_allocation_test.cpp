@@ -117,7 +117,7 @@ TEST_CASE("samples are dealt out without gaps, in the mean as many as asked for"
 TEST_CASE("a film's samples have no say in how many it gets") {
   Sparks sparks(0.05f), calm(0.5f);
   std::vector<Film> f = films(sparks, 64, 8);
-  const std::vector<Film> other = films(calm, 64, 8);
+  std::vector<Film> other = films(calm, 64, 8);
   const auto dealt = [&](size_t film) {
     SampleAllocation allocation(f);
     allocation.spread();
@@ -128,7 +128,7 @@ TEST_CASE("a film's samples have no say in how many it gets") {
     return counts;
   };
   const auto first = dealt(1), second = dealt(5);
-  for (size_t b = 0; b < 4; ++b) f[b] = other[b];
+  for (size_t b = 0; b < 4; ++b) f[b] = std::move(other[b]);
   CHECK(dealt(1) == first);
   CHECK(dealt(5) != second);
 }
