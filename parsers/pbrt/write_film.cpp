@@ -110,6 +110,7 @@ void SceneWriter::sampler(const SamplerDescription& s) {
   constexpr std::string_view known[] = {"zsobol", "paddedsobol", "sobol",
                                         "halton", "independent", "pmj02bn"};
   const bool is_known = std::find(std::begin(known), std::end(known), s.name) != std::end(known);
+  if (!is_known) lose(fmt::format("the sampler \"{}\" is \"zsobol\" instead", s.name));
   head_text_ += Statement("Sampler", is_known ? s.name : "zsobol")
                     .integer("pixelsamples", s.sample_count)
                     .text();

@@ -6,6 +6,20 @@
 
 namespace duet::pbrt {
 
+namespace {
+
+/// Of a metal, for light along the normal (Fresnel).
+Spectrum normal_reflectance(const Spectrum& eta, const Spectrum& k) {
+  Spectrum r;
+  for (int c = 0; c < 3; ++c) {
+    const float over = eta[c] - 1, under = eta[c] + 1;
+    r[c] = (over * over + k[c] * k[c]) / (under * under + k[c] * k[c]);
+  }
+  return r;
+}
+
+}  // namespace
+
 void SceneWriter::one_sided(const Around& around) {
   if (!around.two_sided)
     lose("what scatters light on one side of a surface only does so on both sides");
@@ -98,14 +112,20 @@ void SceneWriter::write(const DiffuseTransmitterMaterial& m, const std::string& 
 
 void SceneWriter::write(const ConductorMaterial& m, const std::string& name, const Around& around) {
   one_sided(around);
-  lost_factor(m.specular_reflectance, "the factor of a metal's reflection");
   Statement s = named_material(name, "conductor");
   const TextureId* k = std::get_if<TextureId>(&m.k);
   const auto* of_color =
       k ? std::get_if<FunctionDescription>(&d_.textures[size_t(*k)].model) : nullptr;
+  const auto* factor = std::get_if<Spectrum>(&m.specular_reflectance);
+  const auto *eta = std::get_if<Spectrum>(&m.eta), *absorption = std::get_if<Spectrum>(&m.k);
   if (of_color && of_color->function == TextureFunction::metal_k) {
+    lost_factor(m.specular_reflectance, "the factor of a metal's reflection");
     s.refer("reflectance", texture(of_color->inner, true));
+  } else if (factor && *factor != Spectrum(1.0f) && eta && absorption) {
+    lose("a metal's reflection that has a factor is right along the normal only");
+    s.color("reflectance", *factor * normal_reflectance(*eta, *absorption));
   } else {
+    lost_factor(m.specular_reflectance, "the factor of a metal's reflection");
     put(s, "eta", m.eta, false);
     put(s, "k", m.k, false);
   }

@@ -51,6 +51,9 @@ TriangleMesh moved(TriangleMesh mesh, const Matrix4& by) {
   return mesh;
 }
 
+constexpr std::string_view kStraight =
+    "a shape away from its own origin moves straight ahead where it should turn";
+
 bool has_own_normals(const ShapeDescription& s) {
   const auto* mesh = std::get_if<MeshShape>(&s.geometry);
   return std::holds_alternative<RectangleShape>(s.geometry) ||
@@ -157,6 +160,7 @@ void SceneWriter::geometry(const ShapeDescription& s, const FloatInput& alpha, c
 
 void SceneWriter::shape(const ShapeDescription& s, bool in_group) {
   if (const auto* instance = std::get_if<InstanceShape>(&s.geometry)) {
+    if (!s.motion.empty() && !(s.to_world == Matrix4{})) lose(std::string(kStraight));
     world_text_ += "AttributeBegin\n";
     place(world_text_, s.to_world, s.motion);
     world_text_ += fmt::format("ObjectInstance {}\nAttributeEnd\n",
@@ -179,7 +183,7 @@ void SceneWriter::shape(const ShapeDescription& s, bool in_group) {
     if (is_mesh || quadric(s, to_world))
       std::swap(own, to_world);
     else if (!(to_world == Matrix4{}))
-      lose("a shape away from its own origin moves straight ahead where it should turn");
+      lose(std::string(kStraight));
   }
   world_text_ += "AttributeBegin\n" + media(s.interior, s.exterior);
   world_text_ += fmt::format("NamedMaterial {}\n", Statement::quoted(surface.material));

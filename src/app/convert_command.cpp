@@ -38,14 +38,15 @@ void check_output(const std::string& in, const std::string& out) {
   std::error_code ignored;
   if (!fs::is_directory(folder, ignored))
     throw UsageError(fmt::format("{}: there is no folder {}", out, folder.string()));
+  if (fs::exists(out, ignored) && !fs::is_regular_file(out, ignored))
+    throw UsageError(fmt::format("{} exists and is not a regular file", out));
 }
 
-/// Files beside the scene must not take the place of others by accident. The scene, which was
-/// named, may.
-void check_new_files(const ConvertedScene& converted, const std::string& out) {
+/// Nothing takes the place of another file by accident: scenes and meshes are often made by hand.
+void check_new_files(const ConvertedScene& converted) {
   for (const ConvertedFile& file : converted.files) {
     std::error_code ignored;
-    if (file.path == out || !fs::exists(file.path, ignored)) continue;
+    if (!fs::exists(file.path, ignored)) continue;
     std::ifstream stream(file.path, std::ios::binary);
     if (std::string(std::istreambuf_iterator<char>(stream), {}) != file.bytes)
       throw SceneFailure(fmt::format(
@@ -61,7 +62,7 @@ int convert(const ConvertOptions& o, Program& program) {
   try {
     const LoadedScene scene = load_scene(in, o.read, program);
     const ConvertedScene converted = convert_scene(scene.description, o.out);
-    if (!o.overwrite) check_new_files(converted, o.out);
+    if (!o.overwrite) check_new_files(converted);
     for (const std::string& loss : converted.losses) program.log.warning("{}: lost: {}", in, loss);
     if (o.read.strict && !converted.losses.empty()) throw SceneFailure(converted.losses[0], true);
     for (const ConvertedFile& file : converted.files) write_file_atomically(file.path, file.bytes);
@@ -83,11 +84,11 @@ void add_convert_command(CLI::App& app, Program& program) {
   c->get_option("scene")->expected(1)->allow_extra_args(false);
   c->add_option("output", o->out, "A .xml file (Mitsuba 3) or a .pbrt file (pbrt-v4)")->required();
   c->add_flag("--overwrite", o->overwrite,
-              "Replace files beside the output, too: meshes, grids and images of another content");
+              "Replace files that exist with another content: the output and those beside it");
   c->footer(
-      "The output is replaced if it exists. Files that the scene names are named by it, too, and "
-      "not copied. Meshes, grids, curves and environments that have no file, or none that the "
-      "format can use, are written beside it; their names begin with that of the output.\n"
+      "Files that the scene names are named by the output, too, and not copied. Meshes, grids, "
+      "curves and environments that have no file, or none that the format can use, are written "
+      "beside it; their names begin with that of the output.\n"
       "What the format cannot express is a warning, \"lost: ...\", and a comment in the file. "
       "With --strict nothing is written then, and the exit code is 1.\n"
       "Examples:\n"

@@ -203,7 +203,10 @@ end_header
     refused("out.obj", 2, "must end in .xml or .pbrt");
     refused("none/out.xml", 2, "there is no folder");
     std::filesystem::create_directory(place.path("folder.xml"));
-    refused("folder.xml", 1, "is not a regular file");
+    refused("folder.xml", 2, "is not a regular file");
+    place.write("other.xml", "by hand");
+    refused("other.xml", 1, "other.xml exists already");
+    CHECK(read_file(place.path("other.xml")) == "by hand");
     CHECK(place.run({"convert", "in.xml"}).code == 2);
     CHECK(place.run({"convert", "none.xml", "out.pbrt"}).code == 1);
     CHECK(!place.has("out.pbrt"));

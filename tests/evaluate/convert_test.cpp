@@ -10,6 +10,7 @@
 #include "pbrt/pbrt.h"
 #include "scene/build.h"
 #include "support/files.h"
+#include "support/images.h"
 
 using namespace duet;
 using namespace duet::test;
@@ -168,4 +169,55 @@ TEST_CASE("convert: meshes, curves and grids without a file get one, with the sa
   REQUIRE(b.volumes.size() == 1);
   CHECK(a.volumes.at(0).grid->values == b.volumes.at(0).grid->values);
   CHECK(a.volumes.at(0).to_world == b.volumes.at(0).to_world);
+}
+
+TEST_CASE(
+    "convert: numbers and linear values of images are those of the other format if it has them") {
+  const TemporaryDirectory folder;
+  folder.write("grey.png", png(2, 1, 8, 0, std::string("\0\x40\xc0", 3)));
+  folder.write("equal.png", png(1, 1, 8, 2, std::string("\0\x40\x40\x40", 4)));
+  folder.write("red.png", png(1, 1, 8, 2, std::string("\0\x40\0\0", 4)));
+  const auto scene = [](const std::string& image) {
+    return kHead +
+           "WorldBegin\nTexture \"t\" \"float\" \"imagemap\" \"string encoding\" "
+           "\"linear\" \"string filename\" \"" +
+           image +
+           "\"\n"
+           "Material \"conductor\" \"texture roughness\" \"t\" \"bool remaproughness\" false\n"
+           "Shape \"sphere\"\n";
+  };
+  for (const std::string image : {"grey.png", "equal.png", "red.png"}) {
+    CAPTURE(image);
+    folder.write("in.pbrt", scene(image));
+    // Of a red image Mitsuba takes the luminance, and pbrt the mean.
+    const SceneDescription xml =
+        converted(folder, "in.pbrt", "out.xml", image == "red.png" ? 1 : 0);
+    const auto& b = std::get<BitmapTexture>(xml.textures.at(0).model);
+    CHECK(b.raw);
+    CHECK(b.channel == TextureChannel::all);
+    const SceneDescription back =
+        converted(folder, "out.xml", "b.pbrt", image == "red.png" ? 1 : 0);
+    CHECK(std::get<BitmapTexture>(back.textures.at(0).model).channel == TextureChannel::number);
+  }
+}
+
+TEST_CASE("convert: what a grid has at its faces is lost where the format goes on beyond them") {
+  const TemporaryDirectory folder;
+  const auto losses = [&](const std::string& values) {
+    SceneDescription d;
+    VolumeGrid grid;
+    grid.size = {3, 3, 3};
+    grid.channels = 1;
+    grid.values.assign(27, 0.0f);
+    grid.values[13] = 1;
+    if (values == "full") grid.values[0] = 1;
+    VolumeDescription v;
+    v.grid = std::make_shared<const VolumeGrid>(grid);
+    v.nodes_on_faces = true;
+    d.volumes.push_back(v);
+    d.integrator.method = PathIntegratorDescription{};
+    return convert_scene(d, folder.path("out.xml")).losses.size();
+  };
+  CHECK(losses("empty") == 0);
+  CHECK(losses("full") == 1);
 }

@@ -4,6 +4,7 @@
 #include "curves/curves_writer.h"
 #include "evaluate/convert/new_files.h"
 #include "mesh/ply_writer.h"
+#include "pbrt/grid_cells.h"
 #include "volume/vol_writer.h"
 
 namespace duet {
@@ -35,7 +36,7 @@ void shape_files(ShapeDescription& s, NewFiles& files) {
     curves->file = files.add("curves", "txt", curves_text(*curves->curves));
 }
 
-void volume_file(VolumeDescription& v, NewFiles& files) {
+void volume_file(VolumeDescription& v, NewFiles& files, std::vector<std::string>& losses) {
   const auto& n = v.grid->size;
   if (v.nodes_on_faces && v.file.empty()) {
     // The same nodes half a cell within a box that is larger by that.
@@ -44,6 +45,8 @@ void volume_file(VolumeDescription& v, NewFiles& files) {
     v.to_world = v.to_world * Matrix4::translate(-half[0], -half[1], -half[2]) *
                  Matrix4::scale(1 + 2 * half[0], 1 + 2 * half[1], 1 + 2 * half[2]);
     v.nodes_on_faces = false;
+    if (!pbrt::GridCells(v).fades())
+      losses.emplace_back("a grid goes on for half a cell beyond its outermost values");
   }
   if (v.file.empty() && v.grid->node_count() > 1) {
     VolumeGrid grid = *v.grid;
@@ -126,9 +129,10 @@ void move_exposure_to_lights(SceneDescription& scene) {
 void prepare_for_mitsuba(SceneDescription& scene, NewFiles& files,
                          std::vector<std::string>& losses) {
   move_exposure_to_lights(scene);
+  settle_images_for_mitsuba(scene);
   for (LightDescription& l : scene.lights) environment(scene, l, files, losses);
   for_each_shape(scene, [&](ShapeDescription& s) { shape_files(s, files); });
-  for (VolumeDescription& v : scene.volumes) volume_file(v, files);
+  for (VolumeDescription& v : scene.volumes) volume_file(v, files, losses);
 }
 
 }  // namespace duet

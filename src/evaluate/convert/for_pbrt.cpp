@@ -76,6 +76,7 @@ void environment_file(SceneDescription& scene, LightDescription& l, NewFiles& fi
 }  // namespace
 
 void prepare_for_pbrt(SceneDescription& scene, NewFiles& files, std::vector<std::string>& losses) {
+  settle_images_for_pbrt(scene);
   for (LightDescription& l : scene.lights) environment_file(scene, l, files, losses);
   for_each_shape(scene, [&](ShapeDescription& s) { mesh_file(s, files); });
 }

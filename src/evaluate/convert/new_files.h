@@ -57,6 +57,11 @@ void prepare_for_mitsuba(SceneDescription& scene, NewFiles& files,
 /// The same for pbrt-v4.
 void prepare_for_pbrt(SceneDescription& scene, NewFiles& files, std::vector<std::string>& losses);
 
+/// Gives image textures the form that the format has for what they say, where it has one: numbers
+/// that are the same by the rules of both, and values that are no colours.
+void settle_images_for_mitsuba(SceneDescription& scene);
+void settle_images_for_pbrt(SceneDescription& scene);
+
 /// Radiance of an environment of the scene, without its transform: in a form that can be looked up.
 enum class EnvironmentForm {
   latitude_longitude,  ///< as Mitsuba's `envmap` has it
