@@ -5,6 +5,7 @@
 #include <fstream>
 
 #include "values/text.h"
+#include "volume/volume_file.h"
 
 namespace duet {
 
@@ -48,7 +49,7 @@ FileAccess with_disk(FileAccess access) {
     access.read_obj_parts = [](const std::string& path, const MeshOptions& options) {
       return read_obj_parts(path, options);
     };
-  if (!access.read_volume) access.read_volume = read_vol;
+  if (!access.read_volume) access.read_volume = read_volume;
   if (!access.read_ellipsoids)
     access.read_ellipsoids = [](const std::string& path) { return read_ellipsoids(path); };
   if (!access.read_measured)

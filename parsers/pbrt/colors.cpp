@@ -19,29 +19,57 @@ std::optional<double> constant_value(const std::vector<SpectrumSample>& samples)
   return samples.front().value;
 }
 
+/// Whether the light is within so few wavelengths that products of colours mean little: an even
+/// spectrum of the same integrals of its values and of their squares would be narrower than 100 nm.
+bool is_narrow(const std::vector<SpectrumSample>& samples) {
+  double sum = 0, squares = 0;
+  size_t next = 0;
+  for (int wavelength = 380; wavelength <= 780; ++wavelength) {
+    while (next < samples.size() && samples[next].wavelength < wavelength) ++next;
+    if (next == samples.size()) break;
+    const SpectrumSample& b = samples[next];
+    double value = b.wavelength == wavelength ? b.value : 0;
+    if (next > 0 && b.wavelength > wavelength) {
+      const SpectrumSample& a = samples[next - 1];
+      const double t = (wavelength - a.wavelength) / (b.wavelength - a.wavelength);
+      value = a.value + t * (b.value - a.value);
+    }
+    sum += value, squares += value * value;
+  }
+  return sum * sum < 100 * squares;
+}
+
+/// Lamps of three narrow bands.
+bool is_narrow_illuminant(std::string_view name) {
+  return name == "stdillum-F10" || name == "stdillum-F11" || name == "stdillum-F12";
+}
+
 }  // namespace
+
+Spectrum Reader::triple_color(const Parameter& p, ColorMeaning meaning) {
+  const bool bounded = meaning == ColorMeaning::reflectance && p.type == Type::rgb;
+  bool outside = false;
+  for (const double x : p.numbers) {
+    if (!bounded || (x >= 0 && x <= 1)) continue;
+    outside = true;
+    if (version_ == Version::v3) continue;
+    report_.error(p.where, "parameter \"{}\": a reflectance is from 0 to 1, not {}", p.name, x);
+    return Spectrum(0.0f);
+  }
+  Spectrum color = color_from_triple(p, meaning, film_color_space);
+  if (!outside) return color;
+  report_.warning(p.where, "parameter \"{}\": a reflectance is from 0 to 1; negative ones are 0",
+                  p.name);
+  for (int c = 0; c < 3; ++c) color[c] = std::max(color[c], 0.0f);
+  return color;
+}
 
 Spectrum Reader::constant_color(const Parameter& p, ColorMeaning meaning) {
   const auto fail = [&](const std::string& why) {
     report_.error(p.where, "parameter \"{}\": {}", p.name, why);
     return Spectrum(0.0f);
   };
-  if (p.type == Type::rgb || p.type == Type::xyz) {
-    const bool bounded = meaning == ColorMeaning::reflectance && p.type == Type::rgb;
-    bool outside = false;
-    for (const double x : p.numbers) {
-      if (!bounded || (x >= 0 && x <= 1)) continue;
-      outside = true;
-      if (version_ == Version::v4)
-        return fail(fmt::format("a reflectance is from 0 to 1, not {}", x));
-    }
-    Spectrum color = color_from_triple(p, meaning, film_color_space);
-    if (!outside) return color;
-    report_.warning(p.where, "parameter \"{}\": a reflectance is from 0 to 1; negative ones are 0",
-                    p.name);
-    for (int c = 0; c < 3; ++c) color[c] = std::max(color[c], 0.0f);
-    return color;
-  }
+  if (p.type == Type::rgb || p.type == Type::xyz) return triple_color(p, meaning);
   if (p.type == Type::blackbody) {
     if (p.numbers[0] <= 0) return fail("a black body has a positive temperature");
     // v3 has a scale behind each temperature.
@@ -56,7 +84,11 @@ Spectrum Reader::constant_color(const Parameter& p, ColorMeaning meaning) {
     const std::string& name = p.strings.front();
     if (const auto metal = find_metal(name)) return in_working_space(*metal, film_color_space);
     if (const auto glass = find_glass(name)) return Spectrum(float(*glass));
-    if (const auto light = find_illuminant(name)) return in_working_space(*light, film_color_space);
+    if (const auto light = find_illuminant(name)) {
+      if (is_narrow_illuminant(name))
+        approximate(p.where, fmt::format("the narrow bands of {} by their colour", name));
+      return in_working_space(*light, film_color_space);
+    }
     const std::string path = spectrum_file(name, p.where);
     if (path.empty()) return Spectrum(0.0f);
     try {
@@ -74,6 +106,8 @@ Spectrum Reader::constant_color(const Parameter& p, ColorMeaning meaning) {
     return meaning == ColorMeaning::emission
                ? in_working_space(equal_energy_rgb(*constant), film_color_space)
                : Spectrum(float(*constant));
+  if (is_narrow(samples))
+    approximate(p.where, fmt::format("the narrow spectrum \"{}\" by its colour", p.name));
   return in_working_space(spectrum_to_rgb(samples, meaning), film_color_space);
 }
 

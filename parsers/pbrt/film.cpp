@@ -6,6 +6,7 @@
 #include "pbrt/records.h"
 #include "pbrt/values.h"
 #include "pbrt/vocabulary.h"
+#include "values/text.h"
 
 namespace duet::pbrt {
 
@@ -38,7 +39,7 @@ constexpr Spec kGbufferFilm[] = {
     {"iso", kNumber, "100"},
     {"whitebalance", kNumber, "0"},
     {"sensor", kString, "cie1931"},
-    {"coordinatesystem", kString, "camera", "", 1, inert},
+    {"coordinatesystem", kString, "camera", "of P, N and Ns: camera is approximated by world"},
 };
 constexpr Spec kSpectralFilm[] = {
     DUET_FILM_SPECS,
@@ -132,7 +133,9 @@ void read_crop(Values& v, FilmDescription& film) {
 
 constexpr Record<int> kFilms[] = {
     {"rgb", Versions::v4, done, "", kRgbFilm, 1},
-    {"gbuffer", Versions::v4, approximated, "without its further layers", kGbufferFilm, 1},
+    {"gbuffer", Versions::v4, approximated,
+     "with the layers Albedo, P, N, Ns and uv; without dzdx, dzdy, Variance and RelativeVariance",
+     kGbufferFilm, 1},
     {"spectral", Versions::v4, approximated, "by its colours alone", kSpectralFilm, 1},
     {"image", Versions::v3, done, "", kImageFilm, 1},
 };
@@ -205,6 +208,23 @@ void read_filter(Reader& reader, FilmDescription& film) {
   }
 }
 
+/// The layers of a gbuffer that there are.
+void add_layers(Values& v, IntegratorDescription& integrator) {
+  const std::string system = v.string("coordinatesystem");
+  if (system == "camera")
+    v.reader().approximate(v.where("coordinatesystem"),
+                           "the layers P, N and Ns in the coordinates of the world");
+  else if (system != "world")
+    v.reader().report().error(v.where("coordinatesystem"),
+                              "a gbuffer's coordinate system is camera or world, not {}",
+                              in_quotes(system));
+  integrator.aovs.layers = {{"albedo", "Albedo"},
+                            {"position", "P"},
+                            {"geo_normal", "N"},
+                            {"sh_normal", "Ns"},
+                            {"uv", "uv"}};
+}
+
 }  // namespace
 
 void read_film(Reader& reader, SensorDescription& sensor, double exposure_time) {
@@ -230,6 +250,7 @@ void read_film(Reader& reader, SensorDescription& sensor, double exposure_time) 
   if (reader.version() == Version::v3 || !v.boolean("savefp16"))
     film.component_format = ComponentFormat::single;
   sensor.lenses.film_diagonal = 1e-3 * v.positive("diagonal");
+  if (record->name == "gbuffer") add_layers(v, reader.scene().integrator);
   read_crop(v, film);
   read_response(v, film, exposure_time);
 }

@@ -129,6 +129,7 @@ class Reader {
   uint8_t film_color_space = 0;
 
  private:
+  Spectrum triple_color(const Parameter& p, ColorMeaning meaning);
   std::string spectrum_file(const std::string& name, const SourceLocation& where);
   bool is_awaited(MaterialId material) const;
   void finish_shapes();

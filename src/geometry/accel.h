@@ -38,12 +38,16 @@ class Accel {
 
  private:
   struct Device;
+  void set_lead(const std::vector<Shape>& shapes, ShapeRange top);
+
   std::unique_ptr<Device> device_;
   /// Copies of what the queries need, so that they follow one pointer less.
   void* scene_ = nullptr;
   uint32_t top_first_ = 0, top_count_ = 0;
   const std::vector<ShapeRange>* groups_ = nullptr;
   const std::vector<Instance>* instances_ = nullptr;
+  /// How far before their origin rays begin for Embree, which keeps what it finds there to itself.
+  float lead_ = 0;
 };
 
 }  // namespace duet

@@ -165,6 +165,7 @@ Accel::Accel(const std::vector<Shape>& shapes, ShapeRange top,
       attach(s, make_geometry(device, shapes[group.first + i]), i);
     rtcCommitScene(s);
   }
+  set_lead(shapes, top);
   for (uint32_t i = 0; i < instances.size(); ++i) {
     RTCGeometry g = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_INSTANCE);
     rtcSetGeometryInstancedScene(g, device_->scenes[1 + instances[i].group]);
@@ -179,6 +180,24 @@ Accel::Accel(const std::vector<Shape>& shapes, ShapeRange top,
 }
 
 Accel::~Accel() = default;
+
+void Accel::set_lead(const std::vector<Shape>& shapes, ShapeRange top) {
+  // Embree takes no notice of a ribbon within twice its radius from where a ray begins.
+  const auto widest = [&](ShapeRange range) {
+    float radius = 0;
+    for (uint32_t i = range.first; i < range.first + range.count; ++i)
+      if (shapes[i].kind == ShapeKind::curves && shapes[i].curves->profile != CurveProfile::tube)
+        for (const TubePoint& p : shapes[i].curves->points) radius = std::max(radius, p.radius);
+    return radius;
+  };
+  constexpr float kRadii = 2.5f;
+  lead_ = kRadii * widest(top);
+  std::vector<float> of_group;
+  for (const ShapeRange& group : *groups_) of_group.push_back(widest(group));
+  for (const Instance& i : *instances_)
+    if (const float radius = of_group[i.group]; radius > 0)
+      lead_ = std::max(lead_, kRadii * radius * i.scale);
+}
 
 void Accel::update(std::span<const uint32_t> shapes, std::span<const uint32_t> instances) {
   RTCScene scene = device_->scenes[0];
@@ -199,13 +218,19 @@ void Accel::update(std::span<const uint32_t> shapes, std::span<const uint32_t> i
 
 namespace {
 
-inline void set_ray(RTCRay& r, const Ray& ray) {
+/// `lead`: Accel::lead_.
+inline void set_ray(RTCRay& r, const Ray& ray, float lead) {
   // Embree reads origin and direction as vectors of four: what is written piece by piece and read
   // as a whole has to wait until it has left the store buffer.
   using Four [[gnu::vector_size(16), gnu::may_alias]] = float;
   *reinterpret_cast<Four*>(&r.org_x) = Four{ray.origin.x, ray.origin.y, ray.origin.z, 0};
   *reinterpret_cast<Four*>(&r.dir_x) = Four{ray.direction.x, ray.direction.y, ray.direction.z, 0};
   r.tfar = ray.tmax;
+  if (lead > 0) {
+    const Point3f origin = ray.origin - ray.direction * lead;
+    *reinterpret_cast<Four*>(&r.org_x) = Four{origin.x, origin.y, origin.z, lead};
+    r.tfar += lead;
+  }
   r.mask = ~0u, r.id = 0, r.flags = 0;
 }
 
@@ -213,7 +238,7 @@ inline void set_ray(RTCRay& r, const Ray& ray) {
 
 bool Accel::closest_hit(const Ray& ray, Hit& hit) const {
   RTCRayHit rh;
-  set_ray(rh.ray, ray);
+  set_ray(rh.ray, ray, lead_);
   rh.hit.geomID = RTC_INVALID_GEOMETRY_ID;
   rh.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
 #if RTC_VERSION_MAJOR >= 4
@@ -224,7 +249,7 @@ bool Accel::closest_hit(const Ray& ray, Hit& hit) const {
   rtcIntersect1(static_cast<RTCScene>(scene_), &context, &rh);
 #endif
   if (rh.hit.geomID == RTC_INVALID_GEOMETRY_ID) return false;
-  hit.t = rh.ray.tfar;
+  hit.t = rh.ray.tfar - lead_;
   hit.u = rh.hit.u;
   hit.v = rh.hit.v;
   hit.primitive = rh.hit.primID;
@@ -240,7 +265,7 @@ bool Accel::closest_hit(const Ray& ray, Hit& hit) const {
 
 bool Accel::occluded(const Ray& ray) const {
   RTCRay r;
-  set_ray(r, ray);
+  set_ray(r, ray, lead_);
 #if RTC_VERSION_MAJOR >= 4
   rtcOccluded1(static_cast<RTCScene>(scene_), &r);
 #else

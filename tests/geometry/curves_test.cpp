@@ -249,6 +249,12 @@ TEST_SUITE("curves") {
     REQUIRE(flat.hit({{5, 5, 0.05f}, normalize(Vector3f(-1, -1, 0)), INFINITY}, s, t));
     CHECK(near(Vector3f(s.ng), {0, 1, 0}));
     CHECK(s.position.x == doctest::Approx(0).scale(1));
+    // From close by, too.
+    REQUIRE(flat.hit({{0, 0.05f, 0.02f}, {0, 0, -1}, INFINITY}, s, t));
+    CHECK(t == doctest::Approx(0.02).epsilon(1e-3));
+    CHECK(flat.accel->occluded({{0, 0.05f, 0.02f}, {0, 0, -1}, 0.03f}));
+    CHECK_FALSE(flat.accel->occluded({{0, 0.05f, 0.02f}, {0, 0, -1}, 0.01f}));
+    CHECK_FALSE(flat.accel->occluded({{0, 0.05f, -0.001f}, {0, 0, -1}, INFINITY}));
     // A quarter from its edge the normal of the other kind has turned by an eighth of a circle.
     REQUIRE(round.hit({{0, 0.05f, 5}, {0, 0, -1}, INFINITY}, s, t));
     const float h = std::sqrt(0.5f);

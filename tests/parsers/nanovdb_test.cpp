@@ -10,7 +10,9 @@
 #include <random>
 
 #include "base/diagnostics.h"
+#include "mitsuba/mitsuba.h"
 #include "support/files.h"
+#include "volume/volume_file.h"
 
 using namespace duet;
 
@@ -125,4 +127,52 @@ TEST_CASE("damaged NanoVDB files never lead astray") {
     }
   }
   CHECK(refused > 10);
+}
+
+TEST_CASE("NanoVDB files are grids of Mitsuba's media") {
+  const test::TemporaryDirectory directory;
+  directory.write("a.nvdb", file_of());
+  const auto read = [&](const std::string& version, const std::string& more) {
+    const std::string file = directory.write(
+        "scene.xml", "<scene version='" + version +
+                         "'><sensor type='perspective'/><shape type='cube'><medium name='interior' "
+                         "type='heterogeneous'><volume name='" +
+                         (version[0] == '0' ? "density" : "sigma_t") +
+                         "' type='gridvolume'><string name='filename' value='a.nvdb'/>" + more +
+                         "</volume><volume name='albedo' type='constvolume'><float name='value' "
+                         "value='.5'/></volume></medium></shape></scene>");
+    Diagnostics diagnostics;
+    auto scene = read_mitsuba(file, {}, diagnostics);
+    REQUIRE(scene);
+    REQUIRE(scene->description.volumes.size() == 1);
+    return scene->description.volumes[0];
+  };
+  // Where the file says, if the scene asks for that, as for .vol files.
+  const NanoVdbGrid expected = parse(file_of());
+  for (const VolumeDescription& v :
+       {read("0.6.0", ""), read("3.0.0", "<boolean name='use_grid_bbox' value='true'/>")}) {
+    CHECK(v.grid->values == expected.grid.values);
+    CHECK(v.nodes_on_faces);
+    CHECK_FALSE(v.is_float32);
+    for (int i = 0; i < 3; ++i)
+      for (int j = 0; j < 4; ++j)
+        CHECK(v.to_world[i][j] == doctest::Approx(expected.to_world[i][j]));
+  }
+  CHECK(read("3.0.0", "").to_world == Matrix4{});
+  CHECK(read("3.0.0", "").nodes_on_faces);
+}
+
+TEST_CASE("NanoVDB files that lie askew are no grids of Mitsuba's") {
+  const test::TemporaryDirectory directory;
+  nanovdb::GridBuilder<float> builder(0.0f, nanovdb::GridClass::FogVolume);
+  builder.getAccessor().setValue({0, 0, 0}, 1);
+  nanovdb::Map turned;
+  const double matrix[4][4] = {{0, 1, 0, 0}, {-1, 0, 0, 0}, {0, 0, 1, 0}, {0, 0, 0, 1}};
+  turned.set(matrix, matrix, 1.0);
+  std::vector<nanovdb::GridHandle<>> grids;
+  grids.push_back(builder.getHandle(turned, "density"));
+  nanovdb::io::writeGrids<nanovdb::HostBuffer, std::vector>(directory.path("b.NVDB"), grids,
+                                                            nanovdb::io::Codec::NONE);
+  CHECK_THROWS_WITH_AS(read_volume(directory.path("b.NVDB")),
+                       doctest::Contains("the grid does not lie along the axes"), ReadError);
 }

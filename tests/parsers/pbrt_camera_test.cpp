@@ -1,6 +1,9 @@
 // Cameras of real lenses and films with layers in pbrt files.
 #include <doctest/doctest.h>
 
+#include <algorithm>
+#include <cmath>
+
 #include "pbrt/pbrt.h"
 #include "support/transport_scene.h"
 
@@ -75,7 +78,7 @@ TEST_CASE("pbrt's realistic camera: lens files and parameters") {
 
 TEST_CASE("pbrt's realistic camera: what is wrong with a lens file is said with its place") {
   check_message(realistic(kLens + "7 8\n", ""),
-                "lens.dat:5:1: error: a lens file has four numbers");
+                "lens.dat:6:1: error: a lens file has four numbers");
   check_message(realistic("# nothing\n", ""), "not 0 in all");
   check_message(realistic("50 4 nan 24\n", ""), "lens.dat:1:6: error: a lens file holds nothing");
   check_message(realistic("50 4 1e999 24\n", ""), "lens.dat:1:6: error:");
@@ -86,7 +89,7 @@ TEST_CASE("pbrt's realistic camera: what is wrong with a lens file is said with 
                 "scene.pbrt:1:20: warning: the lens file has no stop", true);
   check_message(realistic(kLens, "\"float aperturediameter\" 20"),
                 "the lens's stop opens to 16 mm at most, not 20", true);
-  check_message(realistic(kLens, "\"float aperturediameter\" -1"), "scene.pbrt:1:51: error:");
+  check_message(realistic(kLens, "\"float aperturediameter\" -1"), "scene.pbrt:1:49: error:");
   check_message(realistic(kLens, "\"string aperture\" \"hexagon.png\""), "hexagon.png");
   const TemporaryDirectory folder;
   for (const char* parameters : {"\"string lensfile\" \"none.dat\"", ""}) {
@@ -100,7 +103,7 @@ TEST_CASE("pbrt's realistic camera: what is wrong with a lens file is said with 
   }
 }
 
-TEST_CASE("pbrt's realistic camera: lenses that cannot be focused, or block all light") {
+TEST_CASE("pbrt's realistic camera: lenses that cannot be focused") {
   const auto build = [](const CameraFile& f) {
     REQUIRE(f.scene);
     Diagnostics diagnostics;
@@ -111,10 +114,6 @@ TEST_CASE("pbrt's realistic camera: lenses that cannot be focused, or block all 
   CHECK(build(realistic(kLens, "\"float focusdistance\" .1"))
             .find("scene.pbrt:1:1: error: these lenses cannot be focused 0.1 before the film") !=
         std::string::npos);
-  // Steeper than any light can leave it.
-  const CameraFile blocked =
-      realistic("50 4 1.5 24\n-50 2 1 24\n0 400 1 1\n2 0.1 1.5 0.0001\n0 40 0 16\n", "");
-  REQUIRE(blocked.scene);
 }
 
 TEST_CASE("realistic cameras are rendered by the methods that send rays from the camera") {
@@ -143,4 +142,75 @@ TEST_CASE("realistic cameras are rendered by the methods that send rays from the
   check_support(realistic(kLens, open).scene->sensors.at(0), ptracer, diagnostics);
   REQUIRE(diagnostics.has_errors());
   CHECK(diagnostics.all()[0].message.find("needs a sensor") != std::string::npos);
+}
+
+TEST_CASE("pbrt's gbuffer: its layers are in the image, and what is missing is said") {
+  const auto gbuffer = [](const std::string& parameters) {
+    const TemporaryDirectory folder;
+    const std::string file = folder.write(
+        "scene.pbrt",
+        "LookAt 0 0 -5 0 0 0 0 1 0\nFilm \"gbuffer\" \"integer xresolution\" 8 \"integer "
+        "yresolution\" 8 " +
+            parameters +
+            "\nPixelFilter \"box\"\nWorldBegin\nLightSource \"infinite\"\n"
+            "Material \"diffuse\" \"rgb reflectance\" [.2 .4 .6]\n"
+            "Shape \"bilinearmesh\" \"point3 P\" [-9 -9 1  9 -9 1  -9 9 1  9 9 1]\n");
+    Diagnostics diagnostics;
+    auto read = pbrt::read_pbrt(file, {}, diagnostics);
+    CameraFile out;
+    if (read) out.scene = std::move(read->description);
+    for (const Diagnostic& d : diagnostics.all()) out.messages += d.to_string() + "\n";
+    return out;
+  };
+  CameraFile f = gbuffer("\"string coordinatesystem\" \"world\"");
+  REQUIRE(f.scene);
+  REQUIRE(f.scene->approximations.size() == 1);
+  CHECK(f.scene->approximations[0].message.find(
+            "without dzdx, dzdy, Variance and RelativeVariance") != std::string::npos);
+  CHECK(gbuffer("").scene->approximations.size() == 2);
+  check_message(gbuffer("\"string coordinatesystem\" \"render\""), "camera or world");
+  const TransportScene scene(*std::move(f.scene));
+  const auto integrator = scene.method("path", {});
+  const std::vector<std::string> names = integrator->channels();
+  const Image image = scene.render(*integrator, scene.layout, 4, 1).image;
+  const auto value = [&](const std::string& name) {
+    const auto at = std::find(names.begin(), names.end(), name);
+    REQUIRE(at != names.end());
+    return image.data[size_t(at - names.begin()) + 36 * names.size()];
+  };
+  CHECK(value("Albedo.G") == doctest::Approx(0.4));
+  CHECK(value("P.Z") == doctest::Approx(1));
+  CHECK(std::abs(value("N.Z")) == doctest::Approx(1));
+  CHECK(value("Ns.Z") == doctest::Approx(double(value("N.Z"))));
+  // In the middle.
+  CHECK(value("uv.U") == doctest::Approx(0.5).epsilon(0.1));
+}
+
+TEST_CASE("pbrt: what colours cannot say of spectra is listed as approximated") {
+  const auto approximated = [](const std::string& world, const std::string& film = "") {
+    const TemporaryDirectory folder;
+    Diagnostics diagnostics;
+    const auto read = pbrt::read_pbrt(
+        folder.write("scene.pbrt", "Film \"rgb\" " + film + "\nWorldBegin\n" + world), {},
+        diagnostics);
+    REQUIRE(read);
+    std::string all;
+    for (const Diagnostic& d : read->description.approximations) all += d.message + "\n";
+    return all;
+  };
+  const std::string light = "LightSource \"point\" \"spectrum I\" ";
+  CHECK(approximated(light + "[500 0 520 1 540 0]\n") ==
+        "the narrow spectrum \"I\" by its colour\n");
+  CHECK(approximated(light + "[400 0 401 1 402 0 600 0 601 1 602 0]\n").size() > 0);
+  CHECK(approximated(light + "[400 1 600 1]\n").empty());
+  CHECK(approximated(light + "[380 .5 500 1 600 .7 780 .2]\n").empty());
+  CHECK(approximated(light + "\"stdillum-F11\"\n") ==
+        "the narrow bands of stdillum-F11 by their colour\n");
+  CHECK(approximated(light + "\"stdillum-D50\"\n").empty());
+  CHECK(approximated("Material \"dielectric\" \"spectrum eta\" \"glass-BK7\"\n") ==
+        "glass-BK7 without dispersion, by its index at 587.6 nm\n");
+  CHECK(approximated("Material \"dielectric\" \"spectrum eta\" [400 1.6 700 1.5]\n") ==
+        "a refractive index without dispersion, by the spectrum's mean\n");
+  CHECK(approximated("", "\"string sensor\" \"nikon_d850\"") ==
+        "sensor nikon_d850 by the standard observer\n");
 }

@@ -8,6 +8,7 @@
 #include "mitsuba/property_values.h"
 #include "values/text.h"
 #include "volume/surface_grid.h"
+#include "volume/volume_file.h"
 
 namespace duet::plugins {
 
@@ -29,6 +30,7 @@ void read_sdfgrid(SceneReader& s, Properties& p, ShapeDescription& out) {
     s.report().error(out.emission->where, "{} cannot emit light", describe(p.node()));
   if (file.empty()) return;
   const SourceLocation where = p.where("filename");
+  if (is_nanovdb(file)) return p.error("filename", "a grid of distances is a .vol file");
   bool is_float32;
   const auto volume = s.volume_grid(file, where, is_float32);
   if (!volume) return;

@@ -1,6 +1,7 @@
 // Volumes.
 #include "mitsuba/plugins/plugin.h"
 #include "mitsuba/plugins/tables.h"
+#include "volume/volume_file.h"
 
 namespace duet::plugins {
 
@@ -29,7 +30,6 @@ void read_gridvolume(SceneReader& s, Properties& p, MeantVolume& out) {
   v.where = p.node().where;
   v.label = {p.node().id};
   read_values(s, p, v);
-  v.nodes_on_faces = p.is_0x();
   const bool use_box = p.boolean("use_grid_bbox");
   const bool own_box = p.has("min") && p.has("max");
   VolumeGrid box;
@@ -39,6 +39,7 @@ void read_gridvolume(SceneReader& s, Properties& p, MeantVolume& out) {
     if (!(box.upper[i] > box.lower[i])) p.error("max", "the box from \"min\" to \"max\" is flat");
   }
   if (v.file.empty()) return;
+  v.nodes_on_faces = p.is_0x() || is_nanovdb(v.file);
   v.grid = s.volume_grid(v.file, p.where("filename"), v.is_float32);
   if (!v.grid) return;
   if (own_box)

@@ -1,0 +1,18 @@
+// Volume files of every format, told apart by their names.
+#pragma once
+
+#include <string>
+
+#include "volume/vol_file.h"
+
+namespace duet {
+
+/// Whether the name is that of a NanoVDB file (.nvdb), which Mitsuba does not read. The outermost
+/// nodes of its grid lie on the faces of its box.
+bool is_nanovdb(const std::string& file);
+
+/// Of a NanoVDB file the grid called "density"; its box must lie along the axes. Any other file is
+/// read as a .vol file. Throws ReadError "file: message".
+VolumeFile read_volume(const std::string& file);
+
+}  // namespace duet
