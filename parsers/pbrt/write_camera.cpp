@@ -61,8 +61,7 @@ void SceneWriter::camera(const SensorDescription& s) {
     kind = "spherical";
     to_description.m = {{{0, 0, 1, 0}, {0, 1, 0, 0}, {-1, 0, 0, 0}, {0, 0, 0, 1}}};
   } else {
-    lose(fmt::format("the sensor \"{}\" does not exist in pbrt: a perspective camera has its place",
-                     s.name()));
+    lose(fmt::format("the sensor \"{}\" is missing: a perspective camera has its place", s.name()));
   }
   if (kind != "spherical" && (s.near_clip > 0.0101 || s.far_clip < 9999))
     lose("the clipping planes of the sensor are missing");
