@@ -74,7 +74,7 @@ TEST_CASE("the image is the same bit for bit however its samples are divided int
         };
         const std::vector<ExactSum> whole = render({12});
         CHECK(std::any_of(whole.begin(), whole.end(),
-                          [](const ExactSum& s) { return s.value() > 0; }));
+                          [](const ExactSum& sum) { return sum.value() > 0; }));
         CHECK(render({1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1}) == whole);
         CHECK(render({1, 2, 4, 5}) == whole);
       }
