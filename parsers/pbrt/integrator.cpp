@@ -1,4 +1,6 @@
-// Integrators.
+// Integrators and accelerators.
+#include <algorithm>
+
 #include "pbrt/records.h"
 #include "pbrt/values.h"
 #include "pbrt/vocabulary.h"
@@ -166,7 +168,28 @@ constexpr Record<ReadIntegrator> kIntegrators[] = {
     {"function", Versions::v4, refused, "it draws a function, not a scene", {}, nullptr},
 };
 
+constexpr Spec kBvh[] = {{"maxnodeprims", kInteger, "4", "", 1, inert},
+                         {"splitmethod", kString, "sah", "", 1, inert}};
+constexpr Spec kKdTree[] = {{"intersectcost", kInteger, "5", "", 1, inert},
+                            {"traversalcost", kInteger, "1", "", 1, inert},
+                            {"emptybonus", kNumber, "0.5", "", 1, inert},
+                            {"maxprims", kInteger, "1", "", 1, inert},
+                            {"maxdepth", kInteger, "-1", "", 1, inert}};
+constexpr Record<int> kAccelerators[] = {{"bvh", Versions::both, inert, "", kBvh, 1},
+                                         {"kdtree", Versions::both, inert, "", kKdTree, 1}};
+
 }  // namespace
+
+void check_accelerator(Reader& reader, const Plugin& plugin) {
+  const bool known = std::any_of(std::begin(kAccelerators), std::end(kAccelerators),
+                                 [&](const auto& r) { return r.name == plugin.name; });
+  if (!known && reader.version() == Version::v3)
+    reader.report().warning(plugin.where,
+                            "there is no Accelerator {}; it is ignored, as in pbrt-v3",
+                            in_quotes(plugin.name));
+  else if (const auto* record = find_record<int>(reader, plugin, kAccelerators))
+    Values(reader, plugin, record->parameters);
+}
 
 void finish_integrator(Reader& reader) {
   Plugin standard{"Integrator", reader.version() == Version::v3 ? "path" : "volpath", {}, {}};
@@ -189,6 +212,7 @@ void finish_integrator(Reader& reader) {
 
 void list_integrators(std::vector<Row>& rows) {
   list(rows, "Integrator", kIntegrators);
+  list(rows, "Accelerator", kAccelerators);
 }
 
 }  // namespace duet::pbrt

@@ -119,6 +119,7 @@ void Directives::integrator(Lexer& in, const Plugin& d) {
 void Directives::accelerator(Lexer& in, const Plugin& d) {
   Plugin plugin = d;
   take_plugin(in, plugin);
+  check_accelerator(reader_, plugin);
 }
 
 void Directives::of_version_2(Lexer& in, const Plugin& d) {

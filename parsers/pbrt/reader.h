@@ -181,5 +181,7 @@ void read_medium(Reader& reader, const Plugin& plugin);
 /// The sensor and the integrator, from what was said before WorldBegin.
 void finish_camera(Reader& reader);
 void finish_integrator(Reader& reader);
+/// Reports what there is not; accelerators make no difference here.
+void check_accelerator(Reader& reader, const Plugin& plugin);
 
 }  // namespace duet::pbrt

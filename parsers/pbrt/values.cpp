@@ -71,8 +71,9 @@ void Values::check(const Parameter& p) {
       if (s.name == p.name) known = &s;
     }
   if (!known) {
-    report.warning(p.where, "{} \"{}\" has no parameter {}{}; it is ignored", plugin_.directive,
-                   plugin_.name, in_quotes(p.name), did_you_mean(p.name, names));
+    const std::string name = plugin_.name.empty() ? "" : fmt::format(" \"{}\"", plugin_.name);
+    report.warning(p.where, "{}{} has no parameter {}{}; it is ignored", plugin_.directive, name,
+                   in_quotes(p.name), did_you_mean(p.name, names));
     return;
   }
   if (const std::string why = mismatch(p, *known); !why.empty()) {

@@ -60,6 +60,8 @@ void SceneWriter::camera(const SensorDescription& s) {
   } else if (s.kind == SensorKind::spherical) {
     kind = "spherical";
     to_description.m = {{{0, 0, 1, 0}, {0, 1, 0, 0}, {-1, 0, 0, 0}, {0, 0, 0, 1}}};
+  } else if (s.kind == SensorKind::realistic) {
+    lose("the lenses of the camera are missing: a perspective camera has its place");
   } else {
     lose(fmt::format("the sensor \"{}\" is missing: a perspective camera has its place", s.name()));
   }

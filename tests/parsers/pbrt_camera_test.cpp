@@ -1,4 +1,4 @@
-// Cameras of real lenses and films with layers in pbrt files.
+// Cameras of real lenses, films with layers and other things before WorldBegin in pbrt files.
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -213,4 +213,30 @@ TEST_CASE("pbrt: what colours cannot say of spectra is listed as approximated") 
         "a refractive index without dispersion, by the spectrum's mean\n");
   CHECK(approximated("", "\"string sensor\" \"nikon_d850\"") ==
         "sensor nikon_d850 by the standard observer\n");
+}
+
+TEST_CASE("pbrt: accelerators and options are known by their names") {
+  const auto messages = [](const std::string& header) {
+    const TemporaryDirectory folder;
+    Diagnostics diagnostics;
+    pbrt::read_pbrt(folder.write("scene.pbrt", header + "\nWorldBegin\nShape \"sphere\"\n"), {},
+                    diagnostics);
+    std::string text;
+    for (const Diagnostic& d : diagnostics.all()) text += d.to_string() + "\n";
+    return text;
+  };
+  const auto has = [](const std::string& text, const char* part) {
+    return text.find(part) != std::string::npos;
+  };
+  for (const std::string film : {"Film \"rgb\"\n", "Film \"image\"\n"})
+    CHECK_FALSE(
+        has(messages(film + "Accelerator \"kdtree\" \"integer maxdepth\" 5\n"), "ccelerator"));
+  CHECK(has(messages("Film \"rgb\"\nAccelerator \"bhv\"\n"),
+            "2:1: error: there is no Accelerator \"bhv\" (did you mean \"bvh\"?)"));
+  CHECK(has(messages("Film \"image\"\nAccelerator \"grid\"\n"),
+            "2:1: warning: there is no Accelerator \"grid\""));
+  CHECK(has(messages("Film \"rgb\"\nAccelerator \"bvh\" \"integer maxnodes\" 4\n"),
+            "warning: Accelerator \"bvh\" has no parameter \"maxnodes\""));
+  CHECK(has(messages("Option \"bool wavefrnt\" true\nFilm \"rgb\"\n"),
+            "1:8: warning: Option has no parameter \"wavefrnt\""));
 }
