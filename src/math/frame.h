@@ -22,7 +22,7 @@ struct Frame {
 
   Frame() = default;
   Frame(const Vector3f& s_, const Vector3f& t_, const Normal3f& n_) : s(s_), t(t_), n(n_) {}
-  explicit Frame(const Normal3f& n_) : n(n_) { coordinate_system(n, s, t); }
+  [[gnu::always_inline]] explicit Frame(const Normal3f& n_) : n(n_) { coordinate_system(n, s, t); }
 
   /// The frame around `n` whose s points along the part of `dp_du` that is perpendicular to n; the
   /// canonical frame if there is none.
@@ -34,8 +34,12 @@ struct Frame {
     return {u, cross(n, u), n};
   }
 
-  Vector3f to_local(const Vector3f& v) const { return {dot(s, v), dot(t, v), dot(n, v)}; }
-  Vector3f to_world(const Vector3f& v) const { return s * v.x + t * v.y + Vector3f(n) * v.z; }
+  [[gnu::always_inline]] Vector3f to_local(const Vector3f& v) const {
+    return {dot(s, v), dot(t, v), dot(n, v)};
+  }
+  [[gnu::always_inline]] Vector3f to_world(const Vector3f& v) const {
+    return s * v.x + t * v.y + Vector3f(n) * v.z;
+  }
 };
 
 /// Trigonometry of a direction in its local frame, where the normal is the z axis.

@@ -22,7 +22,7 @@ constexpr float kBelowOne = 0x1.fffffep-1f;
 }
 
 /// Density cos θ / π per solid angle on the upper hemisphere.
-inline Vector3f square_to_cosine_hemisphere(const Point2f& u) {
+[[gnu::always_inline]] inline Vector3f square_to_cosine_hemisphere(const Point2f& u) {
   const Point2f d = square_to_disk(u);
   return {d.x, d.y, safe_sqrt(1 - d.x * d.x - d.y * d.y)};
 }
