@@ -15,6 +15,7 @@ class ExactSum {
   static constexpr double kLargest = 0x1p48;
 
   ExactSum() = default;
+  /// By the words of the integer, in two's complement.
   ExactSum(uint64_t low, uint64_t high) : low_(low), high_(high) {}
 
   /// |x| must not be above kLargest, or not a number.
@@ -49,9 +50,6 @@ class ExactSum {
     return negative ? -size : size;
   }
 
-  /// The words of the integer, in two's complement.
-  uint64_t low() const { return low_; }
-  uint64_t high() const { return high_; }
   bool operator==(const ExactSum&) const = default;
 
  private:

@@ -7,12 +7,6 @@ namespace duet {
 
 namespace {
 
-/// By what to multiply the sums of this many samples to make them sums of `wanted` ones: exactly
-/// one if all have the same number.
-double sample_scale(double wanted, double samples) {
-  return samples > 0 ? wanted / samples : 1.0;
-}
-
 /// Where there is light: all of the image, or the window.
 PixelBounds lit_part(const FilmLayout& layout) {
   return layout.ends_at_crop ? layout.crop : PixelBounds{0, 0, layout.full.x, layout.full.y};
@@ -32,28 +26,32 @@ void for_tiles(const FilmLayout& layout, int border, F&& f) {
     }
 }
 
-/// What a part of films is to be multiplied by, so that each that has any of it counts the same.
-struct Shares {
-  double total = 0, filled = 0;
-  /// `number` of the samples, or passes, that make up the part in a film.
-  void count(double number) { total += number, filled += number > 0; }
-  double of(double number) const { return number > 0 ? sample_scale(total / filled, number) : 0.0; }
-};
-
 }  // namespace
+
+float SampleLimit::share(const float* rgb) const {
+  double largest = 0;
+  for (const auto& row : sensor)
+    largest = std::max(largest,
+                       row[0] * double(rgb[0]) + row[1] * double(rgb[1]) + row[2] * double(rgb[2]));
+  return largest > most ? float(most / largest) : 1.0f;
+}
 
 Film::Film(const FilmLayout& layout, std::vector<std::string> channels)
     : layout_(layout),
-      full_(layout.full),
-      crop_(layout.crop),
       image_(lit_part(layout)),
       filter_(layout.filter),
       channels_(std::move(channels)) {
-  const bool colored = channels_.size() >= 3 && channels_[0] == "R";
-  const std::optional<SampleLimit> limit = colored ? layout.sample_limit : std::nullopt;
   for_tiles(layout, filter_.border(), [&](const PixelBounds& sampled, const PixelBounds& stored) {
-    tiles_.emplace_back(sampled, stored, int(channels_.size()), limit);
+    tiles_.emplace_back(sampled, stored, channels_.size());
   });
+}
+
+bool Film::has_colours() const {
+  return channels_.size() >= 3 && channels_[0] == "R";
+}
+
+std::optional<SampleLimit> Film::sample_limit() const {
+  return has_colours() ? layout_.sample_limit : std::nullopt;
 }
 
 double Film::tile_bytes(const FilmLayout& layout, size_t channels) {
@@ -79,23 +77,27 @@ double Film::layer_bytes(const FilmLayout& layout) const {
 
 void Film::add_means(std::span<const Film> films, std::vector<double>& sums) const {
   const size_t stride = channels_.size() + 1;
-  std::vector<Shares> shares(tiles_.size());
+  std::vector<double> filled(tiles_.size());  // films that have samples in the tile
   double most = 0;
   for (size_t k = 0; k < tiles_.size(); ++k) {
-    for (const Film& f : films) shares[k].count(double(f.tiles_[k].samples()));
-    most = std::max(most, shares[k].total);
+    double total = 0;
+    for (const Film& f : films) {
+      total += double(f.tiles_[k].samples());
+      filled[k] += f.tiles_[k].samples() > 0;
+    }
+    most = std::max(most, total);
   }
   for (size_t k = 0; k < tiles_.size(); ++k) {
     const PixelBounds& b = tiles_[k].stored();
     for (const Film& f : films) {
       const FilmTile& tile = f.tiles_[k];
-      // Samples of tiles that nobody counts are all there are.
-      const double share = shares[k].filled > 0 ? shares[k].of(double(tile.samples())) : 1.0;
-      const double scale = share * sample_scale(most, shares[k].total);
-      if (scale == 0) continue;
+      if (filled[k] > 0 && tile.samples() == 0) continue;
+      // As if the tile had the most samples, in films that count the same. Samples that nobody has
+      // counted are all there are.
+      const double scale = filled[k] > 0 ? most / (filled[k] * double(tile.samples())) : 1.0;
       const ExactSum* from = tile.sums().data();
       for (int y = b.y0; y < b.y1; ++y) {
-        double* to = &sums[window_index(b.x0, y) / 3 * stride];
+        double* to = &sums[window_pixel(b.x0, y) * stride];
         for (size_t i = 0; i < size_t(b.width()) * stride; ++i) *to++ += scale * from++->value();
       }
     }
@@ -105,7 +107,7 @@ void Film::add_means(std::span<const Film> films, std::vector<double>& sums) con
 Image Film::develop(std::span<const Film> films) {
   const Film& first = films[0];
   const size_t n = first.channels_.size();
-  Image image(first.crop_.width(), first.crop_.height(), first.channels_);
+  Image image(first.crop().width(), first.crop().height(), first.channels_);
   std::vector<double> sums(size_t(image.width) * size_t(image.height) * (n + 1));
   first.add_means(films, sums);
   float* out = image.data.data();
@@ -121,7 +123,7 @@ Image Film::develop(std::span<const Film> films) {
 
 void Film::respond(Image& image) const {
   const size_t n = channels_.size();
-  if (!layout_.response || n < 3 || channels_[0] != "R") return;
+  if (!layout_.response || !has_colours()) return;
   for (size_t i = 0; i < image.data.size(); i += n) {
     const std::array<float, 3> from{image.data[i], image.data[i + 1], image.data[i + 2]};
     for (size_t c = 0; c < 3; ++c) {
@@ -134,20 +136,25 @@ void Film::respond(Image& image) const {
 
 void Film::add_moments(size_t first_channel) {
   moment_channels_.push_back(first_channel);
-  squares_.resize(3 * size_t(crop_.width()) * size_t(crop_.height()));
+  squares_.resize(3 * size_t(crop().width()) * size_t(crop().height()));
 }
 
 void Film::add_squares(std::span<const Film> films, Image& image) const {
-  if (moment_channels_.empty()) return;
-  Shares shares;
-  for (const Film& f : films) shares.count(f.passes_);
-  std::vector<double> means(squares_.size());
-  for (const Film& f : films)
-    for (size_t i = 0; i < means.size(); ++i)
-      means[i] += shares.of(f.passes_) * f.squares_[i].value() / std::max(1.0, shares.total);
+  const double filled = count_filled(films);
   for (const size_t first : moment_channels_)
-    for (size_t i = 0; i < means.size(); ++i)
-      image.data[i / 3 * channels_.size() + first + i % 3] = float(means[i]);
+    for (size_t i = 0; i < squares_.size(); ++i) {
+      double sum = 0;
+      for (const Film& f : films)
+        if (f.passes_ > 0) sum += f.squares_[i].value() / f.passes_;
+      image.data[i / 3 * channels_.size() + first + i % 3] =
+          filled > 0 ? float(sum / filled) : 0.0f;
+    }
+}
+
+double Film::count_filled(std::span<const Film> films) {
+  double filled = 0;
+  for (const Film& f : films) filled += f.passes_ > 0;
+  return filled;
 }
 
 Film& Film::begin_pass() {

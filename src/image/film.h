@@ -2,6 +2,7 @@
 // not matter in which order, by which threads and in which passes they were added up.
 #pragma once
 
+#include <array>
 #include <memory>
 #include <mutex>
 #include <optional>
@@ -20,6 +21,20 @@ inline bool film_can_add(const Spectrum& value) {
   const float values[]{value.r, value.g, value.b};
   return film_can_add(std::span<const float>(values));
 }
+
+/// What a film makes of linear sRGB: exposure, white balance, the primaries of its colour space.
+using FilmResponse = std::array<std::array<double, 3>, 3>;
+
+/// What a single sample may bring. Where the largest of the three values that `sensor` makes of its
+/// colour is above `most`, the colour is scaled down to that: noise turns into bias.
+struct SampleLimit {
+  FilmResponse sensor{{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
+  double most = 1;
+  bool operator==(const SampleLimit&) const = default;
+
+  /// What the colour R, G and B is to be multiplied by.
+  float share(const float* rgb) const;
+};
 
 /// Contribution of a light sub-path at a film position.
 struct Splat {
@@ -57,8 +72,10 @@ class Film {
   double layer_bytes(const FilmLayout& layout) const;
 
   const ReconstructionFilter& filter() const { return filter_; }
-  const PixelBounds& crop() const { return crop_; }
-  Point2i full_size() const { return full_; }
+  const PixelBounds& crop() const { return layout_.crop; }
+  Point2i full_size() const { return layout_.full; }
+  /// The layout's, if there are colours.
+  std::optional<SampleLimit> sample_limit() const;
   const std::vector<std::string>& channels() const { return channels_; }
   std::vector<FilmTile>& tiles() { return tiles_; }
   const std::vector<FilmTile>& tiles() const { return tiles_; }
@@ -96,29 +113,32 @@ class Film {
     std::vector<ExactSum> sums;  ///< three per pixel of the window
   };
 
+  bool has_colours() const;
+  /// How many of them have passes.
+  static double count_filled(std::span<const Film> films);
   void add_means(std::span<const Film> films, std::vector<double>& sums) const;
   void add_splat_means(std::span<const Film> films, Image& image) const;
   void add_squares(std::span<const Film> films, Image& image) const;
   /// Applies the response to a developed image.
   void respond(Image& image) const;
-  /// The sums at a pixel of the window.
-  size_t window_index(int x, int y) const {
-    return 3 * (size_t(y - crop_.y0) * size_t(crop_.width()) + size_t(x - crop_.x0));
+  /// The number of a pixel of the window, row by row.
+  size_t window_pixel(int x, int y) const {
+    return size_t(y - crop().y0) * size_t(crop().width()) + size_t(x - crop().x0);
   }
+  /// Bands of kTileSize rows of the window.
+  int splat_bands() const { return (crop().height() + kTileSize - 1) / kTileSize; }
   /// What the sums of splats at a pixel of the window are to be divided by.
   double splat_filter(int x, int y) const;
   void add_film(const Film& o);
   void clear();
 
   FilmLayout layout_;
-  Point2i full_;
-  PixelBounds crop_;
   PixelBounds image_;  ///< where there is light
   ReconstructionFilter filter_;
   std::vector<std::string> channels_;
   std::vector<FilmTile> tiles_;
   std::vector<SplatLayer> splats_;
-  /// One for every kTileSize rows of the window: who adds splats to them.
+  /// One for every band: who adds splats to it.
   std::unique_ptr<std::mutex[]> splat_locks_;
   int passes_ = 0;
   /// Where moments go, and sums of the squares of what each pass made of a pixel's colours: three

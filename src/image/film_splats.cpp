@@ -63,36 +63,34 @@ void add(ExactSum* to, const Spectrum& v, double weight) {
 
 size_t Film::add_splat_layer(size_t first_channel) {
   if (splats_.empty()) {
-    splat_locks_ =
-        std::make_unique<std::mutex[]>(size_t((crop_.height() + kTileSize - 1) / kTileSize));
+    splat_locks_ = std::make_unique<std::mutex[]>(size_t(splat_bands()));
     if (!filter_.is_unit_box()) {
-      filter_x_ = filter_integrals(filter_.along_x(), crop_.x0, crop_.x1, image_.x0, image_.x1);
-      filter_y_ = filter_integrals(filter_.along_y(), crop_.y0, crop_.y1, image_.y0, image_.y1);
+      filter_x_ = filter_integrals(filter_.along_x(), crop().x0, crop().x1, image_.x0, image_.x1);
+      filter_y_ = filter_integrals(filter_.along_y(), crop().y0, crop().y1, image_.y0, image_.y1);
     }
   }
   splats_.push_back(
-      {first_channel, std::vector<ExactSum>(3 * size_t(crop_.width()) * size_t(crop_.height()))});
+      {first_channel, std::vector<ExactSum>(3 * size_t(crop().width()) * size_t(crop().height()))});
   return splats_.size() - 1;
 }
 
 double Film::splat_filter(int x, int y) const {
   return filter_x_.empty() ? 1.0
-                           : filter_x_[size_t(x - crop_.x0)] * filter_y_[size_t(y - crop_.y0)];
+                           : filter_x_[size_t(x - crop().x0)] * filter_y_[size_t(y - crop().y0)];
 }
 
 double Film::splat_mean(size_t layer, int x, int y, int channel) const {
   const double filter = splat_filter(x, y) * passes_;
-  const ExactSum& sum = splats_[layer].sums[window_index(x, y) + size_t(channel)];
+  const ExactSum& sum = splats_[layer].sums[3 * window_pixel(x, y) + size_t(channel)];
   return filter > 0 ? sum.value() / filter : 0.0;
 }
 
 void Film::add_splat_means(std::span<const Film> films, Image& image) const {
-  double filled = 0;
-  for (const Film& f : films) filled += f.passes_ > 0;
+  const double filled = count_filled(films);
   for (size_t k = 0; k < splats_.size(); ++k) {
     float* pixel = image.data.data() + splats_[k].first_channel;
-    for (int y = crop_.y0; y < crop_.y1; ++y)
-      for (int x = crop_.x0; x < crop_.x1; ++x, pixel += channels_.size())
+    for (int y = crop().y0; y < crop().y1; ++y)
+      for (int x = crop().x0; x < crop().x1; ++x, pixel += channels_.size())
         for (int c = 0; c < 3; ++c) {
           double sum = 0;
           for (const Film& f : films) sum += f.splat_mean(k, x, y, c);
@@ -112,9 +110,9 @@ void Film::add_splats(size_t layer, std::span<const Splat> splats, float scale) 
       first = int(std::ceil(y - reach - 0.5f));
       last = int(std::floor(y + reach - 0.5f));
     }
-    return std::pair{std::max(first - crop_.y0, 0), std::min(last, crop_.y1 - 1) - crop_.y0};
+    return std::pair{std::max(first - crop().y0, 0), std::min(last, crop().y1 - 1) - crop().y0};
   };
-  const int bands = (crop_.height() + kTileSize - 1) / kTileSize;
+  const int bands = splat_bands();
   const SplatBands by_band(splats, bands, rows);
   // Threads that come at the same time begin at different bands.
   const auto start = size_t(reinterpret_cast<uintptr_t>(splats.data()) >> 12);
@@ -122,20 +120,20 @@ void Film::add_splats(size_t layer, std::span<const Splat> splats, float scale) 
     const size_t band = (start + i) % size_t(bands);
     const std::span<const uint32_t> numbers = by_band.band(band);
     if (numbers.empty()) continue;
-    PixelBounds b = crop_;
-    b.y0 = crop_.y0 + int(band) * kTileSize;
-    b.y1 = std::min(b.y0 + kTileSize, crop_.y1);
+    PixelBounds b = crop();
+    b.y0 = crop().y0 + int(band) * kTileSize;
+    b.y1 = std::min(b.y0 + kTileSize, crop().y1);
     const std::lock_guard lock(splat_locks_[band]);
     for (const uint32_t number : numbers) {
       const Splat& s = splats[number];
       if (filter_.is_unit_box()) {
         const int x = int(std::floor(s.position.x)), y = int(std::floor(s.position.y));
-        if (b.contains(x, y)) add(&sums[window_index(x, y)], s.value, double(scale));
+        if (b.contains(x, y)) add(&sums[3 * window_pixel(x, y)], s.value, double(scale));
         continue;
       }
       for_reached_rows(filter_, s.position, b,
                        [&](int x0, int y, std::span<const float> wx, float wy) {
-                         ExactSum* to = &sums[window_index(x0, y)];
+                         ExactSum* to = &sums[3 * window_pixel(x0, y)];
                          for (const float w : wx) add(to, s.value, double(scale * w * wy)), to += 3;
                        });
     }

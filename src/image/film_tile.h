@@ -2,10 +2,8 @@
 #pragma once
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstdint>
-#include <optional>
 #include <span>
 #include <vector>
 
@@ -29,20 +27,6 @@ struct PixelBounds {
   }
 };
 
-/// What a film makes of linear sRGB: exposure, white balance, the primaries of its colour space.
-using FilmResponse = std::array<std::array<double, 3>, 3>;
-
-/// What a single sample may bring. Where the largest of the three values that `sensor` makes of its
-/// colour is above `most`, the colour is scaled down to that: noise turns into bias.
-struct SampleLimit {
-  FilmResponse sensor{{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
-  double most = 1;
-  bool operator==(const SampleLimit&) const = default;
-
-  /// What the colour R, G and B is to be multiplied by.
-  float share(const float* rgb) const;
-};
-
 /// Whether a film can add such values: they are finite, and not absurdly large.
 inline bool film_can_add(std::span<const float> values) {
   bool can = true;
@@ -55,10 +39,8 @@ inline bool film_can_add(std::span<const float> values) {
 /// nothing.
 class FilmTile {
  public:
-  /// `sampled` are the pixels in which samples are taken, `stored` those they may count for. A
-  /// limit is that of the first three channels.
-  FilmTile(const PixelBounds& sampled, const PixelBounds& stored, int channels,
-           const std::optional<SampleLimit>& limit = std::nullopt);
+  /// `sampled` are the pixels in which samples are taken, `stored` those they may count for.
+  FilmTile(const PixelBounds& sampled, const PixelBounds& stored, size_t channels);
 
   const PixelBounds& sampled() const { return sampled_; }
   const PixelBounds& stored() const { return stored_; }
@@ -82,40 +64,8 @@ class FilmTile {
   friend class SampleAdder;
   PixelBounds sampled_, stored_;
   size_t stride_;  ///< sums per pixel
-  std::optional<SampleLimit> limit_;
   uint64_t samples_ = 0;
   std::vector<ExactSum> sums_;
-};
-
-/// Adds samples to a tile, for one thread. Their sums are in the tile when this ends. Every value
-/// times its weight, exact in double precision, is rounded to two numbers: a multiple of 2⁻³², and
-/// of the rest a multiple of 2⁻⁶⁴. Few enough of each are added in double precision without
-/// rounding.
-class SampleAdder {
- public:
-  explicit SampleAdder(FilmTile& tile);
-  ~SampleAdder() { move_to_tile(); }
-  SampleAdder(const SampleAdder&) = delete;
-  SampleAdder& operator=(const SampleAdder&) = delete;
-
-  /// Adds a sample to a pixel (unit box filter only). The film must be able to add its values.
-  void add_to_pixel(int x, int y, std::span<const float> values);
-  /// Adds a sample at a film position to all pixels within the filter's reach.
-  void add_sample(const ReconstructionFilter& filter, const Point2f& position,
-                  std::span<const float> values);
-
- private:
-  void take(std::span<const float> values);
-  /// Adds the sample to neighbouring pixels with these weights; `at` is where their sums begin.
-  void add(size_t at, std::span<const float> weights, float factor);
-  void move_to_tile();
-
-  FilmTile& tile_;
-  std::vector<double> sample_;    ///< one, for the sum of weights, and the values of the sample
-  std::vector<double> weighted_;  ///< the same for a row of pixels
-  bool is_large_ = false;         ///< the sample goes to the tile itself
-  uint32_t added_ = 0;            ///< samples since sums were moved to the tile
-  std::vector<double> coarse_, fine_;
 };
 
 /// A filter may be this wide.

@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "image/sample_adder.h"
+
 namespace duet {
 
 namespace {
@@ -103,12 +105,11 @@ void CameraIntegrator::render_tile(const Scene& scene, const Film& film, FilmTil
                                    const SampleRange& range, RenderCounters& counters) const {
   const Camera& camera = *scene.camera;
   const bool has_lens = camera.has_lens();
-  const bool unit_box = film.filter().is_unit_box();
   std::vector<float> values(channels_.size());
   const std::unique_ptr<PathWorkspace> workspace = make_workspace(scene);
   [[maybe_unused]] std::optional<NextRays> next;
   const PixelBounds& b = tile.sampled();
-  SampleAdder sums(tile);
+  SampleAdder sums(film, tile);
   for (int y = b.y0; y < b.y1; ++y)
     for (int x = b.x0; x < b.x1; ++x) {
       const uint64_t pixel = uint64_t(y) * uint64_t(film.full_size().x) + uint64_t(x);
@@ -132,10 +133,7 @@ void CameraIntegrator::render_tile(const Scene& scene, const Film& film, FilmTil
           ++counters.nonfinite_samples;
           std::fill(values.begin(), values.end(), 0.0f);
         }
-        if (unit_box)
-          sums.add_to_pixel(x, y, values);
-        else
-          sums.add_sample(film.filter(), position, values);
+        sums.add(x, y, position, values);
       }
     }
   tile.count_samples(range.count);

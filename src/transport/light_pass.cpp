@@ -28,6 +28,7 @@ std::vector<size_t> make_room(std::vector<T>& list, uint32_t blocks, const Part&
   list.resize(end);
   return begins;
 }
+
 /// Keeps the random numbers of light sub-paths apart from those of the pixels.
 constexpr uint64_t kLightStream = 0x6c69676874ull;
 /// The same for what happens in media, on sub-paths and on their shadow rays.

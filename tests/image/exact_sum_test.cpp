@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "base/parallel.h"
-#include "image/film.h"
+#include "image/sample_adder.h"
 #include "media/random_stream.h"
 
 using namespace duet;
@@ -54,13 +54,10 @@ std::vector<TileSample> samples_in(const FilmTile& tile, int count) {
   return samples;
 }
 
-void add(const ReconstructionFilter& filter, FilmTile& tile, std::span<const TileSample> samples) {
-  SampleAdder sums(tile);
+void add(const Film& film, FilmTile& tile, std::span<const TileSample> samples) {
+  SampleAdder sums(film, tile);
   for (const TileSample& s : samples)
-    if (filter.is_unit_box())
-      sums.add_to_pixel(int(s.position.x), int(s.position.y), s.values);
-    else
-      sums.add_sample(filter, s.position, s.values);
+    sums.add(int(s.position.x), int(s.position.y), s.position, s.values);
 }
 
 bool equal(std::span<const ExactSum> a, std::span<const ExactSum> b) {
@@ -114,11 +111,11 @@ TEST_CASE("a tile has the same sums in whichever order and parts it gets its sam
     const Film film(layout_with(kind), {"a", "b"});
     FilmTile whole = film.tiles()[1], parts = whole, other = whole;
     std::vector<TileSample> samples = samples_in(whole, 5000);
-    add(film.filter(), whole, samples);
+    add(film, whole, samples);
     std::mt19937 random(2);
     std::shuffle(samples.begin(), samples.end(), random);
-    add(film.filter(), parts, std::span(samples).first(700));
-    add(film.filter(), other, std::span(samples).subspan(700));
+    add(film, parts, std::span(samples).first(700));
+    add(film, other, std::span(samples).subspan(700));
     parts.add(other);
     CHECK(equal(whole.sums(), parts.sums()));
     other.clear();
@@ -135,14 +132,12 @@ TEST_CASE(
     Film film({{2, 1}, {0, 0, 2, 1}, filter}, {"a", "b"});
     FilmTile& tile = film.tiles()[0];
     {
-      SampleAdder sums(tile);
+      SampleAdder sums(film, tile);
       RandomStream random(5);
       for (int i = 0; i < 1000000; ++i) {
         const Point2f p{2 * random.next(), random.next()};
-        if (kind == FilterKind::box)
-          sums.add_to_pixel(int(p.x), 0, std::array{0.1f, p.x < 1 ? 1e9f : 1e-9f});
-        else
-          sums.add_sample(film.filter(), p, std::array{0.1f, 1e-9f});
+        const bool is_bright = kind == FilterKind::box && p.x < 1;
+        sums.add(int(p.x), 0, p, std::array{0.1f, is_bright ? 1e9f : 1e-9f});
       }
     }
     const Image image = film.develop();
@@ -190,15 +185,12 @@ TEST_CASE("moments are those of passes, and leave the image as it is") {
       for (Film* f : {&film, &plain}) {
         Film& pass = f->begin_pass();
         for (FilmTile& tile : pass.tiles()) {
-          SampleAdder sums(tile);
+          SampleAdder sums(pass, tile);
           const PixelBounds& b = tile.sampled();
           for (int y = b.y0; y < b.y1; ++y)
             for (int x = b.x0; x < b.x1; ++x) {
               const std::array<float, 6> values{light, light, light};
-              if (pass.filter().is_unit_box())
-                sums.add_to_pixel(x, y, values);
-              else
-                sums.add_sample(pass.filter(), {float(x) + 0.5f, float(y) + 0.5f}, values);
+              sums.add(x, y, {float(x) + 0.5f, float(y) + 0.5f}, values);
             }
         }
         std::vector<Splat> splats;

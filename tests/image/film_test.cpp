@@ -1,4 +1,4 @@
-#include "image/film.h"
+#include "image/sample_adder.h"
 
 #include <doctest/doctest.h>
 
@@ -25,7 +25,7 @@ FilterDescription describe(FilterKind kind) {
 /// Fills a tile with samples that depend on the pixel only, as a renderer does.
 template <class Value>
 void fill_tile(const Film& film, FilmTile& tile, int spp, const Value& value) {
-  SampleAdder sums(tile);
+  SampleAdder sums(film, tile);
   for (int y = tile.sampled().y0; y < tile.sampled().y1; ++y)
     for (int x = tile.sampled().x0; x < tile.sampled().x1; ++x) {
       Sampler sampler(SampleSequence::independent, 3, 0, uint64_t(y) * 1000 + uint64_t(x));
@@ -34,10 +34,7 @@ void fill_tile(const Film& film, FilmTile& tile, int spp, const Value& value) {
         const Point2f u = sampler.next_2d();
         const Point2f p{float(x) + u.x, float(y) + u.y};
         const std::array<float, 2> v = value(p);
-        if (film.filter().is_unit_box())
-          sums.add_to_pixel(x, y, v);
-        else
-          sums.add_sample(film.filter(), p, v);
+        sums.add(x, y, p, v);
       }
     }
 }
@@ -62,13 +59,9 @@ TEST_CASE("samples have a limit, by what a sensor makes of their colours") {
     Film film(layout, {"R", "G", "B", "A"});
     Film other(layout, {"X", "Y", "Z", "A"});
     for (Film* f : {&film, &other}) {
-      SampleAdder sums(f->tiles().front());
-      for (const std::array<float, 4>& v : {std::array<float, 4>{8, 0, 6, 3}, {3, 1, 100, 5}}) {
-        if (f->filter().is_unit_box())
-          sums.add_to_pixel(0, 0, v);
-        else
-          sums.add_sample(f->filter(), {0.5f, 0.5f}, v);
-      }
+      SampleAdder sums(*f, f->tiles().front());
+      for (const std::array<float, 4>& v : {std::array<float, 4>{8, 0, 6, 3}, {3, 1, 100, 5}})
+        sums.add(0, 0, {0.5f, 0.5f}, v);
     }
     // The first is halved, the second is not.
     const Image image = film.develop();
@@ -178,13 +171,8 @@ TEST_CASE("pixels are means weighted by the filter at the distance of the sample
         if (t.sampled().contains(int(s.x), int(s.y))) return t;
       throw std::runtime_error("no tile");
     };
-    if (kind == FilterKind::box) {
-      SampleAdder(tile_of(p)).add_to_pixel(15, 7, a);
-      SampleAdder(tile_of(q)).add_to_pixel(16, 6, b);
-    } else {
-      SampleAdder(tile_of(p)).add_sample(film.filter(), p, a);
-      SampleAdder(tile_of(q)).add_sample(film.filter(), q, b);
-    }
+    SampleAdder(film, tile_of(p)).add(15, 7, p, a);
+    SampleAdder(film, tile_of(q)).add(16, 6, q, b);
     const Image image = film.develop();
     for (int y = 0; y < 40; ++y)
       for (int x = 0; x < 40; ++x) {

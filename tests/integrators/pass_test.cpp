@@ -6,6 +6,7 @@
 #include <cmath>
 #include <thread>
 
+#include "image/sample_adder.h"
 #include "integrators/camera_integrator.h"
 #include "integrators/pass_length.h"
 
@@ -37,7 +38,7 @@ class FakeIntegrator final : public Integrator {
                    RenderCounters& counters) const {
     if (milliseconds_ > 0) std::this_thread::sleep_for(std::chrono::milliseconds(milliseconds_));
     const PixelBounds& b = tile.sampled();
-    SampleAdder sums(tile);
+    SampleAdder sums(film, tile);
     for (uint32_t i = range.first; i < range.first + range.count; ++i)
       for (int y = b.y0; y < b.y1; ++y)
         for (int x = b.x0; x < b.x1; ++x) {
@@ -47,7 +48,7 @@ class FakeIntegrator final : public Integrator {
           const Point2f u = s.next_2d();
           const float v = 1 + float(x % 3) + 2 * (s.next_1d() - 0.5f);
           const float values[3] = {v * brightness_, v * u.x * brightness_, brightness_};
-          sums.add_sample(film.filter(), {float(x) + u.x, float(y) + u.y}, values);
+          sums.add(x, y, {float(x) + u.x, float(y) + u.y}, values);
         }
     tile.count_samples(range.count);
     counters.camera_paths += uint64_t(b.width()) * b.height() * range.count;

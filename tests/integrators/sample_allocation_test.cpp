@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "image/sample_adder.h"
 #include "integrators/pass.h"
 
 using namespace duet;
@@ -23,7 +24,7 @@ class Sparks final : public Integrator {
       TileSamples own{samples.first, samples.count};
       if (!samples.tiles.empty()) own = samples.tiles[size_t(&tile - film.tiles().data())];
       tile.count_samples(own.count);
-      SampleAdder sums(tile);
+      SampleAdder sums(film, tile);
       const float p = tile.sampled().x0 < from_ ? 0.5f : p_;
       for (int x = tile.sampled().x0; x < tile.sampled().x1; ++x)
         for (uint32_t i = own.first; i < own.first + own.count; ++i) {
@@ -31,7 +32,7 @@ class Sparks final : public Integrator {
           s.start_sample(i);
           const float v = s.next_1d() < p ? 1 / p : 0.0f;
           const float values[3] = {v, v, v};
-          sums.add_sample(film.filter(), {float(x) + 0.5f, 0.5f}, values);
+          sums.add(x, 0, {float(x) + 0.5f, 0.5f}, values);
         }
       c.camera_paths += uint64_t(tile.sampled().width()) * own.count;
     });

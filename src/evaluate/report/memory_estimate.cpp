@@ -51,9 +51,9 @@ MemoryEstimate estimate_memory(const Integrator& integrator, const FilmLayout& l
   e.films = films * film;
   e.method = integrator.memory_bytes(layout);
   if (budget.target_error) {
-    // All films are developed to compare them (batch_relative_rmse); their mean is one more.
+    // All films are developed to compare them (batch_relative_rmse).
     const double comparing = pixels * (b.sums + films * b.image);
-    e.copies = std::max({comparing, film + developing, writing});
+    e.copies = std::max(comparing, writing);
   } else {
     e.copies = PartialMeans::memory_bytes(pixels, small.splat_layer_count() > 0) +
                std::max(developing, writing);
