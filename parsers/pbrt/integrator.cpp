@@ -76,14 +76,10 @@ void read_volume_path(Values& v, SceneDescription& scene) {
 void read_path(Values& v, SceneDescription& scene) {
   const Reader& reader = v.reader();
   const bool beneath = reader.version() == Version::v3 && reader.has_interiors();
-  const auto forget = [&](std::vector<ShapeDescription>& shapes) {
-    for (ShapeDescription& s : shapes) {
-      s.exterior = std::nullopt;
-      if (!beneath || !s.interior || !reader.is_interior(*s.interior)) s.interior = std::nullopt;
-    }
-  };
-  forget(scene.shapes);
-  for (ShapeGroupDescription& g : scene.groups) forget(g.shapes);
+  for_each_shape(scene, [&](ShapeDescription& s) {
+    s.exterior = std::nullopt;
+    if (!beneath || !s.interior || !reader.is_interior(*s.interior)) s.interior = std::nullopt;
+  });
   for (LightDescription& l : scene.lights) l.medium.reset();
   for (SensorDescription& s : scene.sensors) s.medium.reset();
   if (!beneath) {

@@ -30,15 +30,20 @@ std::vector<double> emission_scale(Values& v, std::array<int, 3>& size) {
   return scale;
 }
 
+/// "Le", if it is given and not black: nothing says how bright a black spectrum is.
+std::optional<Spectrum> emitted(Values& v) {
+  const Parameter* p = v.given("Le");
+  if (!p || v.reader().constant_color(*p, ColorMeaning::emission).is_black()) return std::nullopt;
+  return emitted_color(v, "Le");
+}
+
 }  // namespace
 
 std::optional<EmissionDescription> read_constant_emission(Values& v) {
-  const Parameter* p = v.given("Le");
-  if (!p) return std::nullopt;
-  // Nothing says how bright a black spectrum is.
-  if (v.reader().constant_color(*p, ColorMeaning::emission).is_black()) return std::nullopt;
+  const std::optional<Spectrum> color = emitted(v);
+  if (!color) return std::nullopt;
   EmissionDescription e;
-  e.radiance = emitted_color(v, "Le") * float(v.not_negative("Lescale"));
+  e.radiance = *color * float(v.not_negative("Lescale"));
   return e;
 }
 
@@ -46,16 +51,12 @@ std::optional<EmissionDescription> read_grid_emission(Values& v, const std::arra
   const bool by_temperature = v.has("temperature");
   if (by_temperature && v.has("Le"))
     v.reader().report().error(v.where("Le"), "a medium has either \"Le\" or \"temperature\"");
-  Spectrum color(1.0f);
-  if (!by_temperature) {
-    const Parameter* p = v.given("Le");
-    if (!p || v.reader().constant_color(*p, ColorMeaning::emission).is_black()) return std::nullopt;
-    color = emitted_color(v, "Le");
-  }
+  const std::optional<Spectrum> color = by_temperature ? Spectrum(1.0f) : emitted(v);
+  if (!color) return std::nullopt;
   std::array<int, 3> scale_size = size;
   const std::vector<double> scale = emission_scale(v, scale_size);
-  const VolumeId radiance =
-      add_grid(v, scale_size, 3, [&](size_t cell, int c) { return float(scale[cell]) * color[c]; });
+  const VolumeId radiance = add_grid(
+      v, scale_size, 3, [&](size_t cell, int c) { return float(scale[cell]) * (*color)[c]; });
   if (!by_temperature) {
     EmissionDescription e;
     e.radiance = radiance;

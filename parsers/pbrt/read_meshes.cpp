@@ -28,10 +28,9 @@ std::vector<Normal3f> normals(Values& v) {
   return result;
 }
 
-std::vector<Point2f> texture_coordinates(Values& v) {
+std::vector<Point2f> texture_coordinates(Values& v, std::string_view name) {
   std::vector<Point2f> result;
-  const Parameter* p = v.given("uv");
-  if (!p) p = v.given("st");
+  const Parameter* p = v.given(name);
   if (!p) return result;
   result.reserve(p->numbers.size() / 2);
   for (size_t i = 0; i + 1 < p->numbers.size(); i += 2)
@@ -80,6 +79,24 @@ bool matches(Values& v, const std::vector<T>& values, std::string_view name, siz
   return false;
 }
 
+/// Positions, normals, texture coordinates and `faces` of N points each. False after an error.
+template <class Mesh, size_t N>
+bool read_arrays(Values& v, std::string_view uv, Mesh& mesh,
+                 std::vector<std::array<uint32_t, N>>& faces) {
+  mesh.positions = points(v, "P");
+  if (mesh.positions.empty()) {
+    v.reader().report().error(v.where(), "\"point3 P\" is needed");
+    return false;
+  }
+  auto read = indices<N>(v, mesh.positions.size());
+  if (!read) return false;
+  faces = std::move(*read);
+  mesh.normals = normals(v);
+  mesh.uvs = texture_coordinates(v, uv);
+  return matches(v, mesh.normals, "N", mesh.positions.size()) &&
+         matches(v, mesh.uvs, uv, mesh.positions.size());
+}
+
 constexpr Spec kTriangleMesh[] = {
     {"indices", kInteger, "", "three per triangle; optional for three points", 0},
     {"P", kPoint3, "", "positions", 0},
@@ -92,19 +109,7 @@ constexpr Spec kTriangleMesh[] = {
 
 void read_triangle_mesh(Values& v) {
   TriangleMesh mesh;
-  mesh.positions = points(v, "P");
-  if (mesh.positions.empty()) {
-    v.reader().report().error(v.where(), "\"point3 P\" is needed");
-    return;
-  }
-  auto triangles = indices<3>(v, mesh.positions.size());
-  if (!triangles) return;
-  mesh.triangles = std::move(*triangles);
-  mesh.normals = normals(v);
-  mesh.uvs = texture_coordinates(v);
-  if (!matches(v, mesh.normals, "N", mesh.positions.size()) ||
-      !matches(v, mesh.uvs, v.has("uv") ? "uv" : "st", mesh.positions.size()))
-    return;
+  if (!read_arrays(v, v.has("st") && !v.has("uv") ? "st" : "uv", mesh, mesh.triangles)) return;
   finish_triangles(mesh, v.reader().needs_uv(v.plugin()));
   const bool own_normals = !mesh.normals.empty();
   add_mesh(v, std::move(mesh), own_normals);
@@ -121,19 +126,7 @@ constexpr Spec kBilinearMesh[] = {
 
 void read_bilinear_mesh(Values& v) {
   PatchMesh mesh;
-  mesh.positions = points(v, "P");
-  if (mesh.positions.empty()) {
-    v.reader().report().error(v.where(), "\"point3 P\" is needed");
-    return;
-  }
-  auto patches = indices<4>(v, mesh.positions.size());
-  if (!patches) return;
-  mesh.patches = std::move(*patches);
-  mesh.normals = normals(v);
-  mesh.uvs = texture_coordinates(v);
-  if (!matches(v, mesh.normals, "N", mesh.positions.size()) ||
-      !matches(v, mesh.uvs, "uv", mesh.positions.size()))
-    return;
+  if (!read_arrays(v, "uv", mesh, mesh.patches)) return;
   TriangleMesh triangles;
   append_patches(mesh, triangles);
   add_mesh(v, std::move(triangles), true);

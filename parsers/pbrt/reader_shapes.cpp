@@ -98,22 +98,14 @@ void Reader::add_shape(const Plugin& from, ShapeParts parts) {
 }
 
 void Reader::make_hair_round() {
-  const std::function<bool(MaterialId)> is_hair = [&](MaterialId id) {
-    const MaterialModel& model = scene_.materials[size_t(id)].model;
-    const std::vector<MaterialId> nested = model.nested();
-    return model.is<HairMaterial>() || std::any_of(nested.begin(), nested.end(), is_hair);
-  };
-  const auto visit = [&](std::vector<ShapeDescription>& shapes) {
-    for (ShapeDescription& s : shapes) {
-      auto* curves = std::get_if<CurvesShape>(&s.geometry);
-      if (!curves || !is_hair(s.material)) continue;
-      auto tubes = std::make_shared<CurveSet>(*curves->curves);
-      tubes->profile = CurveProfile::tube;
-      curves->curves = std::move(tubes);
-    }
-  };
-  visit(scene_.shapes);
-  for (ShapeGroupDescription& g : scene_.groups) visit(g.shapes);
+  const auto is_hair = [](const MaterialModel& model) { return model.is<HairMaterial>(); };
+  for_each_shape(scene_, [&](ShapeDescription& s) {
+    auto* curves = std::get_if<CurvesShape>(&s.geometry);
+    if (!curves || !holds(scene_, s.material, is_hair)) return;
+    auto tubes = std::make_shared<CurveSet>(*curves->curves);
+    tubes->profile = CurveProfile::tube;
+    curves->curves = std::move(tubes);
+  });
 }
 
 void Reader::finish_shapes() {

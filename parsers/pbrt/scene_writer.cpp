@@ -60,9 +60,7 @@ std::optional<std::array<double, 2>> times_of_motion(const SceneDescription& sce
     fits = fits && k.size() == 2 && own == times.value_or(own);
     times = own;
   };
-  for (const ShapeDescription& s : scene.shapes) look(s.motion);
-  for (const ShapeGroupDescription& g : scene.groups)
-    for (const ShapeDescription& s : g.shapes) look(s.motion);
+  for_each_shape(scene, [&](const ShapeDescription& s) { look(s.motion); });
   for (const LightDescription& l : scene.lights) look(l.motion);
   for (const SensorDescription& s : scene.sensors) look(s.motion);
   return fits ? times : std::nullopt;

@@ -1,7 +1,6 @@
 // The parts of writing a pbrt file; use writer.h.
 #pragma once
 
-#include <functional>
 #include <map>
 #include <optional>
 #include <set>
@@ -121,8 +120,6 @@ class SceneWriter {
   bool write_known(MaterialId id, const std::string& name, const Around& around);
   /// A diffuse BSDF in the place of one that pbrt does not have.
   void write_unknown(const MaterialModel& m, const std::string& name, Around around);
-  /// Whether the material, or one of those in it, is such a one.
-  bool holds(MaterialId id, const std::function<bool(const MaterialModel&)>& is_such) const;
 
   // write_materials.cpp
   static Statement named_material(const std::string& name, std::string_view plugin) {
@@ -138,6 +135,8 @@ class SceneWriter {
   void microfacets(MicrofacetDistribution distribution);
   void one_sided(const Around& around);
   void lost_factor(const ColorInput& factor, std::string_view what);
+  template <class Material>
+  void lost_dielectric_factors(const Material& m);
   void write(const DiffuseMaterial& m, const std::string& name, const Around& around);
   void write(const DiffuseTransmitterMaterial& m, const std::string& name, const Around& around);
   void write(const ConductorMaterial& m, const std::string& name, const Around& around);
@@ -155,6 +154,9 @@ class SceneWriter {
   void write(const SubstrateMaterial& m, const std::string& name, const Around& around);
 
   // write_media.cpp
+  static Statement named_medium(const std::string& name, std::string_view plugin) {
+    return Statement::named("MakeNamedMedium", "MakeNamedMedium", name, plugin);
+  }
   void medium(size_t index);
   void cloud_medium(const MediumDescription& m, const std::string& name, double g);
   /// Names of the media on both sides.
@@ -168,7 +170,8 @@ class SceneWriter {
   // write_grid_emission.cpp
   void grid_emission(Statement& s, const EmissionDescription& e, const GridCells& cells,
                      bool is_uniform);
-  /// Le and Lescale of a "uniformgrid"; false if that is not possible.
+  /// Le of an "rgbgrid", and Le and Lescale of a "uniformgrid"; false if that is not possible.
+  bool rgb_emission(Statement& s, const EmissionDescription& e, const GridCells& cells);
   bool uniform_emission(Statement& s, const EmissionDescription& e, const GridCells& cells);
 
   // write_lights.cpp
@@ -189,6 +192,8 @@ class SceneWriter {
     Spectrum scale{1.0f};
   };
   std::optional<ScaledImage> scaled_image(TextureId id) const;
+  /// The scale as one number; a loss if it has a colour.
+  double grey_scale(const Spectrum& scale, std::string_view of_what);
 
   // write_shapes.cpp
   void shape(const ShapeDescription& s, bool in_group);

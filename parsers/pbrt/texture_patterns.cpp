@@ -18,10 +18,7 @@ constexpr Spec kChecks[] = {{"tex1", kEither, "1"},
 
 void read_checkerboard(Values& v, const Request& request, Made& made) {
   Reader& reader = v.reader();
-  Made first, second;
-  read_input(v, request, "tex1", first);
-  read_input(v, request, "tex2", second);
-  const ColorInput a = input_of(request, first), b = input_of(request, second);
+  const ColorInput a = color_of(v, request, "tex1"), b = color_of(v, request, "tex2");
   const int dimension = v.integer("dimension");
   if (dimension == 3) {
     set(made, reader.add_texture(SolidCheckerboardDescription{a, b, from_world(v)}, v.where()));
@@ -53,9 +50,7 @@ constexpr Spec kBilerp[] = {{"v00", kEither, "0"},
 void read_bilerp(Values& v, const Request& request, Made& made) {
   BilerpDescription b;
   const auto corner = [&](const char* name) {
-    Made value;
-    read_input(v, request, name, value);
-    const ColorInput input = input_of(request, value);
+    const ColorInput input = color_of(v, request, name);
     if (const Spectrum* constant = std::get_if<Spectrum>(&input)) return *constant;
     v.reader().report().error(v.where(name), "a corner of bilerp is no texture");
     return Spectrum(0.0f);
@@ -71,11 +66,8 @@ constexpr Spec kDots[] = {{"inside", kEither, "1", "around the dots, as pbrt has
 
 void read_dots(Values& v, const Request& request, Made& made) {
   Reader& reader = v.reader();
-  Made inside, outside;
-  read_input(v, request, "inside", inside);
-  read_input(v, request, "outside", outside);
   // pbrt's images have "inside" around the dots and "outside" in them.
-  const ColorInput a = input_of(request, outside), b = input_of(request, inside);
+  const ColorInput b = color_of(v, request, "inside"), a = color_of(v, request, "outside");
   DotsDescription dots;
   dots.to_uv = mapping(v);
   if (v.string("mapping") == "uv") {

@@ -37,9 +37,9 @@ UvTransform mapping(Values& v);
 TextureId mapped(Values& v, TextureId texture);
 /// Both forms of a texture that is not constant.
 void set(Made& made, TextureId id);
-/// What was asked for, as a colour.
-ColorInput input_of(const Request& request, const Made& made);
 /// A value of one of the texture's own parameters.
 void read_input(Values& v, const Request& request, std::string_view name, Made& made);
+/// The same as a colour, also where a number was asked for.
+ColorInput color_of(Values& v, const Request& request, std::string_view name);
 
 }  // namespace duet::pbrt

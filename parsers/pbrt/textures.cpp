@@ -22,10 +22,6 @@ void set(Made& made, TextureId id) {
   made.number = id;
 }
 
-ColorInput input_of(const Request& request, const Made& made) {
-  return request.is_color ? made.color : as_color(made.number);
-}
-
 void read_input(Values& v, const Request& request, std::string_view name, Made& made) {
   const Parameter* p = v.given(name);
   if (request.is_color) {
@@ -36,6 +32,12 @@ void read_input(Values& v, const Request& request, std::string_view name, Made& 
   } else {
     made.number = v.float_input(name);
   }
+}
+
+ColorInput color_of(Values& v, const Request& request, std::string_view name) {
+  Made made;
+  read_input(v, request, name, made);
+  return request.is_color ? made.color : as_color(made.number);
 }
 
 namespace {
@@ -142,10 +144,7 @@ void read_scale(Values& v, const Request& request, Made& made) {
     read_input(v, request, "tex2", b);
   } else {
     b.number = v.float_input("scale");
-    if (const double* n = std::get_if<double>(&b.number))
-      b.color = Spectrum(float(*n));
-    else
-      b.color = std::get<TextureId>(b.number);
+    b.color = as_color(b.number);
   }
   const auto product = [&](auto& x, auto& y, auto& result) {
     using Constant = std::variant_alternative_t<0, std::decay_t<decltype(x)>>;
@@ -188,26 +187,24 @@ void read_mix_texture(Values& v, const Request& request, Made& made) {
     made.color = lerp(*ca, *cb, float(*t));
   else if (t && !request.is_color && na && nb)
     made.number = *na * (1 - *t) + *nb * *t;
+  else if (request.is_color)
+    set(made, v.reader().add_texture(MixDescription{a.color, b.color, amount}, v.where()));
   else
-    set(made, v.reader().add_texture(
-                  MixDescription{input_of(request, a), input_of(request, b), amount}, v.where()));
+    set(made, v.reader().add_texture(MixDescription{as_color(a.number), as_color(b.number), amount},
+                                     v.where()));
 }
 
 constexpr Spec kDirectionMix[] = {
     {"tex1", kEither, "0"}, {"tex2", kEither, "1"}, {"dir", kVector3, "0 1 0"}};
 
 void read_direction_mix(Values& v, const Request& request, Made& made) {
-  Made a, b;
-  read_input(v, request, "tex1", a);
-  read_input(v, request, "tex2", b);
+  const ColorInput a = color_of(v, request, "tex1"), b = color_of(v, request, "tex2");
   const auto d = v.point("dir");
   const Matrix4& m = v.reader().state().ctm[0];
   std::array<double, 3> w{};
   for (int i = 0; i < 3; ++i)
     for (size_t j = 0; j < 3; ++j) w[size_t(i)] += m[i][j] * d[j];
-  set(made, v.reader().add_texture(DirectionMixDescription{input_of(request, a),
-                                                           input_of(request, b), w[0], w[1], w[2]},
-                                   v.where()));
+  set(made, v.reader().add_texture(DirectionMixDescription{a, b, w[0], w[1], w[2]}, v.where()));
 }
 
 constexpr Record<ReadTexture> kTextures[] = {

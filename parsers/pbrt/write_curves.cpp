@@ -38,7 +38,7 @@ bool is_linear(const Segment& p) {
 
 void SceneWriter::curves(const ShapeDescription& s, const CurveSet& c, const FloatInput& alpha) {
   const bool is_hair =
-      holds(s.material, [](const MaterialModel& m) { return m.is<HairMaterial>(); });
+      holds(d_, s.material, [](const MaterialModel& m) { return m.is<HairMaterial>(); });
   if (c.profile == CurveProfile::tube && !is_hair)
     lose("curves that are tubes are ribbons that face each ray, with the normals of tubes");
   if (!s.motion.empty()) lose("curves do not move");

@@ -71,21 +71,22 @@ bool SceneWriter::uniform_emission(Statement& s, const EmissionDescription& e,
   return true;
 }
 
-void SceneWriter::grid_emission(Statement& s, const EmissionDescription& e, const GridCells& cells,
-                                bool is_uniform) {
-  if (is_uniform) {
-    if (!uniform_emission(s, e, cells)) lose("the emission of a medium given by a grid is missing");
-    return;
-  }
+bool SceneWriter::rgb_emission(Statement& s, const EmissionDescription& e, const GridCells& cells) {
   const VolumeId* id = std::get_if<VolumeId>(&e.radiance);
-  if (!id || e.temperature) return lose("the emission of a medium given by a grid is missing");
+  if (!id || e.temperature) return false;
   const GridCells radiance(d_.volumes[size_t(*id)]);
-  if (!radiance.has_box_of(cells))
-    return lose("the emission of a medium given by a grid is missing");
+  if (!radiance.has_box_of(cells)) return false;
   std::vector<float> values;
   for (size_t cell = 0; cell < cells.count(); ++cell)
     for (int c = 0; c < 3; ++c) values.push_back(radiance.value(cells, cell, c) / kUnscaled);
   s.list<float>("Le", Type::rgb, values);
+  return true;
+}
+
+void SceneWriter::grid_emission(Statement& s, const EmissionDescription& e, const GridCells& cells,
+                                bool is_uniform) {
+  if (!(is_uniform ? uniform_emission(s, e, cells) : rgb_emission(s, e, cells)))
+    lose("the emission of a medium given by a grid is missing");
 }
 
 }  // namespace duet::pbrt

@@ -50,8 +50,7 @@ void SceneWriter::grid_medium(const MediumDescription& m, const std::string& nam
   const Spectrum* albedo = std::get_if<Spectrum>(&m.albedo);
   const bool is_uniform = density && albedo && cells.channels() == 1;
   const auto& n = cells.size();
-  Statement s = Statement::named("MakeNamedMedium", "MakeNamedMedium", name,
-                                 is_uniform ? "uniformgrid" : "rgbgrid");
+  Statement s = named_medium(name, is_uniform ? "uniformgrid" : "rgbgrid");
   s.number("g", g).number("scale", m.scale);
   s.integer("nx", n[0]).integer("ny", n[1]).integer("nz", n[2]);
   s.list<int>("p0", Type::point3, std::array{0, 0, 0}).list<int>("p1", Type::point3, n);

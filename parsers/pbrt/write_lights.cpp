@@ -46,6 +46,12 @@ std::optional<SceneWriter::ScaledImage> SceneWriter::scaled_image(TextureId id) 
   return ScaledImage{image, scale};
 }
 
+double SceneWriter::grey_scale(const Spectrum& scale, std::string_view of_what) {
+  if (is_grey(scale)) return double(scale.r);
+  lose(fmt::format("the tint of {} is missing", of_what));
+  return double(scale.luminance());
+}
+
 void SceneWriter::emission(const AreaEmission& e) {
   if (e.directional) return lose("light along the normals of a surface is missing");
   Statement s("AreaLightSource", "diffuse");
@@ -55,10 +61,9 @@ void SceneWriter::emission(const AreaEmission& e) {
     const auto image = scaled_image(std::get<TextureId>(e.radiance));
     if (!image) return lose("light whose radiance is a texture other than an image is missing");
     s.string("filename", image->image->file);
-    s.number("scale", is_grey(image->scale) ? image->scale.r : image->scale.luminance());
+    s.number("scale", grey_scale(image->scale, "a light's image"));
     const UvTransform upright{{{{1, 0, 0}, {0, -1, 1}}}};
     if (!(image->image->to_uv == upright)) lose("the image of a light is upside down or moved");
-    if (!is_grey(image->scale)) lose("the tint of a light's image is missing");
   }
   if (e.two_sided) s.boolean("twosided", true);
   world_text_ += s.text();
@@ -106,10 +111,9 @@ SceneWriter::MaybeLight SceneWriter::light(const EnvironmentMapLight& m, const L
     lose("an environment map by latitude and longitude is missing");
     return std::nullopt;
   }
-  if (!is_grey(m.tint)) lose("the tint of an environment map is missing");
   to_world = to_world * z_up_inverse();
   Statement s = Statement("LightSource", "infinite").string("filename", m.file);
-  s.number("scale", m.scale * double(is_grey(m.tint) ? m.tint.r : m.tint.luminance()));
+  s.number("scale", m.scale * grey_scale(m.tint, "an environment map"));
   if (m.illuminance) s.number("illuminance", *m.illuminance);
   return s;
 }
@@ -133,12 +137,10 @@ SceneWriter::MaybeLight SceneWriter::light(const ProjectorLight& m, const LightD
     return std::nullopt;
   }
   if (!m.is_intensity) lose("the projector's image is intensity, not irradiance");
-  const bool grey = is_grey(image->scale);
-  if (!grey) lose("the tint of a projector is missing");
   to_world = to_world * Matrix4::scale(-1, 1, 1);
   return Statement("LightSource", "projection")
       .string("filename", image->image->file)
-      .number("scale", m.scale * double(grey ? image->scale.r : image->scale.luminance()))
+      .number("scale", m.scale * grey_scale(image->scale, "a projector"))
       .number("fov", m.fov);
 }
 

@@ -121,14 +121,6 @@ void SceneWriter::write_material(MaterialId id, const std::string& name, Around 
   write_unknown(model, name, around);
 }
 
-bool SceneWriter::holds(MaterialId id,
-                        const std::function<bool(const MaterialModel&)>& is_such) const {
-  const MaterialModel& model = d_.materials[size_t(id)].model;
-  const std::vector<MaterialId> nested = model.nested();
-  return is_such(model) || std::any_of(nested.begin(), nested.end(),
-                                       [&](MaterialId part) { return holds(part, is_such); });
-}
-
 std::string SceneWriter::material(MaterialId id, bool two_sided) {
   const auto [entry, is_new] = materials_.try_emplace({id, two_sided});
   if (is_new) {

@@ -29,6 +29,12 @@ void SceneWriter::lost_factor(const ColorInput& factor, std::string_view what) {
   if (factor != ColorInput(Spectrum(1.0f))) lose(fmt::format("{} is missing", what));
 }
 
+template <class Material>
+void SceneWriter::lost_dielectric_factors(const Material& m) {
+  lost_factor(m.specular_reflectance, "the factor of a dielectric's reflection");
+  lost_factor(m.specular_transmittance, "the factor of a dielectric's transmission");
+}
+
 void SceneWriter::normal_map(Statement& s, const NormalMapMaterial& n) {
   const TextureId* id = std::get_if<TextureId>(&n.normals);
   const auto* image = id ? std::get_if<BitmapTexture>(&d_.textures[size_t(*id)].model) : nullptr;
@@ -135,8 +141,7 @@ void SceneWriter::write(const ConductorMaterial& m, const std::string& name, con
 
 void SceneWriter::write(const DielectricMaterial& m, const std::string& name,
                         const Around& around) {
-  lost_factor(m.specular_reflectance, "the factor of a dielectric's reflection");
-  lost_factor(m.specular_transmittance, "the factor of a dielectric's transmission");
+  lost_dielectric_factors(m);
   Statement s = named_material(name, "dielectric");
   if (const double* eta = std::get_if<double>(&m.eta))
     s.number("eta", *eta);
@@ -148,8 +153,7 @@ void SceneWriter::write(const DielectricMaterial& m, const std::string& name,
 
 void SceneWriter::write(const ThinDielectricMaterial& m, const std::string& name,
                         const Around& around) {
-  lost_factor(m.specular_reflectance, "the factor of a dielectric's reflection");
-  lost_factor(m.specular_transmittance, "the factor of a dielectric's transmission");
+  lost_dielectric_factors(m);
   Statement s = named_material(name, "thindielectric");
   s.number("eta", m.eta);
   end_material(s, around);

@@ -27,7 +27,7 @@ void SceneWriter::medium(size_t index) {
   const Spectrum* albedo = std::get_if<Spectrum>(&m.albedo);
   if (!extinction || !albedo) return grid_medium(m, name, g);
   if (m.cloud) return cloud_medium(m, name, g);
-  Statement s = Statement::named("MakeNamedMedium", "MakeNamedMedium", name, "homogeneous");
+  Statement s = named_medium(name, "homogeneous");
   s.color("sigma_a", *extinction * (Spectrum(1.0f) - *albedo))
       .color("sigma_s", *extinction * *albedo)
       .number("scale", m.scale)
@@ -47,7 +47,7 @@ void SceneWriter::cloud_medium(const MediumDescription& m, const std::string& na
   const Spectrum& extinction = std::get<Spectrum>(m.sigma_t);
   const Spectrum& albedo = std::get<Spectrum>(m.albedo);
   if (m.emission) lose("the emission of a cloud of noise is missing");
-  Statement s = Statement::named("MakeNamedMedium", "MakeNamedMedium", name, "cloud");
+  Statement s = named_medium(name, "cloud");
   s.color("sigma_a", extinction * (Spectrum(1.0f) - albedo)).color("sigma_s", extinction * albedo);
   s.number("scale", m.scale).number("g", g);
   s.number("density", c.density).number("wispiness", c.wispiness).number("frequency", c.frequency);

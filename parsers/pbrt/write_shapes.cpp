@@ -104,7 +104,7 @@ bool asks_for_uv(const MaterialModel& model) {
 }  // namespace
 
 bool SceneWriter::looks_at_uv(const ShapeDescription& s) const {
-  return holds(s.material, asks_for_uv) ||
+  return holds(d_, s.material, asks_for_uv) ||
          (s.emission && std::holds_alternative<TextureId>(s.emission->radiance));
 }
 

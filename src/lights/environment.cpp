@@ -1,6 +1,5 @@
 #include "lights/environment.h"
 
-#include <algorithm>
 #include <array>
 #include <cassert>
 #include <numbers>
@@ -133,19 +132,15 @@ double EnvironmentMap::power(double scene_radius) const {
 
 EnvironmentSum::EnvironmentSum(std::vector<std::unique_ptr<EnvironmentLight>> parts)
     : parts_(std::move(parts)) {
-  const double whole = power(1);
-  for (const auto& p : parts_)
-    shares_.push_back(whole > 0 ? float(p->power(1) / whole) : 1 / float(parts_.size()));
+  std::vector<float> powers;
+  for (const auto& p : parts_) powers.push_back(float(p->power(1)));
+  choice_ = DiscreteDistribution(powers);
 }
 
 std::optional<LightSample> EnvironmentSum::sample_direct(const Point3f& from,
                                                          const Point2f& u) const {
-  float below = 0;
-  size_t i = 0;
-  while (i + 1 < parts_.size() && u.x >= below + shares_[i]) below += shares_[i++];
-  constexpr float kOneBelow = 0x1.fffffep-1f;
-  const float within = shares_[i] > 0 ? (u.x - below) / shares_[i] : 0.0f;
-  const auto s = parts_[i]->sample_direct(from, {std::clamp(within, 0.0f, kOneBelow), u.y});
+  const DiscreteDistribution::Pick part = choice_.sample(u.x, u);
+  const auto s = parts_[part.index]->sample_direct(from, {part.remapped, u.y});
   if (!s) return std::nullopt;
   const PdfW pdf = pdf_direct(from, s->wi);
   if (!(pdf.value > 0)) return std::nullopt;
@@ -161,7 +156,7 @@ Spectrum EnvironmentSum::emitted(const Point3f& from, const Vector3f& wi) const 
 PdfW EnvironmentSum::pdf_direct(const Point3f& from, const Vector3f& wi) const {
   float sum = 0;
   for (size_t i = 0; i < parts_.size(); ++i)
-    sum += shares_[i] * parts_[i]->pdf_direct(from, wi).value;
+    sum += choice_.probability(uint32_t(i)) * parts_[i]->pdf_direct(from, wi).value;
   return {sum};
 }
 

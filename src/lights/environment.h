@@ -84,7 +84,7 @@ class EnvironmentSum final : public EnvironmentLight {
 
  private:
   std::vector<std::unique_ptr<EnvironmentLight>> parts_;
-  std::vector<float> shares_;  ///< of the choice; they sum to one
+  DiscreteDistribution choice_;
 };
 
 }  // namespace duet

@@ -1,5 +1,9 @@
 #include "lights/portal.h"
 
+#include <algorithm>
+
+#include "math/warp.h"
+
 namespace duet {
 
 namespace {
@@ -51,7 +55,7 @@ std::optional<LightSample> PortalEnvironment::sample_direct(const Point3f& from,
   if (!(dot(normal_, corner_ - from) > 0)) return std::nullopt;
   Vector3f wi;
   if (u.x < share_) {
-    const auto chosen = environment_->sample_direct(from, {u.x / share_, u.y});
+    const auto chosen = environment_->sample_direct(from, {std::min(u.x / share_, kBelowOne), u.y});
     if (!chosen) return std::nullopt;
     wi = chosen->wi;
   } else {
@@ -60,13 +64,8 @@ std::optional<LightSample> PortalEnvironment::sample_direct(const Point3f& from,
   }
   const float window = window_density(from, wi);
   if (window == 0) return std::nullopt;
-  const Spectrum radiance = environment_->emitted(from, wi);
-  LightSample s;
-  s.wi = wi;
-  s.pdf = mixed(from, wi, window);
-  s.weight = radiance / s.pdf.value;
+  LightSample s = from_afar(wi, environment_->emitted(from, wi), mixed(from, wi, window));
   s.emission = emission_density(wi);
-  s.finite = false;
   return s;
 }
 

@@ -52,7 +52,7 @@ float CloudVolume::density(const Point3f& p) const {
 }
 
 void CloudVolume::world_box(Point3f& lower, Point3f& upper) const {
-  box_in_world(to_world_, shape_.lower, shape_.upper, lower, upper);
+  map_box(to_world_, shape_.lower, shape_.upper, lower, upper);
 }
 
 float CloudVolume::maximum(const Point3f& lower, const Point3f& upper) const {

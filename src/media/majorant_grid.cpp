@@ -16,17 +16,9 @@ constexpr int kMostCells = 64;
 template <class Volume>
 MajorantGrid::MajorantGrid(const Volume& volume, float scale) {
   volume.world_box(world_lower_, world_upper_);
-  Point3f upper(-INFINITY);
-  lower_ = Point3f(INFINITY);
-  for (int corner = 0; corner < 8; ++corner) {
-    Point3f p;
-    for (int i = 0; i < 3; ++i) p[i] = corner >> i & 1 ? world_upper_[i] : world_lower_[i];
-    p = volume.to_local(p);
-    for (int i = 0; i < 3; ++i) {
-      lower_[i] = std::min(lower_[i], p[i]);
-      upper[i] = std::max(upper[i], p[i]);
-    }
-  }
+  Point3f upper;
+  map_box([&](const Point3f& p) { return volume.to_local(p); }, world_lower_, world_upper_, lower_,
+          upper);
   for (int i = 0; i < 3; ++i) {
     int& n = size_[size_t(i)];
     const float extent = upper[i] - lower_[i];

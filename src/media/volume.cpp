@@ -2,20 +2,6 @@
 
 namespace duet {
 
-void box_in_world(const Transform& to_world, const Point3f& lower, const Point3f& upper,
-                  Point3f& world_lower, Point3f& world_upper) {
-  world_lower = Point3f(INFINITY), world_upper = Point3f(-INFINITY);
-  for (int corner = 0; corner < 8; ++corner) {
-    Point3f p;
-    for (int i = 0; i < 3; ++i) p[i] = corner >> i & 1 ? upper[i] : lower[i];
-    p = to_world(p);
-    for (int i = 0; i < 3; ++i) {
-      world_lower[i] = std::min(world_lower[i], p[i]);
-      world_upper[i] = std::max(world_upper[i], p[i]);
-    }
-  }
-}
-
 GridVolume::GridVolume(std::shared_ptr<const VolumeGrid> grid, const Matrix4& to_world,
                        VolumeFilter filter, VolumeWrap wrap, bool nodes_on_faces)
     : grid_(std::move(grid)),
@@ -95,7 +81,7 @@ SymmetricMatrix GridVolume::matrix(const Point3f& p) const {
 }
 
 void GridVolume::world_box(Point3f& lower, Point3f& upper) const {
-  box_in_world(to_world_, Point3f(0), Point3f(1), lower, upper);
+  map_box(to_world_, Point3f(0), Point3f(1), lower, upper);
 }
 
 float GridVolume::maximum(const Point3f& lower, const Point3f& upper) const {

@@ -1,6 +1,8 @@
 // Quantities that vary in space: a grid of values, or a constant in its place.
 #pragma once
 
+#include <algorithm>
+#include <cmath>
 #include <memory>
 
 #include "math/spectrum.h"
@@ -9,9 +11,21 @@
 
 namespace duet {
 
-/// The box in the world around a box in another space.
-void box_in_world(const Transform& to_world, const Point3f& lower, const Point3f& upper,
-                  Point3f& world_lower, Point3f& world_upper);
+/// The box around a box's eight corners after `map`, from one space to another.
+template <class Map>
+void map_box(const Map& map, const Point3f& lower, const Point3f& upper, Point3f& mapped_lower,
+             Point3f& mapped_upper) {
+  mapped_lower = Point3f(INFINITY), mapped_upper = Point3f(-INFINITY);
+  for (int corner = 0; corner < 8; ++corner) {
+    Point3f p;
+    for (int i = 0; i < 3; ++i) p[i] = corner >> i & 1 ? upper[i] : lower[i];
+    p = map(p);
+    for (int i = 0; i < 3; ++i) {
+      mapped_lower[i] = std::min(mapped_lower[i], p[i]);
+      mapped_upper[i] = std::max(mapped_upper[i], p[i]);
+    }
+  }
+}
 
 /// A symmetric 3×3 matrix: xx, yy, zz, xy, xz, yz.
 using SymmetricMatrix = std::array<float, 6>;

@@ -64,7 +64,7 @@ std::optional<LensStop> SceneBuilder::lens_stop(const SensorDescription& d) {
   for (int y = 0; y < image->height(); ++y)
     for (int x = 0; x < image->width(); ++x) {
       const Spectrum c = image->color(x, y);
-      values.push_back(std::max(0.0f, (c.r + c.g + c.b) / 3));
+      values.push_back(std::max(0.0f, c.mean()));
       largest = std::max(largest, values.back());
     }
   drop_pixels();

@@ -203,7 +203,7 @@ LightPointer GoniometricLight::build(SceneBuilder& b, const LightDescription& d)
   for (int y = 0; y < n; ++y)
     for (int x = 0; x < n; ++x) {
       const Spectrum c = image->color(x, y);
-      texels.push_back(scale * ((c.r + c.g + c.b) / 3));
+      texels.push_back(scale * c.mean());
     }
   return std::make_unique<GoniometricEmitter>(Transform(d.to_world), n, std::move(texels));
 }

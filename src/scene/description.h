@@ -40,6 +40,14 @@ struct SceneDescription {
   }
 };
 
+/// Gives the shapes of the scene to `visit`, and then those of its groups. The scene may be const.
+template <class Scene, class Visit>
+void for_each_shape(Scene& scene, Visit visit) {
+  for (auto& s : scene.shapes) visit(s);
+  for (auto& group : scene.groups)
+    for (auto& s : group.shapes) visit(s);
+}
+
 /// The number of shapes, lights and sensors that move.
 size_t count_moving(const SceneDescription& scene);
 /// The scene as it stands at a time. Nothing in it moves.

@@ -21,18 +21,23 @@ std::vector<MaterialId> MaterialModel::nested() const {
   return ids;
 }
 
-bool transmits(const SceneDescription& scene, MaterialId id) {
+bool holds(const SceneDescription& scene, MaterialId id,
+           const std::function<bool(const MaterialModel&)>& is_such) {
   // Materials may share what is nested in them, so each is looked at once.
   std::set<MaterialId> seen{id};
   std::vector<MaterialId> open{id};
   while (!open.empty()) {
     const MaterialModel& model = scene.materials[size_t(open.back())].model;
     open.pop_back();
-    if (model.scattering().transmits()) return true;
+    if (is_such(model)) return true;
     for (const MaterialId nested : model.nested())
       if (seen.insert(nested).second) open.push_back(nested);
   }
   return false;
+}
+
+bool transmits(const SceneDescription& scene, MaterialId id) {
+  return holds(scene, id, [](const MaterialModel& m) { return m.scattering().transmits(); });
 }
 
 }  // namespace duet

@@ -1,6 +1,8 @@
 // A BSDF of a scene description, of any plugin.
 #pragma once
 
+#include <functional>
+
 #include "scene/model.h"
 #include "scene/scattering.h"
 
@@ -64,6 +66,9 @@ class MaterialModel : public Model<BsdfOperations> {
   std::vector<MaterialId> nested() const;
 };
 
+/// Whether the material, or one of those that are nested in it, is such a one.
+bool holds(const SceneDescription& scene, MaterialId id,
+           const std::function<bool(const MaterialModel&)>& is_such);
 /// Whether light can pass to the other side of the material, through it or what is nested in it.
 bool transmits(const SceneDescription& scene, MaterialId id);
 

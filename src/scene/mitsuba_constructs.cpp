@@ -11,13 +11,6 @@ namespace {
 
 // ---- What a scene uses ----
 
-template <class Visit>
-void for_each_shape(const SceneDescription& scene, Visit visit) {
-  for (const ShapeDescription& s : scene.shapes) visit(s);
-  for (const ShapeGroupDescription& g : scene.groups)
-    for (const ShapeDescription& s : g.shapes) visit(s);
-}
-
 /// Those of the shapes, with their parts.
 std::set<MaterialId> used_materials(const SceneDescription& scene) {
   std::set<MaterialId> used;

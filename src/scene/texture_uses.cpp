@@ -74,16 +74,14 @@ std::vector<TextureUse> texture_uses(const SceneDescription& scene) {
   const auto model = [&](const auto& m) { marker.model(m); };
   for (const MaterialDescription& m : scene.materials) marker.model(m.model);
   for (const LightDescription& l : scene.lights) std::visit(model, l.model);
-  const auto shapes = [&](const std::vector<ShapeDescription>& list) {
-    for (const ShapeDescription& s : list) {
-      if (s.emission) marker.mark(s.emission->radiance);
-      if (const auto* field = std::get_if<HeightFieldShape>(&s.geometry))
-        marker.mark(ColorInput(field->heights));
-    }
+  const auto shape = [&](const ShapeDescription& s) {
+    if (s.emission) marker.mark(s.emission->radiance);
+    if (const auto* field = std::get_if<HeightFieldShape>(&s.geometry))
+      marker.mark(ColorInput(field->heights));
   };
-  shapes(scene.shapes);
-  for (const ShapeGroupDescription& g : scene.groups) shapes(g.shapes);
-  for (const SensorDescription& s : scene.sensors) shapes(s.target_shape);
+  for_each_shape(scene, shape);
+  for (const SensorDescription& s : scene.sensors)
+    for (const ShapeDescription& target : s.target_shape) shape(target);
   return marker.take();
 }
 

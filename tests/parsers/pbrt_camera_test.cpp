@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "pbrt/pbrt.h"
+#include "support/pbrt_file.h"
 #include "support/transport_scene.h"
 
 using namespace duet;
@@ -15,14 +15,9 @@ namespace {
 const std::string kLens =
     "# radius thickness index diameter\n50 4 1.5 24\n-50 2 1 24\n0 40 0 16 # the stop\n";
 
-struct CameraFile {
-  std::optional<SceneDescription> scene;
-  std::string messages;
-};
-
 /// A scene with a realistic camera of these parameters beside a lens file.
-CameraFile realistic(const std::string& lens, const std::string& parameters,
-                     const std::string& more = "", bool v3 = false) {
+PbrtFile realistic(const std::string& lens, const std::string& parameters,
+                   const std::string& more = "", bool v3 = false) {
   const TemporaryDirectory folder;
   folder.write("lens.dat", lens);
   const std::string file = folder.write(
@@ -32,15 +27,10 @@ CameraFile realistic(const std::string& lens, const std::string& parameters,
                         "PixelFilter \"box\"\nWorldBegin\n"
                         "LightSource \"infinite\" \"rgb L\" [2 2 2]\n" +
                         (v3 ? "WorldEnd\n" : ""));
-  Diagnostics diagnostics;
-  auto read = pbrt::read_pbrt(file, {}, diagnostics);
-  CameraFile out;
-  if (read) out.scene = std::move(read->description);
-  for (const Diagnostic& d : diagnostics.all()) out.messages += d.to_string() + "\n";
-  return out;
+  return read_pbrt_file(file);
 }
 
-void check_message(const CameraFile& f, const std::string& message, bool has_scene = false) {
+void check_message(const PbrtFile& f, const std::string& message, bool has_scene = false) {
   CHECK(f.scene.has_value() == has_scene);
   CHECK_MESSAGE(f.messages.find(message) != f.messages.npos, f.messages, " lacks ", message);
 }
@@ -48,7 +38,7 @@ void check_message(const CameraFile& f, const std::string& message, bool has_sce
 }  // namespace
 
 TEST_CASE("pbrt's realistic camera: lens files and parameters") {
-  const CameraFile f = realistic(kLens, "\"float aperturediameter\" 8 \"float focusdistance\" 3");
+  const PbrtFile f = realistic(kLens, "\"float aperturediameter\" 8 \"float focusdistance\" 3");
   REQUIRE_MESSAGE(f.scene, f.messages);
   CHECK(f.messages.empty());
   const SensorDescription& s = f.scene->sensors.at(0);
@@ -61,15 +51,15 @@ TEST_CASE("pbrt's realistic camera: lens files and parameters") {
   CHECK(s.lenses.film_diagonal == doctest::Approx(0.02));
   CHECK_FALSE(s.lenses.relative_to_pupil);
   // Defaults: 1 mm, 10 m.
-  const CameraFile standard = realistic(kLens, "");
+  const PbrtFile standard = realistic(kLens, "");
   CHECK(standard.scene->sensors.at(0).lenses.surfaces[2].aperture == doctest::Approx(0.0005));
   CHECK(standard.scene->sensors.at(0).lenses.focus_distance == 10);
   CHECK_FALSE(*standard.scene == *f.scene);
-  const CameraFile star = realistic(kLens, "\"string aperture\" \"star\"");
+  const PbrtFile star = realistic(kLens, "\"string aperture\" \"star\"");
   CHECK(star.scene->sensors.at(0).lenses.stop == StopShape::star);
   // v3 is relative to the pupil unless it is told otherwise; then the shutter's time counts.
   CHECK(realistic(kLens, "", "", true).scene->sensors.at(0).lenses.relative_to_pupil);
-  const CameraFile v3 =
+  const PbrtFile v3 =
       realistic(kLens, "\"bool simpleweighting\" \"false\" \"float shutterclose\" .5", "", true);
   CHECK_FALSE(v3.scene->sensors.at(0).lenses.relative_to_pupil);
   REQUIRE(v3.scene->sensors.at(0).film.response);
@@ -104,7 +94,7 @@ TEST_CASE("pbrt's realistic camera: what is wrong with a lens file is said with 
 }
 
 TEST_CASE("pbrt's realistic camera: lenses that cannot be focused") {
-  const auto build = [](const CameraFile& f) {
+  const auto build = [](const PbrtFile& f) {
     REQUIRE(f.scene);
     Diagnostics diagnostics;
     CHECK_FALSE(build_scene(*f.scene, {}, diagnostics));
@@ -155,14 +145,9 @@ TEST_CASE("pbrt's gbuffer: its layers are in the image, and what is missing is s
             "\nPixelFilter \"box\"\nWorldBegin\nLightSource \"infinite\"\n"
             "Material \"diffuse\" \"rgb reflectance\" [.2 .4 .6]\n"
             "Shape \"bilinearmesh\" \"point3 P\" [-9 -9 1  9 -9 1  -9 9 1  9 9 1]\n");
-    Diagnostics diagnostics;
-    auto read = pbrt::read_pbrt(file, {}, diagnostics);
-    CameraFile out;
-    if (read) out.scene = std::move(read->description);
-    for (const Diagnostic& d : diagnostics.all()) out.messages += d.to_string() + "\n";
-    return out;
+    return read_pbrt_file(file);
   };
-  CameraFile f = gbuffer("\"string coordinatesystem\" \"world\"");
+  PbrtFile f = gbuffer("\"string coordinatesystem\" \"world\"");
   REQUIRE(f.scene);
   REQUIRE(f.scene->approximations.size() == 1);
   CHECK(f.scene->approximations[0].message.find(

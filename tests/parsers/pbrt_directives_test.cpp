@@ -3,8 +3,8 @@
 
 #include <cmath>
 
-#include "pbrt/pbrt.h"
 #include "support/files.h"
+#include "support/pbrt_file.h"
 
 using namespace duet;
 using namespace duet::test;
@@ -14,12 +14,7 @@ namespace {
 /// The scene of a text; fails with its messages if there is none.
 SceneDescription pbrt_scene(const std::string& text, pbrt::Options options = {}) {
   const TemporaryDirectory folder;
-  Diagnostics diagnostics;
-  auto scene = pbrt::read_pbrt(folder.write("scene.pbrt", text), options, diagnostics);
-  std::string messages;
-  for (const Diagnostic& d : diagnostics.all()) messages += d.to_string() + "\n";
-  REQUIRE_MESSAGE(scene.has_value(), messages);
-  return std::move(scene->description);
+  return scene_of(read_pbrt_file(folder.write("scene.pbrt", text), options));
 }
 
 /// A scene of version 4 whose world is `world`, after `header`.

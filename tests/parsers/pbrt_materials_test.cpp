@@ -3,9 +3,9 @@
 
 #include "image/image_io.h"
 #include "lights/environment.h"
-#include "pbrt/pbrt.h"
 #include "scene/build.h"
 #include "support/files.h"
+#include "support/pbrt_file.h"
 #include "values/half_space.h"
 
 using namespace duet;
@@ -24,12 +24,7 @@ Image four_pixels() {
 SceneDescription scene_with_image(const std::string& text) {
   const TemporaryDirectory folder;
   write_exr(folder.path(kImage), four_pixels(), {});
-  Diagnostics diagnostics;
-  auto read = pbrt::read_pbrt(folder.write("scene.pbrt", text), {}, diagnostics);
-  std::string messages;
-  for (const Diagnostic& d : diagnostics.all()) messages += d.to_string() + "\n";
-  REQUIRE_MESSAGE(read.has_value(), messages);
-  return std::move(read->description);
+  return scene_of(read_pbrt_file(folder.write("scene.pbrt", text)));
 }
 SceneDescription v4_file(const std::string& world) {
   return scene_with_image("Film \"rgb\"\nWorldBegin\n" + world);

@@ -1,39 +1,25 @@
 // Textures, materials and lights of pbrt files that are used before they are defined, or together.
 #include <doctest/doctest.h>
+#include <fmt/format.h>
 
-#include "pbrt/pbrt.h"
 #include "scene/build.h"
 #include "support/files.h"
+#include "support/pbrt_file.h"
 
 using namespace duet;
 using namespace duet::test;
 
 namespace {
 
-struct ReadScene {
-  std::optional<SceneDescription> scene;
-  std::string messages;
-};
-
-ReadScene read_text(const std::string& text) {
+PbrtFile read_text(const std::string& text) {
   const TemporaryDirectory folder;
-  Diagnostics diagnostics;
-  auto read = pbrt::read_pbrt(folder.write("scene.pbrt", text), {}, diagnostics);
-  ReadScene result;
-  for (const Diagnostic& d : diagnostics.all()) result.messages += d.to_string() + "\n";
-  if (read) result.scene = std::move(read->description);
-  return result;
+  return read_pbrt_file(folder.write("scene.pbrt", text));
 }
 
-SceneDescription scene_of(const std::string& text) {
-  ReadScene r = read_text(text);
-  REQUIRE_MESSAGE(r.scene.has_value(), r.messages);
-  return std::move(*r.scene);
-}
 SceneDescription v4_scene(const std::string& world) {
-  return scene_of("Film \"rgb\"\nWorldBegin\n" + world);
+  return scene_of(read_text("Film \"rgb\"\nWorldBegin\n" + world));
 }
-ReadScene v3_scene(const std::string& world) {
+PbrtFile v3_scene(const std::string& world) {
   return read_text("Film \"image\"\nWorldBegin\n" + world + "\nWorldEnd\n");
 }
 
@@ -63,13 +49,13 @@ TEST_CASE("pbrt-v4: textures are used before they are defined, constants and oth
   const TextureId other = std::get<TextureId>(reflectance_of(board, 0));
   CHECK(std::holds_alternative<CheckerboardTexture>(board.textures.at(size_t(other)).model));
   // Textures that are made of others come after them, and names belong to one kind.
-  const ReadScene nested = read_text(
+  const PbrtFile nested = read_text(
       "Film \"rgb\"\nWorldBegin\nTexture \"a\" \"float\" \"scale\" \"texture tex\" \"a\"\n");
   CHECK(nested.messages.find("there is no texture \"a\" of numbers") != std::string::npos);
-  const ReadScene kind =
+  const PbrtFile kind =
       read_text("Film \"rgb\"\nWorldBegin\n" + shapes + "Texture \"t\" \"float\" \"constant\"\n");
   CHECK(kind.messages.find("there is no texture \"t\" of colours") != std::string::npos);
-  const ReadScene v3 =
+  const PbrtFile v3 =
       v3_scene("Material \"matte\" \"texture Kd\" \"t\"\nTexture \"t\" \"color\" \"constant\"");
   CHECK(v3.messages.find("there is no texture \"t\" of colours") != std::string::npos);
 }
@@ -108,7 +94,7 @@ TEST_CASE("pbrt: several environments add up") {
 }
 
 TEST_CASE("pbrt-v3 takes no notice of parameters of another type, and of the first of two") {
-  const ReadScene r = v3_scene(
+  const PbrtFile r = v3_scene(
       "Material \"matte\" \"float Kd\" .1\nShape \"sphere\" \"float radius\" 2 \"float radius\" 3\n"
       "Material \"matte\" \"rgb Kd\" [-1 .5 1.5]\nShape \"sphere\"\n");
   REQUIRE_MESSAGE(r.scene.has_value(), r.messages);
@@ -120,7 +106,7 @@ TEST_CASE("pbrt-v3 takes no notice of parameters of another type, and of the fir
 }
 
 TEST_CASE("pbrt-v3 goes on without textures and materials that there are not") {
-  const ReadScene r = v3_scene(
+  const PbrtFile r = v3_scene(
       "Material \"matte\" \"rgb Kd\" [.1 .2 .3]\nNamedMaterial \"none of them\"\nShape \"sphere\"\n"
       "Material \"plastic\" \"texture Ks\" \"nothing\"\nShape \"sphere\"\n"
       "Material \"shinymetal\" \"rgb Kd\" [.4 .5 .6]\nShape \"sphere\"\n");
@@ -133,7 +119,7 @@ TEST_CASE("pbrt-v3 goes on without textures and materials that there are not") {
 }
 
 TEST_CASE("pbrt-v3: directives at the wrong place and those of version 2 are left out") {
-  const ReadScene r = read_text(
+  const PbrtFile r = read_text(
       "Renderer \"sampler\"\nVolumeIntegrator \"single\"\nMaterial \"matte\" \"rgb Kd\" [0 0 0]\n"
       "WorldBegin\nFilm \"image\" \"integer xresolution\" 7\nShape \"sphere\"\nWorldEnd\n");
   REQUIRE_MESSAGE(r.scene.has_value(), r.messages);
@@ -145,7 +131,7 @@ TEST_CASE("pbrt-v3: directives at the wrong place and those of version 2 are lef
 }
 
 TEST_CASE("pbrt-v3 asks of an alpha only whether it is zero") {
-  const ReadScene r = v3_scene(
+  const PbrtFile r = v3_scene(
       "Texture \"t\" \"float\" \"checkerboard\" \"float tex1\" .25\n"
       "Shape \"sphere\" \"float alpha\" .25\nShape \"sphere\" \"float alpha\" 0\n"
       "Shape \"sphere\" \"texture alpha\" \"t\"\n");
@@ -167,4 +153,17 @@ TEST_CASE("pbrt-v4: a metal with a textured reflectance has the k of every place
   const TextureId id = std::get<TextureId>(metal.k);
   CHECK(std::get<FunctionDescription>(d.textures.at(size_t(id)).model).function ==
         TextureFunction::metal_k);
+}
+
+TEST_CASE("pbrt: materials mixed of themselves are read in linear time") {
+  // Curves ask whether there is hair in the material: 2^60 ways lead to the one at the bottom.
+  std::string world = "MakeNamedMaterial \"m0\" \"string type\" \"hair\"\n";
+  for (int i = 0; i < 60; ++i)
+    world += fmt::format(
+        "MakeNamedMaterial \"m{}\" \"string type\" \"mix\" \"string materials\" [\"m{}\" \"m{}\"] "
+        "\"float amount\" 0.5\n",
+        i + 1, i, i);
+  const SceneDescription d = v4_scene(
+      world + "NamedMaterial \"m60\"\nShape \"curve\" \"point3 P\" [0 0 0 1 0 0 2 0 0 3 0 0]\n");
+  CHECK(std::get<CurvesShape>(d.shapes.at(0).geometry).curves->profile == CurveProfile::tube);
 }

@@ -17,20 +17,18 @@ ConvertedScene convert_scene(const SceneDescription& scene, const std::string& f
   SceneDescription d = scene;
   ConvertedScene result;
   std::string text;
-  // What is made beside the scene has a relative name already when the others get theirs.
-  if (file.ends_with(".pbrt")) {
-    prepare_for_pbrt(d, files, result.losses);
+  const auto convert = [&](const auto& prepare, const auto& write) {
+    prepare(d, files, result.losses);
+    // What is made beside the scene has a relative name already when the others get theirs.
     name_files_again(d, files);
-    pbrt::PbrtText written = pbrt::write_pbrt(d);
+    auto written = write(d);
     text = std::move(written.text);
     result.losses.insert(result.losses.end(), written.losses.begin(), written.losses.end());
-  } else {
-    prepare_for_mitsuba(d, files, result.losses);
-    name_files_again(d, files);
-    MitsubaXml written = write_mitsuba_xml(d);
-    text = std::move(written.text);
-    result.losses.insert(result.losses.end(), written.losses.begin(), written.losses.end());
-  }
+  };
+  if (file.ends_with(".pbrt"))
+    convert(prepare_for_pbrt, pbrt::write_pbrt);
+  else
+    convert(prepare_for_mitsuba, write_mitsuba_xml);
   result.files = files.take();
   result.files.push_back({file, std::move(text)});
   return result;

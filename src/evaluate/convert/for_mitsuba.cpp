@@ -108,7 +108,7 @@ void move_exposure_to_lights(SceneDescription& scene) {
   if (r != FilmResponse{{{factor, 0, 0}, {0, factor, 0}, {0, 0, factor}}}) return;
   scene.sensors[0].film.response.reset();
   for (LightDescription& l : scene.lights) brighten(l, factor);
-  for_each_shape(scene, [&](ShapeDescription& s) {
+  for_all_shapes(scene, [&](ShapeDescription& s) {
     if (!s.emission) return;
     if (auto* constant = std::get_if<Spectrum>(&s.emission->radiance)) {
       *constant *= float(factor);
@@ -131,7 +131,7 @@ void prepare_for_mitsuba(SceneDescription& scene, NewFiles& files,
   move_exposure_to_lights(scene);
   settle_images_for_mitsuba(scene);
   for (LightDescription& l : scene.lights) environment(scene, l, files, losses);
-  for_each_shape(scene, [&](ShapeDescription& s) { shape_files(s, files); });
+  for_all_shapes(scene, [&](ShapeDescription& s) { shape_files(s, files); });
   for (VolumeDescription& v : scene.volumes) volume_file(v, files, losses);
 }
 

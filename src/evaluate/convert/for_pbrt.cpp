@@ -78,7 +78,7 @@ void environment_file(SceneDescription& scene, LightDescription& l, NewFiles& fi
 void prepare_for_pbrt(SceneDescription& scene, NewFiles& files, std::vector<std::string>& losses) {
   settle_images_for_pbrt(scene);
   for (LightDescription& l : scene.lights) environment_file(scene, l, files, losses);
-  for_each_shape(scene, [&](ShapeDescription& s) { mesh_file(s, files); });
+  for_all_shapes(scene, [&](ShapeDescription& s) { mesh_file(s, files); });
 }
 
 }  // namespace duet

@@ -60,7 +60,7 @@ void name_files_again(SceneDescription& scene, const NewFiles& files) {
       copy.file = files.relative(copy.file);
       m.model = copy;
     }
-  for_each_shape(scene, [&](ShapeDescription& s) {
+  for_all_shapes(scene, [&](ShapeDescription& s) {
     if (auto* mesh = std::get_if<MeshShape>(&s.geometry)) {
       mesh->source.file = files.relative(mesh->source.file);
       mesh->source.pbrt_file = files.relative(mesh->source.pbrt_file);

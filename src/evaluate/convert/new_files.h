@@ -40,10 +40,8 @@ class NewFiles {
 
 /// Gives all shapes of the scene to `change`: those of groups and sensors, too.
 template <class Change>
-void for_each_shape(SceneDescription& scene, Change&& change) {
-  for (ShapeDescription& s : scene.shapes) change(s);
-  for (ShapeGroupDescription& g : scene.groups)
-    for (ShapeDescription& s : g.shapes) change(s);
+void for_all_shapes(SceneDescription& scene, Change change) {
+  for_each_shape(scene, change);
   for (SensorDescription& sensor : scene.sensors)
     for (ShapeDescription& s : sensor.target_shape) change(s);
 }

@@ -14,17 +14,12 @@ SceneParts scene_parts(const SceneDescription& scene) {
   const auto use = [&](std::optional<MediumId> id) {
     if (id) media.insert(*id);
   };
-  const auto visit = [&](const ShapeDescription& s) {
+  for_each_shape(scene, [&](const ShapeDescription& s) {
     if (!std::holds_alternative<InstanceShape>(s.geometry)) materials.insert(s.material);
     use(s.interior), use(s.exterior);
     if (s.emission) parts.lights.push_back(text.area_light(s));
-  };
-  for (const ShapeDescription& s : scene.shapes) {
-    visit(s);
-    ++parts.shape_kinds[text.shape_kind(s)];
-  }
-  for (const ShapeGroupDescription& g : scene.groups)
-    for (const ShapeDescription& s : g.shapes) visit(s);
+  });
+  for (const ShapeDescription& s : scene.shapes) ++parts.shape_kinds[text.shape_kind(s)];
   for (const SensorDescription& s : scene.sensors) use(s.medium);
   for (const LightDescription& l : scene.lights) parts.lights.push_back(text.light(l));
   for (const MaterialId id : materials) parts.bsdfs.push_back({text.name(id), text.material(id)});
