@@ -1,6 +1,9 @@
 #include "image/sample_adder.h"
 
 #include <algorithm>
+#include <array>
+
+#include "base/instruction_sets.h"
 
 namespace duet {
 
@@ -12,6 +15,36 @@ constexpr double kSmall = 32;
 constexpr uint32_t kSamplesAtATime = 1u << 14;
 /// Adding and subtracting these rounds a small number to a multiple of 2⁻³² and of 2⁻⁶⁴.
 constexpr double kCoarse = 0x1.8p20, kFine = 0x1.8p-12;
+
+/// Adds a number below kSmall in two parts.
+inline void add_parts(double weighted, double& coarse, double& fine) {
+  const double whole = (weighted + kCoarse) - kCoarse;
+  coarse += whole;
+  fine += ((weighted - whole) + kFine) - kFine;
+}
+
+/// Adds a sample to the pixels of a row, for a film of any channels. The lists do not overlap.
+DUET_WIDE void add_row(std::span<const double> sample, std::span<const float> weights, float factor,
+                       double* __restrict weighted, double* __restrict coarse,
+                       double* __restrict fine) {
+  const size_t n = sample.size(), count = n * weights.size();
+  for (size_t p = 0; p < weights.size(); ++p)
+    for (size_t c = 0; c < n; ++c) weighted[p * n + c] = double(weights[p] * factor) * sample[c];
+  for (size_t i = 0; i < count; ++i) add_parts(weighted[i], coarse[i], fine[i]);
+}
+
+/// The same where a sample is colours and alpha, and a weight before them: a known number of
+/// values takes registers only.
+constexpr size_t kColourSums = 5;
+DUET_WIDE void add_colours(const double* sample, std::span<const float> weights, float factor,
+                           double* __restrict coarse, double* __restrict fine) {
+  std::array<double, kColourSums> values;
+  std::copy_n(sample, kColourSums, values.begin());
+  for (size_t p = 0; p < weights.size(); ++p, coarse += kColourSums, fine += kColourSums) {
+    const auto weight = double(weights[p] * factor);
+    for (size_t c = 0; c < kColourSums; ++c) add_parts(weight * values[c], coarse[c], fine[c]);
+  }
+}
 
 }  // namespace
 
@@ -42,22 +75,15 @@ void SampleAdder::take(std::span<const float> values) {
 }
 
 void SampleAdder::add(size_t at, std::span<const float> weights, float factor) {
-  const size_t n = sample_.size(), count = n * weights.size();
-  double* next = weighted_.data();
-  for (const float w : weights)
-    for (size_t c = 0; c < n; ++c) *next++ = double(w * factor) * sample_[c];
-  // Three lists that do not overlap, so that several numbers are done at a time.
-  const double* const __restrict weighted = weighted_.data();
+  double *const coarse = &coarse_[at], *const fine = &fine_[at];
   if (is_large_) {
-    for (size_t i = 0; i < count; ++i) tile_.sums_[at + i].add(weighted[i]);
-    return;
-  }
-  double* const __restrict coarse = &coarse_[at];
-  double* const __restrict fine = &fine_[at];
-  for (size_t i = 0; i < count; ++i) {
-    const double whole = (weighted[i] + kCoarse) - kCoarse;
-    coarse[i] += whole;
-    fine[i] += ((weighted[i] - whole) + kFine) - kFine;
+    ExactSum* sum = &tile_.sums_[at];
+    for (const float w : weights)
+      for (const double v : sample_) (sum++)->add(double(w * factor) * v);
+  } else if (sample_.size() == kColourSums) {
+    add_colours(sample_.data(), weights, factor, coarse, fine);
+  } else {
+    add_row(sample_, weights, factor, weighted_.data(), coarse, fine);
   }
 }
 

@@ -1,0 +1,11 @@
+// Functions that are compiled for several instruction sets; the loader takes that of the machine.
+#pragma once
+
+/// Stands before a function of loops over numbers, which wider registers speed up. Without
+/// contractions (-ffp-contract=off) all versions have the same bits. Sanitizers are not at work yet
+/// when the loader chooses: with them there is one version.
+#if defined(__x86_64__) && defined(__ELF__) && !defined(DUET_ONE_INSTRUCTION_SET)
+#define DUET_WIDE __attribute__((target_clones("avx2", "default")))
+#else
+#define DUET_WIDE
+#endif
