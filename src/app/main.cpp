@@ -80,6 +80,7 @@ int run(std::vector<std::string> arguments, Program& program) {
   add_render_command(app, program);
   add_info_command(app, program);
   add_convert_command(app, program);
+  add_merge_command(app, program);
   add_compare_command(app, program);
   add_chart_command(app, program);
   add_plugins_command(app, program);

@@ -37,6 +37,7 @@ RenderOptionParser::RenderOptionParser(CLI::App& c, Program& program) : program_
   add_read_options(c, options_.read);
   add_method_options(c);
   add_image_options(c);
+  add_raw_options(c);
   add_output_options(c);
 }
 
@@ -101,6 +102,55 @@ void RenderOptionParser::add_output_options(CLI::App& c) {
   c.add_option("--log", o.log_file, "Write all messages to this file, too");
 }
 
+void RenderOptionParser::add_raw_options(CLI::App& c) {
+  RenderOptions& o = options_;
+  c.option_defaults()->group("Parts of a render (docs/batch.md)");
+  c.add_option("--raw", o.raw,
+               "Write the exact sums of the samples to this .exr file (a template as for -o), for "
+               "`duet merge` and --resume; without -o no image is written");
+  c.add_option("--samples", samples_, "Take only the samples A:B of each pixel, from A to B - 1");
+  c.add_option("--slice", slice_, "Take only part K/N of the samples, counting from 1");
+  c.add_option("--resume", o.resume, "Go on from this raw film: take the samples that it lacks");
+  c.add_option("--checkpoint", checkpoint_,
+               "Write the raw film this often (60s, 10m) and when interrupted, to --raw or beside "
+               "the image as NAME.checkpoint.exr; the same command goes on from it");
+}
+
+void RenderOptionParser::finish_raw() {
+  RenderOptions& o = options_;
+  o.writes_images = o.raw.empty() || !o.outputs.empty();
+  if (!o.raw.empty() && o.raw != "-" && image_format(o.raw) != "exr" && !o.raw.ends_with('/'))
+    throw UsageError(fmt::format("--raw {}: raw films are .exr files", o.raw));
+  if (o.raw == "-") throw UsageError("--raw -: raw films cannot go to standard output");
+  if (!o.resume.empty() && o.read.scenes.size() > 1)
+    throw UsageError("--resume: one film belongs to one scene; --checkpoint resumes several");
+  if (o.skip_existing && !o.writes_images)
+    throw UsageError("--skip-existing: --raw without -o writes no image");
+  if (!checkpoint_.empty()) o.checkpoint = parse_seconds("--checkpoint", checkpoint_);
+  if (samples_.empty() && slice_.empty()) return;
+  const std::string option = samples_.empty() ? "--slice" : "--samples";
+  if (!samples_.empty() && !slice_.empty()) throw UsageError("--slice: there is --samples already");
+  if (o.budget.seconds || o.budget.target_error)
+    throw UsageError(
+        fmt::format("{}: samples that follow from --time or --target-error cannot be "
+                    "cut into slices",
+                    option));
+  if (o.raw.empty() && !o.checkpoint)
+    throw UsageError(fmt::format("{}: the slice goes to a raw film; name it with --raw", option));
+  const auto v = samples_.empty() ? parse_integers(option, slice_, '/', 2, "K/N")
+                                  : parse_integers(option, samples_, ':', 2, "A:B");
+  if (samples_.empty()) {
+    if (v[0] < 1 || v[1] < v[0])
+      throw UsageError(fmt::format("--slice {}: the parts are 1/{} to {}/{}", slice_,
+                                   std::max(v[1], 1), std::max(v[1], 1), std::max(v[1], 1)));
+    o.slice = {uint32_t(v[0]), uint32_t(v[1])};
+  } else {
+    if (v[0] < 0 || v[1] <= v[0] || v[1] > kMaxSpp)
+      throw UsageError(fmt::format("--samples {}: there are no such samples", samples_));
+    o.samples = {uint32_t(v[0]), uint32_t(v[1])};
+  }
+}
+
 void RenderOptionParser::finish_numbers() {
   RenderBudget& budget = options_.budget;
   if (!spp_.empty()) budget.spp = int(parse_whole("--spp", spp_, 1, kMaxSpp));
@@ -153,8 +203,9 @@ void RenderOptionParser::check_standard_output() const {
 
 void RenderOptionParser::check_outputs() const {
   const RenderOptions& o = options_;
-  const std::vector<std::string> patterns =
-      o.outputs.empty() ? std::vector<std::string>{""} : o.outputs;
+  std::vector<std::string> patterns = o.outputs;
+  if (!o.raw.empty()) patterns.push_back(o.raw);
+  if (patterns.empty()) patterns.emplace_back();
   std::map<std::string, std::string> writers;
   for (const std::string& scene : o.read.scenes)
     for (const std::string& pattern : patterns) {
@@ -192,6 +243,7 @@ RenderOptions RenderOptionParser::finish() {
   if (o.require_target && !o.budget.target_error)
     throw UsageError("--require-target: there is no --target-error");
   finish_format();
+  finish_raw();
   check_standard_output();
   check_outputs();
   if (!o.stats_file.empty())

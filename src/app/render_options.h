@@ -35,6 +35,17 @@ struct RenderOptions {
   bool strict_sampler = false;
   TechniqueOutput techniques = TechniqueOutput::none;
 
+  std::string raw;                   ///< where raw films go, as a template
+  std::string resume;                ///< a raw film to go on from
+  std::optional<double> checkpoint;  ///< seconds between raw films
+  std::optional<SampleInterval> samples;
+  struct Slice {
+    uint32_t number = 1, of = 1;
+  };
+  std::optional<Slice> slice;  ///< of the samples
+  /// Whether images are written: not if there are only raw films to write.
+  bool writes_images = true;
+
   std::string stats_file, log_file;
   bool quiet = false, verbose = false;
   ProgressStyle progress = ProgressStyle::automatic;
@@ -51,16 +62,19 @@ class RenderOptionParser {
   void add_method_options(CLI::App& command);
   void add_image_options(CLI::App& command);
   void add_output_options(CLI::App& command);
+  void add_raw_options(CLI::App& command);
   void finish_numbers();
   void finish_window();
   void finish_format();
+  void finish_raw();
   void check_standard_output() const;
   void check_outputs() const;
 
   Program& program_;
   RenderOptions options_;
   std::string spp_, time_, target_, size_, crop_, exposure_ = "0", threads_, seed_, sensor_,
-                                                  progress_ = "auto", techniques_, format_;
+                                                  progress_ = "auto", techniques_, format_,
+                                                  checkpoint_, samples_, slice_;
   std::vector<std::string> integrator_parameters_, layers_;
 };
 

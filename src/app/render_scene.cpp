@@ -5,11 +5,13 @@
 
 #include "app/commands.h"
 #include "app/program.h"
+#include "app/raw_output.h"
 #include "app/scene_images.h"
 #include "app/scene_operand.h"
 #include "app/signals.h"
 #include "app/standard_output.h"
 #include "base/memory_limit.h"
+#include "evaluate/raw/identity.h"
 #include "evaluate/report/memory_estimate.h"
 #include "evaluate/report/render_report.h"
 #include "scene/build.h"
@@ -51,16 +53,28 @@ class SceneRenderer {
       log_.info("{}{}: skipped, {} exists", batch_.label(), file_, images_->planned()[0]);
       return RenderOutcome::not_rendered;
     }
-    check_outputs(images_->planned());
+    if (options_.writes_images) check_outputs(images_->planned());
+    if (const std::string why = raw_->obstacle(); !why.empty()) throw SceneFailure(why);
+    if (raw_->keeps_state()) scene_hash_ = scene_identity(description_, options_.sensor);
     build();
     if (interrupt_exit_code() != 0) return give_up();
+    const std::optional<RawFilm> source = raw_->source();
+    if (source) adopt_decision(*source, *integrator_);
     decide();
     record_.noise_only = integrator_->blurs() || !record_.bias.empty();
     check_memory();
-    const RenderResult result = render_with_progress();
+    RenderState state;
+    if (raw_->keeps_state()) raw_->set_image(image_of_raw_film());
+    if (source) raw_->load(*source, state);
+    const RenderResult result = render_with_progress(state);
     if (result.spp == 0) return give_up();
     seconds_.render = watch_.lap();
-    const std::vector<std::string> written = write(result);
+    std::vector<std::string> written;
+    // Sums first: of those the image can be made again.
+    if (const std::string raw = raw_->finish(state, result.interrupted); !raw.empty())
+      written.push_back(raw);
+    if (options_.writes_images)
+      for (const std::string& path : write(result)) written.push_back(path);
     seconds_.write = watch_.lap();
     summarize(result, written);
     statistics_.add(record_, result, seconds_, count_parts(*scene_));
@@ -108,6 +122,7 @@ class SceneRenderer {
       view_.to_world = sensor.motion.at(sensor.shutter[0]) * sensor.to_world;
     make_request(sensor.sampler);
     planned_spp_ = request_.budget.spp.value_or(sensor.sampler.sample_count);
+    choose_samples();
 
     record_.command_line = program_.command_line;
     record_.scene_file = file_;
@@ -125,6 +140,31 @@ class SceneRenderer {
     names.integrator = record_.integrator;
     names.seed = fmt::to_string(record_.seed);
     images_.emplace(options_, file_, names, settings_, planned_spp_, log_);
+    names.spp = fmt::to_string(planned_spp_);
+    raw_.emplace(options_, names, images_->planned()[0], log_);
+    request_.keeps_state = raw_->keeps_state();
+  }
+
+  /// The samples that the command line asks for.
+  void choose_samples() {
+    request_.samples = options_.samples;
+    if (!options_.slice) return;
+    const auto [number, of] = *options_.slice;
+    if (of > uint32_t(planned_spp_))
+      throw UsageError(fmt::format("--slice {}/{}: {} samples per pixel have no {} parts", number,
+                                   of, planned_spp_, of));
+    request_.samples = slice_of(uint32_t(planned_spp_), number, of);
+  }
+
+  RawImage image_of_raw_film() const {
+    RawImage image = raw_image(record_, *integrator_, layout_);
+    image.scene_hash = scene_hash_;
+    image.techniques = options_.techniques == TechniqueOutput::none  ? "none"
+                       : options_.techniques == TechniqueOutput::raw ? "raw"
+                                                                     : "weighted";
+    image.form = image_form();
+    image.header = scene_header(record_, view_, layout_.full);
+    return image;
   }
 
   /// All that decides the image besides the files and the parameters of the scene.
@@ -137,6 +177,7 @@ class SceneRenderer {
     for (const std::string& channel : integrator_->channels()) settings_.add(channel);
     settings_.add(fmt::format("{} spp, {} s, error {}", budget.spp.value_or(0),
                               budget.seconds.value_or(0), budget.target_error.value_or(0)));
+    if (request_.samples) settings_.add("samples " + to_string(*request_.samples));
     settings_.add(fmt::format("{} seed {}", record_.sampler, record_.seed));
     settings_.add(fmt::format("{} {} {} {} {} {} {}", layout_.full.x, layout_.full.y, crop.x0,
                               crop.y0, crop.x1, crop.y1, layout_.ends_at_crop));
@@ -220,14 +261,15 @@ class SceneRenderer {
     if (!why.empty()) throw SceneFailure(why);
   }
 
-  RenderResult render_with_progress() {
+  RenderResult render_with_progress(RenderState& state) {
     ProgressDisplay display(options_.progress,
                             batch_.is_several() ? output_names(file_).scene : file_, batch_, log_);
     request_.progress = [&](const RenderProgress& p) { display.show(p); };
     // Standard output takes one image: the last.
     if (!has_standard_output()) request_.wants_snapshot = take_snapshot_request;
     request_.snapshot = [&](RenderResult so_far) { write_snapshot(std::move(so_far)); };
-    return render(*scene_, *integrator_, layout_, request_);
+    request_.after_pass = [&](const RenderState& so_far) { raw_->after_pass(so_far); };
+    return render(*scene_, *integrator_, layout_, request_, state);
   }
 
   bool has_standard_output() const {
@@ -247,11 +289,19 @@ class SceneRenderer {
     }
   }
 
+  ImageForm image_form() const {
+    return {layout_.crop,
+            layout_.full,
+            view_.film.pixel_format,
+            view_.film.component_format == ComponentFormat::half,
+            integrator_->data_channels(),
+            view_.film.tone_mapping};
+  }
+
   std::vector<std::string> write(const RenderResult& result) {
-    const ImageForm form{layout_, view_.film.pixel_format,
-                         view_.film.component_format == ComponentFormat::half,
-                         integrator_->data_channels(), view_.film.tone_mapping};
-    return images_->write(result, form, image_header(record_, result, view_, layout_.full));
+    HeaderFields header = scene_header(record_, view_, layout_.full);
+    for (HeaderField& field : samples_header(record_, result)) header.push_back(std::move(field));
+    return images_->write(result, image_form(), header);
   }
 
   /// After an interrupt that came before every pixel had a sample: no file is replaced.
@@ -294,6 +344,8 @@ class SceneRenderer {
   int planned_spp_ = 0;
   Fingerprint settings_;
   std::optional<SceneImages> images_;
+  std::optional<RawOutput> raw_;
+  std::string scene_hash_;  ///< if there is a raw film
   std::unique_ptr<Integrator> integrator_;
   std::unique_ptr<Scene> scene_;
 };

@@ -10,6 +10,18 @@
 
 namespace duet {
 
+void write_image_file(const std::string& path, const Image& image, const ImageForm& form,
+                      const HeaderFields& header, double exposure) {
+  ExrOptions exr;
+  exr.half = form.half;
+  exr.full_precision = form.full_precision;
+  exr.origin = {form.crop.x0, form.crop.y0};
+  exr.full_size = form.full_size;
+  exr.header = header;
+  const DisplayOptions display{exposure, form.tone_mapping, header_texts(header)};
+  write_image(path, image, form.pixel_format, exr, display);
+}
+
 SceneImages::SceneImages(const RenderOptions& options, const std::string& scene,
                          const OutputNames& names, const Fingerprint& settings, int planned_spp,
                          Log& log)
@@ -66,16 +78,10 @@ std::vector<std::string> SceneImages::write(const RenderResult& result, const Im
       result.interrupted ? partial_paths(result.spp) : paths(result.spp);
   std::string failures;
   for (const std::string& path : written) {
-    ExrOptions exr;
-    exr.half = form.half;
-    exr.full_precision = form.full_precision;
-    exr.origin = {form.layout.crop.x0, form.layout.crop.y0};
-    exr.full_size = form.layout.full;
-    exr.header = header;
-    exr.header.emplace_back("settingsHash", settings_hash(path));
-    const DisplayOptions display{options_.exposure, form.tone_mapping, header_texts(exr.header)};
+    HeaderFields fields = header;
+    fields.emplace_back("settingsHash", settings_hash(path));
     try {
-      write_image(path, result.image, form.pixel_format, exr, display);
+      write_image_file(path, result.image, form, fields, options_.exposure);
       if (!result.interrupted) remove_partial(path, scene_);
     } catch (const std::exception& e) {
       failures += (failures.empty() ? "" : "; ") + std::string(e.what());

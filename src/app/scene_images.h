@@ -10,17 +10,13 @@
 #include "base/log.h"
 #include "evaluate/report/fingerprint.h"
 #include "evaluate/report/header.h"
+#include "evaluate/report/image_form.h"
 
 namespace duet {
 
-/// How images are to be written.
-struct ImageForm {
-  FilmLayout layout;
-  PixelFormat pixel_format = PixelFormat::rgba;
-  bool half = true;
-  std::vector<std::string> full_precision;  ///< channels that half floats cannot hold
-  std::optional<ToneMapping> tone_mapping;
-};
+/// Writes an image; see write_image(). `exposure` is that of formats for display.
+void write_image_file(const std::string& path, const Image& image, const ImageForm& form,
+                      const HeaderFields& header, double exposure);
 
 class SceneImages {
  public:

@@ -8,6 +8,7 @@
 #include <cstring>
 #include <filesystem>
 #include <stdexcept>
+#include <utility>
 
 namespace duet {
 
@@ -18,23 +19,13 @@ namespace {
 /// Names for a temporary file that are tried.
 constexpr unsigned kMostNames = 10000;
 
-/// Writes all bytes; returns an errno, or 0.
-int write_all(int file, std::span<const uint8_t> bytes) {
-  while (!bytes.empty()) {
-    const ssize_t n = ::write(file, bytes.data(), bytes.size());
-    if (n < 0 && errno == EINTR) continue;
-    if (n < 0) return errno;
-    bytes = bytes.subspan(size_t(n));
-  }
-  return 0;
-}
-
 }  // namespace
 
-void write_file_atomically(const std::string& path, std::span<const uint8_t> bytes) {
-  const auto fail = [&](const std::string& reason) {
-    throw std::runtime_error(fmt::format("{} cannot be written: {}", path, reason));
-  };
+void AtomicFile::fail(const std::string& reason) const {
+  throw std::runtime_error(fmt::format("{} cannot be written: {}", path_, reason));
+}
+
+AtomicFile::AtomicFile(const std::string& path) : path_(path) {
   std::error_code error;
   fs::path target = path;
   const fs::file_status status = fs::status(target, error);
@@ -44,22 +35,41 @@ void write_file_atomically(const std::string& path, std::span<const uint8_t> byt
     target = fs::canonical(target, error);
     if (error) fail(error.message());
   }
+  target_ = target.string();
   // Other threads, and processes of other machines, may write the same file now.
-  std::string temporary;
-  int file = -1;
-  for (unsigned number = 0; file < 0; ++number) {
-    temporary = fmt::format("{}.{}-{}.tmp", target.string(), getpid(), number);
-    file = ::open(temporary.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
-    if (file < 0 && (errno != EEXIST || number >= kMostNames)) fail(std::strerror(errno));
+  for (unsigned number = 0; file_ < 0; ++number) {
+    temporary_ = fmt::format("{}.{}-{}.tmp", target_, getpid(), number);
+    file_ = ::open(temporary_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+    if (file_ < 0 && (errno != EEXIST || number >= kMostNames)) fail(std::strerror(errno));
   }
-  int result = write_all(file, bytes);
+}
+
+AtomicFile::~AtomicFile() {
+  if (file_ >= 0) ::close(file_);
+  if (!temporary_.empty()) ::unlink(temporary_.c_str());
+}
+
+void AtomicFile::write(uint64_t position, std::span<const uint8_t> bytes) {
+  while (!bytes.empty()) {
+    const ssize_t n = ::pwrite(file_, bytes.data(), bytes.size(), off_t(position));
+    if (n < 0 && errno == EINTR) continue;
+    if (n < 0) fail(std::strerror(errno));
+    bytes = bytes.subspan(size_t(n));
+    position += uint64_t(n);
+  }
+}
+
+void AtomicFile::commit() {
   // Some file systems report a full disk only here.
-  if (::close(file) != 0 && result == 0) result = errno;
-  if (result == 0 && std::rename(temporary.c_str(), target.c_str()) != 0) result = errno;
-  if (result != 0) {
-    ::unlink(temporary.c_str());
-    fail(std::strerror(result));
-  }
+  if (::close(std::exchange(file_, -1)) != 0) fail(std::strerror(errno));
+  if (std::rename(temporary_.c_str(), target_.c_str()) != 0) fail(std::strerror(errno));
+  temporary_.clear();
+}
+
+void write_file_atomically(const std::string& path, std::span<const uint8_t> bytes) {
+  AtomicFile file(path);
+  file.write(0, bytes);
+  file.commit();
 }
 
 void write_file_atomically(const std::string& path, std::string_view text) {

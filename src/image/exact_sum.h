@@ -1,6 +1,7 @@
 // Sums that do not depend on the order of what is added.
 #pragma once
 
+#include <array>
 #include <cmath>
 #include <cstdint>
 
@@ -48,6 +49,14 @@ class ExactSum {
     const uint64_t high = negative ? ~high_ + (low_ == 0) : high_;
     const double size = double(high) + double(low) * 0x1p-64;
     return negative ? -size : size;
+  }
+
+  /// The integer in two's complement, its lowest bits first: how files hold it.
+  std::array<uint32_t, 4> words() const {
+    return {uint32_t(low_), uint32_t(low_ >> 32), uint32_t(high_), uint32_t(high_ >> 32)};
+  }
+  static ExactSum from_words(const uint32_t* w) {
+    return {uint64_t(w[1]) << 32 | w[0], uint64_t(w[3]) << 32 | w[2]};
   }
 
   bool operator==(const ExactSum&) const = default;

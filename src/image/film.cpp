@@ -46,6 +46,19 @@ Film::Film(const FilmLayout& layout, std::vector<std::string> channels)
   });
 }
 
+Film::Film(const FilmLayout& layout, const FilmContents& contents)
+    : Film(layout, contents.channels) {
+  for (const size_t first : contents.splats) add_splat_layer(first);
+  for (const size_t first : contents.moments) add_moments(first);
+  statistics_ = contents.statistics;
+}
+
+FilmContents Film::contents() const {
+  FilmContents contents{channels_, {}, moment_channels_, statistics_};
+  for (const SplatLayer& layer : splats_) contents.splats.push_back(layer.first_channel);
+  return contents;
+}
+
 bool Film::has_colours() const {
   return channels_.size() >= 3 && channels_[0] == "R";
 }
@@ -118,7 +131,25 @@ Image Film::develop(std::span<const Film> films) {
   first.add_splat_means(films, image);
   first.respond(image);
   first.add_squares(films, image);
+  first.compute_statistics(films, image);
   return image;
+}
+
+void Film::compute_statistics(std::span<const Film> films, Image& image) const {
+  if (statistics_.empty() || tiles_.empty()) return;
+  double spp = 0;
+  for (const Film& f : films) spp += double(f.tiles_[0].samples());
+  for (const FilmStatistic& s : statistics_)
+    for (size_t i = 0; i < image.data.size(); i += channels_.size()) {
+      const float* colour = &image.data[i];
+      float* out = &image.data[i + s.channel];
+      if (s.kind == FilmStatistic::Kind::samples) {
+        out[0] = float(spp);
+        continue;
+      }
+      for (int c = 0; c < 3; ++c)
+        out[c] = std::max(0.0f, out[c] - colour[c] * colour[c]) / float(std::max(1.0, spp));
+    }
 }
 
 void Film::respond(Image& image) const {

@@ -42,6 +42,33 @@ struct Splat {
   Spectrum value;
 };
 
+/// A rectangle of a film's sums, as files hold them.
+struct FilmPlane {
+  std::string name;
+  int width = 0, height = 0;
+  std::vector<std::string> sums;  ///< what a pixel has
+};
+
+/// A channel of a film that is not a mean of samples.
+struct FilmStatistic {
+  enum class Kind {
+    samples,   ///< how many each pixel has
+    variance,  ///< of the colours, as if samples were independent: three channels, in which the
+               ///< samples have the squares of their colours
+  };
+  Kind kind = Kind::samples;
+  size_t channel = 0;  ///< the first
+  bool operator==(const FilmStatistic&) const = default;
+};
+
+/// What a film gathers, by the first channel of each of its layers.
+struct FilmContents {
+  std::vector<std::string> channels;
+  std::vector<size_t> splats, moments;
+  std::vector<FilmStatistic> statistics;
+  bool operator==(const FilmContents&) const = default;
+};
+
 /// What a film looks like before it has samples.
 struct FilmLayout {
   Point2i full;      ///< size of the whole image
@@ -65,6 +92,10 @@ class Film {
   /// Samples are taken in the window and within the filter's reach around it, but never outside the
   /// image, or outside the window if the image ends there.
   Film(const FilmLayout& layout, std::vector<std::string> channels);
+  /// A film without samples that gathers what another does.
+  Film(const FilmLayout& layout, const FilmContents& contents);
+  FilmContents contents() const;
+  const FilmLayout& layout() const { return layout_; }
 
   /// Bytes that the tiles of such a film take, without making them.
   static double tile_bytes(const FilmLayout& layout, size_t channels);
@@ -89,6 +120,8 @@ class Film {
   /// Makes three channels from `first_channel` on the mean of the squares of what each pass makes
   /// of a pixel's first three channels, splats included: samples alone do not know of those.
   void add_moments(size_t first_channel);
+  /// Tiles must not have different numbers of samples then.
+  void add_statistic(const FilmStatistic& statistic) { statistics_.push_back(statistic); }
   /// Where the samples and splats of the next pass go: this film, or one beside it if the film is
   /// to know the squares of passes.
   Film& begin_pass();
@@ -98,6 +131,16 @@ class Film {
   double splat_mean(size_t layer, int x, int y, int channel) const;
   size_t splat_layer_count() const { return splats_.size(); }
   int passes() const { return passes_; }
+
+  /// All sums: "samples" are the tiles side by side, each with the border that its samples reach;
+  /// "splats0", "splats1" … the layers of splats and "squares" those of passes, by the window's
+  /// pixels.
+  std::vector<FilmPlane> planes() const;
+  /// Copies a row of a plane, pixel by pixel, and adds one to this film.
+  void read_row(size_t plane, int y, std::span<ExactSum> row) const;
+  void add_row(size_t plane, int y, std::span<const ExactSum> row);
+  /// Takes note of passes and of samples in each tile whose sums are added as rows.
+  void count(int passes, std::span<const uint64_t> tile_samples);
 
   /// The weighted means of the window's pixels, with splats; a pixel that nothing reached is zero.
   /// Where tiles have samples of different numbers, each tile counts for a pixel between them as
@@ -113,12 +156,16 @@ class Film {
     std::vector<ExactSum> sums;  ///< three per pixel of the window
   };
 
+  /// Calls `f(sums)` for the pieces of a plane's row, one after the other.
+  template <class Self, class F>
+  static void for_row(Self& film, size_t plane, int y, const F& f);
   bool has_colours() const;
   /// How many of them have passes.
   static double count_filled(std::span<const Film> films);
   void add_means(std::span<const Film> films, std::vector<double>& sums) const;
   void add_splat_means(std::span<const Film> films, Image& image) const;
   void add_squares(std::span<const Film> films, Image& image) const;
+  void compute_statistics(std::span<const Film> films, Image& image) const;
   /// Applies the response to a developed image.
   void respond(Image& image) const;
   /// The number of a pixel of the window, row by row.
@@ -145,6 +192,7 @@ class Film {
   /// per pixel of the window, or none.
   std::vector<size_t> moment_channels_;
   std::vector<ExactSum> squares_;
+  std::vector<FilmStatistic> statistics_;
   std::unique_ptr<Film> pass_;  ///< the film of a pass, if there are moments
   /// Per column and row of the window: integral of the filter over image_.
   std::vector<double> filter_x_, filter_y_;

@@ -51,6 +51,7 @@ class FilmTile {
   uint64_t samples() const { return samples_; }
   /// Per stored pixel, row by row, the sum of weights, then the weighted sum of each channel.
   std::span<const ExactSum> sums() const { return sums_; }
+  std::span<ExactSum> sums() { return sums_; }
   /// Where the sums of a stored pixel begin.
   size_t index(int x, int y) const {
     return (size_t(y - stored_.y0) * size_t(stored_.width()) + size_t(x - stored_.x0)) * stride_;

@@ -16,15 +16,18 @@ class AutoIntegrator final : public Integrator {
   /// `output` says what else to render; its own method is left out of account.
   AutoIntegrator(const AutoIntegratorDescription& options, const IntegratorDescription& output);
 
+  /// Takes a decision that was made before for the same scene instead of making one. Throws
+  /// std::invalid_argument if it is not one of Duet's.
+  void adopt(const MethodDecision& decision);
+
   std::vector<std::string> channels() const override { return chosen_->channels(); }
   std::vector<std::string> data_channels() const override { return chosen_->data_channels(); }
   const MethodDecision* decision() const override { return decided_ ? &decision_ : nullptr; }
-  std::string bias() const override { return bias_; }
+  std::string bias() const override { return decision_.bias; }
   bool blurs() const override { return chosen_->blurs(); }
   bool tiles_may_differ() const override { return chosen_->tiles_may_differ(); }
   double memory_bytes(const FilmLayout& film) const override { return chosen_->memory_bytes(film); }
   void prepare(Film& film) const override;
-  void finish(Image& image, int spp) const override { chosen_->finish(image, spp); }
 
  private:
   void choose(const Scene& scene, const RenderOutlook& outlook) override;
@@ -35,7 +38,6 @@ class AutoIntegrator final : public Integrator {
   std::unique_ptr<Integrator> chosen_;  ///< of the same channels before the decision
   bool decided_ = false;
   MethodDecision decision_;
-  std::string bias_;
 };
 
 }  // namespace duet

@@ -109,6 +109,7 @@ double BidirectionalIntegrator::memory_bytes(const FilmLayout& film) const {
 }
 
 void BidirectionalIntegrator::prepare(Film& film) const {
+  CameraIntegrator::prepare(film);
   const bool has_colours = !film.channels().empty() && film.channels()[0] == "R";
   if (!has_colours) return;
   film.add_splat_layer(0);
@@ -129,16 +130,16 @@ double BidirectionalIntegrator::radius(uint32_t iteration) const {
   return first * std::pow(double(iteration) + 1, 0.5 * (alpha - 1));
 }
 
-TechniqueSet BidirectionalIntegrator::techniques(const Film& film, uint32_t iteration) const {
+TechniqueSet BidirectionalIntegrator::techniques(Point2i film, uint32_t iteration) const {
   TechniqueSet set;
   set.hits = set.light_samples = connects(options_.method);
   set.connections = set.light_samples && options_.connections != 0;
   set.camera_connections =
       options_.light_image && (set.light_samples || options_.method == Method::ptracer);
   set.merges = merges(options_.method);
-  set.light_paths = float(light_subpaths(film.full_size()));
+  set.light_paths = float(light_subpaths(film));
   set.partly_merged = set.merges && set.light_samples && !options_.merge_parts.empty();
-  if (!pilot_) return set;
+  if (!pilot_) return set;  // for which it is
   if (set.connections && options_.connections > 0) {
     // Of none there is no share, and so no connection.
     set.connections = pilot_->vertices_per_subpath > 0;
@@ -160,32 +161,43 @@ void BidirectionalIntegrator::render_samples(const Scene& scene, Film& film,
   });
 }
 
-void BidirectionalIntegrator::iteration(const Scene& scene, Film& film, const SampleRange& samples,
-                                        const PassControl& control, RenderCounters& counters) {
-  windows_.light_paths = light_subpaths(film.full_size());
-  // What the sensor cannot be connected with, it finds by itself.
-  options_.light_image &= scene.camera->connectible();
-  mask_ = {film.full_size(), options_.merge_parts};
+LightPassPlan BidirectionalIntegrator::light_plan(Point2i film) const {
   LightPassPlan plan;
-  plan.set = techniques(film, samples.first);
   plan.mask = &mask_;
   plan.subpath = {options_.rr_depth, options_.strict_normals};
   plan.max_depth = max_depth_ - 1;
   if (options_.method == Method::reuse)
     plan.max_depth = std::min(plan.max_depth, options_.max_light_depth);
-  plan.subpaths = light_subpaths(film.full_size());
+  plan.subpaths = light_subpaths(film);
   plan.unit_weights = options_.method == Method::ptracer;
   plan.hide_emitters = options_.hide_emitters;
   if (options_.method == Method::reuse && !is_thesis_) plan.windows = &windows_;
+  return plan;
+}
+
+void BidirectionalIntegrator::choose(const Scene& scene, const RenderOutlook& outlook) {
+  if (pilot_) return;
+  windows_.light_paths = light_subpaths(outlook.film);
+  // What the sensor cannot be connected with, it finds by itself.
+  options_.light_image &= scene.camera->connectible();
+  mask_ = {outlook.film, options_.merge_parts};
+  LightPassPlan plan = light_plan(outlook.film);
+  plan.set = techniques(outlook.film, 0);
+  plan.threads = outlook.threads;
+  pilot_ = run_pilot(scene, outlook.film, plan);
+}
+
+void BidirectionalIntegrator::iteration(const Scene& scene, Film& film, const SampleRange& samples,
+                                        const PassControl& control, RenderCounters& counters) {
+  // Who renders films one by one need not say so before.
+  if (!pilot_) choose(scene, {film.full_size()});
+  LightPassPlan plan = light_plan(film.full_size());
+  plan.set = techniques(film.full_size(), samples.first);
   plan.sequence = samples.sequence;
   plan.seed = samples.seed;
   plan.scramble = samples.scramble;
   plan.iteration = samples.first;
   plan.threads = control.threads;
-  if (!pilot_) {
-    pilot_ = run_pilot(scene, film.full_size(), plan);
-    plan.set = techniques(film, samples.first);
-  }
   plan.keep_vertices = plan.set.merges || plan.set.connections;
   // A sub-path counts 1 / N_L.
   plan.roulette_threshold = pilot_->roulette_threshold() * plan.set.light_paths;

@@ -28,6 +28,7 @@ class BidirectionalIntegrator final : public CameraIntegrator {
   void prepare(Film& film) const override;
 
  protected:
+  void choose(const Scene& scene, const RenderOutlook& outlook) override;
   void render_samples(const Scene& scene, Film& film, const SampleRange& samples,
                       const PassControl& control, RenderCounters& counters) override;
   Spectrum radiance(const Scene& scene, const CameraPath& path, Sampler& sampler,
@@ -41,9 +42,11 @@ class BidirectionalIntegrator final : public CameraIntegrator {
   class EyeSubpath;
   using Method = BidirectionalMethod;
 
+  /// Of all iterations: what does not differ between them.
+  LightPassPlan light_plan(Point2i film) const;
   void iteration(const Scene& scene, Film& film, const SampleRange& samples,
                  const PassControl& control, RenderCounters& counters);
-  TechniqueSet techniques(const Film& film, uint32_t iteration) const;
+  TechniqueSet techniques(Point2i film, uint32_t iteration) const;
   double radius(uint32_t iteration) const;
   uint32_t light_subpaths(Point2i film) const;
   bool has_technique(int s, int t) const;

@@ -140,17 +140,12 @@ void CameraIntegrator::render_tile(const Scene& scene, const Film& film, FilmTil
   counters.camera_paths += uint64_t(b.width()) * uint64_t(b.height()) * range.count;
 }
 
-void CameraIntegrator::finish(Image& image, int spp) const {
-  const size_t stride = channels_.size();
-  for (const PlacedLayer& layer : layers_)
-    for (size_t i = 0; i < image.data.size(); i += stride) {
-      const float* colour = &image.data[i];
-      float* out = &image.data[i + layer.first];
-      if (layer.kind == LayerKind::samples) out[0] = float(spp);
-      if (layer.kind == LayerKind::variance)
-        for (int c = 0; c < 3; ++c)
-          out[c] = std::max(0.0f, out[c] - colour[c] * colour[c]) / float(std::max(1, spp));
-    }
+void CameraIntegrator::prepare(Film& film) const {
+  using Kind = FilmStatistic::Kind;
+  for (const PlacedLayer& layer : layers_) {
+    if (layer.kind == LayerKind::samples) film.add_statistic({Kind::samples, layer.first});
+    if (layer.kind == LayerKind::variance) film.add_statistic({Kind::variance, layer.first});
+  }
 }
 
 }  // namespace duet

@@ -51,7 +51,7 @@ class CameraIntegrator : public Integrator {
 
   std::vector<std::string> channels() const final { return channels_; }
   std::vector<std::string> data_channels() const final;
-  void finish(Image& image, int spp) const final;
+  void prepare(Film& film) const override;
   /// Not if a layer tells how many samples there are, or needs to know.
   bool tiles_may_differ() const final;
 

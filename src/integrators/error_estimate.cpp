@@ -84,8 +84,9 @@ void PartialMeans::add_part(const Film& film) {
             total_ += splats * now[0];
           }
           if (parts_ > 0 && w > 0 && last.weight > 0) {
-            squares_ += std::pow(mean - last.mean[c], 2) / (1 / w + 1 / double(last.weight));
-            count_ += 1;
+            variance_.squares +=
+                std::pow(mean - last.mean[c], 2) / (1 / w + 1 / double(last.weight));
+            variance_.count += 1;
           }
           last.mean[c] = float(mean);
         }
@@ -97,8 +98,8 @@ void PartialMeans::add_part(const Film& film) {
 }
 
 std::optional<double> PartialMeans::relative_rmse() const {
-  if (!(count_ > 0) || !(total_ > 0) || !(weight_ > 0)) return std::nullopt;
-  const double per_sample = squares_ / count_;
+  if (!(variance_.count > 0) || !(total_ > 0) || !(weight_ > 0)) return std::nullopt;
+  const double per_sample = variance_.squares / variance_.count;
   const double mean = total_ / (channels_ * weight_);
   return std::sqrt(per_sample / (weight_ / pixels_)) / mean;
 }

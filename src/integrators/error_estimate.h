@@ -14,6 +14,11 @@ namespace duet {
 /// Empty if the image is black or has no colours.
 std::optional<double> batch_relative_rmse(const std::vector<Film>& films);
 
+/// Sum of estimates of the variance of one sample, and how many they are.
+struct VarianceSum {
+  double squares = 0, count = 0;
+};
+
 /// The same from the consecutive parts of one film. Two parts in succession differ by the noise of
 /// both, so the mean square of their differences estimates the variance of a sample. If the parts
 /// belong to one low-discrepancy sequence the result is an upper bound.
@@ -27,6 +32,9 @@ class PartialMeans {
   /// Takes note of what has been added to the film since the last call.
   void add_part(const Film& film);
   std::optional<double> relative_rmse() const;
+  const VarianceSum& variance() const { return variance_; }
+  /// Instead of what the parts so far tell: that of other films, too.
+  void set_variance(const VarianceSum& variance) { variance_ = variance; }
 
  private:
   struct Pixel {
@@ -41,8 +49,7 @@ class PartialMeans {
   double passes_before_ = 0;
   int parts_ = 0;
   int channels_ = 0;
-  double squares_ = 0;  ///< sum of the estimates of the variance of one sample
-  double count_ = 0;    ///< number of them
+  VarianceSum variance_;
   double total_ = 0, weight_ = 0, pixels_ = 0;  ///< for the mean of the image and of its samples
 };
 

@@ -63,8 +63,10 @@ struct RenderOutlook {
 /// What a method that chooses another has chosen, and why.
 struct MethodDecision {
   std::string method, parameters;
-  std::string reason;                   ///< one line
-  std::vector<std::string> candidates;  ///< what each method promised, a line each
+  std::string reason;                     ///< one line
+  std::vector<std::string> candidates;    ///< what each method promised, a line each
+  std::vector<uint8_t> merge_parts = {};  ///< BidirectionalIntegratorDescription::merge_parts
+  std::string bias = {};                  ///< why the mean of many images is wrong, or ""
 };
 
 /// A method of light transport, for any number of images of one scene and one size of film. An
@@ -101,9 +103,6 @@ class Integrator {
   /// it come one after another: this and begin() take a MotionLease.
   void render_pass(const Scene& scene, Film& film, const SampleRange& samples,
                    const PassControl& control, RenderCounters& counters);
-  /// Turns what the film has summed up into what its channels are called, once `spp` samples per
-  /// pixel are there.
-  virtual void finish(Image& image, int spp) const = 0;
 
  protected:
   /// What begin() and render_pass() do with a scene that stands still, for as long as they last.

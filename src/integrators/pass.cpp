@@ -30,10 +30,12 @@ constexpr double kFewRemaining = 8;
 class Renderer {
  public:
   Renderer(const Scene& scene, Integrator& integrator, const FilmLayout& layout,
-           const RenderRequest& request)
+           const RenderRequest& request, RenderState& state)
       : scene_(scene),
         integrator_(integrator),
         request_(request),
+        state_(state),
+        seconds_before_(state.seconds),
         pass_length_(request.pass_seconds) {
     RenderOutlook outlook;
     outlook.film = layout.full;
@@ -43,10 +45,10 @@ class Renderer {
     outlook.target_error = request.budget.target_error;
     outlook.batches = request.budget.target_error ? kErrorBatches : 1;
     integrator.begin(scene, outlook);
-    films_.reserve(size_t(outlook.batches));
-    for (int i = 0; i < outlook.batches; ++i)
-      integrator.prepare(films_.emplace_back(layout, integrator.channels()));
-    prepared_ = seconds();
+    state_.films.reserve(size_t(outlook.batches));
+    while (state_.films.size() < size_t(outlook.batches))
+      integrator.prepare(state_.films.emplace_back(layout, integrator.channels()));
+    prepared_ = seconds() - seconds_before_;
   }
 
   RenderResult run() {
@@ -54,17 +56,19 @@ class Renderer {
       run_batches();
     else
       run_sequence();
+    state_.seconds = seconds();
     return result();
   }
 
  private:
   double seconds() const {
-    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
+    const auto now = std::chrono::steady_clock::now();
+    return seconds_before_ + std::chrono::duration<double>(now - start_).count();
   }
   bool cancelled() const { return request_.cancel && request_.cancel->load(); }
   /// Trying methods may use up the time, but there is always an image.
   bool out_of_time() const {
-    return spp_ > 0 && request_.budget.seconds && seconds() >= *request_.budget.seconds;
+    return state_.spp > 0 && request_.budget.seconds && seconds() >= *request_.budget.seconds;
   }
 
   double seconds_left() const {
@@ -73,21 +77,27 @@ class Renderer {
   }
 
   /// Adds a range of samples to a film, pass by pass, and counts them: `count` is how many of them
-  /// pixels get on average. Ends early if it is cancelled, and a single film also if time runs out.
-  void add_samples(Film& film, const SampleRange& range, int count) {
-    const int before = spp_;
+  /// pixels get on average, besides `before` that all films have. Begins after `done` passes of the
+  /// range, and keeps that up to date. Ends early if it is cancelled, and a single film also if
+  /// time runs out.
+  void add_samples(Film& film, const SampleRange& range, int before, int count, uint32_t& done) {
     const double per_sample = double(count) / range.count;
     std::vector<TileSamples> tiles;
-    for (uint32_t done = 0; done < range.count && !cancelled();) {
+    while (done < range.count && !cancelled()) {
       const uint32_t n = uint32_t(pass_length_.next(int(range.count - done), seconds_left()));
       const double start = seconds();
-      if (!pass(film, part_of(range, done, n, tiles), before + done * per_sample, n * per_sample))
-        return;
+      const SampleRange part = part_of(range, done, n, tiles);
+      if (!pass(film, part, before + done * per_sample, n * per_sample)) return;
       pass_length_.took(int(n), seconds() - start);
       done += n;
-      spp_ = before + int(done * per_sample + 1e-6);
+      state_.spp = before + int(done * per_sample + 1e-6);
+      if (state_.films.size() == 1) state_.samples.add({part.first, part.first + n});
+      if (request_.keeps_state && request_.after_pass) {
+        state_.seconds = seconds();
+        request_.after_pass(state_);
+      }
       give_snapshot();
-      if (films_.size() == 1 && out_of_time()) return;
+      if (state_.films.size() == 1 && out_of_time()) return;
     }
   }
 
@@ -95,7 +105,7 @@ class Renderer {
   /// whether nothing of it was left out.
   bool pass(Film& film, const SampleRange& range, double before, double count) {
     // What tells how many samples there are needs the same number everywhere.
-    const bool may_stop = integrator_.tiles_may_differ();
+    const bool may_stop = integrator_.tiles_may_differ() && !request_.keeps_state;
     std::atomic<bool> whole{true};
     PassControl control;
     control.threads = request_.threads;
@@ -105,34 +115,55 @@ class Renderer {
       return true;
     };
     control.report = [&](double fraction) { report(before + count * fraction); };
-    integrator_.render_pass(scene_, film, range, control, counters_);
+    integrator_.render_pass(scene_, film, range, control, state_.counters);
     return whole;
   }
 
   void give_snapshot() {
-    if (spp_ > 0 && request_.wants_snapshot && request_.wants_snapshot())
+    if (state_.spp > 0 && request_.wants_snapshot && request_.wants_snapshot())
       request_.snapshot(result());
   }
 
   /// All samples of a pixel come from one low-discrepancy sequence.
   void run_sequence() {
-    Film& film = films_[0];
-    PartialMeans parts(film);
+    const int most = request_.budget.spp.value_or(std::numeric_limits<int>::max());
+    const SampleInterval wanted = request_.samples.value_or(SampleInterval{0, uint32_t(most)});
+    PartialMeans parts(state_.films[0]);
+    parts.set_variance(state_.variance);
+    if (state_.spp > 0) note_part(parts);
     is_upper_bound_ = request_.sequence != SampleSequence::independent;
+    const std::vector<SampleInterval> missing = state_.samples.missing_from(wanted);
+    to_take_ = 0;
+    for (const SampleInterval& m : missing) to_take_ += m.count();
+    to_take_ += state_.spp;
+    for (const SampleInterval& m : missing)
+      if (!run_interval(m, std::max(1, int(wanted.count() / kParts)), parts)) return;
+    is_complete_ = true;
+  }
+
+  void note_part(PartialMeans& parts) {
+    parts.add_part(state_.films[0]);
+    state_.variance = parts.variance();
+    if (const auto e = parts.relative_rmse()) relative_rmse_ = e;
+  }
+
+  /// Takes samples by parts, from which the error is estimated. False if not all were taken.
+  bool run_interval(const SampleInterval& interval, int part, PartialMeans& parts) {
     const bool timed = request_.budget.seconds.has_value();
-    const int total = request_.budget.spp.value_or(std::numeric_limits<int>::max());
-    int part = std::max(1, total / kParts);
     if (timed) part = 1;
-    while (spp_ < total && !cancelled() && !out_of_time()) {
+    for (uint32_t first = interval.first; first < interval.end;) {
+      if (cancelled() || out_of_time()) return false;
       const double before = seconds();
-      const int first = spp_, count = std::min(part, total - spp_);
-      add_samples(film, {request_.sequence, request_.seed, 0, uint32_t(first), uint32_t(count)},
-                  count);
-      if (cancelled()) break;
-      parts.add_part(film);
-      if (const auto e = parts.relative_rmse()) relative_rmse_ = e;
-      if (timed) part = next_part(spp_ - first, seconds() - before, total);
+      const uint32_t count = std::min(uint32_t(part), interval.end - first);
+      uint32_t done = 0;
+      add_samples(state_.films[0], {request_.sequence, request_.seed, 0, first, count}, state_.spp,
+                  int(count), done);
+      if (done < count && cancelled()) return false;
+      note_part(parts);
+      if (timed) part = next_part(int(done), seconds() - before, int(interval.count()));
+      first += done;
     }
+    return true;
   }
 
   /// Several sequences that know nothing of each other, all of the same length: their spread is the
@@ -140,28 +171,50 @@ class Renderer {
   /// more samples.
   void run_batches() {
     const double target = *request_.budget.target_error;
-    const int total = request_.budget.spp.value_or(std::numeric_limits<int>::max() / 2);
-    int length = 0, part = 1;
-    SampleAllocation allocation(films_);
-    // The budget may not divide evenly among the batches: the first ones get what remains.
-    const auto limit = [&](int batch) {
-      return total / kErrorBatches + (batch < total % kErrorBatches);
-    };
-    while (spp_ < total && !cancelled() && !out_of_time()) {
-      for (int b = 0; b < kErrorBatches && !cancelled(); ++b) {
-        const int count = std::min(part, limit(b) - length);
-        if (count <= 0) continue;
-        SampleRange range{request_.sequence, request_.seed, uint32_t(b)};
-        allocation.next(size_t(b), uint32_t(count), range);
-        add_samples(films_[b], range, count);
-      }
-      if (cancelled()) break;
-      length += part;
-      relative_rmse_ = batch_relative_rmse(films_);
-      if (relative_rmse_ ? *relative_rmse_ <= target : length >= kBlackSamples) break;
-      if (!allocation.is_spread() && knows_tiles(length, target)) allocation.spread();
-      part = next_batch_part(length, target);
+    to_take_ = request_.budget.spp.value_or(std::numeric_limits<int>::max() / 2);
+    BatchRounds& rounds = state_.rounds;
+    SampleAllocation allocation(state_.films, rounds.allocated);
+    while (rounds.spp < to_take_ && !out_of_time()) {
+      rounds.allocated = allocation.allocated();
+      if (!run_round(allocation)) return;
+      relative_rmse_ = batch_relative_rmse(state_.films);
+      if (relative_rmse_ ? *relative_rmse_ <= target : rounds.length >= kBlackSamples) break;
+      if (!allocation.is_spread() && knows_tiles(rounds.length, target)) allocation.spread();
+      rounds.part = next_batch_part(rounds.length, target);
     }
+    is_complete_ = rounds.spp >= to_take_;
+  }
+
+  /// Goes on with the round that is under way. False if it is cancelled.
+  bool run_round(SampleAllocation& allocation) {
+    BatchRounds& rounds = state_.rounds;
+    // The budget may not divide evenly among the batches: the first ones get what remains.
+    const auto limit = [&](size_t batch) {
+      return int(to_take_ / kErrorBatches) + (int64_t(batch) < to_take_ % kErrorBatches);
+    };
+    int before = rounds.spp;
+    for (size_t b = 0; b < size_t(kErrorBatches); ++b) {
+      const int count = std::min(rounds.part, limit(b) - rounds.length);
+      if (count <= 0) continue;
+      SampleRange range{request_.sequence, request_.seed, uint32_t(b)};
+      allocation.next(b, uint32_t(count), range);
+      if (b >= rounds.batch) {
+        if (b > rounds.batch) rounds.done = 0;
+        rounds.batch = b;
+        add_samples(state_.films[b], range, before, count, rounds.done);
+        if (rounds.done < range.count) return false;
+      }
+      before += count;
+      state_.spp = before;
+    }
+    if (cancelled()) {
+      is_complete_ = before >= to_take_;
+      return false;
+    }
+    rounds.spp = before;
+    rounds.length += rounds.part;
+    rounds.batch = rounds.done = 0;
+    return true;
   }
 
   /// Whether batches of this length tell the noise of tiles as well as need be.
@@ -205,10 +258,10 @@ class Renderer {
     RenderProgress p;
     p.seconds = now;
     p.spp = spp;
-    const Point2i size = {films_[0].crop().width(), films_[0].crop().height()};
-    p.samples = spp * size.x * size.y;
+    const PixelBounds& crop = state_.films[0].crop();
+    p.samples = spp * crop.width() * crop.height();
     p.relative_rmse = relative_rmse_;
-    if (request_.budget.spp) p.fraction = spp / *request_.budget.spp;
+    if (request_.budget.spp) p.fraction = spp / double(to_take_);
     if (request_.budget.seconds) p.fraction = std::max(p.fraction, now / *request_.budget.seconds);
     if (request_.budget.target_error && relative_rmse_)
       p.fraction = std::max(
@@ -217,15 +270,9 @@ class Renderer {
   }
 
   RenderResult result() const {
-    RenderResult r;
-    if (spp_ > 0) {
-      r.image = Film::develop(films_);
-      integrator_.finish(r.image, spp_);
-    }
-    r.counters = counters_;
-    r.spp = spp_;
+    RenderResult r = develop(state_);
     r.seconds = seconds();
-    r.interrupted = cancelled() && !(request_.budget.spp && spp_ >= *request_.budget.spp);
+    r.interrupted = cancelled() && !is_complete_;
     r.relative_rmse = relative_rmse_;
     r.rmse_is_upper_bound = is_upper_bound_;
     return r;
@@ -234,12 +281,13 @@ class Renderer {
   const Scene& scene_;
   Integrator& integrator_;
   const RenderRequest& request_;
-  std::vector<Film> films_;
-  RenderCounters counters_;
+  RenderState& state_;
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
-  double prepared_ = 0;  ///< seconds until a method was chosen and ready
+  double seconds_before_;  ///< of the renders that this one goes on from
+  double prepared_ = 0;    ///< seconds until a method was chosen and ready
   PassLength pass_length_;
-  int spp_ = 0;  ///< samples of passes that are complete
+  int64_t to_take_ = 0;  ///< samples per pixel when all is done
+  bool is_complete_ = false;
   std::optional<double> relative_rmse_;
   bool is_upper_bound_ = false;
   std::mutex report_mutex_;
@@ -250,8 +298,23 @@ class Renderer {
 
 RenderResult render(const Scene& scene, Integrator& integrator, const FilmLayout& layout,
                     const RenderRequest& request) {
+  RenderState state;
+  return render(scene, integrator, layout, request, state);
+}
+
+RenderResult render(const Scene& scene, Integrator& integrator, const FilmLayout& layout,
+                    const RenderRequest& request, RenderState& state) {
   const MotionLease lease(scene.motion.get());
-  return Renderer(scene, integrator, layout, request).run();
+  return Renderer(scene, integrator, layout, request, state).run();
+}
+
+RenderResult develop(const RenderState& state) {
+  RenderResult r;
+  r.spp = state.spp;
+  if (r.spp > 0) r.image = Film::develop(state.films);
+  r.counters = state.counters;
+  r.seconds = state.seconds;
+  return r;
 }
 
 }  // namespace duet

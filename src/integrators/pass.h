@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "integrators/integrator.h"
+#include "integrators/render_state.h"
 
 namespace duet {
 
@@ -52,6 +53,12 @@ struct RenderRequest {
   /// How long a pass may last, if one sample per pixel does not last longer: after that an
   /// interrupt or a snapshot is answered, and what is there is a whole number of samples.
   double pass_seconds = 0.5;
+  /// Take these samples instead of all those that the budget allows; without a limit of time or
+  /// error only.
+  std::optional<SampleInterval> samples;
+  /// Whether an interrupt waits until every pixel has the sample that is under way: only then can
+  /// the state be gone on from.
+  bool keeps_state = false;
   /// Called a few times per second, from one thread at a time.
   std::function<void(const RenderProgress&)> progress;
   /// Set from outside to stop after the tiles that are under way. What they have is kept.
@@ -60,6 +67,8 @@ struct RenderRequest {
   /// far. Rendering goes on afterwards.
   std::function<bool()> wants_snapshot;
   std::function<void(RenderResult)> snapshot;
+  /// Called after each pass, if `keeps_state`.
+  std::function<void(const RenderState&)> after_pass;
 };
 
 /// Renders until the budget is used up, pass by pass. The image depends on the
@@ -68,5 +77,11 @@ struct RenderRequest {
 /// the scene moves and another render of it is under way.
 RenderResult render(const Scene& scene, Integrator& integrator, const FilmLayout& layout,
                     const RenderRequest& request);
+/// The same, going on from `state`, which is that of another render of the same image with any
+/// samples. It becomes that of this one. The image is the mean of all its samples.
+RenderResult render(const Scene& scene, Integrator& integrator, const FilmLayout& layout,
+                    const RenderRequest& request, RenderState& state);
+/// What a state has come to, without taking more samples.
+RenderResult develop(const RenderState& state);
 
 }  // namespace duet

@@ -73,28 +73,30 @@ std::vector<double> tile_rates(std::span<const Film> films) {
   return rates;
 }
 
-SampleAllocation::SampleAllocation(std::span<const Film> films)
-    : films_(films), taken_(films.size()) {}
+SampleAllocation::SampleAllocation(std::span<const Film> films, AllocatedSamples before)
+    : films_(films), allocated_(std::move(before)) {
+  allocated_.taken.resize(films.size());
+}
 
 void SampleAllocation::spread() {
   const size_t half = films_.size() / 2;
-  even_ = taken_[0].samples;
-  rates_[0] = tile_rates(films_.subspan(half));
-  rates_[1] = tile_rates(films_.first(half));
+  allocated_.even = allocated_.taken[0].samples;
+  allocated_.rates = {tile_rates(films_.subspan(half)), tile_rates(films_.first(half))};
 }
 
 void SampleAllocation::next(size_t film, uint32_t count, SampleRange& range) {
-  Taken& taken = taken_[film];
+  AllocatedSamples::Taken& taken = allocated_.taken[film];
   range.first = taken.passes;
   range.count = count;
   range.tiles = {};
   if (is_spread()) {
-    const std::vector<double>& rates = rates_[film < films_.size() / 2 ? 0 : 1];
+    const std::vector<double>& rates = allocated_.rates[film < films_.size() / 2 ? 0 : 1];
     tiles_.resize(rates.size());
     range.count = 0;
-    const double before = taken.samples - even_, after = before + count;
+    const double even = allocated_.even;
+    const double before = taken.samples - even, after = before + count;
     for (size_t k = 0; k < rates.size(); ++k) {
-      const auto total = [&](double s) { return uint32_t(std::lround(even_ + rates[k] * s)); };
+      const auto total = [&](double s) { return uint32_t(std::lround(even + rates[k] * s)); };
       tiles_[k] = {total(before), total(after) - total(before)};
       range.count = std::max(range.count, tiles_[k].count);
     }

@@ -29,23 +29,30 @@ struct RenderCounters {
   uint64_t merge_queries = 0, merges = 0;  ///< merges that contributed
   uint64_t eye_subpaths_at_limit = 0, reused_subpaths = 0;
 
+  /// Calls `f(name, a's, b's)` for every counter.
+  template <class A, class B, class F>
+  static void for_each(A& a, B& b, const F& f) {
+    f("closest_rays", a.closest_rays, b.closest_rays);
+    f("shadow_rays", a.shadow_rays, b.shadow_rays);
+    f("medium_steps", a.medium_steps, b.medium_steps);
+    f("camera_paths", a.camera_paths, b.camera_paths);
+    f("light_paths", a.light_paths, b.light_paths);
+    f("path_vertices", a.path_vertices, b.path_vertices);
+    f("nonfinite_samples", a.nonfinite_samples, b.nonfinite_samples);
+    auto& ac = a.connections;
+    auto& bc = b.connections;
+    f("connections_contributed", ac.contributed, bc.contributed);
+    f("connections_failed_specular", ac.failed_specular, bc.failed_specular);
+    f("connections_failed_occluded", ac.failed_occluded, bc.failed_occluded);
+    f("connections_failed_zero", ac.failed_zero, bc.failed_zero);
+    f("connections_skipped", ac.skipped, bc.skipped);
+    f("merge_queries", a.merge_queries, b.merge_queries);
+    f("merges", a.merges, b.merges);
+    f("eye_subpaths_at_limit", a.eye_subpaths_at_limit, b.eye_subpaths_at_limit);
+    f("reused_subpaths", a.reused_subpaths, b.reused_subpaths);
+  }
   void add(const RenderCounters& o) {
-    closest_rays += o.closest_rays;
-    shadow_rays += o.shadow_rays;
-    medium_steps += o.medium_steps;
-    camera_paths += o.camera_paths;
-    light_paths += o.light_paths;
-    path_vertices += o.path_vertices;
-    nonfinite_samples += o.nonfinite_samples;
-    connections.contributed += o.connections.contributed;
-    connections.failed_specular += o.connections.failed_specular;
-    connections.failed_occluded += o.connections.failed_occluded;
-    connections.failed_zero += o.connections.failed_zero;
-    connections.skipped += o.connections.skipped;
-    merge_queries += o.merge_queries;
-    merges += o.merges;
-    eye_subpaths_at_limit += o.eye_subpaths_at_limit;
-    reused_subpaths += o.reused_subpaths;
+    for_each(*this, o, [](const char*, uint64_t& mine, uint64_t other) { mine += other; });
   }
 };
 

@@ -347,3 +347,37 @@ TEST_CASE("256 short renders have the mean of a long one") {
   CHECK(std::abs(average - expected) < 3.5 * error);
   CHECK(error < 0.01 * expected);
 }
+
+TEST_CASE("auto: a decision that was made before is the method, and is not made again") {
+  const TransportScene s(kCamera + kWalls + kPoint + kGlassBall);
+  IntegratorDescription description = s.integrator;
+  description.method = AutoIntegratorDescription{};
+  const std::vector<std::pair<std::string, TransportScene::Parameters>> methods = {
+      {"path", {{"max_depth", "7"}}},
+      {"bdpt", {{"max_depth", "6"}, {"light_paths", "0.37"}, {"connections", "2"}}},
+      {"vcm", {{"max_depth", "5"}, {"radius", "0.012345678901"}}},
+      {"ppm", {{"alpha", "0.7"}}},
+      {"volpath", {{"rr_depth", "3"}}}};
+  for (const auto& [name, parameters] : methods) {
+    CAPTURE(name);
+    IntegratorDescription direct = s.integrator;
+    apply_override(direct, {name, parameters, {}});
+    MethodDecision decision{
+        integrator_name(direct), integrator_parameters(direct), "made before", {}};
+    if (name == "vcm") {
+      decision.merge_parts.assign(256, 0);
+      for (size_t i = 0; i < 100; ++i) decision.merge_parts[i] = 1;
+      std::get<BidirectionalIntegratorDescription>(direct.method).merge_parts =
+          decision.merge_parts;
+    }
+    AutoIntegrator chooser(AutoIntegratorDescription{}, description);
+    chooser.adopt(decision);
+    const Image image = s.render(chooser, s.layout, 2, 1).image;
+    REQUIRE(chooser.decision());
+    CHECK(chooser.decision()->reason == "made before");
+    CHECK(s.render(*make_integrator(direct), s.layout, 2, 1).image.data == image.data);
+  }
+  AutoIntegrator chooser(AutoIntegratorDescription{}, description);
+  CHECK_THROWS_AS(chooser.adopt({"none", "", "", {}}), std::invalid_argument);
+  CHECK_THROWS_AS(chooser.adopt({"path", "max_depth", "", {}}), std::invalid_argument);
+}

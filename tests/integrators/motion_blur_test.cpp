@@ -106,9 +106,7 @@ Image image_of(const Described& d, const std::string& method, const Scene& first
   passes([&](const Scene& scene, const SampleRange& samples) {
     integrator->render_pass(scene, film, samples, control, counters);
   });
-  Image image = film.develop();
-  integrator->finish(image, int(range.count));
-  return image;
+  return film.develop();
 }
 
 /// The moving scene, as one pass.
@@ -123,7 +121,8 @@ Image moving_image(const Described& d, const std::string& method, const SampleRa
 template <class Share>
 Image still_image(const Described& d, const std::string& method, const SampleRange& range,
                   Share share) {
-  const auto first = d.at_share(share(range.first));
+  // Where methods begin.
+  const auto first = d.at_share(0.5);
   return image_of(d, method, *first, range, [&](const auto& pass) {
     SampleRange one = range;
     one.count = 1;

@@ -21,7 +21,6 @@ class FakeIntegrator final : public Integrator {
   explicit FakeIntegrator(int milliseconds = 0, float brightness = 1)
       : milliseconds_(milliseconds), brightness_(brightness) {}
   std::vector<std::string> channels() const override { return {"R", "G", "B"}; }
-  void finish(Image&, int) const override {}
   std::vector<uint32_t> passes;  ///< the samples of each
   void render_samples(const Scene&, Film& film, const SampleRange& samples,
                       const PassControl& control, RenderCounters& counters) override {

@@ -17,7 +17,6 @@ class Sparks final : public Integrator {
  public:
   explicit Sparks(float p, int from = 16) : p_(p), from_(from) {}
   std::vector<std::string> channels() const override { return {"R", "G", "B"}; }
-  void finish(Image&, int) const override {}
   void render_samples(const Scene&, Film& film, const SampleRange& samples,
                       const PassControl& control, RenderCounters& counters) override {
     for_each_tile(film, control, counters, [&](FilmTile& tile, RenderCounters& c) {

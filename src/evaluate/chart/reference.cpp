@@ -103,8 +103,7 @@ std::optional<ChartReference> make_reference(const ChartRender& render, Integrat
   r.variance = colour_image(width, height);
   std::vector<Moments> moments(r.mean.data.size());
   for (const Film& film : parts) {
-    Image image = film.develop();
-    integrator.finish(image, spp);
+    const Image image = film.develop();
     const Colours colours(image);
     for (size_t i = 0; i < moments.size(); ++i) moments[i].add(colours(i / 3, int(i % 3)));
   }

@@ -77,9 +77,7 @@ void OwnRenderer::slice(double wanted) {
 }
 
 void OwnRenderer::add_point() {
-  Image image = film_.develop();
-  integrator_->finish(image, spp_);
-  record(seconds_, cpu_seconds_, spp_, std::move(image));
+  record(seconds_, cpu_seconds_, spp_, film_.develop());
   recorded_spp_ = spp_;
 }
 

@@ -39,21 +39,40 @@ Matrix4 camera_to_ndc(const SensorDescription& view, Point2i size) {
 
 }  // namespace
 
-HeaderFields image_header(const RenderRecord& record, const RenderResult& result,
-                          const SensorDescription& view, Point2i full_size) {
+HeaderFields scene_header(const RenderRecord& record, const SensorDescription& view,
+                          Point2i full_size) {
   HeaderFields fields{
       {"program", "Duet"},
       {"version", DUET_VERSION},
-      {"commandLine", record.command_line},
-      {"date", image_date()},
       {"scene", host_free(record.scene_file)},
       {"sceneHash", record.scene_hash},
       {"integrator", record.integrator},
       {"integratorParameters", record.integrator_parameters},
       {"sampler", record.sampler},
+      {"seed", fmt::to_string(record.seed)},
+  };
+  if (record.decision) {
+    fields.emplace_back("chosenIntegrator", record.decision->method);
+    fields.emplace_back("chosenParameters", record.decision->parameters);
+    fields.emplace_back("choiceReason", record.decision->reason);
+  }
+  if (!record.bias.empty()) fields.emplace_back("bias", record.bias);
+  if (const auto world_to_camera = view.to_world.inverse()) {
+    const Matrix4 camera = Matrix4::scale(-1, 1, 1) * *world_to_camera;
+    fields.emplace_back("worldToCamera", exr_matrix(camera));
+    if (has_fov(view.kind) || view.kind == SensorKind::orthographic ||
+        view.kind == SensorKind::telecentric)
+      fields.emplace_back("worldToNDC", exr_matrix(camera_to_ndc(view, full_size) * camera));
+  }
+  return fields;
+}
+
+HeaderFields samples_header(const RenderRecord& record, const RenderResult& result) {
+  HeaderFields fields{
+      {"commandLine", record.command_line},
+      {"date", image_date()},
       {"spp", result.spp},
       {"lightSubpaths", fmt::to_string(result.counters.light_paths)},
-      {"seed", fmt::to_string(record.seed)},
       {"threads", record.threads},
   };
   if (!is_reproducible()) fields.emplace_back("renderSeconds", float(result.seconds));
@@ -62,24 +81,11 @@ HeaderFields image_header(const RenderRecord& record, const RenderResult& result
   if (requested.spp) fields.emplace_back("requestedSpp", *requested.spp);
   if (requested.seconds) fields.emplace_back("requestedSeconds", float(*requested.seconds));
   if (requested.target_error) fields.emplace_back("requestedError", float(*requested.target_error));
-  if (record.decision) {
-    fields.emplace_back("chosenIntegrator", record.decision->method);
-    fields.emplace_back("chosenParameters", record.decision->parameters);
-    fields.emplace_back("choiceReason", record.decision->reason);
-  }
-  if (!record.bias.empty()) fields.emplace_back("bias", record.bias);
   if (result.relative_rmse) {
     fields.emplace_back("relativeStandardError", float(*result.relative_rmse));
     fields.emplace_back("relativeRmseEstimate", float(*result.relative_rmse));  // its older name
     fields.emplace_back("relativeRmseIsUpperBound", int(result.rmse_is_upper_bound));
     fields.emplace_back("relativeRmseIsNoiseOnly", int(record.noise_only));
-  }
-  if (const auto world_to_camera = view.to_world.inverse()) {
-    const Matrix4 camera = Matrix4::scale(-1, 1, 1) * *world_to_camera;
-    fields.emplace_back("worldToCamera", exr_matrix(camera));
-    if (has_fov(view.kind) || view.kind == SensorKind::orthographic ||
-        view.kind == SensorKind::telecentric)
-      fields.emplace_back("worldToNDC", exr_matrix(camera_to_ndc(view, full_size) * camera));
   }
   return fields;
 }

@@ -27,16 +27,21 @@ struct RenderRecord {
   RenderBudget requested;
 };
 
-using HeaderFields = std::vector<std::pair<std::string, HeaderValue>>;
+using HeaderField = std::pair<std::string, HeaderValue>;
+using HeaderFields = std::vector<HeaderField>;
 
-/// What an image says about itself: nothing of the machine or the user (provenance.h), and with
-/// SOURCE_DATE_EPOCH nothing that differs from run to run. `view` gives the matrices from the world
-/// to the camera and to the image, in OpenEXR's convention: row vectors; the camera has x to the
-/// right, y up and z into the scene, the image is the unit square with y downwards.
-HeaderFields image_header(const RenderRecord& record, const RenderResult& result,
-                          const SensorDescription& view, Point2i full_size);
+// What an image says about itself: nothing of the machine or the user (provenance.h), and with
+// SOURCE_DATE_EPOCH nothing that differs from run to run.
 
-/// The same for files that hold texts only: numbers as texts, no matrices.
+/// Of the scene and the method. `view` gives the matrices from the world to the camera and to the
+/// image, in OpenEXR's convention: row vectors; the camera has x to the right, y up and z into the
+/// scene, the image is the unit square with y downwards.
+HeaderFields scene_header(const RenderRecord& record, const SensorDescription& view,
+                          Point2i full_size);
+/// Of the samples.
+HeaderFields samples_header(const RenderRecord& record, const RenderResult& result);
+
+/// Fields for files that hold texts only: numbers as texts, no matrices.
 TextFields header_texts(const HeaderFields& fields);
 
 }  // namespace duet

@@ -47,8 +47,7 @@ Image image_of_steps(const SeriesPlan& plan, int batch, Experiment& e,
                             plan.batch_seed(batch), 0, uint32_t(done), uint32_t(spp - done)};
     e.integrator->render_pass(e.scene, film, range, {}, counters);
     done = spp;
-    Image& image = after_each.emplace_back(film.develop());
-    e.integrator->finish(image, spp);
+    after_each.push_back(film.develop());
   }
   return after_each.back();
 }

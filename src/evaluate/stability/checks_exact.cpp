@@ -118,9 +118,7 @@ Image stopped_image(const SeriesPlan& plan, int batch, Experiment& e, RenderCoun
     const SampleRange range{SampleSequence::sobol, plan.batch_seed(batch), 0, uint32_t(sample), 1};
     e.integrator->render_pass(e.scene, film, range, sample == 0 ? whole : stopped, counters);
   }
-  Image image = film.develop();
-  e.integrator->finish(image, 1);
-  return image;
+  return film.develop();
 }
 
 }  // namespace

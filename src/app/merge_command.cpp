@@ -1,0 +1,95 @@
+// duet merge: raw films in, one image out.
+#include <CLI/CLI.hpp>
+
+#include "app/arguments.h"
+#include "app/commands.h"
+#include "app/output.h"
+#include "app/program.h"
+#include "app/scene_images.h"
+#include "base/diagnostics.h"
+#include "evaluate/raw/merge.h"
+#include "evaluate/report/render_report.h"
+#include "evaluate/report/statistics.h"
+
+namespace duet {
+
+namespace {
+
+struct MergeOptions {
+  std::vector<std::string> films, outputs;
+  std::string png, raw, stats, exposure = "0";
+  bool quiet = false;
+};
+
+int merge(MergeOptions o, Program& program) {
+  if (o.quiet) program.log.set_level(Log::Level::quiet);
+  if (!o.png.empty()) o.outputs.push_back(o.png);
+  const double exposure = parse_amount("--exposure", o.exposure, {{"", 1}}, -100, 100);
+  if (o.outputs.empty() && o.raw.empty())
+    throw UsageError("merge: -o, --png or --raw has to name a file");
+  for (const std::string& path : o.outputs) {
+    if (image_format(path).empty())
+      throw UsageError(fmt::format("-o {}: images are written as .exr, .png or .jpg", path));
+  }
+  std::vector<std::string> planned = o.outputs;
+  for (const std::string& path : {o.raw, o.stats})
+    if (!path.empty()) planned.push_back(path);
+  for (const std::string& path : planned)
+    if (const std::string why = prepare_file(path); !why.empty())
+      throw std::runtime_error(fmt::format("cannot write {}: {}", path, why));
+
+  const MergedFilms merged = merge_raw_films(o.films);
+  if (merged.result.spp == 0) throw std::runtime_error("the films have no samples");
+  RenderRecord record;
+  record.command_line = program.command_line;
+  record.scene_file = fmt::format("{} raw films", merged.films);
+  record.integrator = merged.image.integrator;
+  record.decision = merged.image.decision;
+  record.noise_only = merged.image.noise_only;
+  record.seed = merged.image.seed;
+  record.threads = program.threads();
+  const std::string gaps = to_string(merged.gaps);
+  if (!gaps.empty()) program.log.warning("samples are missing: {}", gaps);
+  if (!o.raw.empty()) write_raw_film(o.raw, merged.image, merged.state);
+  HeaderFields header = merged.image.header;
+  for (HeaderField& field : samples_header(record, merged.result))
+    header.push_back(std::move(field));
+  header.emplace_back("slices", int(merged.films));
+  if (!gaps.empty()) header.emplace_back("missingSamples", gaps);
+  for (const std::string& path : o.outputs)
+    write_image_file(path, merged.result.image, merged.image.form, header, exposure);
+  if (!o.stats.empty()) {
+    StatisticsFile statistics(o.stats);
+    statistics.add(record, merged.result, {.render = merged.result.seconds}, {});
+    statistics.write(false);
+  }
+  program.log.info("{} films: {} -> {}", merged.films, describe(record, merged.result),
+                   fmt::join(planned, " "));
+  return kSuccess;
+}
+
+}  // namespace
+
+void add_merge_command(CLI::App& app, Program& program) {
+  CLI::App* c = app.add_subcommand("merge", "Add up raw films to one image");
+  const auto o = std::make_shared<MergeOptions>();
+  c->add_option("films", o->films, "Raw films of one image, with different samples")->required();
+  c->add_option("-o,--output", o->outputs, "Image: .exr, .png or .jpg; repeatable")
+      ->allow_extra_args(false);
+  c->add_option("--png", o->png, "Image for display");
+  c->add_option("--raw", o->raw, "All of them as one raw film, to go on from");
+  c->add_option("--exposure", o->exposure, "Exposure of .png and .jpg, in stops");
+  c->add_option("--stats", o->stats, "Write statistics as JSON to this file");
+  c->add_flag("-q,--quiet", o->quiet, "Errors and warnings only");
+  c->footer(
+      "The sums are exact: the image is the same, bit for bit, as that of one render with all the "
+      "samples. Gaps are reported, and the image is the mean of what is there.\n"
+      "Examples:\n"
+      "  duet room.xml --slice 1/2 --raw a.exr; duet room.xml --slice 2/2 --raw b.exr\n"
+      "  duet merge a.exr b.exr -o room.exr --png room.png\n"
+      "Exit codes: 0; 1 a film is damaged or does not go with the others, or a file cannot be "
+      "written; 2 wrong usage.");
+  c->callback([o, &program] { program.exit_code = merge(*o, program); });
+}
+
+}  // namespace duet

@@ -1,0 +1,91 @@
+#include "app/raw_output.h"
+
+#include <algorithm>
+#include <filesystem>
+#include <stdexcept>
+
+#include "app/commands.h"
+#include "app/standard_output.h"
+#include "base/diagnostics.h"
+
+namespace duet {
+
+namespace {
+
+/// "folder/image.checkpoint.exr" for "folder/image.png".
+std::string checkpoint_path(const std::string& image) {
+  return std::filesystem::path(image).replace_extension(".checkpoint.exr").string();
+}
+
+}  // namespace
+
+RawOutput::RawOutput(const RenderOptions& options, const OutputNames& names,
+                     const std::string& image_path, Log& log)
+    : options_(options), log_(log), is_named_(!options.raw.empty()) {
+  if (is_named_) {
+    path_ = output_path(options.raw, names, ".raw.exr");
+  } else if (options.checkpoint) {
+    if (is_standard_output(image_path))
+      throw UsageError("--checkpoint: beside standard output, --raw has to name the file");
+    path_ = checkpoint_path(image_path);
+  }
+  if (options.checkpoint) schedule(0);
+}
+
+std::string RawOutput::obstacle() const {
+  if (path_.empty()) return "";
+  const std::string why = prepare_file(path_);
+  return why.empty() ? "" : fmt::format("cannot write {}: {}", path_, why);
+}
+
+std::optional<RawFilm> RawOutput::source() const {
+  std::error_code ignored;
+  std::string from = options_.resume;
+  if (options_.checkpoint && std::filesystem::exists(path_, ignored)) from = path_;
+  if (from.empty()) return std::nullopt;
+  return RawFilm(from);
+}
+
+void RawOutput::load(const RawFilm& film, RenderState& state) const {
+  if (const std::string what = difference(film.image(), image_); !what.empty())
+    throw ReadError(fmt::format("{}: is not of this image: {}", film.path(), what));
+  film.add_to(state);
+  log_.info("goes on from {} with {} spp", film.path(), state.spp);
+}
+
+void RawOutput::after_pass(const RenderState& state) {
+  if (!options_.checkpoint) return;
+  const auto start = Clock::now();
+  if (start < next_) return;
+  try {
+    write_raw_film(path_, image_, state);
+    failure_.clear();
+  } catch (const std::exception& e) {
+    if (failure_.empty()) log_.warning("no checkpoint: {}", e.what());
+    failure_ = e.what();
+  }
+  const std::chrono::duration<double> took = Clock::now() - start;
+  log_.detail("{}: {} spp, written in {:.2f} s", path_, state.spp, took.count());
+  schedule(took.count());
+}
+
+void RawOutput::schedule(double took) {
+  // A large film is written less often, so that it takes about a hundredth of the time.
+  const double wanted = *options_.checkpoint, most = 10 * wanted;
+  const std::chrono::duration<double> interval(std::clamp(100 * took, wanted, most));
+  next_ = Clock::now() + std::chrono::duration_cast<Clock::duration>(interval);
+}
+
+std::string RawOutput::finish(const RenderState& state, bool interrupted) {
+  if (path_.empty() || state.spp == 0) return "";
+  if (is_named_ || interrupted) {
+    write_raw_film(path_, image_, state);
+    return path_;
+  }
+  if (!failure_.empty()) throw std::runtime_error("a checkpoint failed: " + failure_);
+  std::error_code ignored;
+  std::filesystem::remove(path_, ignored);
+  return "";
+}
+
+}  // namespace duet

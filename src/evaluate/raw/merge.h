@@ -1,0 +1,25 @@
+// Raw films of one image, added up.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "evaluate/raw/raw_film.h"
+#include "integrators/pass.h"
+
+namespace duet {
+
+struct MergedFilms {
+  RawImage image;
+  RenderState state;
+  RenderResult result;  ///< the image, and the estimate of its error
+  size_t films = 0;
+  std::vector<SampleInterval> gaps;  ///< samples before the last that no film has
+};
+
+/// Adds up raw films, in whatever order they are named; one is in memory at a time. Throws
+/// ReadError, which names the files, if one cannot be read or is damaged, if two are not of one
+/// image (difference()) or have samples in common.
+MergedFilms merge_raw_films(const std::vector<std::string>& paths);
+
+}  // namespace duet

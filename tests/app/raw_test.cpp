@@ -1,0 +1,280 @@
+// Renders in parts: slices, checkpoints, raw films and what can be wrong with them.
+#include <doctest/doctest.h>
+
+#include <csignal>
+#include <cstring>
+#include <nlohmann/json.hpp>
+#include <random>
+#include <thread>
+
+#include "app/workplace.h"
+#include "image/image_io.h"
+
+using namespace duet;
+using namespace duet::test;
+
+namespace {
+
+using Arguments = std::vector<std::string>;
+
+/// A scene whose images keep all bits.
+TinyScene exact_scene() {
+  TinyScene s;
+  s.film = R"(<film type="hdrfilm"><integer name="width" value="16"/>
+    <integer name="height" value="12"/><string name="component_format" value="float32"/></film>)";
+  return s;
+}
+
+/// The same that takes a while: light within a white sphere.
+TinyScene long_scene() {
+  TinyScene s = endless_scene();
+  s.film = exact_scene().film;
+  return s;
+}
+
+Arguments operator+(Arguments a, const Arguments& b) {
+  a.insert(a.end(), b.begin(), b.end());
+  return a;
+}
+
+void check_same_pixels(const std::string& a, const std::string& b) {
+  const Image of_a = read_image(a).image, of_b = read_image(b).image;
+  REQUIRE(of_a.data.size() == of_b.data.size());
+  CHECK(std::memcmp(of_a.data.data(), of_b.data.data(), of_a.data.size() * sizeof(float)) == 0);
+}
+
+std::string field(const std::string& path, const std::string& name) {
+  for (const auto& [key, value] : read_image(path).header)
+    if (key == name) return value;
+  return "";
+}
+
+}  // namespace
+
+TEST_SUITE("program") {
+  TEST_CASE("slices are merged to the image of one render") {
+    const Workplace place;
+    place.scene("tiny.xml", exact_scene());
+    REQUIRE(place.run({"tiny.xml", "--spp", "10", "-o", "whole.exr"}).code == 0);
+    for (const char* k : {"1", "2", "3"}) {
+      const Outcome o = place.run({"tiny.xml", "--spp", "10", "--slice", std::string(k) + "/3",
+                                   "--raw", std::string(k) + ".exr", "-t", k});
+      CAPTURE(o.err);
+      CHECK(o.code == 0);
+    }
+    CHECK(!place.has("tiny.exr"));
+    const Outcome o = place.run({"merge", "2.exr", "3.exr", "1.exr", "-o", "m.exr", "--png",
+                                 "m.png", "--raw", "all.exr", "--stats", "s.json"});
+    CAPTURE(o.err);
+    REQUIRE(o.code == 0);
+    check_same_pixels(place.path("m.exr"), place.path("whole.exr"));
+    CHECK(field(place.path("m.exr"), "slices") == "3");
+    CHECK(field(place.path("m.exr"), "spp") == "10");
+    CHECK(field(place.path("m.exr"), "scene") == "tiny.xml");
+    CHECK(field(place.path("m.exr"), "worldToCamera") ==
+          field(place.path("whole.exr"), "worldToCamera"));
+    CHECK(place.has("m.png"));
+    const auto stats = nlohmann::json::parse(read_file(place.path("s.json")));
+    CHECK(stats["paths"]["camera"] == 16 * 12 * 10);
+    CHECK(stats["spp"] == 10);
+
+    // A lost slice is named, and the image is of the others.
+    const Outcome lost = place.run({"merge", "1.exr", "3.exr", "-o", "m.exr"});
+    CHECK(lost.code == 0);
+    CHECK(contains(lost.err, "samples are missing: 3:6"));
+    CHECK(field(place.path("m.exr"), "missingSamples") == "3:6");
+
+    // More samples than there are.
+    REQUIRE(place.run({"tiny.xml", "--spp", "25", "-o", "whole.exr"}).code == 0);
+    REQUIRE(place.run({"tiny.xml", "--spp", "25", "--resume", "all.exr", "-o", "more.exr"}).code ==
+            0);
+    check_same_pixels(place.path("more.exr"), place.path("whole.exr"));
+  }
+
+  TEST_CASE("a render that is killed again and again goes on") {
+    const Workplace place;
+    place.scene("long.xml", long_scene());
+    std::mt19937 random(4);
+    int kills = 0;
+    for (const char* method : {"path", "bdpt", "vcm"}) {
+      CAPTURE(method);
+      const Arguments render{"long.xml", "-i", method, "-I", "max_depth=60", "-t", "1", "--spp"};
+      // As many samples as take about two seconds here.
+      const Outcome probe =
+          place.run(render + Arguments{"16", "-o", "probe.exr", "--stats", "s.json"});
+      REQUIRE(probe.code == 0);
+      const auto stats = nlohmann::json::parse(read_file(place.path("s.json")));
+      const double seconds = stats["seconds"]["render"];
+      const std::string spp = std::to_string(int(std::clamp(16 * 2 / seconds, 32.0, 20000.0)));
+      REQUIRE(place.run(render + Arguments{spp, "-o", "whole.exr"}).code == 0);
+      const Arguments part = render + Arguments{spp, "-o", "part.exr", "--checkpoint", "0.02s"};
+      std::filesystem::remove(place.path("part.exr"));
+      for (int i = 0; i < 200; ++i) {
+        Process duet(part, {.directory = place.path("")});
+        const bool ended = Process::wait_until([&] { return place.has("part.exr"); },
+                                               0.1 + double(random() % 300) / 1000);
+        if (!ended) duet.send(SIGKILL);
+        const Outcome o = duet.wait(300);
+        if (ended) CHECK(o.code == 0);
+        if (ended) break;
+        ++kills;
+      }
+      REQUIRE(place.has("part.exr"));
+      check_same_pixels(place.path("part.exr"), place.path("whole.exr"));
+      CHECK(!place.has("part.checkpoint.exr"));
+    }
+    CHECK(kills >= 9);
+  }
+
+  TEST_CASE("Ctrl-C and SIGTERM leave a checkpoint, and -x takes it for unfinished") {
+    const Workplace place;
+    place.scene("long.xml", long_scene());
+    for (const int signal : {SIGINT, SIGTERM}) {
+      const Arguments render{"long.xml", "--spp",        "1000000", "-o",
+                             "a.exr",    "--checkpoint", "0.1s",    "-x"};
+      const std::string checkpoint = place.path("a.checkpoint.exr");
+      uint64_t before = 0;
+      for (int i = 0; i < 2; ++i) {
+        const auto written = [&] { return std::filesystem::file_size(checkpoint); };
+        const uintmax_t size = i == 0 ? 0 : written();
+        Process duet(render, {.directory = place.path("")});
+        REQUIRE(Process::wait_until(
+            [&] { return place.has("a.checkpoint.exr") && written() != size; }, 300));
+        duet.send(signal);
+        const Outcome o = duet.wait(300);
+        CAPTURE(o.err);
+        CHECK(o.code == 128 + signal);
+        CHECK(contains(o.err, "goes on from a.checkpoint.exr") == (i == 1));
+        const uint64_t spp = std::stoull(field(place.path("a.partial.exr"), "spp"));
+        CHECK(spp > before);
+        before = spp;
+      }
+      CHECK(!place.has("a.exr"));
+      const Outcome o = place.run(
+          {"long.xml", "--spp", std::to_string(before), "-o", "a.exr", "--checkpoint", "1h", "-x"});
+      CHECK(o.code == 0);
+      CHECK(field(place.path("a.exr"), "spp") == std::to_string(before));
+      CHECK(!place.has("a.checkpoint.exr"));
+      std::filesystem::remove(place.path("a.exr"));
+    }
+  }
+
+  TEST_CASE("renders to a time and to an error go on, and are not cut") {
+    const Workplace place;
+    place.scene("long.xml", long_scene());
+    for (const Arguments& limit : {Arguments{"--time", "2s"}, Arguments{"--target-error", "1%"}}) {
+      const Arguments render = Arguments{"long.xml", "--raw", "film.exr", "-o", "a.exr"} + limit;
+      {
+        Process duet(render + Arguments{"--progress", "bar"}, {.directory = place.path("")});
+        REQUIRE(duet.wait_for_message("error", 300));
+        duet.send(SIGINT);
+        CHECK(duet.wait(300).code == 130);
+      }
+      REQUIRE(place.has("film.exr"));
+      const Outcome o = place.run(render + Arguments{"--resume", "film.exr"});
+      CAPTURE(o.err);
+      CHECK(o.code == 0);
+      CHECK(contains(o.err, "goes on from film.exr"));
+      const Outcome merged = place.run({"merge", "film.exr", "-o", "m.exr"});
+      CHECK(merged.code == 0);
+      check_same_pixels(place.path("m.exr"), place.path("a.exr"));
+      CHECK(place.run(render + Arguments{"--slice", "1/2"}).code == 2);
+      std::filesystem::remove(place.path("film.exr"));
+    }
+  }
+
+  TEST_CASE("what auto has decided is in the raw film") {
+    const Workplace place;
+    place.scene("tiny.xml", exact_scene());
+    REQUIRE(place.run({"tiny.xml", "-i", "auto", "--spp", "4", "--raw", "a.exr"}).code == 0);
+    const Outcome o = place.run(
+        {"tiny.xml", "-i", "auto", "--spp", "8", "--resume", "a.exr", "-v", "-o", "b.exr"});
+    CAPTURE(o.err);
+    CHECK(o.code == 0);
+    CHECK(contains(o.err, "auto chose"));
+    CHECK(!field(place.path("b.exr"), "chosenIntegrator").empty());
+  }
+
+  TEST_CASE("a film of another scene, or of other settings, is refused and stays") {
+    const Workplace place;
+    place.scene("tiny.xml", exact_scene());
+    REQUIRE(place.run({"tiny.xml", "--raw", "a.exr"}).code == 0);
+    const std::string film = read_file(place.path("a.exr"));
+    const auto refused = [&](const Arguments& more, const std::string& what) {
+      const Outcome o =
+          place.run(Arguments{"tiny.xml", "--raw", "a.exr", "--checkpoint", "1s"} + more);
+      CAPTURE(o.err);
+      CHECK(o.code == 1);
+      CHECK(contains(o.err, "a.exr: is not of this image: " + what));
+      CHECK(read_file(place.path("a.exr")) == film);
+    };
+    refused({"--seed", "3"}, "\"seed\" is 0, not 3");
+    refused({"-i", "bdpt"}, "\"integrator\" is \"path\", not \"bdpt\"");
+    refused({"-I", "max_depth=3"}, "\"parameters\"");
+    refused({"--size", "20x10"}, "\"scene\"");
+    refused({"--crop", "0,0,4,4"}, "\"window\" is [0,0,16,12], not [0,0,4,4]");
+    refused({"--aov", "depth"}, "\"channels\"");
+    TinyScene other = exact_scene();
+    other.extra = "<emitter type='constant'/>";
+    place.scene("tiny.xml", other);
+    refused({}, "\"scene\"");
+    // The number of samples is not part of the scene, nor is the file's name.
+    TinyScene same = exact_scene();
+    place.scene("renamed.xml", same);
+    CHECK(place.run({"renamed.xml", "--raw", "a.exr", "--checkpoint", "1s", "-D", "spp=9"}).code ==
+          0);
+  }
+
+  TEST_CASE("a checkpoint that cannot be written is an error, and the one before stays") {
+    const Workplace place;
+    place.scene("long.xml", long_scene());
+    const Arguments render{"long.xml", "--spp",        "300",  "--raw",
+                           "film.exr", "--checkpoint", "0.01s"};
+    REQUIRE(place.run({"long.xml", "--spp", "3", "--raw", "film.exr"}).code == 0);
+    const std::string before = read_file(place.path("film.exr"));
+    const Outcome o = run_duet(render, {.directory = place.path(""), .file_limit = 512});
+    CAPTURE(o.err);
+    CHECK(o.code == 1);
+    CHECK(contains(o.err, "film.exr cannot be written"));
+    CHECK(read_file(place.path("film.exr")) == before);
+    CHECK(place.count() == 2);  // nothing half-written
+    const Outcome nowhere = place.run({"long.xml", "--raw", "/dev/null/film.exr"});
+    CHECK(nowhere.code == 1);
+    CHECK(contains(nowhere.err, "cannot write /dev/null/film.exr"));
+    CHECK(place.run({"merge", "film.exr", "-o", "/dev/null/a.exr"}).code == 1);
+  }
+
+  TEST_CASE("raw films: what makes no sense on the command line") {
+    const Workplace place;
+    place.scene("tiny.xml");
+    place.scene("other.xml");
+    const auto wrong = [&](const Arguments& arguments, const std::string& message) {
+      const Outcome o = place.run(arguments);
+      CAPTURE(o.err);
+      CHECK(o.code == 2);
+      CHECK(contains(o.err, message));
+    };
+    const Arguments raw{"tiny.xml", "--raw", "a.exr"};
+    wrong(raw + Arguments{"--slice", "4/3"}, "--slice 4/3: the parts are 1/3 to 3/3");
+    wrong(raw + Arguments{"--slice", "0/3"}, "1/3 to 3/3");
+    wrong(raw + Arguments{"--slice", "3"}, "K/N");
+    wrong(raw + Arguments{"--slice", "5/5", "--spp", "4"}, "4 samples per pixel have no 5 parts");
+    wrong(raw + Arguments{"--samples", "5:5"}, "there are no such samples");
+    wrong(raw + Arguments{"--samples", "0:2", "--slice", "1/2"}, "--samples already");
+    wrong(raw + Arguments{"--samples", "0:2", "--time", "1s"}, "cannot be cut");
+    wrong({"tiny.xml", "--slice", "1/2"}, "name it with --raw");
+    wrong({"tiny.xml", "--raw", "a.png"}, "raw films are .exr files");
+    wrong({"tiny.xml", "--raw", "-"}, "standard output");
+    wrong({"tiny.xml", "other.xml", "--raw", "a.exr"}, "written to one file");
+    wrong({"tiny.xml", "other.xml", "--resume", "a.exr"}, "one scene");
+    wrong(raw + Arguments{"-x"}, "writes no image");
+    wrong({"tiny.xml", "-o", "a.exr", "--checkpoint", "often"}, "--checkpoint");
+    wrong({"merge", "a.exr"}, "has to name a file");
+    wrong({"merge", "a.exr", "-o", "a.txt"}, ".exr, .png or .jpg");
+    CHECK(place.run({"tiny.xml", "other.xml", "--raw", "{scene}.raw.exr"}).code == 0);
+    CHECK(place.has("other.raw.exr"));
+    const Outcome missing = place.run({"tiny.xml", "--resume", "none.exr"});
+    CHECK(missing.code == 1);
+    CHECK(contains(missing.err, "none.exr"));
+  }
+}
