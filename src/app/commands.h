@@ -30,6 +30,7 @@ struct Program;
 /// Each adds a subcommand to `app`; when it is used, its callback stores the exit code in
 /// `program`.
 void add_render_command(CLI::App& app, Program& program);
+void add_batch_command(CLI::App& app, Program& program);
 void add_info_command(CLI::App& app, Program& program);
 void add_convert_command(CLI::App& app, Program& program);
 void add_merge_command(CLI::App& app, Program& program);

@@ -78,6 +78,7 @@ int run(std::vector<std::string> arguments, Program& program) {
       "duet help COMMAND, or duet COMMAND --help, has its options and examples.");
   app.formatter(std::make_shared<HelpFormatter>());
   add_render_command(app, program);
+  add_batch_command(app, program);
   add_info_command(app, program);
   add_convert_command(app, program);
   add_merge_command(app, program);

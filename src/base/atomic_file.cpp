@@ -21,26 +21,23 @@ constexpr unsigned kMostNames = 10000;
 
 }  // namespace
 
-void AtomicFile::fail(const std::string& reason) const {
-  throw std::runtime_error(fmt::format("{} cannot be written: {}", path_, reason));
-}
-
-AtomicFile::AtomicFile(const std::string& path) : path_(path) {
+AtomicFile::AtomicFile(std::string path) : path_(std::move(path)), target_(path_) {
   std::error_code error;
-  fs::path target = path;
-  const fs::file_status status = fs::status(target, error);
+  const fs::file_status status = fs::status(target_, error);
   if (fs::exists(status)) {
     if (!fs::is_regular_file(status)) fail("it exists and is not a regular file");
     // A symbolic link stays one.
-    target = fs::canonical(target, error);
+    target_ = fs::canonical(target_, error).string();
     if (error) fail(error.message());
   }
-  target_ = target.string();
   // Other threads, and processes of other machines, may write the same file now.
   for (unsigned number = 0; file_ < 0; ++number) {
-    temporary_ = fmt::format("{}.{}-{}.tmp", target_, getpid(), number);
-    file_ = ::open(temporary_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
-    if (file_ < 0 && (errno != EEXIST || number >= kMostNames)) fail(std::strerror(errno));
+    const std::string name = fmt::format("{}.{}-{}.tmp", target_, getpid(), number);
+    file_ = ::open(name.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+    if (file_ >= 0)
+      temporary_ = name;
+    else if (errno != EEXIST || number >= kMostNames)
+      fail(std::strerror(errno));
   }
 }
 
@@ -49,7 +46,16 @@ AtomicFile::~AtomicFile() {
   if (!temporary_.empty()) ::unlink(temporary_.c_str());
 }
 
-void AtomicFile::write(uint64_t position, std::span<const uint8_t> bytes) {
+void AtomicFile::fail(const std::string& reason) {
+  throw std::runtime_error(fmt::format("{} cannot be written: {}", path_, reason));
+}
+
+void AtomicFile::write(std::span<const uint8_t> bytes) {
+  write_at(position_, bytes);
+  position_ += bytes.size();
+}
+
+void AtomicFile::write_at(uint64_t position, std::span<const uint8_t> bytes) {
   while (!bytes.empty()) {
     const ssize_t n = ::pwrite(file_, bytes.data(), bytes.size(), off_t(position));
     if (n < 0 && errno == EINTR) continue;
@@ -57,6 +63,10 @@ void AtomicFile::write(uint64_t position, std::span<const uint8_t> bytes) {
     bytes = bytes.subspan(size_t(n));
     position += uint64_t(n);
   }
+}
+
+void AtomicFile::write(std::string_view text) {
+  write(std::span(reinterpret_cast<const uint8_t*>(text.data()), text.size()));
 }
 
 void AtomicFile::commit() {
@@ -68,13 +78,14 @@ void AtomicFile::commit() {
 
 void write_file_atomically(const std::string& path, std::span<const uint8_t> bytes) {
   AtomicFile file(path);
-  file.write(0, bytes);
+  file.write(bytes);
   file.commit();
 }
 
 void write_file_atomically(const std::string& path, std::string_view text) {
-  write_file_atomically(path,
-                        std::span(reinterpret_cast<const uint8_t*>(text.data()), text.size()));
+  AtomicFile file(path);
+  file.write(text);
+  file.commit();
 }
 
 }  // namespace duet

@@ -8,31 +8,36 @@
 
 namespace duet {
 
-/// A file that is written under a temporary name in the same directory and gets its own name when
-/// it is whole. All functions throw std::runtime_error with the reason if that fails (no such
-/// directory, no permission, disk full …); an existing file stays as it was then.
+/// A file that is written piece by piece under a temporary name in the same directory, and gets its
+/// name in the end; without that nothing stays of it. What write_file_atomically() says of errors
+/// holds here, too.
 class AtomicFile {
  public:
-  /// What exists and is no regular file (a device, a directory) is not replaced.
-  explicit AtomicFile(const std::string& path);
-  /// Removes what has not been committed.
+  explicit AtomicFile(std::string path);
   ~AtomicFile();
   AtomicFile(const AtomicFile&) = delete;
   AtomicFile& operator=(const AtomicFile&) = delete;
-
-  /// Writes at a number of bytes from the beginning.
-  void write(uint64_t position, std::span<const uint8_t> bytes);
-  /// The last call.
+  void write(std::span<const uint8_t> bytes);
+  void write(std::string_view text);
+  /// Writes at a number of bytes from the beginning, wherever the pieces before are.
+  void write_at(uint64_t position, std::span<const uint8_t> bytes);
+  /// As it was given.
+  const std::string& path() const { return path_; }
+  /// Gives the file its name. Nothing can be written afterwards.
   void commit();
 
  private:
-  [[noreturn]] void fail(const std::string& reason) const;
+  [[noreturn]] void fail(const std::string& reason);
 
   std::string path_, target_, temporary_;
   int file_ = -1;
+  uint64_t position_ = 0;  ///< of the next piece
 };
 
-/// The same for what is in memory.
+/// Writes under a temporary name in the same directory and renames. Throws std::runtime_error with
+/// the reason if that fails (no such directory, no permission, disk full …); the temporary file is
+/// removed then, and an existing file stays as it was. What exists and is no regular file (a
+/// device, a directory) is not replaced.
 void write_file_atomically(const std::string& path, std::span<const uint8_t> bytes);
 /// The same with a text.
 void write_file_atomically(const std::string& path, std::string_view text);

@@ -7,6 +7,7 @@
 #include <limits>
 #include <optional>
 #include <sstream>
+#include <stdexcept>
 #include <vector>
 
 namespace duet {
@@ -84,7 +85,20 @@ void lower_by_groups(const fs::path& root, const Hierarchy& h, MemoryLimit& limi
   }
 }
 
-double kilobytes_of_line(const fs::path& path, const std::string& name) {
+void lower_by_environment(MemoryLimit& limit) {
+  const char* text = std::getenv(kMemoryLimitVariable);
+  if (!text) return;
+  char* end = nullptr;
+  const double bytes = std::strtod(text, &end);
+  // Written so that NaN is refused.
+  if (end == text || *end != '\0' || !(bytes > 0))
+    throw std::runtime_error(
+        fmt::format("{}: \"{}\" is not a number of bytes", kMemoryLimitVariable, text));
+  lower(limit, bytes, std::string("environment variable ") + kMemoryLimitVariable);
+}
+
+/// The number behind a name at the beginning of a line.
+double number_of_line(const fs::path& path, const std::string& name) {
   std::ifstream file(path);
   for (std::string line; std::getline(file, line);) {
     const std::vector<std::string> w = words(line);
@@ -97,20 +111,25 @@ double kilobytes_of_line(const fs::path& path, const std::string& name) {
 
 MemoryLimit memory_limit(const fs::path& root) {
   MemoryLimit limit{std::numeric_limits<double>::infinity(), "unknown"};
-  const double physical = 1024 * kilobytes_of_line(root / "proc/meminfo", "MemTotal:");
+  const double physical = 1024 * number_of_line(root / "proc/meminfo", "MemTotal:");
   if (physical > 0) lower(limit, physical, "physical memory");
   std::ifstream mounts(root / "proc/self/mountinfo");
   for (std::string line; std::getline(mounts, line);)
     if (const auto hierarchy = parse_mount(line)) lower_by_groups(root, *hierarchy, limit);
+  lower_by_environment(limit);
   return limit;
 }
 
+double processes_out_of_memory(const fs::path& root) {
+  return number_of_line(root / "proc/vmstat", "oom_kill");
+}
+
 double memory_in_use(const fs::path& root) {
-  return 1024 * kilobytes_of_line(root / "proc/self/status", "VmRSS:");
+  return 1024 * number_of_line(root / "proc/self/status", "VmRSS:");
 }
 
 double memory_peak(const fs::path& root) {
-  return 1024 * kilobytes_of_line(root / "proc/self/status", "VmHWM:");
+  return 1024 * number_of_line(root / "proc/self/status", "VmHWM:");
 }
 
 std::string memory_text(double bytes) {

@@ -14,8 +14,16 @@ struct MemoryLimit {
 /// The least of the machine's physical memory (/proc/meminfo) and of what the control groups of the
 /// process, or those around them, allow: memory.max of version 2, memory.limit_in_bytes of version
 /// 1. Source: cgroups(7), proc(5), and cgroup-v2 and cgroup-v1/memory in the documentation of
-/// Linux. Files are looked for under `root`.
+/// Linux. Files are looked for under `root`. The environment variable kMemoryLimitVariable can
+/// lower it further; throws std::runtime_error if that is not a number of bytes.
 MemoryLimit memory_limit(const std::filesystem::path& root = "/");
+
+/// What `duet batch` tells the renders that share the memory.
+inline constexpr const char* kMemoryLimitVariable = "DUET_MEMORY_LIMIT";
+
+/// How many processes the kernel has ended for lack of memory since the machine was started
+/// (oom_kill of /proc/vmstat); 0 if that is not known.
+double processes_out_of_memory(const std::filesystem::path& root = "/");
 
 /// Memory that this process has in use, in bytes; 0 if that is not known.
 double memory_in_use(const std::filesystem::path& root = "/");

@@ -29,7 +29,7 @@ class AtomicOutput : public Imf::OStream {
  public:
   explicit AtomicOutput(const std::string& path) : OStream(path.c_str()), file_(path) {}
   void write(const char source[], int count) override {
-    file_.write(position_, {reinterpret_cast<const uint8_t*>(source), size_t(count)});
+    file_.write_at(position_, {reinterpret_cast<const uint8_t*>(source), size_t(count)});
     position_ += uint64_t(count);
   }
   uint64_t tellp() override { return position_; }

@@ -6,53 +6,13 @@
 #include <array>
 #include <cmath>
 #include <nlohmann/json.hpp>
-#include <span>
 
 #include "evaluate/web/files.h"
+#include "evaluate/web/pixels.h"
 #include "image/colours.h"
 #include "image/half.h"
 
 namespace duet {
-
-namespace {
-
-std::string base64(std::span<const uint8_t> bytes) {
-  constexpr const char* digits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-  std::string text;
-  text.reserve((bytes.size() + 2) / 3 * 4);
-  for (size_t i = 0; i < bytes.size(); i += 3) {
-    const size_t left = bytes.size() - i;
-    const uint32_t block = uint32_t(bytes[i]) << 16 | (left > 1 ? uint32_t(bytes[i + 1]) << 8 : 0) |
-                           (left > 2 ? uint32_t(bytes[i + 2]) : 0);
-    for (size_t k = 0; k < 4; ++k) text += k <= left ? digits[block >> (18 - 6 * k) & 63] : '=';
-  }
-  return text;
-}
-
-/// Calls `use(mean)` for each block of n × n pixels, in rows from the top, with the mean of
-/// `value(pixel)` over what there is of it.
-template <class Value, class Use>
-void for_each_block(int width, int height, int n, Value value, Use use) {
-  for (int y = 0; y < height; y += n)
-    for (int x = 0; x < width; x += n) {
-      const int x1 = std::min(x + n, width), y1 = std::min(y + n, height);
-      std::array<double, 3> sum{};
-      for (int j = y; j < y1; ++j)
-        for (int i = x; i < x1; ++i) {
-          const std::array<double, 3> v = value(size_t(j) * size_t(width) + size_t(i));
-          for (size_t c = 0; c < 3; ++c) sum[c] += v[c];
-        }
-      for (double& s : sum) s /= double(x1 - x) * (y1 - y);
-      use(sum);
-    }
-}
-
-/// Pixels along each side of a block, so that no side has more blocks than `longest`.
-int reduction(int width, int height, int longest) {
-  return (std::max(width, height) + longest - 1) / longest;
-}
-
-}  // namespace
 
 std::string escape_markup(const std::string& text) {
   std::string out;
@@ -138,14 +98,22 @@ std::string viewer_keys() {
          "viewer was clicked.</p>\n";
 }
 
-std::string web_page(const std::string& title, const std::string& body) {
+std::string web_page_start(const std::string& title) {
   return fmt::format(
       "<!doctype html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
       "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n"
       "<title>{}</title>\n<link rel=\"icon\" "
-      "href=\"data:,\">\n<style>\n{}</style>\n</head>\n<body>\n{}\n<script>\n{}</script>\n"
-      "<script>\n{}</script>\n</body>\n</html>\n",
-      escape_markup(title), web_files::page_css, body, web_files::viewer_js, web_files::table_js);
+      "href=\"data:,\">\n<style>\n{}</style>\n</head>\n<body>\n",
+      escape_markup(title), web_files::page_css);
+}
+
+std::string web_page_end() {
+  return fmt::format("\n<script>\n{}</script>\n<script>\n{}</script>\n</body>\n</html>\n",
+                     web_files::viewer_js, web_files::table_js);
+}
+
+std::string web_page(const std::string& title, const std::string& body) {
+  return web_page_start(title) + body + web_page_end();
 }
 
 }  // namespace duet

@@ -45,5 +45,8 @@ std::string viewer_keys();
 
 /// A complete page. `body` is HTML, `title` plain text.
 std::string web_page(const std::string& title, const std::string& body);
+/// What stands before the body and behind it, for pages that are written piece by piece.
+std::string web_page_start(const std::string& title);
+std::string web_page_end();
 
 }  // namespace duet

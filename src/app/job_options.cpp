@@ -1,0 +1,137 @@
+#include "app/job_options.h"
+
+#include <fmt/ranges.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+
+#include "app/commands.h"
+#include "app/output.h"
+#include "app/placeholders.h"
+#include "app/program.h"
+#include "app/render_options.h"
+#include "app/scene_operand.h"
+#include "evaluate/batch/job_arguments.h"
+
+namespace duet {
+
+namespace {
+
+/// `duet render` without what it does.
+struct RenderGrammar {
+  explicit RenderGrammar(Program& program) : parser(command, program) {}
+  void parse(std::vector<std::string> arguments) {
+    std::reverse(arguments.begin(), arguments.end());  // as CLI11 wants them
+    command.parse(arguments);
+  }
+
+  CLI::App command;
+  RenderOptionParser parser;
+};
+
+batch::OptionKind option_kind(const CLI::Option& option) {
+  if (option.get_items_expected_max() == 0) return batch::OptionKind::flag;
+  if (option.get_items_expected_min() == 0) return batch::OptionKind::optional_value;
+  return option.get_items_expected_max() > 1 ? batch::OptionKind::repeatable
+                                             : batch::OptionKind::single;
+}
+
+/// The long name of an option that jobs can have; "" of all others.
+std::string job_option_name(const CLI::Option& option) {
+  if (option.get_lnames().empty()) return "";
+  const std::string& name = option.get_lnames()[0];
+  return name == "help" || name == "output" || batch::is_given_by_batch(name) ? "" : name;
+}
+
+std::string output_of_job(const batch::Job& job, const std::string& pattern) {
+  if (pattern == "-") throw UsageError("-o -: standard output holds one image");
+  const OutputNames names = output_names(job.scene);
+  Placeholders placeholders{{"scene", names.scene}, {"folder", names.folder}};
+  for (const batch::JobOption& option : job.options) {
+    std::string text = fmt::format("{}", fmt::join(option.values, ","));
+    // A value makes no folders.
+    std::replace(text.begin(), text.end(), '/', '_');
+    placeholders.emplace_back(option.name, text);
+  }
+  const std::string format = job.value("format");
+  return output_path(fill_in("-o", pattern, placeholders), names,
+                     "." + (format.empty() ? "exr" : format));
+}
+
+/// Why `duet render` would refuse a job; "" if it would not.
+std::string refusal(const batch::Job& job, Program& program) {
+  if (const std::string why = no_scene_reason(job.scene, ""); !why.empty())
+    return fmt::format("cannot read {}: {}", job.scene, why);
+  std::vector<std::string> arguments = batch::job_arguments(job);
+  arguments.erase(arguments.begin());  // the command
+  try {
+    RenderGrammar render(program);
+    render.parse(std::move(arguments));
+    render.parser.finish();
+    return "";
+  } catch (const CLI::ParseError& e) {
+    return e.what();
+  } catch (const UsageError& e) {
+    return e.what();
+  }
+}
+
+}  // namespace
+
+std::vector<batch::RenderOption> job_option_names(Program& program) {
+  const RenderGrammar render(program);
+  std::vector<batch::RenderOption> options;
+  for (const CLI::Option* option : render.command.get_options())
+    if (const std::string name = job_option_name(*option); !name.empty())
+      options.push_back({name, option_kind(*option)});
+  return options;
+}
+
+std::vector<batch::JobOption> options_for_all(const std::vector<std::string>& arguments,
+                                              Program& program) {
+  RenderGrammar render(program);
+  CLI::Option* scene = render.command.get_option("scene");
+  scene->required(false);
+  try {
+    render.parse(arguments);
+  } catch (const CLI::ParseError& e) {
+    throw UsageError(fmt::format("options of duet render for all jobs: {}", e.what()));
+  }
+  if (scene->count() > 0)
+    throw UsageError(fmt::format("\"{}\" is no option of duet render", scene->results()[0]));
+  std::vector<batch::JobOption> options;
+  for (const CLI::Option* option : render.command.get_options()) {
+    if (option->count() == 0) continue;
+    const std::string name = job_option_name(*option);
+    if (name.empty())
+      throw UsageError(fmt::format("{}: duet batch gives this option of duet render itself",
+                                   option->get_name()));
+    std::vector<std::string> values = option->results();
+    if (option_kind(*option) == batch::OptionKind::flag) values.clear();
+    std::erase(values, "");
+    options.push_back({name, std::move(values)});
+  }
+  return options;
+}
+
+void name_outputs(std::vector<batch::Job>& jobs, const std::vector<std::string>& templates,
+                  Diagnostics& diagnostics) {
+  for (batch::Job& job : jobs) {
+    if (job.outputs.empty()) job.outputs = templates;
+    if (job.outputs.empty()) job.outputs = {""};
+    try {
+      for (std::string& output : job.outputs) output = output_of_job(job, output);
+    } catch (const UsageError& e) {
+      diagnostics.error(job.where, "{}", e.what());
+      job.outputs.clear();
+    }
+  }
+}
+
+void check_jobs(const std::vector<batch::Job>& jobs, Program& program, Diagnostics& diagnostics) {
+  for (const batch::Job& job : jobs)
+    if (const std::string why = refusal(job, program); !why.empty())
+      diagnostics.error(job.where, "{}", why);
+}
+
+}  // namespace duet
