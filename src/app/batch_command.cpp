@@ -13,6 +13,7 @@
 #include "app/scene_operand.h"
 #include "app/signals.h"
 #include "base/atomic_file.h"
+#include "base/memory_limit.h"
 #include "evaluate/batch/job_arguments.h"
 #include "evaluate/batch/job_queue.h"
 #include "evaluate/batch/manifest.h"
@@ -66,7 +67,8 @@ class BatchCommand {
                            : int(parse_whole("--threads", options_.threads, 1, kMaxThreads));
     if (!options_.jobs.empty())
       settings.jobs_at_once = int(parse_whole("--jobs", options_.jobs, 1, kMaxThreads));
-    settings.memory = memory_limit();
+    // What this process takes is not there for the others.
+    settings.memory_bytes = std::max(memory_limit().bytes - memory_in_use(), 1.0);
     return settings;
   }
 

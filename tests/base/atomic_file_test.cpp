@@ -67,3 +67,23 @@ TEST_CASE("a disk that fills up keeps the old file and no new one") {
   CHECK(read_file(path) == "old");
   CHECK(directory.count() == 1);
 }
+
+TEST_CASE("a file that is written in pieces is there when it is whole") {
+  TemporaryDirectory directory;
+  const std::string path = directory.write("a", "old");
+  {
+    AtomicFile file(path);
+    file.write("first, ");
+    file.write("second");
+    CHECK(file.path() == path);
+    CHECK(read_file(path) == "old");
+    file.commit();
+  }
+  CHECK(read_file(path) == "first, second");
+  {
+    AtomicFile file(path);
+    file.write("x");
+  }
+  CHECK(read_file(path) == "first, second");
+  CHECK(directory.count() == 1);
+}

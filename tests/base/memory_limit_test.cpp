@@ -30,6 +30,7 @@ class Machine {
   }
   MemoryLimit limit() const { return memory_limit(root_.path("")); }
   double in_use() const { return memory_in_use(root_.path("")); }
+  double ended() const { return processes_out_of_memory(root_.path("")); }
   double peak() const { return memory_peak(root_.path("")); }
 
  private:
@@ -129,4 +130,28 @@ TEST_CASE("memory for people") {
   CHECK(memory_text(1.234e9) == "1.23 GB");
   CHECK(memory_text(12.34e9) == "12.3 GB");
   CHECK(memory_text(4.7e12) == "4700 GB");
+}
+
+TEST_CASE("the environment can lower the limit") {
+  const Machine machine;
+  setenv(kMemoryLimitVariable, "1048576", 1);
+  CHECK(machine.limit().bytes == kMB);
+  CHECK(machine.limit().source == "environment variable DUET_MEMORY_LIMIT");
+  setenv(kMemoryLimitVariable, "1e15", 1);
+  CHECK(machine.limit().source == "physical memory");
+  for (const char* text : {"", "much", "-1", "0", "nan", "5 GB"}) {
+    CAPTURE(text);
+    setenv(kMemoryLimitVariable, text, 1);
+    CHECK_THROWS_WITH_AS(machine.limit(), doctest::Contains("DUET_MEMORY_LIMIT"),
+                         std::runtime_error);
+  }
+  unsetenv(kMemoryLimitVariable);
+  CHECK(machine.limit().source == "physical memory");
+}
+
+TEST_CASE("the processes that the kernel has ended are counted") {
+  const Machine machine;
+  CHECK(machine.ended() == 0);
+  machine.write("proc/vmstat", "oom_kill_other 7\noom_kill 3\npgfault 12\n");
+  CHECK(machine.ended() == 3);
 }

@@ -10,6 +10,7 @@
 #include <filesystem>
 #include <stdexcept>
 
+#include "base/memory_limit.h"
 #include "evaluate/batch/image_pixels.h"
 #include "evaluate/batch/job_arguments.h"
 #include "evaluate/batch/temporary_folder.h"
@@ -80,9 +81,9 @@ void JobQueue::start(size_t job, int threads, bool alone) {
                                                   : double(settings_.threads) / double(threads);
   const bool has_share = !alone && parts > 1;
   std::vector<std::string> environment;
-  if (has_share && std::isfinite(settings_.memory.bytes))
-    environment.push_back(
-        fmt::format("{}={:.0f}", kMemoryLimitVariable, settings_.memory.bytes / parts));
+  if (std::isfinite(settings_.memory_bytes))
+    environment.push_back(fmt::format("{}={:.0f}", kMemoryLimitVariable,
+                                      settings_.memory_bytes / (has_share ? parts : 1)));
   const std::string statistics = fmt::format("{}/{}.json", folder_, job);
   running_.push_back(
       {job, threads, has_share, seconds_now(), processes_out_of_memory(), statistics,

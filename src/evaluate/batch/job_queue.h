@@ -8,7 +8,6 @@
 #include <string>
 #include <vector>
 
-#include "base/memory_limit.h"
 #include "evaluate/batch/child_process.h"
 #include "evaluate/batch/job.h"
 #include "evaluate/batch/job_result.h"
@@ -18,7 +17,7 @@ namespace duet::batch {
 struct QueueSettings {
   int threads = 1;       ///< of all processes together
   int jobs_at_once = 0;  ///< 0: as follows from the sizes of the images
-  MemoryLimit memory;    ///< of all processes together
+  double memory_bytes = 0;  ///< of all processes together; may be infinite
 };
 
 /// What the queue asks and tells whoever runs it.

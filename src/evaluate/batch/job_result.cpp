@@ -77,8 +77,9 @@ void read_image_header(const Job& job, JobResult& result) {
     const ImageFacts facts = read_image_facts(job.outputs[0]);
     result.integrator = printable(facts.field("integrator"));
     result.spp = std::strtod(facts.field("spp").c_str(), nullptr);
-    const std::string error = facts.field("relativeRmseEstimate");
+    const std::string error = facts.field("relativeStandardError");
     if (!error.empty()) result.error = std::strtod(error.c_str(), nullptr);
+    result.error_is_bound = facts.field("relativeRmseIsUpperBound") == "1";
   } catch (const ReadError&) {
     // It has been moved away meanwhile: nothing more is known.
   }

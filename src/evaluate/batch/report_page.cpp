@@ -69,7 +69,8 @@ std::string number_cell(double value, const std::string& text) {
 
 std::string details(const Job& job, const JobResult& r) {
   std::string html = html_text(r.reason);
-  if (!r.messages.empty()) {
+  // That the reason is all there is, is seen already.
+  if (!r.messages.empty() && r.messages != std::vector{r.reason}) {
     html += fmt::format("<details><summary>{} message{}</summary><pre>", r.messages.size(),
                         r.messages.size() == 1 ? "" : "s");
     for (const std::string& message : r.messages) html += html_text(message) + "\n";
