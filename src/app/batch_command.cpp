@@ -223,7 +223,7 @@ void add_batch_command(CLI::App& app, Program& program) {
       "Repeat the command to go on: images that are finished and made with the same settings are "
       "kept.\n"
       "Examples:\n"
-      "  duet batch jobs.csv                          scene,spp,integrator in its first row\n"
+      "  duet batch jobs.csv              its first row may be scene,spp,integrator\n"
       "  duet batch jobs.jsonl --report report.html --junit junit.xml\n"
       "  duet batch scenes -o 'images/{scene}-{spp}.exr' -- --spp 64 --size 320x240\n"
       "Exit codes: 0 all jobs have their images; 1 a job failed; 2 wrong usage, or something is "

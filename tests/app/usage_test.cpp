@@ -169,7 +169,8 @@ TEST_SUITE("program") {
     const Workplace place;
     const std::pair<Arguments, Arguments> cases[] = {
         {{"--help"},
-         {"render", "info", "compare", "plugins", "stability", "--version", "duet SCENE..."}},
+         {"render", "batch", "info", "compare", "plugins", "stability", "--version",
+          "duet SCENE..."}},
         {{"render", "--help"},
          {"--output",
           "--integrator",
@@ -202,6 +203,9 @@ TEST_SUITE("program") {
           "ptracer (light tracing",
           "bdpt (bidirectional path tracing)",
           "vcm (vertex connection and merging)"}},
+        {{"batch", "--help"},
+         {"--output", "--jobs", "--threads", "--report", "--junit", "--csv", "--dry-run",
+          "Examples:", "Exit codes:"}},
         {{"info", "--help"}, {"-D", "-a", "--strict", "--xml", "Examples:"}},
         {{"compare", "--help"}, {"--variance", "--spp",     "--reference-spp",
                                  "--diff",     "--require", "--json",
@@ -236,7 +240,8 @@ TEST_SUITE("program") {
 
   TEST_CASE("help fits the width") {
     const Workplace place;
-    for (const char* command : {"", "render", "info", "compare", "chart", "plugins", "stability"}) {
+    for (const char* command :
+         {"", "render", "batch", "info", "compare", "chart", "plugins", "stability"}) {
       Arguments arguments{"--help"};
       if (*command != '\0') arguments.insert(arguments.begin(), command);
       std::istringstream lines(place.run(arguments).out);

@@ -15,8 +15,8 @@
 namespace duet::batch {
 
 struct QueueSettings {
-  int threads = 1;       ///< of all processes together
-  int jobs_at_once = 0;  ///< 0: as follows from the sizes of the images
+  int threads = 1;          ///< of all processes together
+  int jobs_at_once = 0;     ///< 0: as follows from the sizes of the images
   double memory_bytes = 0;  ///< of all processes together; may be infinite
 };
 

@@ -23,8 +23,13 @@ namespace {
 
 /// More messages of one job nobody reads in a report.
 constexpr size_t kMostMessages = 50;
-/// Exit codes of the program (docs/batch.md): interrupted by SIGHUP, SIGINT or SIGTERM.
-constexpr int kInterrupted[] = {128 + SIGHUP, 128 + SIGINT, 128 + SIGTERM};
+
+/// The signal that asked a process to stop, or 0: it said so by its exit code (docs/batch.md), or
+/// had not yet taken over the signal.
+int stop_signal_of(const ChildEnd& end) {
+  const int signal = end.signal != 0 ? end.signal : end.exit_code - 128;
+  return signal == SIGHUP || signal == SIGINT || signal == SIGTERM ? signal : 0;
+}
 
 std::string without_program(const std::string& line) {
   for (const std::string start : {"duet: error: ", "duet: warning: "})
@@ -108,15 +113,12 @@ JobResult result_of(const Job& job, const ChildEnd& end, const std::string& stat
   const std::vector<std::string> lines = lines_of(end);
   for (const std::string& line : lines) result.messages.push_back(without_program(line));
   const bool has_statistics = read_statistics(statistics_file, result);
-  const bool is_interrupted =
-      end.signal == 0 && std::find(std::begin(kInterrupted), std::end(kInterrupted),
-                                   end.exit_code) != std::end(kInterrupted);
   if (end.signal == 0 && end.exit_code == 0) {
     result.status = has_statistics ? JobStatus::rendered : JobStatus::kept;
     if (!has_statistics) read_image_header(job, result);
-  } else if (is_interrupted) {
+  } else if (const int signal = stop_signal_of(end); signal != 0) {
     result.status = JobStatus::interrupted;
-    result.reason = fmt::format("interrupted by signal {}", end.exit_code - 128);
+    result.reason = fmt::format("interrupted by signal {}", signal);
   } else {
     result.status = JobStatus::failed;
     result.reason = reason_of(end, lines);

@@ -28,7 +28,8 @@ using Fields = std::vector<std::string>;
 }  // namespace
 
 TEST_CASE("fields are parted by commas, and quotes hold what means something otherwise") {
-  const Table t = table_of("\xef\xbb\xbfone,two\r\n\r\n\"a,b\",\"say \"\"x\"\"\"\n\n,\"two\r\nlines\"\nlast");
+  const Table t =
+      table_of("\xef\xbb\xbfone,two\r\n\r\n\"a,b\",\"say \"\"x\"\"\"\n\n,\"two\r\nlines\"\nlast");
   CHECK(t.errors().empty());
   REQUIRE(t.rows.size() == 4);
   CHECK(t.rows[0].fields == Fields{"one", "two"});
@@ -44,7 +45,8 @@ TEST_CASE("fields are parted by commas, and quotes hold what means something oth
 }
 
 TEST_CASE("quotes that are not as they should be are errors at their lines") {
-  CHECK(table_of("a\n\"b\nc").errors() == "t.csv:2: error: a quote that begins here does not end\n");
+  CHECK(table_of("a\n\"b\nc").errors() ==
+        "t.csv:2: error: a quote that begins here does not end\n");
   CHECK(table_of("a\n\"b\" c,d").errors() ==
         "t.csv:2: error: text follows the quote at the end of a field\n");
   CHECK(table_of("a\n\nx\"y\n").errors() ==

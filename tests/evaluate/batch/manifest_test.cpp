@@ -13,12 +13,10 @@ namespace {
 
 using Texts = std::vector<std::string>;
 
-const std::vector<RenderOption> kOptions{{"spp", OptionKind::single},
-                                         {"seed", OptionKind::single},
-                                         {"strict", OptionKind::flag},
-                                         {"techniques", OptionKind::optional_value},
-                                         {"define", OptionKind::repeatable},
-                                         {"path", OptionKind::repeatable}};
+const std::vector<RenderOption> kOptions{
+    {"spp", OptionKind::single},        {"seed", OptionKind::single},
+    {"strict", OptionKind::flag},       {"techniques", OptionKind::optional_value},
+    {"define", OptionKind::repeatable}, {"path", OptionKind::repeatable}};
 
 class Manifest {
  public:
@@ -57,7 +55,8 @@ TEST_CASE("rows and objects are jobs, with scenes beside the manifest") {
       R"({"scene": "a.xml", "spp": 16, "define": ["x=1", "y=a b"], "strict": true, "techniques": "raw",
  "output": ["a.exr", "a.png"]})";
   const std::string two =
-      "\n{\"scene\": \"../b.xml\", \"strict\": false, \"techniques\": true, \"path\": \"data\", \"spp\": null}\n"
+      "\n{\"scene\": \"../b.xml\", \"strict\": false, \"techniques\": true, \"path\": \"data\", "
+      "\"spp\": null}\n"
       "  \r\n{\"scene\": \"/c.xml\", \"seed\": \"\"}\r\n";
   std::string one_line = jsonl;
   std::erase(one_line, '\n');
@@ -71,8 +70,8 @@ TEST_CASE("rows and objects are jobs, with scenes beside the manifest") {
     const Texts first = m.arguments(0);
     CHECK(std::vector(first.begin(), first.begin() + 3) ==
           Texts{"render", "--output=a.exr", "--output=a.png"});
-    for (const char* argument : {"--spp=16", "--define=x=1", "--define=y=a b", "--strict",
-                                 "--techniques=raw"}) {
+    for (const char* argument :
+         {"--spp=16", "--define=x=1", "--define=y=a b", "--strict", "--techniques=raw"}) {
       CAPTURE(argument);
       CHECK(std::count(first.begin(), first.end(), argument) == 1);
     }
@@ -173,9 +172,9 @@ TEST_CASE("the batch's own options stand before the job's") {
   Job job;
   job.scene = "-x.xml";
   job.options = {{"threads", {"7"}}, {"spp", {"4"}}};
-  CHECK(render_arguments(job, 2, "s.json") ==
-        Texts{"render", "--skip-existing", "--quiet", "--progress=none", "--threads=2",
-              "--stats=s.json", "--spp=4", "--", "-x.xml"});
+  CHECK(render_arguments(job, 2, "s.json") == Texts{"render", "--skip-existing", "--quiet",
+                                                    "--progress=none", "--threads=2",
+                                                    "--stats=s.json", "--spp=4", "--", "-x.xml"});
   for (const char* option : {"stats", "progress", "quiet", "skip-existing"})
     CHECK(is_given_by_batch(option));
   CHECK(!is_given_by_batch("spp"));

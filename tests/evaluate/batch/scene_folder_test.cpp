@@ -62,18 +62,19 @@ TEST_CASE("the pixels of a job are those of its options, or of its film") {
     job.options = options;
     return image_pixels(job);
   };
-  const std::string film =
-      scene("<default name=\"w\" value=\"40\"/><sensor type=\"perspective\"><film type=\"hdrfilm\">"
-            "<integer name=\"width\" value=\"$w\"/><integer name=\"height\" value=\"30\"/></film>"
-            "</sensor><shape type=\"obj\"><string name=\"filename\" value=\"nowhere.obj\"/></shape>");
+  const std::string film = scene(
+      "<default name=\"w\" value=\"40\"/><sensor type=\"perspective\"><film type=\"hdrfilm\">"
+      "<integer name=\"width\" value=\"$w\"/><integer name=\"height\" value=\"30\"/></film>"
+      "</sensor><shape type=\"obj\"><string name=\"filename\" value=\"nowhere.obj\"/></shape>");
   CHECK(pixels("a.xml", film) == 1200);
   CHECK(pixels("a.xml", film, {{"define", {"w=10"}}}) == 300);
   CHECK(pixels("a.xml", film, {{"size", {"64x32"}}}) == 2048);
   CHECK(pixels("a.xml", film, {{"size", {"64x32"}}, {"crop", {"8,8,4,5"}}}) == 20);
   CHECK(pixels("b.xml", scene(kSensor)) == 768 * 576);
   CHECK(!pixels("c.xml", "<scene"));
-  CHECK(pixels("a.pbrt", "Film \"rgb\" \"integer yresolution\" [20] \"string filename\" \"x.exr\"\n"
-                         "\"integer xresolution\" 10\nWorldBegin") == 200);
+  CHECK(pixels("a.pbrt",
+               "Film \"rgb\" \"integer yresolution\" [20] \"string filename\" \"x.exr\"\n"
+               "\"integer xresolution\" 10\nWorldBegin") == 200);
   CHECK(pixels("b.pbrt", "WorldBegin Film \"rgb\" \"integer xresolution\" 1") == 1280 * 720);
   CHECK(!pixels("c.pbrt", "Film \"rgb"));
   Job missing;
