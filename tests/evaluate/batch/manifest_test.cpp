@@ -2,6 +2,10 @@
 
 #include <doctest/doctest.h>
 
+#include <algorithm>
+#include <iterator>
+#include <random>
+
 #include "evaluate/batch/job_arguments.h"
 #include "support/files.h"
 
@@ -141,6 +145,28 @@ TEST_CASE("files that are no manifests are refused") {
   CHECK(read_manifest("/nowhere/jobs.csv", kOptions, diagnostics).empty());
   CHECK(diagnostics.all().at(0).to_string() ==
         "/nowhere/jobs.csv: error: it cannot be read: No such file or directory");
+}
+
+TEST_CASE("any text is read as jobs or refused") {
+  std::minstd_rand random(7);
+  const std::string parts[] = {"scene", "spp",  "define", "\"", "\"\"", ",", ";",
+                               "\n",    "\r\n", "{",      "}",  "[",    "]", ":",
+                               "true",  "1",    "a.xml",  "\\", "\xff", " "};
+  size_t jobs = 0, refused = 0;
+  const TemporaryDirectory folder;
+  for (int i = 0; i < 2000; ++i) {
+    const char* name = i % 2 == 0 ? "a.csv" : "a.jsonl";
+    std::string text = i % 2 == 0 ? "scene,spp,define\n" : "{\"scene\": \"a.xml\"";
+    for (size_t n = random() % 12; n > 0; --n) text += parts[random() % std::size(parts)];
+    if (i % 3 == 0) text += "}";
+    Diagnostics diagnostics;
+    const std::vector<Job> read = read_manifest(folder.write(name, text), kOptions, diagnostics);
+    jobs += !read.empty();
+    refused += diagnostics.has_errors();
+    CHECK((!read.empty() || diagnostics.has_errors()));
+  }
+  CHECK(jobs > 100);
+  CHECK(refused > 100);
 }
 
 TEST_CASE("options for all jobs give way to a job's own, and lists have both") {
