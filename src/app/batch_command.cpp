@@ -84,7 +84,7 @@ class BatchCommand {
     std::erase_if(jobs_, [](const Job& job) { return job.scene.empty(); });
     add_to_all(jobs_, for_all, known);
     name_outputs(jobs_, options_.outputs, diagnostics_);
-    if (!diagnostics_.has_errors()) check_outputs_differ(jobs_, diagnostics_);
+    check_outputs_differ(jobs_, diagnostics_);
     check_jobs(jobs_, program_, diagnostics_);
   }
 

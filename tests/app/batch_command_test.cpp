@@ -178,7 +178,7 @@ TEST_SUITE("program") {
     const Outcome same = place.run({"batch", "same.jsonl"});
     CHECK(same.code == 2);
     CHECK(contains(same.err,
-                   "same.jsonl:2: error: a.exr is written by two jobs; the other is same.jsonl:1"));
+                   "same.jsonl:2: error: a.exr is written by two jobs, the other is same.jsonl:1"));
     CHECK(place.run({"batch", "same.jsonl", "-o", "{scene}{seed}.exr", "--", "--seed", "1", "-q"})
               .code == 2);
     const std::pair<Texts, const char*> wrong[] = {
@@ -251,7 +251,10 @@ TEST_SUITE("program") {
     place.scene("a.xml");
     place.write("jobs.csv", jobs + "a.xml,2.exr,\n" + "a.xml,3.exr,\n");
     Process duet({"batch", "jobs.csv", "--csv", "c.csv", "-j", "1"}, {.directory = place.path("")});
-    kill(wait_for_samples(place, "1.exr"), SIGKILL);
+    const pid_t id = wait_for_samples(place, "1.exr");
+    // Keys of the terminal do not reach it twice.
+    CHECK(getpgid(id) == id);
+    kill(id, SIGKILL);
     const Outcome o = duet.wait(300);
     CAPTURE(o.err);
     CHECK(o.code == 1);

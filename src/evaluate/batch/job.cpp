@@ -33,8 +33,10 @@ void check_outputs_differ(const std::vector<Job>& jobs, Diagnostics& diagnostics
           std::filesystem::absolute(output, ignored).lexically_normal().string();
       const auto [writer, is_new] = writers.try_emplace(path, &job);
       if (!is_new)
-        diagnostics.error(job.where, "{} is written by two jobs; the other is {}", output,
-                          writer->second->where.to_string());
+        diagnostics.error(job.where,
+                          "{} is written by two jobs, the other is {}; a template with {{scene}}, "
+                          "{{folder}} or the name of an option tells them apart",
+                          output, writer->second->where.to_string());
     }
 }
 

@@ -46,7 +46,8 @@ int JobQueue::wanted_threads(size_t job) const {
   const std::string text = jobs_[job].value("threads");
   std::from_chars(text.data(), text.data() + text.size(), own);
   if (own > 0) return std::min(own, all);
-  if (settings_.jobs_at_once > 0) return std::max(1, all / settings_.jobs_at_once);
+  if (settings_.jobs_at_once > 0)
+    return std::max(1, all / std::min(settings_.jobs_at_once, int(unfinished_)));
   // A scene that cannot be read will not take long.
   const double by_pixels = image_pixels(jobs_[job]).value_or(0) / kPixelsPerThread;
   const double by_jobs = double(all) / double(unfinished_);

@@ -191,7 +191,8 @@ TEST_CASE("two jobs with one output are an error with both places") {
   check_outputs_differ(jobs, diagnostics);
   REQUIRE(diagnostics.all().size() == 1);
   CHECK(diagnostics.all()[0].to_string() ==
-        "jobs.csv:4: error: ./out/../out/x.exr is written by two jobs; the other is jobs.csv:2");
+        "jobs.csv:4: error: ./out/../out/x.exr is written by two jobs, the other is jobs.csv:2; "
+        "a template with {scene}, {folder} or the name of an option tells them apart");
 }
 
 TEST_CASE("the batch's own options stand before the job's") {
