@@ -28,6 +28,33 @@ std::vector<char*> pointers(std::vector<std::string>& texts) {
   return result;
 }
 
+/// Keeps signals waiting while it exists. One that comes between fork() and exec() would otherwise
+/// be handled by a copy of the parent, and be lost.
+class SignalsWait {
+ public:
+  SignalsWait() {
+    sigset_t all;
+    sigfillset(&all);
+    sigprocmask(SIG_SETMASK, &all, &before_);
+  }
+  ~SignalsWait() { end(); }
+  SignalsWait(const SignalsWait&) = delete;
+  SignalsWait& operator=(const SignalsWait&) = delete;
+  void end() const { sigprocmask(SIG_SETMASK, &before_, nullptr); }
+
+ private:
+  sigset_t before_;
+};
+
+/// Lets the signals that the parent handles have their effect; what is ignored stays ignored.
+void handle_no_signals() {
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP, SIGUSR1}) {
+    struct sigaction now {};
+    if (sigaction(signal, nullptr, &now) == 0 && now.sa_handler != SIG_IGN)
+      ::signal(signal, SIG_DFL);
+  }
+}
+
 /// What the new process does before it becomes the program; only async-signal-safe calls.
 [[noreturn]] void become_program(int stream, pid_t parent, char* const* arguments,
                                  char* const* environment) {
@@ -61,8 +88,13 @@ ChildProcess::ChildProcess(const std::vector<std::string>& arguments,
   int ends[2];
   if (pipe2(ends, O_CLOEXEC) != 0) fail();
   const pid_t parent = getpid();
+  const SignalsWait signals;
   id_ = fork();
-  if (id_ == 0) become_program(ends[1], parent, argv.data(), envp.data());
+  if (id_ == 0) {
+    handle_no_signals();
+    signals.end();
+    become_program(ends[1], parent, argv.data(), envp.data());
+  }
   close(ends[1]);
   stream_ = ends[0];
   if (id_ < 0) {
