@@ -76,14 +76,14 @@ class BatchCommand {
     const std::vector<RenderOption> known = job_option_names(program_);
     const std::vector<JobOption> for_all = options_for_all(options_.for_all, program_);
     std::error_code ignored;
-    jobs_ = fs::is_directory(options_.list, ignored)
-                ? scenes_below(options_.list, diagnostics_)
-                : read_manifest(options_.list, known, diagnostics_);
+    const bool is_folder = fs::is_directory(options_.list, ignored);
+    jobs_ = is_folder ? scenes_below(options_.list, diagnostics_)
+                      : read_manifest(options_.list, known, diagnostics_);
     for (Job& job : jobs_) job.scene = scene_file_of(job.scene);
     // Jobs without a scene have been reported, and nothing more can be said about them.
     std::erase_if(jobs_, [](const Job& job) { return job.scene.empty(); });
     add_to_all(jobs_, for_all, known);
-    name_outputs(jobs_, options_.outputs, diagnostics_);
+    name_outputs(jobs_, options_.outputs, is_folder ? options_.list : "", diagnostics_);
     check_outputs_differ(jobs_, diagnostics_);
     check_jobs(jobs_, program_, diagnostics_);
   }
@@ -198,10 +198,11 @@ void add_batch_command(CLI::App& app, Program& program) {
                 "a folder: all scenes in it and below")
       ->required();
   c->add_option("options", o->for_all, "Behind --: options of duet render for all jobs");
-  c->add_option("-o,--output", o->outputs,
-                "Images of jobs that do not say it: file, directory or template with {scene} "
-                "{folder} and the options of the job, such as {spp}; repeatable (default: "
-                "{scene}.exr here)")
+  c->add_option(
+       "-o,--output", o->outputs,
+       "Images of jobs that do not say it: file, directory or template with {scene} "
+       "{folder}, the options of the job, such as {spp}, and for a folder {subfolder}, the way "
+       "to the scene; repeatable (default: {scene}.exr here)")
       ->allow_extra_args(false);
   c->add_option("-j,--jobs", o->jobs,
                 "Jobs at a time (default: as many as use all threads, by the sizes of the images)");

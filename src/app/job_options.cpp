@@ -4,6 +4,7 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <filesystem>
 
 #include "app/commands.h"
 #include "app/output.h"
@@ -14,6 +15,8 @@
 #include "evaluate/batch/job_arguments.h"
 
 namespace duet {
+
+namespace fs = std::filesystem;
 
 namespace {
 
@@ -43,10 +46,18 @@ std::string job_option_name(const CLI::Option& option) {
   return name == "help" || name == "output" || batch::is_given_by_batch(name) ? "" : name;
 }
 
-std::string output_of_job(const batch::Job& job, const std::string& pattern) {
+std::string output_of_job(const batch::Job& job, const std::string& pattern,
+                          const std::string& folder) {
   if (pattern == "-") throw UsageError("-o -: standard output holds one image");
   const OutputNames names = output_names(job.scene);
   Placeholders placeholders{{"scene", names.scene}, {"folder", names.folder}};
+  if (!folder.empty())
+    placeholders.emplace_back("subfolder",
+                              fs::path(job.scene)
+                                  .parent_path()
+                                  .lexically_normal()
+                                  .lexically_relative(fs::path(folder).lexically_normal())
+                                  .string());
   for (const batch::JobOption& option : job.options) {
     std::string text = fmt::format("{}", fmt::join(option.values, ","));
     // A value makes no folders.
@@ -115,12 +126,12 @@ std::vector<batch::JobOption> options_for_all(const std::vector<std::string>& ar
 }
 
 void name_outputs(std::vector<batch::Job>& jobs, const std::vector<std::string>& templates,
-                  Diagnostics& diagnostics) {
+                  const std::string& folder, Diagnostics& diagnostics) {
   for (batch::Job& job : jobs) {
     if (job.outputs.empty()) job.outputs = templates;
     if (job.outputs.empty()) job.outputs = {""};
     try {
-      for (std::string& output : job.outputs) output = output_of_job(job, output);
+      for (std::string& output : job.outputs) output = output_of_job(job, output, folder);
     } catch (const UsageError& e) {
       diagnostics.error(job.where, "{}", e.what());
       job.outputs.clear();

@@ -19,10 +19,11 @@ std::vector<batch::JobOption> options_for_all(const std::vector<std::string>& ar
                                               Program& program);
 
 /// Makes paths of the templates of the jobs' outputs, or of `templates` for those that have none:
-/// {scene}, {folder} and the names of the job's options are filled in. What makes no sense is an
-/// error at the job's place.
+/// {scene}, {folder} and the names of the job's options are filled in, and of scenes that were
+/// found below `folder` ("" for a list) also {subfolder}, the way from there. What makes no sense
+/// is an error at the job's place.
 void name_outputs(std::vector<batch::Job>& jobs, const std::vector<std::string>& templates,
-                  Diagnostics& diagnostics);
+                  const std::string& folder, Diagnostics& diagnostics);
 
 /// Errors for jobs that `duet render` would refuse before it reads the scene: there is none, or
 /// options have values that make no sense.

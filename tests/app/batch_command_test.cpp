@@ -341,6 +341,15 @@ TEST_SUITE("program") {
           "duet render --output=out/other.exr --spp=1 -- scenes/other.xml\n"
           "duet render --output=out/room.exr --spp=1 -- scenes/room/scene.xml\n");
     CHECK(!place.has("out"));
+    place.scene("scenes/room/other.xml");
+    CHECK(place.run({"batch", "scenes", "-n"}).code == 2);
+    const Outcome tree =
+        place.run({"batch", "./scenes/", "-n", "-o", "out/{subfolder}/{scene}-{folder}.exr"});
+    CHECK(tree.out ==
+          "duet render --output=out/./other-scenes.exr -- ./scenes/other.xml\n"
+          "duet render --output=out/room/other-room.exr -- ./scenes/room/other.xml\n"
+          "duet render --output=out/room/room-room.exr -- ./scenes/room/scene.xml\n");
+    std::filesystem::remove(place.path("scenes/room/other.xml"));
     const Outcome o = place.run({"batch", "scenes", "-q", "-o", "out/", "--", "--spp", "1"});
     CHECK(o.code == 0);
     CHECK(o.err.empty());
