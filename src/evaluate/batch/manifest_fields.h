@@ -1,6 +1,8 @@
 // What the names and values of a manifest mean, whatever its format.
 #pragma once
 
+#include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
