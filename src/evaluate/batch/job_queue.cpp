@@ -28,11 +28,8 @@ double seconds_now() {
 
 }  // namespace
 
-JobQueue::JobQueue(const std::vector<Job>& jobs, QueueSettings settings)
-    : jobs_(jobs),
-      settings_(std::move(settings)),
-      results_(jobs.size()),
-      unfinished_(jobs.size()) {}
+JobQueue::JobQueue(const std::vector<Job>& jobs, const QueueSettings& settings)
+    : jobs_(jobs), settings_(settings), results_(jobs.size()), unfinished_(jobs.size()) {}
 
 int JobQueue::free_threads() const {
   int used = 0;
@@ -54,30 +51,30 @@ int JobQueue::wanted_threads(size_t job) const {
   return int(std::clamp(std::max(by_pixels, by_jobs), 1.0, double(all)));
 }
 
-bool JobQueue::choose(size_t& job, int& threads) {
+std::optional<JobQueue::Planned> JobQueue::choose() {
   // With a given number of jobs their threads do not matter.
   const bool is_fixed = settings_.jobs_at_once > 0;
-  if (is_fixed && int(running_.size()) >= settings_.jobs_at_once) return false;
+  if (is_fixed && int(running_.size()) >= settings_.jobs_at_once) return std::nullopt;
   const int free = free_threads();
-  if (!is_fixed && free <= 0) return false;
+  if (!is_fixed && free <= 0) return std::nullopt;
   const size_t most_waiting = 2 * size_t(settings_.threads);
   for (size_t i = 0;; ++i) {
     if (i == waiting_.size()) {
-      if (next_ == jobs_.size() || waiting_.size() >= most_waiting) return false;
-      waiting_.emplace_back(next_, wanted_threads(next_));
+      if (next_ == jobs_.size() || waiting_.size() >= most_waiting) return std::nullopt;
+      waiting_.push_back({next_, wanted_threads(next_)});
       ++next_;
     }
-    const int wanted = waiting_[i].second;
+    Planned planned = waiting_[i];
     // More than half of them now are better than all of them later.
-    if (!is_fixed && wanted > free && wanted >= 2 * free) continue;
-    job = waiting_[i].first;
-    threads = is_fixed ? wanted : std::min(wanted, free);
+    if (!is_fixed && planned.threads > free && planned.threads >= 2 * free) continue;
+    if (!is_fixed) planned.threads = std::min(planned.threads, free);
     waiting_.erase(waiting_.begin() + std::ptrdiff_t(i));
-    return true;
+    return planned;
   }
 }
 
-void JobQueue::start(size_t job, int threads, bool alone) {
+void JobQueue::start(const Planned& planned, bool alone) {
+  const auto [job, threads] = planned;
   const double parts = settings_.jobs_at_once > 0 ? double(settings_.jobs_at_once)
                                                   : double(settings_.threads) / double(threads);
   const bool has_share = !alone && parts > 1;
@@ -92,20 +89,18 @@ void JobQueue::start(size_t job, int threads, bool alone) {
 }
 
 void JobQueue::start_what_fits() {
-  size_t job = 0;
-  int threads = 0;
-  while (choose(job, threads)) try {
-      start(job, threads, false);
+  while (const std::optional<Planned> next = choose()) try {
+      start(*next, false);
     } catch (const std::runtime_error&) {
       // The system may have room for another process when one of these has ended.
       if (running_.empty()) throw;
-      waiting_.emplace_front(job, threads);
+      waiting_.push_front(*next);
       return;
     }
   if (!running_.empty() || alone_.empty()) return;
-  job = alone_.front();
+  const size_t job = alone_.front();
   alone_.pop_front();
-  start(job, settings_.threads, true);
+  start({job, settings_.threads}, true);
 }
 
 void JobQueue::wait_for_messages() {

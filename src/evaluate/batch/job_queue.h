@@ -5,6 +5,7 @@
 #include <deque>
 #include <functional>
 #include <list>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -41,7 +42,7 @@ class JobQueue {
  public:
   static constexpr double kPixelsPerThread = 16384;
 
-  JobQueue(const std::vector<Job>& jobs, QueueSettings settings);
+  JobQueue(const std::vector<Job>& jobs, const QueueSettings& settings);
 
   /// Returns when all jobs have come to an end, or those that are under way after a signal. Throws
   /// std::runtime_error if no process can be started or there is no room for temporary files; the
@@ -51,6 +52,11 @@ class JobQueue {
   const std::vector<JobResult>& results() const { return results_; }
 
  private:
+  /// With the threads that it is to have.
+  struct Planned {
+    size_t job;
+    int threads;
+  };
   struct Running {
     size_t job;
     int threads;
@@ -62,9 +68,9 @@ class JobQueue {
 
   int wanted_threads(size_t job) const;
   int free_threads() const;
-  /// The next job that may start with some threads; false if none may now.
-  bool choose(size_t& job, int& threads);
-  void start(size_t job, int threads, bool alone);
+  /// The next job that may start now, with the threads that there are for it.
+  std::optional<Planned> choose();
+  void start(const Planned& planned, bool alone);
   void start_what_fits();
   void wait_for_messages();
   void finish(Running& running, const QueueEvents& events);
@@ -74,8 +80,8 @@ class JobQueue {
   std::vector<JobResult> results_;
   size_t next_ = 0;  ///< the first that has not been looked at
   size_t unfinished_;
-  std::deque<std::pair<size_t, int>> waiting_;  ///< looked at: with the threads that it is to have
-  std::deque<size_t> alone_;  ///< for which there was too little memory beside others
+  std::deque<Planned> waiting_;  ///< looked at and not started
+  std::deque<size_t> alone_;     ///< for which there was too little memory beside others
   std::list<Running> running_;
   std::string folder_;  ///< for statistics
 };
