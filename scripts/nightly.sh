@@ -39,11 +39,12 @@ run_clang() {
 
 run_bench() {
   cmake --preset release -DDUET_BUILD_BENCH=ON
-  scripts/build.sh release rays duet_bench grid_bench
+  scripts/build.sh release rays duet_bench grid_bench splats
   build/rays scenes/cornell-box/scene.xml 64x64 1 1
   build/duet_bench 1000
   build/grid_bench 10000
-  echo "3 of 3 ran"
+  build/splats
+  echo "4 of 4 ran"
 }
 
 run_fuzz() {

@@ -43,12 +43,27 @@ std::optional<RawFilm> RawOutput::source() const {
   std::string from = options_.resume;
   if (options_.checkpoint && std::filesystem::exists(path_, ignored)) from = path_;
   if (from.empty()) return std::nullopt;
-  return RawFilm(from);
+  try {
+    return RawFilm(from);
+  } catch (const ReadError& e) {
+    if (is_named_ || from != path_) throw;
+    set_aside(e.what());
+    return std::nullopt;
+  }
+}
+
+void RawOutput::set_aside(const std::string& why) const {
+  const std::string kept = std::filesystem::path(path_).replace_extension(".old.exr").string();
+  std::filesystem::rename(path_, kept);
+  log_.warning("{}; it is kept as {}, and the render begins anew", why, kept);
 }
 
 void RawOutput::load(const RawFilm& film, RenderState& state) const {
-  if (const std::string what = difference(film.image(), image_); !what.empty())
-    throw ReadError(fmt::format("{}: is not of this image: {}", film.path(), what));
+  if (const std::string what = difference(film.image(), image_); !what.empty()) {
+    const std::string why = fmt::format("{}: is not of this image: {}", film.path(), what);
+    if (is_named_ || film.path() != path_) throw ReadError(why);
+    return set_aside(why);
+  }
   film.add_to(state);
   log_.info("goes on from {} with {} spp", film.path(), state.spp);
 }

@@ -23,11 +23,12 @@ class RawOutput {
   bool keeps_state() const { return !path_.empty() || !options_.resume.empty(); }
   /// Why it could not be written; empty if it can.
   std::string obstacle() const;
-  /// What the render is to go on from, if there is anything. Throws ReadError.
+  /// What the render is to go on from, if there is anything. Throws ReadError for a film that the
+  /// user has named.
   std::optional<RawFilm> source() const;
   /// What the film is of.
   void set_image(RawImage image) { image_ = std::move(image); }
-  /// Reads a film's state. Throws ReadError if it is of another image.
+  /// Reads a film's state. Throws ReadError for one of another image that the user has named.
   void load(const RawFilm& film, RenderState& state) const;
 
   /// Writes a checkpoint if it is time. One that cannot be written is an error in the end, and the
@@ -40,6 +41,8 @@ class RawOutput {
 
  private:
   using Clock = std::chrono::steady_clock;
+  /// A checkpoint that is of no use is not what the user has asked for, nor is it lost.
+  void set_aside(const std::string& why) const;
   /// The next checkpoint, after one that took so many seconds.
   void schedule(double took);
 

@@ -59,7 +59,7 @@ class SceneRenderer {
     build();
     if (interrupt_exit_code() != 0) return give_up();
     const std::optional<RawFilm> source = raw_->source();
-    if (source) adopt_decision(*source, *integrator_);
+    if (source) adopt_decision(*source, scene_hash_, record_, *integrator_);
     decide();
     record_.noise_only = integrator_->blurs() || !record_.bias.empty();
     check_memory();

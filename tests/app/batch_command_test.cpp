@@ -282,6 +282,15 @@ TEST_SUITE("program") {
       CHECK(!place.has("1.exr"));
       CHECK(contains(read_file(place.path("r.html")), "href=\"./1.partial.exr\"><img"));
       CHECK(contains(o.err, "0 of 3 jobs, 2 running"));
+      // Repeated, it goes on from the samples that there are: here more than asked for.
+      CHECK(place.has("1.checkpoint.exr"));
+      const std::string spp = column(place, "c.csv", "spp")[0];
+      place.write("jobs.csv",
+                  "scene,output,time\nendless.xml," + place.path("1.exr") + ",0.001s\n");
+      CHECK(place.run({"batch", "jobs.csv", "--csv", "c.csv"}).code == 0);
+      CHECK(column(place, "c.csv", "status") == Texts{"rendered"});
+      CHECK(column(place, "c.csv", "spp") == Texts{spp});
+      CHECK(!place.has("1.checkpoint.exr"));
     }
   }
 

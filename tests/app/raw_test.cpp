@@ -218,6 +218,17 @@ TEST_SUITE("program") {
     other.extra = "<emitter type='constant'/>";
     place.scene("tiny.xml", other);
     refused({}, "\"scene\"");
+    // A checkpoint that nobody has named is set aside.
+    place.write("b.checkpoint.exr", film);
+    const Outcome anew = place.run({"tiny.xml", "-o", "b.exr", "--checkpoint", "1s"});
+    CAPTURE(anew.err);
+    CHECK(anew.code == 0);
+    CHECK(contains(anew.err, "b.checkpoint.exr: is not of this image: \"scene\""));
+    CHECK(read_file(place.path("b.checkpoint.old.exr")) == film);
+    CHECK(place.has("b.exr"));
+    place.write("b.checkpoint.exr", "no film");
+    CHECK(place.run({"tiny.xml", "-o", "b.exr", "--checkpoint", "1s"}).code == 0);
+    CHECK(read_file(place.path("b.checkpoint.old.exr")) == "no film");
     // The number of samples is not part of the scene, nor is the file's name.
     TinyScene same = exact_scene();
     place.scene("renamed.xml", same);

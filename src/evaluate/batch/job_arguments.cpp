@@ -30,6 +30,8 @@ std::vector<std::string> render_arguments(const Job& job, int threads,
                                           const std::string& statistics_file) {
   std::vector<std::string> arguments = job_arguments(job);
   std::erase_if(arguments, [](const std::string& a) { return a.starts_with("--threads="); });
+  // A job that is interrupted goes on when the batch does.
+  if (!job.find("checkpoint")) arguments.insert(arguments.begin() + 1, "--checkpoint=60s");
   arguments.insert(arguments.begin() + 1,
                    {"--skip-existing", "--quiet", "--progress=none",
                     fmt::format("--threads={}", threads), "--stats=" + statistics_file});

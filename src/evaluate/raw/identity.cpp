@@ -31,9 +31,14 @@ RawImage raw_image(const RenderRecord& record, const Integrator& integrator,
   return image;
 }
 
-void adopt_decision(const RawFilm& film, Integrator& integrator) {
+void adopt_decision(const RawFilm& film, const std::string& scene, const RenderRecord& record,
+                    Integrator& integrator) {
+  const RawImage& image = film.image();
+  if (image.scene_hash != scene || image.integrator != record.integrator ||
+      image.parameters != record.integrator_parameters)
+    return;
   auto* chooser = dynamic_cast<AutoIntegrator*>(&integrator);
-  const auto& decision = film.image().decision;
+  const auto& decision = image.decision;
   if (!chooser || !decision) return;
   try {
     chooser->adopt(*decision);

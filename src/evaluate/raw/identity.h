@@ -15,8 +15,10 @@ std::string scene_identity(const SceneDescription& scene, size_t sensor);
 RawImage raw_image(const RenderRecord& record, const Integrator& integrator,
                    const FilmLayout& layout);
 
-/// Has `auto` take the decision of a film that is to be gone on from; other methods have none.
-/// Throws ReadError if it is not one.
-void adopt_decision(const RawFilm& film, Integrator& integrator);
+/// Has `auto` take the decision of a film that is to be gone on from, if that is of a scene with
+/// this identity and of the same settings of `auto`; other methods have none. Throws ReadError if
+/// it is not one.
+void adopt_decision(const RawFilm& film, const std::string& scene, const RenderRecord& record,
+                    Integrator& integrator);
 
 }  // namespace duet
