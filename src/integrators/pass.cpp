@@ -172,17 +172,29 @@ class Renderer {
   void run_batches() {
     const double target = *request_.budget.target_error;
     to_take_ = request_.budget.spp.value_or(std::numeric_limits<int>::max() / 2);
-    BatchRounds& rounds = state_.rounds;
+    const BatchRounds& rounds = state_.rounds;
     SampleAllocation allocation(state_.films, rounds.allocated);
-    while (rounds.spp < to_take_ && !out_of_time()) {
-      rounds.allocated = allocation.allocated();
+    // What is gone on from may be a round under way, or one that is complete.
+    const bool is_under_way = rounds.length == 0 || rounds.batch > 0 || rounds.done > 0;
+    bool goes_on = is_under_way || plan_round(allocation, target);
+    while (goes_on && rounds.spp < to_take_ && !out_of_time()) {
       if (!run_round(allocation)) return;
-      relative_rmse_ = batch_relative_rmse(state_.films);
-      if (relative_rmse_ ? *relative_rmse_ <= target : rounds.length >= kBlackSamples) break;
+      goes_on = plan_round(allocation, target);
+    }
+    is_complete_ = rounds.spp >= to_take_;
+  }
+
+  /// Between rounds: whether there is to be another. Sets how many samples it adds.
+  bool plan_round(SampleAllocation& allocation, double target) {
+    BatchRounds& rounds = state_.rounds;
+    relative_rmse_ = batch_relative_rmse(state_.films);
+    const bool goes_on = relative_rmse_ ? *relative_rmse_ > target : rounds.length < kBlackSamples;
+    if (goes_on) {
       if (!allocation.is_spread() && knows_tiles(rounds.length, target)) allocation.spread();
       rounds.part = next_batch_part(rounds.length, target);
     }
-    is_complete_ = rounds.spp >= to_take_;
+    rounds.allocated = allocation.allocated();
+    return goes_on;
   }
 
   /// Goes on with the round that is under way. False if it is cancelled.

@@ -18,7 +18,7 @@ struct BatchRounds {
   int part = 1;                ///< samples that the round under way adds to each
   size_t batch = 0;            ///< that gets samples
   uint32_t done = 0;           ///< passes of it
-  AllocatedSamples allocated;  ///< when the round began
+  AllocatedSamples allocated;  ///< when the round began, or will
 };
 
 struct RenderState {

@@ -190,6 +190,18 @@ TEST_CASE("raw films: a render to a target error goes on from any pass") {
       check_equal(room.render(request, before), whole);
       CHECK(before.spp == state.spp);
     }
+    // One that has met its target takes no more samples, and for a lower one those that follow.
+    const std::string last = folder.path("last.exr");
+    write_raw_film(last, room.image, state);
+    RenderState after = state_of(last);
+    check_equal(room.render(request, after), whole);
+    CHECK(after.counters.camera_paths == state.counters.camera_paths);
+    *request.budget.target_error *= 0.4;
+    room.render(request, after);
+    CHECK(after.spp > state.spp);
+    if (method == "bdpt")
+      for (size_t i = 0; i < after.films.size(); ++i)
+        CHECK(after.films[i].passes() == int(after.rounds.allocated.taken[i].passes));
   }
 }
 
