@@ -75,25 +75,4 @@ std::pair<std::string, std::string> parse_assignment(const std::string& option,
   return {text.substr(0, equals), text.substr(equals + 1)};
 }
 
-std::string shell_quoted(const std::vector<std::string>& arguments) {
-  constexpr const char* plain =
-      "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-+=./:,%@";
-  std::string line;
-  for (const std::string& a : arguments) {
-    if (!line.empty()) line += ' ';
-    if (!a.empty() && a.find_first_not_of(plain) == std::string::npos) {
-      line += a;
-      continue;
-    }
-    line += '\'';
-    for (const char c : a)
-      if (c == '\'')
-        line += "'\\''";
-      else
-        line += c;
-    line += '\'';
-  }
-  return line;
-}
-
 }  // namespace duet

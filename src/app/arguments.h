@@ -40,7 +40,4 @@ double parse_seconds(const std::string& option, const std::string& text);
 std::pair<std::string, std::string> parse_assignment(const std::string& option,
                                                      const std::string& text);
 
-/// The arguments as a shell would have to be given them.
-std::string shell_quoted(const std::vector<std::string>& arguments);
-
 }  // namespace duet

@@ -34,6 +34,7 @@ void add_batch_command(CLI::App& app, Program& program);
 void add_info_command(CLI::App& app, Program& program);
 void add_convert_command(CLI::App& app, Program& program);
 void add_merge_command(CLI::App& app, Program& program);
+void add_slurm_command(CLI::App& app, Program& program);
 void add_compare_command(CLI::App& app, Program& program);
 void add_chart_command(CLI::App& app, Program& program);
 void add_plugins_command(CLI::App& app, Program& program);

@@ -10,12 +10,12 @@
 #include <new>
 #include <string>
 
-#include "app/arguments.h"
 #include "app/commands.h"
 #include "app/help.h"
 #include "app/program.h"
 #include "app/standard_streams.h"
 #include "base/diagnostics.h"
+#include "base/shell.h"
 #include "evaluate/report/provenance.h"
 
 namespace duet {
@@ -82,6 +82,7 @@ int run(std::vector<std::string> arguments, Program& program) {
   add_info_command(app, program);
   add_convert_command(app, program);
   add_merge_command(app, program);
+  add_slurm_command(app, program);
   add_compare_command(app, program);
   add_chart_command(app, program);
   add_plugins_command(app, program);

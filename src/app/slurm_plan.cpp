@@ -1,0 +1,210 @@
+#include "app/slurm_plan.h"
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <filesystem>
+
+#include "app/arguments.h"
+#include "app/commands.h"
+#include "app/output.h"
+#include "app/program.h"
+#include "app/render_options.h"
+#include "app/scene_operand.h"
+#include "evaluate/slurm/sbatch.h"
+
+namespace duet {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Guards against slips of the pen.
+constexpr uint64_t kMostTasks = 1000000;
+/// Slurm may send the signal to stop a minute earlier than asked for; some time has to be left.
+constexpr double kLeastSeconds = slurm::kSecondsToStop + 120;
+
+/// Options of `duet render` that its tasks cannot have, and why.
+const std::pair<const char*, const char*> kRefused[] = {
+    {"--time",
+     "samples that follow from it cannot be cut into slices; before --, --time is the "
+     "time limit of Slurm"},
+    {"--target-error", "samples that follow from it cannot be cut into slices"},
+    {"--require-target", "there is no --target-error"},
+    {"--raw", "each task has a raw film of its own"},
+    {"--samples", "each task has samples of its own"},
+    {"--slice", "each task has a slice of its own"},
+    {"--resume", "each task goes on from its own raw film"},
+    {"--format", "the name behind -o says it"},
+    {"--skip-existing", "tasks write no images"},
+    {"--keep-partial-name", "tasks write no images"},
+    {"--stats", "all tasks would write this file"},
+    {"--log", "all tasks would write this file"},
+};
+
+/// The program that is running, wherever it was found.
+std::string this_program() {
+  std::error_code error;
+  const fs::path path = fs::read_symlink("/proc/self/exe", error);
+  return error ? "duet" : path.string();
+}
+
+/// Makes the jobs of one call.
+class SlurmPlan {
+ public:
+  SlurmPlan(const SlurmOptions& options, Program& program)
+      : options_(options), program_(program), render_parser_(render_, program) {}
+
+  std::vector<slurm::ImageJob> jobs() {
+    read_options();
+    std::vector<slurm::ImageJob> jobs;
+    for (const std::string& file : render_options_.read.scenes) try {
+        jobs.push_back(plan_job(file));
+      } catch (const SceneFailure& e) {
+        throw std::runtime_error(e.is_printed() ? file + " cannot be rendered: nothing is submitted"
+                                                : file + ": " + e.what());
+      }
+    return jobs;
+  }
+
+ private:
+  void read_options() {
+    tasks_ = uint32_t(parse_whole("--tasks", options_.tasks, 1, kMostTasks));
+    read_sbatch_options();
+    // Scenes begin with no dash, and of options only those behind -- are operands.
+    const auto first = std::find_if(
+        options_.operands.begin(), options_.operands.end(),
+        [](const std::string& operand) { return operand.size() > 1 && operand[0] == '-'; });
+    task_options_.assign(first, options_.operands.end());
+    if (first == options_.operands.begin())
+      throw UsageError("slurm: there is no scene before the options of duet render");
+    std::vector<std::string> words = options_.operands;
+    for (const std::string& output : options_.outputs) words.insert(words.end(), {"-o", output});
+    std::reverse(words.begin(), words.end());  // as CLI11 wants them
+    render_.set_help_flag();
+    try {
+      render_.parse(words);
+    } catch (const CLI::ParseError& e) {
+      throw UsageError(fmt::format("options of duet render: {}", e.what()));
+    }
+    check_task_options();
+    render_options_ = render_parser_.finish();
+    check_defines(render_options_.read, program_);
+    if (!render_options_.checkpoint)
+      task_options_.insert(task_options_.end(), {"--checkpoint", "60s"});
+  }
+
+  void read_sbatch_options() {
+    if (!options_.time.empty()) {
+      const auto seconds = slurm::time_limit(options_.time);
+      if (!seconds)
+        throw UsageError(fmt::format(
+            "--time: \"{}\" is no time limit of Slurm, which is MINUTES, HOURS:MINUTES:SECONDS or "
+            "DAYS-HOURS",
+            options_.time));
+      if (*seconds < kLeastSeconds)
+        throw UsageError(fmt::format(
+            "--time: \"{}\" are {:g} s; tasks are told to stop up to {} s before their end, and "
+            "need {:g} s at least",
+            options_.time, *seconds, slurm::kSecondsToStop + 60, kLeastSeconds));
+      sbatch_.push_back("--time=" + options_.time);
+    }
+    if (!options_.partition.empty()) sbatch_.push_back("--partition=" + options_.partition);
+    sbatch_.insert(sbatch_.end(), options_.sbatch.begin(), options_.sbatch.end());
+    for (const std::string& line : sbatch_)
+      if (const std::string why = slurm::option_refusal(line); !why.empty())
+        throw UsageError(fmt::format("--sbatch {}: {}", line, why));
+  }
+
+  void check_task_options() const {
+    for (const auto& [option, reason] : kRefused)
+      if (render_.count(option) > 0)
+        throw UsageError(fmt::format("{}, an option of the tasks: {}", option, reason));
+    if (render_.count("--output") > options_.outputs.size())
+      throw UsageError("-o, an option of the tasks: they write no images; it goes before --");
+    for (const std::string& word : options_.operands)
+      if (word.find(slurm::kSlice) != word.npos)
+        throw UsageError(fmt::format("{}: {} has a meaning in the scripts", word, slurm::kSlice));
+  }
+
+  slurm::ImageJob plan_job(const std::string& file) {
+    if (file == kStandardInput) throw UsageError("-: tasks have no standard input");
+    SceneDescription scene = load_scene(file, render_options_.read, program_).description;
+    if (render_options_.sensor >= scene.sensors.size())
+      throw UsageError(fmt::format("-s {}: {} has {} sensors, counted from 0",
+                                   render_options_.sensor, file, scene.sensors.size()));
+    const SensorDescription& sensor = scene.sensors[render_options_.sensor];
+    check_method(scene, sensor);
+    const int spp = render_options_.budget.spp.value_or(sensor.sampler.sample_count);
+    if (int64_t(tasks_) > spp)
+      throw UsageError(
+          fmt::format("--tasks {}: {} is rendered with {} samples per pixel, which "
+                      "have no {} parts",
+                      options_.tasks, file, spp, tasks_));
+    OutputNames names = output_names(file);
+    names.integrator = integrator_name(scene.integrator);
+    names.spp = fmt::to_string(spp);
+    names.seed = fmt::to_string(render_options_.seed.value_or(sensor.sampler.seed));
+    return job_of(file, names, uint32_t(spp));
+  }
+
+  /// What every task would find out.
+  void check_method(SceneDescription& scene, const SensorDescription& sensor) const {
+    try {
+      apply_override(scene.integrator, render_options_.integrator);
+      make_integrator(scene.integrator, render_options_.techniques);
+    } catch (const std::invalid_argument& e) {
+      throw UsageError(e.what());
+    }
+    Diagnostics diagnostics;
+    check_support(scene, scene.integrator, diagnostics);
+    check_support(sensor, scene.integrator, diagnostics);
+    report(diagnostics, render_options_.read.strict, program_.log);
+  }
+
+  slurm::ImageJob job_of(const std::string& file, const OutputNames& names, uint32_t spp) const {
+    slurm::ImageJob job;
+    job.program = options_.program.empty() ? this_program() : options_.program;
+    job.scene = file;
+    job.spp = spp, job.tasks = tasks_;
+    job.render_options = task_options_;
+    job.has_threads = render_.count("--threads") > 0;
+    // As the scene says it now: all tasks have to mean the same slices.
+    if (!render_options_.budget.spp)
+      job.render_options.insert(job.render_options.end(), {"--spp", names.spp});
+    std::vector<std::string> patterns = options_.outputs;
+    if (patterns.empty()) patterns.emplace_back();
+    for (const std::string& pattern : patterns)
+      job.merge_options.insert(job.merge_options.end(), {"-o", output_path(pattern, names)});
+    if (render_options_.exposure != 0)
+      job.merge_options.insert(job.merge_options.end(),
+                               {"--exposure", fmt::to_string(render_options_.exposure)});
+    const fs::path image = job.merge_options[1];
+    job.name = image.stem().string();
+    job.folder = fs::path(image).replace_extension(".slurm").string();
+    const auto is_odd = [](char c) {
+      return c == '\\' || c == '{' || c == '}' || static_cast<unsigned char>(c) < ' ';
+    };
+    if (std::any_of(job.folder.begin(), job.folder.end(), is_odd))
+      throw UsageError(fmt::format(
+          "-o {}: names in Slurm's scripts have no backslash, brace or control character",
+          image.string()));
+    job.sbatch_options = sbatch_;
+    return job;
+  }
+
+  const SlurmOptions& options_;
+  Program& program_;
+  CLI::App render_;
+  RenderOptionParser render_parser_;
+  RenderOptions render_options_;
+  uint32_t tasks_ = 1;
+  std::vector<std::string> task_options_, sbatch_;
+};
+
+}  // namespace
+
+std::vector<slurm::ImageJob> plan_slurm_jobs(const SlurmOptions& options, Program& program) {
+  return SlurmPlan(options, program).jobs();
+}
+
+}  // namespace duet
