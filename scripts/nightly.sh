@@ -10,16 +10,17 @@ cd "$(dirname "$0")/.."
 declare -A about=(
   [clang]="clang 14 compiles everything, without precompiled headers; warnings are errors"
   [bench]="every benchmark builds and runs once"
+  [slurm]="\`duet slurm\` against Slurm's daemons on this machine: \`tests/slurm_test.py\`"
   [fuzz]="every fuzzer, ${DUET_FUZZ_SECONDS:-120} seconds"
   [tsan]="unit tests under the thread sanitizer"
   [statistics]="statistics under the address and undefined-behaviour sanitizers"
-  [slow]="tests labelled slow, but the next two"
+  [slow]="tests labelled slow, but those of other stages"
   [agreement]="every pair of unbiased methods at every depth"
   [stability]="the whole catalogue of \`duet stability\`"
   [mutations]="every bug of \`tests/mutations.py\` is noticed"
 )
 # Cheap ones first.
-stages=(clang bench fuzz tsan statistics slow agreement stability mutations)
+stages=(clang bench slurm fuzz tsan statistics slow agreement stability mutations)
 logs=build-nightly
 table=docs/nightly.md
 
@@ -45,6 +46,12 @@ run_bench() {
   build/grid_bench 10000
   build/splats
   echo "4 of 4 ran"
+}
+
+run_slurm() {
+  scripts/build.sh release duet
+  # Not by ctest: where it is skipped, it is not tested.
+  tests/slurm_test.py build/duet
 }
 
 run_fuzz() {
@@ -82,7 +89,7 @@ run_statistics() {
 
 run_slow() {
   scripts/build.sh release
-  ctest --test-dir build --output-on-failure --no-tests=ignore -L slow -E '^(agreement|stability)$'
+  ctest --test-dir build --output-on-failure --no-tests=ignore -L slow -E '^(agreement|stability|slurm)$'
   echo "nothing failed"
 }
 

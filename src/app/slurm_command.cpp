@@ -59,8 +59,9 @@ slurm::SubmittedJob submitted(const std::vector<std::string>& command) {
     return text.substr(0, 1000);
   };
   if (end.exit_code != 0)
-    throw std::runtime_error(fmt::format("{} was not submitted: exit code {} of sbatch: {}",
-                                         command.back(), end.exit_code, in_a_line(end.err)));
+    throw std::runtime_error(fmt::format("{} was not submitted: exit code {} of sbatch{}{}",
+                                         command.back(), end.exit_code, end.err.empty() ? "" : ": ",
+                                         in_a_line(end.err)));
   const auto job = slurm::submitted_job(end.out);
   if (!job)
     throw std::runtime_error(fmt::format("{}: sbatch printed \"{}\" instead of the number of a job",

@@ -42,8 +42,16 @@ class Cluster : public Workplace {
   Image image(const std::string& name) const { return read_image(path(name)).image; }
 };
 
+/// A script as a block of code in a page.
+std::string indented(const std::string& script) {
+  std::string text = "    ";
+  for (size_t i = 0; i + 1 < script.size(); ++i)
+    text += script[i] == '\n' ? "\n    " : std::string(1, script[i]);
+  return text + "\n\n";
+}
+
 /// Runs at once what is submitted, but for the task $LOST.
-const char* const kAtOnce = R"(echo "$@" >> calls
+const char* const kAtOnce = R"sh(echo "$@" >> calls
 for script; do :; done
 tasks=$(sed -n 's/^#SBATCH --array=1-//p' "$script")
 if [ -z "$tasks" ]; then bash "$script" > merge.log 2>&1; echo 8; exit; fi
@@ -52,7 +60,7 @@ for SLURM_ARRAY_TASK_ID in $(seq "$tasks"); do
   [ "$SLURM_ARRAY_TASK_ID" = "$(cat lost)" ] || bash "$script" >> log 2>&1
 done
 echo '7;east'
-)";
+)sh";
 
 }  // namespace
 
@@ -112,8 +120,8 @@ TEST_SUITE("program") {
                        "\n# To submit them:\n" + example("submit.sh"));
     CHECK(!fs::exists(root / "cornell-box.slurm"));
     const std::string page = read_file((root / "docs" / "slurm.md").string());
-    CHECK(contains(page, example("render.sh").substr(12)));
-    CHECK(contains(page, example("merge.sh").substr(12)));
+    for (const char* name : {"render.sh", "merge.sh", "submit.sh"})
+      CHECK(contains(page, "\n\n" + indented(example(name))));
   }
 
   TEST_CASE("slurm: without sbatch, or with one that fails, nothing is left") {
