@@ -157,8 +157,12 @@ TEST_SUITE("program") {
     place.write("bad.xml", "<scene version=\"3.0.0\"><shape type=\"spere\"/></scene>");
     place.scene("copy.xml");
     const size_t files = place.count();
-    using Arguments = std::vector<std::string>;
-    const std::tuple<Arguments, int, const char*> cases[] = {
+    struct Case {
+      std::vector<std::string> arguments;
+      int code;
+      const char* named;
+    };
+    const Case cases[] = {
         {{"room.xml"}, 2, "--tasks"},
         {{"room.xml", "--tasks", "0"}, 2, "--tasks"},
         {{"room.xml", "--tasks", "5"}, 2, "--tasks 5: room.xml is rendered with 4 samples"},
@@ -183,12 +187,12 @@ TEST_SUITE("program") {
         {{"gone.xml", "--tasks", "2"}, 1, "gone.xml"},
         {{"room.xml", "bad.xml", "--tasks", "2"}, 1, "did you mean \"sphere\"?"},
     };
-    for (const auto& [arguments, code, named] : cases) {
-      const Outcome o = place.submit(arguments);
-      CAPTURE(arguments.back());
+    for (const Case& c : cases) {
+      const Outcome o = place.submit(c.arguments);
+      CAPTURE(c.named);
       CAPTURE(o.err);
-      CHECK(o.code == code);
-      CHECK(contains(o.err, named));
+      CHECK(o.code == c.code);
+      CHECK(contains(o.err, c.named));
       CHECK(place.count() == files);
     }
   }

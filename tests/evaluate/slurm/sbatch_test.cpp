@@ -18,9 +18,9 @@ TEST_CASE("Slurm's time limits are read as Slurm reads them") {
       {"0", std::numeric_limits<double>::infinity()},
       {"UNLIMITED", std::numeric_limits<double>::infinity()},
       {"infinite", std::numeric_limits<double>::infinity()}};
-  for (const auto& [text, seconds] : limits) {
-    CAPTURE(text);
-    CHECK(time_limit(text).value_or(-1) == seconds);
+  for (const auto& limit : limits) {
+    CAPTURE(limit.first);
+    CHECK(time_limit(limit.first).value_or(-1) == limit.second);
   }
   for (const char* text : {"", "10m", "1h", "1:2:3:4", "1:", ":1", "-1", "1-", "a", "1-2-3", "1.5",
                            "1-2:3:4:5", "1:-2", "99999999999"}) {
