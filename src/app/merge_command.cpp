@@ -44,8 +44,12 @@ class ExpectedSlices {
       std::erase_if(films,
                     [&](const auto& path) { return !std::filesystem::exists(path, ignored); });
   }
-  std::vector<SampleInterval> gaps(const SampleIntervals& samples) const {
-    return are_known() ? samples.missing_from({0, spp_}) : samples.gaps();
+  /// The samples that no film has, of those that are expected.
+  std::vector<SampleInterval> gaps(const MergedFilms& merged) const {
+    if (!are_known()) return merged.gaps;
+    if (merged.state.films.size() > 1)
+      throw std::runtime_error("--slices: a render with --target-error has none");
+    return merged.state.samples.missing_from({0, spp_});
   }
   /// Names those that are not complete; returns whether there are any.
   bool report_incomplete(const SampleIntervals& samples, Log& log) const {
@@ -98,7 +102,7 @@ int merge(MergeOptions o, Program& program) {
   record.noise_only = merged.image.noise_only;
   record.seed = merged.image.seed;
   record.threads = program.threads();
-  const std::string gaps = to_string(slices.gaps(merged.state.samples));
+  const std::string gaps = to_string(slices.gaps(merged));
   if (!gaps.empty()) program.log.warning("samples are missing: {}", gaps);
   if (!o.raw.empty()) write_raw_film(o.raw, merged.image, merged.state);
   HeaderFields header = merged.image.header;

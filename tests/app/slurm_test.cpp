@@ -231,6 +231,12 @@ TEST_SUITE("program") {
     CHECK(contains(none.err, "slice 2/2 lacks the samples 2:4\n"));
     CHECK(contains(none.err, "none of the films is there"));
     CHECK(!place.has("b.exr"));
+    REQUIRE(place.run({"room.xml", "--target-error", "50%", "--spp", "16", "--raw", "e.exr", "-q"})
+                .code == 0);
+    const Outcome spread =
+        place.run({"merge", "e.exr", "--slices", "2", "--spp", "16", "-o", "b.exr"});
+    CHECK(spread.code == 1);
+    CHECK(contains(spread.err, "a render with --target-error has none"));
     // Without --slices a film that is not there is a mistake.
     CHECK(place.run({"merge", "a.exr", "c.exr", "-o", "b.exr"}).code == 1);
     CHECK(!place.has("b.exr"));
