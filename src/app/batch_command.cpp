@@ -10,15 +10,13 @@
 #include "app/job_options.h"
 #include "app/output.h"
 #include "app/program.h"
-#include "app/scene_operand.h"
 #include "app/signals.h"
 #include "base/atomic_file.h"
 #include "base/memory_limit.h"
+#include "base/shell.h"
 #include "evaluate/batch/job_arguments.h"
 #include "evaluate/batch/job_queue.h"
-#include "evaluate/batch/manifest.h"
 #include "evaluate/batch/reports.h"
-#include "evaluate/batch/scene_folder.h"
 
 namespace duet {
 
@@ -48,7 +46,7 @@ class BatchCommand {
                    : options_.verbose ? Log::Level::verbose
                                       : Log::Level::normal);
     const QueueSettings settings = queue_settings();
-    read_jobs();
+    jobs_ = list_jobs(options_.list, options_.for_all, options_.outputs, program_, diagnostics_);
     if (report_errors()) return kWrongUsage;
     if (options_.dry_run) {
       for (const Job& job : jobs_) fmt::print("duet {}\n", shell_quoted(job_arguments(job)));
@@ -70,22 +68,6 @@ class BatchCommand {
     // What this process takes is not there for the others.
     settings.memory_bytes = std::max(memory_limit().bytes - memory_in_use(), 1.0);
     return settings;
-  }
-
-  void read_jobs() {
-    const std::vector<RenderOption> known = job_option_names(program_);
-    const std::vector<JobOption> for_all = options_for_all(options_.for_all, program_);
-    std::error_code ignored;
-    const bool is_folder = fs::is_directory(options_.list, ignored);
-    jobs_ = is_folder ? scenes_below(options_.list, diagnostics_)
-                      : read_manifest(options_.list, known, diagnostics_);
-    for (Job& job : jobs_) job.scene = scene_file_of(job.scene);
-    // Jobs without a scene have been reported, and nothing more can be said about them.
-    std::erase_if(jobs_, [](const Job& job) { return job.scene.empty(); });
-    add_to_all(jobs_, for_all, known);
-    name_outputs(jobs_, options_.outputs, is_folder ? options_.list : "", diagnostics_);
-    check_outputs_differ(jobs_, diagnostics_);
-    check_jobs(jobs_, program_, diagnostics_);
   }
 
   /// Whether there are errors: all are printed together.

@@ -13,6 +13,8 @@
 #include "app/render_options.h"
 #include "app/scene_operand.h"
 #include "evaluate/batch/job_arguments.h"
+#include "evaluate/batch/manifest.h"
+#include "evaluate/batch/scene_folder.h"
 
 namespace duet {
 
@@ -87,8 +89,7 @@ std::string refusal(const batch::Job& job, Program& program) {
   }
 }
 
-}  // namespace
-
+/// The options that jobs can have.
 std::vector<batch::RenderOption> job_option_names(Program& program) {
   const RenderGrammar render(program);
   std::vector<batch::RenderOption> options;
@@ -98,6 +99,7 @@ std::vector<batch::RenderOption> job_option_names(Program& program) {
   return options;
 }
 
+/// The options of `duet render` in arguments that are for all jobs. Throws UsageError.
 std::vector<batch::JobOption> options_for_all(const std::vector<std::string>& arguments,
                                               Program& program) {
   RenderGrammar render(program);
@@ -125,6 +127,7 @@ std::vector<batch::JobOption> options_for_all(const std::vector<std::string>& ar
   return options;
 }
 
+/// Makes paths of the templates of the jobs' outputs.
 void name_outputs(std::vector<batch::Job>& jobs, const std::vector<std::string>& templates,
                   const std::string& folder, Diagnostics& diagnostics) {
   for (batch::Job& job : jobs) {
@@ -139,10 +142,32 @@ void name_outputs(std::vector<batch::Job>& jobs, const std::vector<std::string>&
   }
 }
 
+/// Errors for jobs that `duet render` would refuse before it reads the scene.
 void check_jobs(const std::vector<batch::Job>& jobs, Program& program, Diagnostics& diagnostics) {
   for (const batch::Job& job : jobs)
     if (const std::string why = refusal(job, program); !why.empty())
       diagnostics.error(job.where, "{}", why);
+}
+
+}  // namespace
+
+std::vector<batch::Job> list_jobs(const std::string& list, const std::vector<std::string>& for_all,
+                                  const std::vector<std::string>& templates, Program& program,
+                                  Diagnostics& diagnostics) {
+  const std::vector<batch::RenderOption> known = job_option_names(program);
+  const std::vector<batch::JobOption> options = options_for_all(for_all, program);
+  std::error_code ignored;
+  const bool is_folder = fs::is_directory(list, ignored);
+  std::vector<batch::Job> jobs = is_folder ? batch::scenes_below(list, diagnostics)
+                                           : batch::read_manifest(list, known, diagnostics);
+  for (batch::Job& job : jobs) job.scene = scene_file_of(job.scene);
+  // Jobs without a scene have been reported, and nothing more can be said about them.
+  std::erase_if(jobs, [](const batch::Job& job) { return job.scene.empty(); });
+  add_to_all(jobs, options, known);
+  name_outputs(jobs, templates, is_folder ? list : "", diagnostics);
+  check_outputs_differ(jobs, diagnostics);
+  check_jobs(jobs, program, diagnostics);
+  return jobs;
 }
 
 }  // namespace duet

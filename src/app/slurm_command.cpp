@@ -108,7 +108,10 @@ void add_slurm_command(CLI::App& app, Program& program) {
       "slurm", "Render scenes on a cluster: submit job arrays and merges to Slurm");
   const auto o = std::make_shared<SlurmOptions>();
   // The scenes take all operands, so those that follow, too: plan_slurm_jobs() tells them apart.
-  c->add_option("scene", o->operands, "Scene files and folders, as for duet render")->required();
+  c->add_option("scene", o->operands,
+                "Scene files and folders, as for duet render, or a list of jobs as for duet batch: "
+                ".csv or .jsonl")
+      ->required();
   c->add_option("options", o->operands, "Behind --: options of duet render for the tasks");
   c->add_option("--tasks", o->tasks, "Tasks per scene; each renders as many of its samples")
       ->required();
@@ -138,6 +141,7 @@ void add_slurm_command(CLI::App& app, Program& program) {
       "  duet slurm room.xml --tasks 64 --time 1:00:00 --partition cpu -o room.exr\n"
       "  duet slurm room.xml --tasks 64 --sbatch --cpus-per-task=16 -- --spp 4096 -i bdpt\n"
       "  duet slurm scenes/*/scene.xml --tasks 8 -o 'images/{scene}.exr' --dry-run\n"
+      "  duet slurm jobs.csv --tasks 8            its first row may be scene,spp,output\n"
       "Exit codes: 0 all are submitted; 1 a scene cannot be read, there is no sbatch, or it "
       "failed; 2 wrong usage.");
   c->callback([o, &program] { program.exit_code = submit_all(*o, program); });

@@ -3,13 +3,17 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <filesystem>
+#include <set>
 
 #include "app/arguments.h"
 #include "app/commands.h"
+#include "app/job_options.h"
 #include "app/output.h"
 #include "app/program.h"
 #include "app/render_options.h"
 #include "app/scene_operand.h"
+#include "base/file_names.h"
+#include "evaluate/batch/job_arguments.h"
 #include "evaluate/slurm/sbatch.h"
 
 namespace duet {
@@ -201,10 +205,43 @@ class SlurmPlan {
   std::vector<std::string> task_options_, sbatch_;
 };
 
+/// The operands of a call with a list are the list, and options for all of its jobs.
+std::vector<slurm::ImageJob> plan_list(const SlurmOptions& options, Program& program) {
+  const std::string& list = options.operands[0];
+  Diagnostics diagnostics;
+  const std::vector<batch::Job> listed =
+      list_jobs(list, {options.operands.begin() + 1, options.operands.end()}, options.outputs,
+                program, diagnostics);
+  try {
+    report(diagnostics, false, program.log);
+  } catch (const SceneFailure&) {
+    throw UsageError(list + ": nothing is submitted");
+  }
+  std::vector<slurm::ImageJob> jobs;
+  for (const batch::Job& job : listed) try {
+      SlurmOptions one = options;
+      one.outputs = job.outputs;
+      one.operands = batch::option_arguments(job);
+      one.operands.insert(one.operands.begin(), job.scene);
+      jobs.push_back(SlurmPlan(one, program).jobs().at(0));
+    } catch (const UsageError& e) {
+      throw UsageError(fmt::format("{}: {}", job.where.to_string(), e.what()));
+    }
+  return jobs;
+}
+
 }  // namespace
 
 std::vector<slurm::ImageJob> plan_slurm_jobs(const SlurmOptions& options, Program& program) {
-  return SlurmPlan(options, program).jobs();
+  const std::string kind = extension_of(options.operands.at(0));
+  std::vector<slurm::ImageJob> jobs = kind == ".csv" || kind == ".jsonl"
+                                          ? plan_list(options, program)
+                                          : SlurmPlan(options, program).jobs();
+  std::set<std::string> folders;
+  for (const slurm::ImageJob& job : jobs)
+    if (!folders.insert(job.folder).second)
+      throw UsageError(fmt::format("-o: two images have the folder {}", job.folder));
+  return jobs;
 }
 
 }  // namespace duet

@@ -17,8 +17,9 @@ struct SlurmOptions {
   bool dry_run = false, quiet = false;
 };
 
-/// The jobs of all scenes, which are read, but not rendered. Throws UsageError for options that
-/// make no sense, and SceneFailure, which has been printed, if a scene cannot be rendered.
+/// The jobs of all scenes, or of a list as for `duet batch` (.csv, .jsonl). The scenes are read,
+/// but not rendered. Throws UsageError for options that make no sense, and std::runtime_error if a
+/// scene cannot be rendered.
 std::vector<slurm::ImageJob> plan_slurm_jobs(const SlurmOptions& options, Program& program);
 
 }  // namespace duet

@@ -210,6 +210,36 @@ TEST_SUITE("program") {
     CHECK(place.has("images/hall-4.slurm/render.sh"));
   }
 
+  TEST_CASE("slurm: lists of jobs are those of batch") {
+    const Cluster place;
+    place.sbatch(kAtOnce);
+    place.write("lost", "");
+    place.write("jobs.csv", "scene,spp,output,seed\nroom.xml,8,a.exr;a.png,\nroom.xml,,b.exr,3\n");
+    const Outcome o = place.submit({"jobs.csv", "--tasks", "2", "--", "--spp", "6"});
+    REQUIRE_MESSAGE(o.code == 0, o.err);
+    CHECK(place.has("a.png"));
+    CHECK(place.has("a.slurm/8spp-slice-2-of-2.exr"));
+    REQUIRE(place.run({"room.xml", "--spp", "6", "--seed", "3", "-o", "whole.exr", "-q"}).code ==
+            0);
+    CHECK(place.image("b.exr").data == place.image("whole.exr").data);
+    CHECK(place.image("a.exr").data != place.image("whole.exr").data);
+
+    fs::remove(place.path("calls"));
+    const std::pair<const char*, const char*> refused[] = {
+        {"scene,sp\nroom.xml,8\n", "jobs.csv:1"},
+        {"scene,spp\nroom.xml,8\ngone.xml,8\n", "jobs.csv:3"},
+        {"scene,spp\nroom.xml,1\n", "jobs.csv:2"},
+        {"scene,time\nroom.xml,10s\n", "cut into slices"},
+        {"scene,output\nroom.xml,a.exr\nroom.xml,a.png\n", "a.slurm"}};
+    for (const auto& [list, named] : refused) {
+      place.write("jobs.csv", list);
+      const Outcome r = place.submit({"jobs.csv", "--tasks", "2"});
+      CHECK(r.code == 2);
+      CHECK_MESSAGE(contains(r.err, named), r.err);
+    }
+    CHECK(!place.has("calls"));
+  }
+
   TEST_CASE("merge: slices are checked only if all is said about them") {
     const Cluster place;
     REQUIRE(place.run({"room.xml", "--slice", "1/2", "--raw", "a.exr", "-q"}).code == 0);

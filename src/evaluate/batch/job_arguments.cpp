@@ -13,14 +13,20 @@ bool is_given_by_batch(const std::string& option) {
   return std::find(std::begin(given), std::end(given), option) != std::end(given);
 }
 
-std::vector<std::string> job_arguments(const Job& job) {
-  std::vector<std::string> arguments{"render"};
-  for (const std::string& output : job.outputs) arguments.push_back("--output=" + output);
+std::vector<std::string> option_arguments(const Job& job) {
+  std::vector<std::string> arguments;
   for (const JobOption& option : job.options) {
     if (option.values.empty()) arguments.push_back("--" + option.name);
     for (const std::string& value : option.values)
       arguments.push_back(fmt::format("--{}={}", option.name, value));
   }
+  return arguments;
+}
+
+std::vector<std::string> job_arguments(const Job& job) {
+  std::vector<std::string> arguments{"render"};
+  for (const std::string& output : job.outputs) arguments.push_back("--output=" + output);
+  for (std::string& option : option_arguments(job)) arguments.push_back(std::move(option));
   // Whatever it begins with, it is no option.
   arguments.insert(arguments.end(), {"--", job.scene});
   return arguments;

@@ -16,6 +16,9 @@ bool is_given_by_batch(const std::string& option);
 std::vector<std::string> render_arguments(const Job& job, int threads,
                                           const std::string& statistics_file);
 
+/// The options of a job, each in one word.
+std::vector<std::string> option_arguments(const Job& job);
+
 /// The job's own part of them.
 std::vector<std::string> job_arguments(const Job& job);
 
