@@ -199,9 +199,13 @@ TEST_CASE("the batch's own options stand before the job's") {
   Job job;
   job.scene = "-x.xml";
   job.options = {{"threads", {"7"}}, {"spp", {"4"}}};
-  CHECK(render_arguments(job, 2, "s.json") == Texts{"render", "--skip-existing", "--quiet",
-                                                    "--progress=none", "--threads=2",
-                                                    "--stats=s.json", "--spp=4", "--", "-x.xml"});
+  CHECK(render_arguments(job, 2, "s.json") ==
+        Texts{"render", "--skip-existing", "--quiet", "--progress=none", "--threads=2",
+              "--stats=s.json", "--checkpoint=60s", "--spp=4", "--", "-x.xml"});
+  job.options.push_back({"checkpoint", {"5s"}});
+  const Texts own = render_arguments(job, 2, "s.json");
+  CHECK(std::count(own.begin(), own.end(), "--checkpoint=60s") == 0);
+  CHECK(std::count(own.begin(), own.end(), "--checkpoint=5s") == 1);
   for (const char* option : {"stats", "progress", "quiet", "skip-existing"})
     CHECK(is_given_by_batch(option));
   CHECK(!is_given_by_batch("spp"));
