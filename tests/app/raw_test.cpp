@@ -91,6 +91,22 @@ TEST_SUITE("program") {
     check_same_pixels(place.path("more.exr"), place.path("whole.exr"));
   }
 
+  TEST_CASE("layers without colours are merged to .exr files only") {
+    const Workplace place;
+    TinyScene layers = exact_scene();
+    layers.integrator =
+        R"(<integrator type="aov"><string name="aovs" value="d:depth"/></integrator>)";
+    place.scene("layers.xml", layers);
+    REQUIRE(place.run({"layers.xml", "--raw", "l.exr"}).code == 0);
+    const Outcome o = place.run({"merge", "l.exr", "-o", "a.exr", "--png", "a.png"});
+    CHECK(o.code == 2);
+    CHECK(contains(o.err, "-o a.png: the image has layers only"));
+    CHECK(!place.has("a.exr"));
+    CHECK(place.run({"merge", "l.exr", "-o", "a.exr"}).code == 0);
+    CHECK(place.run({"layers.xml", "-o", "b.exr"}).code == 0);
+    check_same_pixels(place.path("a.exr"), place.path("b.exr"));
+  }
+
   TEST_CASE("a render that is killed again and again goes on") {
     const Workplace place;
     place.scene("long.xml", long_scene());

@@ -23,6 +23,20 @@ const std::string kFog = sphere_xml(
     "<bsdf type='null'/><medium type='homogeneous' name='interior'><float name='sigma_t' "
     "value='3'/><float name='albedo' value='0.8'/></medium>");
 
+/// A sphere that moves while the shutter is open.
+const std::string kMoving =
+    "<integrator type='path'><integer name='maxDepth' value='4'/></integrator>"
+    "<sensor type='perspective'><float name='shutterOpen' value='0'/><float name='shutterClose' "
+    "value='1'/><float name='fov' value='50'/><transform name='toWorld'><lookat origin='0,-3.5,1' "
+    "target='0,0,1' up='0,0,1'/></transform><film type='hdrfilm'><integer name='width' value='16'/>"
+    "<integer name='height' value='16'/><rfilter type='box'/></film></sensor>" +
+    room_xml(grey("0.6")) +
+    "<shape type='rectangle'><transform name='toWorld'><scale value='0.3'/><rotate x='1' "
+    "angle='180'/><translate z='1.9'/></transform><emitter type='area'><rgb name='radiance' "
+    "value='9'/></emitter></shape><shape type='sphere'><float name='radius' value='0.3'/>"
+    "<animation name='toWorld'><transform time='0'><translate x='-0.6' z='0.4'/></transform>"
+    "<transform time='1'><translate x='0.6' z='0.9'/></transform></animation></shape>";
+
 /// What `auto` expects.
 constexpr int kSpp = 24;
 
@@ -33,13 +47,16 @@ struct Way {
   std::vector<std::string> layers = {};
   TechniqueOutput techniques = TechniqueOutput::none;
   std::optional<PixelBounds> crop = {};
-  bool fog = false;
+  bool fog = false, moves = false;
 };
 
 class RoomRender {
  public:
   explicit RoomRender(const Way& way)
-      : scene_(kRoom + (way.fog ? kFog : "")), layout_(scene_.layout), way_(way) {
+      : scene_(way.moves ? TransportScene(kMoving, "0.6.0")
+                         : TransportScene(kRoom + (way.fog ? kFog : ""))),
+        layout_(scene_.layout),
+        way_(way) {
     layout_.filter.kind = way.filter;
     if (way.crop) layout_.crop = *way.crop;
     image.integrator = way.method;
@@ -109,6 +126,7 @@ const Way kWays[] = {
     {"bpm", FilterKind::box},
     {"vcm"},
     {"auto", FilterKind::box},
+    {"vcm", FilterKind::box, {}, TechniqueOutput::none, {}, false, true},
 };
 
 void check_equal(const Image& a, const Image& b) {
