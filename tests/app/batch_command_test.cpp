@@ -1,5 +1,6 @@
 // `duet batch`: the program as a user runs it, with real processes.
 #include <doctest/doctest.h>
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <csignal>
@@ -309,22 +310,30 @@ TEST_SUITE("program") {
     const Workplace place;
     place.scene("a.xml");
     place.write("jobs.csv", "scene,output\na.xml,1.exr\na.xml,2.exr\n");
-    const auto run = [&](const std::string& bytes) {
+    const auto run = [&](double megabytes) {
       return run_duet({"batch", "jobs.csv", "--csv", "c.csv", "-t", "2", "-j", "2", "--", "--size",
                        "1000x1000", "--spp", "1"},
-                      {.directory = place.path(""), .environment = {{"DUET_MEMORY_LIMIT", bytes}}});
+                      {.directory = place.path(""),
+                       .environment = {{"DUET_MEMORY_LIMIT", fmt::format("{:.0f}e6", megabytes)}}});
     };
-    const Outcome little = run("60e6");
+    const Outcome little = run(60);
     CHECK(little.code == 1);
     CHECK(column(place, "c.csv", "status") == Texts{"failed", "failed"});
     CHECK(contains(column(place, "c.csv", "message")[0], "DUET_MEMORY_LIMIT"));
-    const Outcome enough_for_one = run("240e6");
+    // Sanitizers take more: what an image needs, and what each process takes.
+    const auto megabytes = [&](const std::string& before) {
+      const size_t at = little.err.find(before);
+      REQUIRE(at != std::string::npos);
+      return std::stod(little.err.substr(at + before.size()));
+    };
+    const double image = megabytes("needs about "), in_use = megabytes("beside the ");
+    const Outcome enough_for_one = run(image + 2.2 * in_use + 20);
     CAPTURE(enough_for_one.err);
     CHECK(enough_for_one.code == 0);
     CHECK(column(place, "c.csv", "status") == Texts{"rendered", "rendered"});
     CHECK(column(place, "c.csv", "threads") == Texts{"2", "2"});
     for (const char* name : {"1.exr", "2.exr"}) std::filesystem::remove(place.path(name));
-    const Outcome enough_for_both = run("800e6");
+    const Outcome enough_for_both = run(2.2 * (image + 2 * in_use) + 40);
     CHECK(enough_for_both.code == 0);
     CHECK(column(place, "c.csv", "threads") == Texts{"1", "1"});
   }
