@@ -50,7 +50,8 @@ duet_install_browser() {
   for program in chromium chromium-browser google-chrome; do
     ! command -v "$program" >/dev/null || return 0
   done
-  if ! command -v apt-cache >/dev/null || apt-cache policy chromium | grep -q 'Candidate: [0-9]'; then
+  # No pipe into grep -q: it may end before apt-cache does, and pipefail then takes the package for missing.
+  if ! command -v apt-cache >/dev/null || [[ "$(apt-cache policy chromium)" == *"Candidate: "[0-9]* ]]; then
     duet_install chromium
   else
     echo "There is no package chromium: the tests of pages are left out, unless DUET_BROWSER names a browser." >&2

@@ -118,6 +118,7 @@ class BatchCommand {
       JobDisplay display(style, jobs_.size(), log_);
       QueueEvents events;
       events.stop_signal = [] { return std::max(0, interrupt_exit_code() - 128); };
+      events.wants_snapshots = take_snapshot_request;
       events.finished = [&](size_t job, const JobResult& result) {
         is_good = is_good && result.is_good();
         display.finished(jobs_[job], result);

@@ -4,10 +4,8 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <cstdio>
 
 #include "base/seconds_text.h"
-#include "base/terminal.h"
 #include "evaluate/batch/reports.h"
 
 namespace duet {
@@ -17,23 +15,11 @@ JobDisplay::JobDisplay(ProgressStyle style, size_t jobs, Log& log)
                (style == ProgressStyle::bar ||
                 (style == ProgressStyle::automatic && isatty(STDERR_FILENO)))),
       jobs_(jobs),
-      log_(log) {
-  log_.set_before_write([this] { remove_bar(); });
-}
-
-JobDisplay::~JobDisplay() {
-  log_.set_before_write(nullptr);
-  remove_bar();
-}
+      log_(log),
+      bar_(log) {}
 
 double JobDisplay::seconds() const {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
-}
-
-void JobDisplay::remove_bar() {
-  if (!bar_is_drawn_) return;
-  std::fputs("\r\x1b[K", stderr);
-  bar_is_drawn_ = false;
 }
 
 void JobDisplay::finished(const batch::Job& job, const batch::JobResult& result) {
@@ -51,9 +37,8 @@ void JobDisplay::finished(const batch::Job& job, const batch::JobResult& result)
   for (const std::string& message : result.messages) log_.detail("  {}", message);
 }
 
-std::string JobDisplay::bar(size_t running) const {
+std::string JobDisplay::bar_line(size_t running) const {
   constexpr size_t kLength = 24;
-  const size_t width = terminal_width(STDERR_FILENO) - 1;
   const size_t filled = kLength * finished_ / std::max<size_t>(jobs_, 1);
   std::string line = fmt::format("[{}{}] {} of {} jobs, {} running", std::string(filled, '#'),
                                  std::string(kLength - filled, '.'), finished_, jobs_, running);
@@ -62,14 +47,11 @@ std::string JobDisplay::bar(size_t running) const {
   if (const size_t rendered = finished_ - kept_; rendered > 0)
     line += fmt::format(", {} left",
                         seconds_text(seconds() / double(rendered) * double(jobs_ - finished_)));
-  return columns(line) > width ? line.substr(0, width) : line;
+  return line;
 }
 
 void JobDisplay::show(size_t running) {
-  if (!has_bar_) return;
-  std::fprintf(stderr, "\r\x1b[K%s", bar(running).c_str());
-  std::fflush(stderr);
-  bar_is_drawn_ = true;
+  if (has_bar_) bar_.draw(bar_line(running));
 }
 
 }  // namespace duet

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "app/progress.h"
+#include "app/terminal_bar.h"
 #include "base/log.h"
 #include "evaluate/batch/job.h"
 #include "evaluate/batch/job_result.h"
@@ -16,9 +17,6 @@ class JobDisplay {
  public:
   /// The log must outlive this.
   JobDisplay(ProgressStyle style, size_t jobs, Log& log);
-  ~JobDisplay();
-  JobDisplay(const JobDisplay&) = delete;
-  JobDisplay& operator=(const JobDisplay&) = delete;
 
   void finished(const batch::Job& job, const batch::JobResult& result);
   /// `running` are the processes under way.
@@ -27,12 +25,12 @@ class JobDisplay {
   double seconds() const;
 
  private:
-  void remove_bar();
-  std::string bar(size_t running) const;
+  std::string bar_line(size_t running) const;
 
-  bool has_bar_, bar_is_drawn_ = false;
+  bool has_bar_;
   size_t jobs_, finished_ = 0, kept_ = 0, bad_ = 0;
   Log& log_;
+  TerminalBar bar_;
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
 };
 

@@ -2,7 +2,6 @@
 
 #include <fmt/ranges.h>
 
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <filesystem>
 
@@ -10,7 +9,7 @@
 #include "app/output.h"
 #include "app/placeholders.h"
 #include "app/program.h"
-#include "app/render_options.h"
+#include "app/render_grammar.h"
 #include "app/scene_operand.h"
 #include "evaluate/batch/job_arguments.h"
 #include "evaluate/batch/manifest.h"
@@ -21,18 +20,6 @@ namespace duet {
 namespace fs = std::filesystem;
 
 namespace {
-
-/// `duet render` without what it does.
-struct RenderGrammar {
-  explicit RenderGrammar(Program& program) : parser(command, program) {}
-  void parse(std::vector<std::string> arguments) {
-    std::reverse(arguments.begin(), arguments.end());  // as CLI11 wants them
-    command.parse(arguments);
-  }
-
-  CLI::App command;
-  RenderOptionParser parser;
-};
 
 batch::OptionKind option_kind(const CLI::Option& option) {
   if (option.get_items_expected_max() == 0) return batch::OptionKind::flag;

@@ -94,10 +94,7 @@ int merge(MergeOptions o, Program& program) {
   }
   const MergedFilms merged = merge_raw_films(o.films);
   if (merged.result.spp == 0) throw std::runtime_error("the films have no samples");
-  for (const std::string& path : o.outputs)
-    if (is_display_format(path) && merged.image.contents.channels[0] != "R")
-      throw UsageError(
-          fmt::format("-o {}: the image has layers only, which .exr files can hold", path));
+  for (const std::string& path : o.outputs) check_has_colours(path, merged.image.contents.channels);
   RenderRecord record;
   record.command_line = program.command_line;
   record.scene_file = fmt::format("{} raw films", merged.films);

@@ -41,6 +41,12 @@ bool is_display_format(const std::string& path) {
   return format == "png" || format == "jpg";
 }
 
+void check_has_colours(const std::string& path, const std::vector<std::string>& channels) {
+  if (is_display_format(path) && channels[0] != "R")
+    throw UsageError(
+        fmt::format("-o {}: the image has layers only, which .exr files can hold", path));
+}
+
 std::string image_format(const std::string& path) {
   const std::string e = extension_of(path);
   if (e == ".exr" || e == ".png" || e == ".jpg") return e.substr(1);

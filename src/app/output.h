@@ -30,6 +30,8 @@ std::string output_path(const std::string& pattern, const OutputNames& names,
 
 /// Whether the path's extension is that of a format for display: png, jpg or jpeg.
 bool is_display_format(const std::string& path);
+/// Throws UsageError if an image without colours is to be written in a format for display.
+void check_has_colours(const std::string& path, const std::vector<std::string>& channels);
 /// The format that images of such a name are written in: "exr", "png", "jpg" or, for all others,
 /// "".
 std::string image_format(const std::string& path);

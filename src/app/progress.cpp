@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <iterator>
 #include <vector>
 
@@ -47,21 +46,9 @@ double fraction_of(const RenderProgress& p) {
 
 ProgressDisplay::ProgressDisplay(ProgressStyle style, std::string scene, const Batch& batch,
                                  Log& log)
-    : style_(style), scene_(std::move(scene)), batch_(batch), log_(log) {
+    : style_(style), scene_(std::move(scene)), batch_(batch), log_(log), bar_(log) {
   if (style_ == ProgressStyle::automatic)
     style_ = isatty(STDERR_FILENO) ? ProgressStyle::bar : ProgressStyle::plain;
-  log_.set_before_write([this] { remove_bar(); });
-}
-
-ProgressDisplay::~ProgressDisplay() {
-  log_.set_before_write(nullptr);
-  remove_bar();
-}
-
-void ProgressDisplay::remove_bar() {
-  if (!bar_is_drawn_) return;
-  std::fputs("\r\x1b[K", stderr);
-  bar_is_drawn_ = false;
 }
 
 std::string ProgressDisplay::time_left(const RenderProgress& p) const {
@@ -73,8 +60,8 @@ std::string ProgressDisplay::time_left(const RenderProgress& p) const {
   return text;
 }
 
-std::string ProgressDisplay::bar(const RenderProgress& p) const {
-  const size_t width = terminal_width(STDERR_FILENO) - 1;
+std::string ProgressDisplay::bar_line(const RenderProgress& p) const {
+  const size_t width = TerminalBar::width();
   const std::string spp = samples(p), seconds = seconds_text(p.seconds);
   const std::string left = time_left(p);
   // What is wanted least goes first where there is no room.
@@ -95,8 +82,7 @@ std::string ProgressDisplay::bar(const RenderProgress& p) const {
     const size_t filled = size_t(fraction_of(p) * double(length));
     bar = "[" + std::string(filled, '#') + std::string(length - filled, '.') + "] ";
   }
-  const std::string line = fmt::format("{}{}{:3.0f} % {}", title, bar, 100 * fraction_of(p), text);
-  return columns(line) > width ? line.substr(0, width) : line;
+  return fmt::format("{}{}{:3.0f} % {}", title, bar, 100 * fraction_of(p), text);
 }
 
 void ProgressDisplay::show(const RenderProgress& p) {
@@ -105,10 +91,7 @@ void ProgressDisplay::show(const RenderProgress& p) {
     log_.info("{}{}: {:.0f} %, {}", batch_.label(), scene_, 100 * fraction_of(p),
               listed({samples(p), seconds_text(p.seconds), rate(p), error(p), time_left(p)}));
   }
-  if (style_ != ProgressStyle::bar || log_.level() == Log::Level::quiet) return;
-  std::fprintf(stderr, "\r\x1b[K%s", bar(p).c_str());
-  std::fflush(stderr);
-  bar_is_drawn_ = true;
+  if (style_ == ProgressStyle::bar && log_.level() != Log::Level::quiet) bar_.draw(bar_line(p));
 }
 
 }  // namespace duet

@@ -4,6 +4,7 @@
 #include <string>
 
 #include "app/batch.h"
+#include "app/terminal_bar.h"
 #include "base/log.h"
 #include "integrators/pass.h"
 
@@ -22,22 +23,18 @@ class ProgressDisplay {
   /// `scene` is what the scene is called. The batch and the log must outlive this; messages that go
   /// there remove the bar.
   ProgressDisplay(ProgressStyle style, std::string scene, const Batch& batch, Log& log);
-  ~ProgressDisplay();
-  ProgressDisplay(const ProgressDisplay&) = delete;
-  ProgressDisplay& operator=(const ProgressDisplay&) = delete;
 
   void show(const RenderProgress& progress);
 
  private:
-  void remove_bar();
   std::string time_left(const RenderProgress& progress) const;
-  std::string bar(const RenderProgress& progress) const;
+  std::string bar_line(const RenderProgress& progress) const;
 
   ProgressStyle style_;
   std::string scene_;
   const Batch& batch_;
   Log& log_;
-  bool bar_is_drawn_ = false;
+  TerminalBar bar_;
   double last_line_ = 0;
 };
 

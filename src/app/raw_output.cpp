@@ -58,9 +58,16 @@ void RawOutput::set_aside(const std::string& why) const {
   log_.warning("{}; it is kept as {}, and the render begins anew", why, kept);
 }
 
-void RawOutput::load(const RawFilm& film, RenderState& state) const {
-  if (const std::string what = difference(film.image(), image_); !what.empty()) {
-    const std::string why = fmt::format("{}: is not of this image: {}", film.path(), what);
+void RawOutput::load(const RawFilm& film, const std::optional<SampleInterval>& samples,
+                     RenderState& state) const {
+  std::string why;
+  if (const std::string what = difference(film.image(), image_); !what.empty())
+    why = fmt::format("{}: is not of this image: {}", film.path(), what);
+  else if (samples)
+    if (const auto others = film.state().samples.outside_of(*samples); !others.empty())
+      why = fmt::format("{}: has the samples {}, and only {} are asked for", film.path(),
+                        to_string(others), to_string(*samples));
+  if (!why.empty()) {
     if (is_named_ || film.path() != path_) throw ReadError(why);
     return set_aside(why);
   }

@@ -28,8 +28,10 @@ class RawOutput {
   std::optional<RawFilm> source() const;
   /// What the film is of.
   void set_image(RawImage image) { image_ = std::move(image); }
-  /// Reads a film's state. Throws ReadError for one of another image that the user has named.
-  void load(const RawFilm& film, RenderState& state) const;
+  /// Reads a film's state. Throws ReadError if the user has named it and it is of another image, or
+  /// has samples besides `samples`, if the user asks for some.
+  void load(const RawFilm& film, const std::optional<SampleInterval>& samples,
+            RenderState& state) const;
 
   /// Writes a checkpoint if it is time. One that cannot be written is an error in the end, and the
   /// render goes on nevertheless.

@@ -7,6 +7,7 @@
 #include "app/program.h"
 #include "app/raw_output.h"
 #include "app/scene_images.h"
+#include "app/scene_method.h"
 #include "app/scene_operand.h"
 #include "app/signals.h"
 #include "app/standard_output.h"
@@ -65,7 +66,7 @@ class SceneRenderer {
     check_memory();
     RenderState state;
     if (raw_->keeps_state()) raw_->set_image(image_of_raw_film());
-    if (source) raw_->load(*source, state);
+    if (source) raw_->load(*source, request_.samples, state);
     const RenderResult result = render_with_progress(state);
     if (result.spp == 0) return give_up();
     seconds_.render = watch_.lap();
@@ -94,26 +95,13 @@ class SceneRenderer {
 
   /// Everything that can be wrong with the command line for this scene shows here.
   void prepare() {
-    const size_t sensors = description_.sensors.size();
-    if (options_.sensor >= sensors)
-      throw UsageError(fmt::format("-s {}: {} has {} sensor{}", options_.sensor, file_, sensors,
-                                   sensors == 1 ? "" : "s"));
-    SensorDescription& sensor = description_.sensors[options_.sensor];
+    SensorDescription& sensor = chosen_sensor(description_, options_.sensor, file_);
     try {
       layout_ = film_layout(sensor.film, options_.size, options_.crop);
     } catch (const std::out_of_range& e) {
       throw UsageError(fmt::format("--crop: {}", e.what()));
     }
-    try {
-      apply_override(description_.integrator, options_.integrator);
-      integrator_ = make_integrator(description_.integrator, options_.techniques);
-    } catch (const std::invalid_argument& e) {
-      throw UsageError(e.what());
-    }
-    Diagnostics diagnostics;
-    check_support(description_, description_.integrator, diagnostics);
-    check_support(sensor, description_.integrator, diagnostics);
-    report(diagnostics, options_.read.strict, log_);
+    integrator_ = chosen_method(description_, sensor, options_, log_);
     if (const std::string bias = integrator_->bias(); !bias.empty()) warn(bias);
     record_.bias = integrator_->bias();
     view_ = sensor;
@@ -215,9 +203,7 @@ class SceneRenderer {
     for (const std::string& path : planned) {
       if (const std::string why = prepare_file(path); !why.empty())
         throw SceneFailure(fmt::format("cannot write {}: {}", path, why));
-      if (is_display_format(path) && !has_colours())
-        throw UsageError(
-            fmt::format("-o {}: the image has layers only, which .exr files can hold", path));
+      check_has_colours(path, channels);
       // Colours and alpha come first.
       if (!keeps_layers && channels.size() > 4)
         throw UsageError(

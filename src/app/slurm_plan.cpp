@@ -1,6 +1,5 @@
 #include "app/slurm_plan.h"
 
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <filesystem>
 #include <set>
@@ -10,7 +9,8 @@
 #include "app/job_options.h"
 #include "app/output.h"
 #include "app/program.h"
-#include "app/render_options.h"
+#include "app/render_grammar.h"
+#include "app/scene_method.h"
 #include "app/scene_operand.h"
 #include "base/file_names.h"
 #include "evaluate/batch/job_arguments.h"
@@ -56,7 +56,7 @@ std::string this_program() {
 class SlurmPlan {
  public:
   SlurmPlan(const SlurmOptions& options, Program& program)
-      : options_(options), program_(program), render_parser_(render_, program) {}
+      : options_(options), program_(program), render_(program) {}
 
   std::vector<slurm::ImageJob> jobs() {
     read_options();
@@ -83,15 +83,14 @@ class SlurmPlan {
       throw UsageError("slurm: there is no scene before the options of duet render");
     std::vector<std::string> words = options_.operands;
     for (const std::string& output : options_.outputs) words.insert(words.end(), {"-o", output});
-    std::reverse(words.begin(), words.end());  // as CLI11 wants them
-    render_.set_help_flag();
+    render_.command.set_help_flag();
     try {
-      render_.parse(words);
+      render_.parse(std::move(words));
     } catch (const CLI::ParseError& e) {
       throw UsageError(fmt::format("options of duet render: {}", e.what()));
     }
     check_task_options();
-    render_options_ = render_parser_.finish();
+    render_options_ = render_.parser.finish();
     check_defines(render_options_.read, program_);
     if (!render_options_.checkpoint)
       task_options_.insert(task_options_.end(), {"--checkpoint", "60s"});
@@ -121,9 +120,9 @@ class SlurmPlan {
 
   void check_task_options() const {
     for (const auto& [option, reason] : kRefused)
-      if (render_.count(option) > 0)
+      if (render_.command.count(option) > 0)
         throw UsageError(fmt::format("{}, an option of the tasks: {}", option, reason));
-    if (render_.count("--output") > options_.outputs.size())
+    if (render_.command.count("--output") > options_.outputs.size())
       throw UsageError("-o, an option of the tasks: they write no images; it goes before --");
     for (const std::string& word : options_.operands)
       if (word.find(slurm::kSlice) != word.npos)
@@ -133,11 +132,9 @@ class SlurmPlan {
   slurm::ImageJob plan_job(const std::string& file) {
     if (file == kStandardInput) throw UsageError("-: tasks have no standard input");
     SceneDescription scene = load_scene(file, render_options_.read, program_).description;
-    if (render_options_.sensor >= scene.sensors.size())
-      throw UsageError(fmt::format("-s {}: {} has {} sensors, counted from 0",
-                                   render_options_.sensor, file, scene.sensors.size()));
-    const SensorDescription& sensor = scene.sensors[render_options_.sensor];
-    check_method(scene, sensor);
+    const SensorDescription& sensor = chosen_sensor(scene, render_options_.sensor, file);
+    // What every task would find out.
+    chosen_method(scene, sensor, render_options_, program_.log);
     const int spp = render_options_.budget.spp.value_or(sensor.sampler.sample_count);
     if (int64_t(tasks_) > spp)
       throw UsageError(
@@ -151,27 +148,13 @@ class SlurmPlan {
     return job_of(file, names, uint32_t(spp));
   }
 
-  /// What every task would find out.
-  void check_method(SceneDescription& scene, const SensorDescription& sensor) const {
-    try {
-      apply_override(scene.integrator, render_options_.integrator);
-      make_integrator(scene.integrator, render_options_.techniques);
-    } catch (const std::invalid_argument& e) {
-      throw UsageError(e.what());
-    }
-    Diagnostics diagnostics;
-    check_support(scene, scene.integrator, diagnostics);
-    check_support(sensor, scene.integrator, diagnostics);
-    report(diagnostics, render_options_.read.strict, program_.log);
-  }
-
   slurm::ImageJob job_of(const std::string& file, const OutputNames& names, uint32_t spp) const {
     slurm::ImageJob job;
     job.program = options_.program.empty() ? this_program() : options_.program;
     job.scene = file;
     job.spp = spp, job.tasks = tasks_;
     job.render_options = task_options_;
-    job.has_threads = render_.count("--threads") > 0;
+    job.has_threads = render_.command.count("--threads") > 0;
     // As the scene says it now: all tasks have to mean the same slices.
     if (!render_options_.budget.spp)
       job.render_options.insert(job.render_options.end(), {"--spp", names.spp});
@@ -198,8 +181,7 @@ class SlurmPlan {
 
   const SlurmOptions& options_;
   Program& program_;
-  CLI::App render_;
-  RenderOptionParser render_parser_;
+  RenderGrammar render_;
   RenderOptions render_options_;
   uint32_t tasks_ = 1;
   std::vector<std::string> task_options_, sbatch_;

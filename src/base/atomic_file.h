@@ -8,9 +8,10 @@
 
 namespace duet {
 
-/// A file that is written piece by piece under a temporary name in the same directory, and gets its
-/// name in the end; without that nothing stays of it. What write_file_atomically() says of errors
-/// holds here, too.
+/// A file that is written piece by piece in the same directory, and gets its name in the end;
+/// without that nothing stays of it. Until then it has no name, so that nothing stays even if the
+/// process is killed, or a temporary one where the system wants that. What write_file_atomically()
+/// says of errors holds here, too.
 class AtomicFile {
  public:
   explicit AtomicFile(std::string path);
@@ -23,13 +24,21 @@ class AtomicFile {
   void write_at(uint64_t position, std::span<const uint8_t> bytes);
   /// As it was given.
   const std::string& path() const { return path_; }
+  /// Waits until all that was written is on the disk. Without this a machine that loses its power
+  /// after commit() may keep the new name and not the contents.
+  void sync();
   /// Gives the file its name. Nothing can be written afterwards.
   void commit();
 
  private:
   [[noreturn]] void fail(const std::string& reason);
+  /// Calls `take(name)` for temporary names until one is free. Returns what it returns, which is
+  /// negative and sets errno if a name cannot be taken.
+  template <class Take>
+  int take_temporary_name(Take take);
 
-  std::string path_, target_, temporary_;
+  std::string path_, target_;
+  std::string temporary_;  ///< the name that the file has now; empty if it has none
   int file_ = -1;
   uint64_t position_ = 0;  ///< of the next piece
 };

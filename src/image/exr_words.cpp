@@ -34,7 +34,11 @@ class AtomicOutput : public Imf::OStream {
   }
   uint64_t tellp() override { return position_; }
   void seekp(uint64_t position) override { position_ = position; }
-  void commit() { file_.commit(); }
+  /// Sums take long to make again: they are to survive the machine's end, too.
+  void commit() {
+    file_.sync();
+    file_.commit();
+  }
 
  private:
   AtomicFile file_;

@@ -56,6 +56,17 @@ std::vector<SampleInterval> SampleIntervals::missing_from(const SampleInterval& 
   return missing;
 }
 
+std::vector<SampleInterval> SampleIntervals::outside_of(const SampleInterval& interval) const {
+  std::vector<SampleInterval> outside;
+  for (const SampleInterval& i : intervals_) {
+    const SampleInterval before{i.first, std::min(i.end, interval.first)};
+    const SampleInterval behind{std::max(i.first, interval.end), i.end};
+    for (const SampleInterval& part : {before, behind})
+      if (part.first < part.end) outside.push_back(part);
+  }
+  return outside;
+}
+
 std::vector<SampleInterval> SampleIntervals::gaps() const {
   if (intervals_.empty()) return {};
   return missing_from({0, intervals_.back().end});

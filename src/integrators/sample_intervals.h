@@ -28,6 +28,8 @@ class SampleIntervals {
   void add(const SampleInterval& interval);
   /// What of an interval is not there.
   std::vector<SampleInterval> missing_from(const SampleInterval& interval) const;
+  /// What there is before and behind an interval.
+  std::vector<SampleInterval> outside_of(const SampleInterval& interval) const;
   /// What is missing before the last.
   std::vector<SampleInterval> gaps() const;
   bool operator==(const SampleIntervals&) const = default;

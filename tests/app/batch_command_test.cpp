@@ -4,11 +4,13 @@
 
 #include <algorithm>
 #include <csignal>
+#include <nlohmann/json.hpp>
 #include <sstream>
 
 #include "app/workplace.h"
 #include "evaluate/batch/csv.h"
 #include "image/image_io.h"
+#include "support/browser.h"
 
 using namespace duet;
 using namespace duet::test;
@@ -148,6 +150,54 @@ TEST_SUITE("program") {
     o = run_duet(call, options);
     CHECK(column(place, "c.csv", "status") == Texts{"kept", "rendered", "kept", "kept"});
     CHECK(has_same_pixels(place, "out/2.exr", "x2.exr"));
+  }
+
+  TEST_CASE("the report of a batch works in a browser") {
+    const std::string program = browser();
+    if (program.empty()) {
+      MESSAGE("skipped: DUET_BROWSER is none");
+      return;
+    }
+    const Workplace place;
+    for (const char* folder : {"out", "r"}) std::filesystem::create_directory(place.path(folder));
+    place.scene("a.xml");
+    place.write("bad.xml", "<scene version='3.0.0'><shape type='spere'/></scene>");
+    place.write("jobs.csv",
+                "scene,output,spp\na.xml,out/with space & more.png,4\nbad.xml,out/b.png,\n"
+                "a.xml,out/c.png,16\na.xml,out/d.png,8\n");
+    REQUIRE(place.run({"batch", "jobs.csv", "--report", "r/report.html"}).code == 1);
+    const DrivenPage page = drive_page(program, read_file(place.path("r/report.html")), R"(
+      const errors = [];
+      addEventListener("error", (e) => errors.push(e.message));
+      const table = document.getElementById("jobs"), heads = [...table.tHead.rows[0].cells];
+      const shown = () => [...table.tBodies[0].rows].filter((r) => r.offsetHeight > 0);
+      const spp = () => shown().map((r) => r.cells[4].textContent);
+      heads.find((h) => h.textContent === "spp").querySelector("button").click();
+      const sorted = spp();
+      [...document.querySelectorAll(".filter button")]
+        .find((b) => b.textContent.startsWith("failed ")).click();
+      const good = spp();
+      const small = [...table.querySelectorAll("td img")].map((i) => i.naturalWidth);
+      // What the small pictures open is an image.
+      const large = [...table.querySelectorAll("td a")].map((a) => {
+        const image = new Image();
+        image.src = a.href;
+        return image;
+      });
+      when(() => large.every((i) => i.complete),
+           () => finish({sorted, good, small, large: large.map((i) => i.naturalWidth), errors}));
+    )",
+                                       place.path("r"));
+    CAPTURE(page.console);
+    CAPTURE(page.result);
+    const auto r = nlohmann::json::parse(page.result);
+    using List = nlohmann::json;
+    CHECK(r["sorted"] == List{"4", "8", "16", "–"});
+    CHECK(r["good"] == List{"4", "8", "16"});
+    CHECK(r["small"] == List{16, 16, 16});
+    CHECK(r["large"] == List{16, 16, 16});
+    CHECK(r["errors"].empty());
+    CHECK(page.console.empty());
   }
 
   TEST_CASE("what is wrong with a list is said together, and nothing is rendered") {
@@ -293,6 +343,19 @@ TEST_SUITE("program") {
       CHECK(column(place, "c.csv", "spp") == Texts{spp});
       CHECK(!place.has("1.checkpoint.exr"));
     }
+  }
+
+  TEST_CASE("SIGUSR1 gets the images so far, and the jobs go on") {
+    const Workplace place;
+    place.write("jobs.csv", endless_jobs(place, {"1.exr", "2.exr"}));
+    Process duet({"batch", "jobs.csv", "-j", "2", "-t", "2"}, {.directory = place.path("")});
+    for (const char* output : {"1.exr", "2.exr"}) wait_for_samples(place, output);
+    duet.send(SIGUSR1);
+    for (const char* partial : {"1.partial.exr", "2.partial.exr"})
+      CHECK(Process::wait_until([&] { return place.has(partial); }, 300));
+    for (const char* output : {"1.exr", "2.exr"}) CHECK(renderer_of(place.path(output)) != 0);
+    duet.send(SIGINT);
+    CHECK(duet.wait(300).code == 130);
   }
 
   TEST_CASE("no process outlives its batch") {

@@ -5,20 +5,10 @@
 #include <nlohmann/json.hpp>
 
 #include "app/workplace.h"
-#include "image/image_io.h"
+#include "support/image_header.h"
 
 using namespace duet;
 using namespace duet::test;
-
-namespace {
-
-std::string field(const ImageFile& file, const std::string& name) {
-  for (const auto& [key, value] : file.header)
-    if (key == name) return value;
-  return "";
-}
-
-}  // namespace
 
 TEST_SUITE("program") {
   TEST_CASE("Ctrl-C, SIGTERM and SIGHUP keep the image") {
@@ -42,9 +32,9 @@ TEST_SUITE("program") {
       CHECK(read_file(place.path("endless.exr")) == "good");
       const ImageFile file = read_image(place.path("endless.partial.exr"));
       CHECK(file.image.pixel(32, 32)[0] > 0);
-      CHECK(std::stod(field(file, "spp")) >= 1);
-      CHECK(field(file, "interrupted") == "1");
-      CHECK(field(file, "requestedSeconds") == "3600");
+      CHECK(std::stod(header_field(file, "spp")) >= 1);
+      CHECK(header_field(file, "interrupted") == "1");
+      CHECK(header_field(file, "requestedSeconds") == "3600");
       const auto stats = nlohmann::json::parse(read_file(place.path("s.json")));
       CHECK(stats[0]["interrupted"] == true);
       CHECK(place.count() == 5);
@@ -66,9 +56,9 @@ TEST_SUITE("program") {
     CAPTURE(o.err);
     CHECK(o.code == 130);
     const ImageFile file = read_image(place.path("endless.exr"));
-    CHECK(std::stod(field(file, "spp")) >= 1);
-    CHECK(field(file, "requestedSpp") == "1000000");
-    CHECK(field(file, "interrupted") == "1");
+    CHECK(std::stod(header_field(file, "spp")) >= 1);
+    CHECK(header_field(file, "requestedSpp") == "1000000");
+    CHECK(header_field(file, "interrupted") == "1");
     CHECK(!place.has("endless.partial.exr"));
     bool lit = true;
     for (int y = 0; y < 64; ++y)
@@ -91,7 +81,7 @@ TEST_SUITE("program") {
         REQUIRE(Process::wait_until([&] { return place.has("b.partial.png"); }, 300));
       }
       const ImageFile file = read_image(place.path("a.partial.exr"));
-      CHECK(field(file, "interrupted") == "1");
+      CHECK(header_field(file, "interrupted") == "1");
       CHECK(file.image.pixel(32, 32)[0] > 0);
       CHECK(!place.has("a.exr"));
       duet.send(SIGTERM);
@@ -191,7 +181,7 @@ TEST_SUITE("program") {
     CHECK(seconds > 0.5);
     CHECK(seconds < 2);
     CHECK(stats["spp"] >= 2);
-    CHECK(std::stod(field(read_image(place.path("endless.exr")), "spp")) == stats["spp"]);
+    CHECK(std::stod(header_field(read_image(place.path("endless.exr")), "spp")) == stats["spp"]);
     // The samples, if they are used up first.
     const Outcome samples = place.run({"endless.xml", "--time", "1h", "--spp", "2"});
     CHECK(samples.code == 0);

@@ -9,6 +9,7 @@
 
 #include "app/workplace.h"
 #include "image/image_io.h"
+#include "support/image_header.h"
 
 using namespace duet;
 using namespace duet::test;
@@ -17,15 +18,7 @@ namespace {
 
 using Arguments = std::vector<std::string>;
 
-/// A scene whose images keep all bits.
-TinyScene exact_scene() {
-  TinyScene s;
-  s.film = R"(<film type="hdrfilm"><integer name="width" value="16"/>
-    <integer name="height" value="12"/><string name="component_format" value="float32"/></film>)";
-  return s;
-}
-
-/// The same that takes a while: light within a white sphere.
+/// One whose images keep all bits and that takes a while: light within a white sphere.
 TinyScene long_scene() {
   TinyScene s = endless_scene();
   s.film = exact_scene().film;
@@ -44,9 +37,7 @@ void check_same_pixels(const std::string& a, const std::string& b) {
 }
 
 std::string field(const std::string& path, const std::string& name) {
-  for (const auto& [key, value] : read_image(path).header)
-    if (key == name) return value;
-  return "";
+  return header_field(read_image(path), name);
 }
 
 }  // namespace
@@ -250,6 +241,39 @@ TEST_SUITE("program") {
     place.scene("renamed.xml", same);
     CHECK(place.run({"renamed.xml", "--raw", "a.exr", "--checkpoint", "1s", "-D", "spp=9"}).code ==
           0);
+  }
+
+  TEST_CASE("a film with samples that a slice does not have is refused and stays") {
+    const Workplace place;
+    place.scene("tiny.xml", exact_scene());
+    const Arguments eight{"tiny.xml", "--spp", "8"};
+    REQUIRE(place.run(eight + Arguments{"--raw", "all.exr"}).code == 0);
+    const std::string film = read_file(place.path("all.exr"));
+    const Outcome o =
+        place.run(eight + Arguments{"--resume", "all.exr", "--slice", "2/4", "--raw", "b.exr"});
+    CHECK(o.code == 1);
+    CHECK(contains(o.err, "all.exr: has the samples 0:2, 4:8, and only 2:4 are asked for"));
+    CHECK(!place.has("b.exr"));
+    const Outcome same =
+        place.run(eight + Arguments{"--samples", "0:7", "--raw", "all.exr", "--checkpoint", "1s"});
+    CHECK(same.code == 1);
+    CHECK(contains(same.err, "all.exr: has the samples 7:8, and only 0:7 are asked for"));
+    CHECK(read_file(place.path("all.exr")) == film);
+    CHECK(place.run(eight + Arguments{"--resume", "all.exr", "--samples", "0:9", "--raw", "b.exr"})
+              .code == 0);
+  }
+
+  TEST_CASE("merge refuses films for which there is no memory") {
+    const Workplace place;
+    place.scene("tiny.xml", exact_scene());
+    REQUIRE(place.run({"tiny.xml", "--spp", "2", "--size", "900x900", "--raw", "a.exr"}).code == 0);
+    const ProcessOptions little{.directory = place.path(""),
+                                .environment = {{"DUET_MEMORY_LIMIT", "60000000"}}};
+    const Outcome o = run_duet({"merge", "a.exr", "-o", "b.exr"}, little);
+    CHECK(o.code == 1);
+    CHECK(contains(o.err, "the limit is 60 MB"));
+    CHECK(!place.has("b.exr"));
+    CHECK(place.run({"merge", "a.exr", "-o", "b.exr"}).code == 0);
   }
 
   TEST_CASE("a checkpoint that cannot be written is an error, and the one before stays") {

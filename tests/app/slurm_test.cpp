@@ -18,10 +18,7 @@ namespace fs = std::filesystem;
 class Cluster : public Workplace {
  public:
   Cluster() {
-    TinyScene s;
-    s.film = R"(<film type="hdrfilm"><integer name="width" value="16"/>
-      <integer name="height" value="12"/><string name="component_format" value="float32"/></film>)";
-    scene("room.xml", s);
+    scene("room.xml", exact_scene());
     fs::create_directory(path("bin"));
   }
   /// Makes this the program `sbatch`.

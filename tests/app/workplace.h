@@ -35,6 +35,14 @@ struct TinyScene {
   }
 };
 
+/// A scene whose images keep all bits.
+inline TinyScene exact_scene() {
+  TinyScene s;
+  s.film = R"(<film type="hdrfilm"><integer name="width" value="16"/>
+    <integer name="height" value="12"/><string name="component_format" value="float32"/></film>)";
+  return s;
+}
+
 /// Light within a white sphere: there is no end to what can be computed.
 inline TinyScene endless_scene() {
   TinyScene s;

@@ -1,7 +1,9 @@
 #include "base/atomic_file.h"
 
 #include <doctest/doctest.h>
+#include <fcntl.h>
 #include <sys/resource.h>
+#include <unistd.h>
 
 #include <csignal>
 
@@ -66,6 +68,21 @@ TEST_CASE("a disk that fills up keeps the old file and no new one") {
   CHECK(message == path + " cannot be written: File too large");
   CHECK(read_file(path) == "old");
   CHECK(directory.count() == 1);
+}
+
+TEST_CASE("a file that is not whole has no name that could stay") {
+  TemporaryDirectory directory;
+  // Not every file system can do this.
+  const int probe = open(directory.path(".").c_str(), O_WRONLY | O_TMPFILE | O_CLOEXEC, 0666);
+  if (probe < 0) return;
+  close(probe);
+  AtomicFile file(directory.path("a"));
+  file.write("text");
+  file.sync();
+  CHECK(directory.count() == 0);
+  file.commit();
+  CHECK(directory.count() == 1);
+  CHECK(read_file(directory.path("a")) == "text");
 }
 
 TEST_CASE("a file that is written in pieces is there when it is whole") {

@@ -17,6 +17,7 @@
 #include "image/image_facts.h"
 #include "image/image_io.h"
 #include "support/files.h"
+#include "support/image_header.h"
 
 using namespace duet;
 using namespace duet::test;
@@ -31,9 +32,7 @@ Image random_image(int width, int height, const std::vector<std::string>& channe
 }
 
 std::string field(const ImageFile& file, const std::string& name) {
-  for (const auto& [key, value] : file.header)
-    if (key == name) return value;
-  return "(none)";
+  return header_field(file, name, "(none)");
 }
 
 /// Writes by OpenEXR itself a channel of the given type, with samples i at pixel i.

@@ -31,6 +31,13 @@ TEST_CASE("sample intervals: the same as a set of numbers") {
       for (uint32_t k = m.first; k < m.end; ++k) CHECK(rest.insert(k).second);
     for (uint32_t k = wanted.first; k < wanted.end; ++k)
       CHECK(rest.contains(k) != numbers.contains(k));
+    for (const SampleInterval& o : intervals.outside_of(wanted))
+      for (uint32_t k = o.first; k < o.end; ++k) {
+        CHECK((k < wanted.first || k >= wanted.end));
+        CHECK(numbers.erase(k) == 1);
+      }
+    CHECK(std::all_of(numbers.begin(), numbers.end(),
+                      [&](uint32_t k) { return k >= wanted.first && k < wanted.end; }));
     CHECK(std::all_of(rest.begin(), rest.end(), [](uint32_t k) { return k >= 5 && k < 30; }));
   }
 }

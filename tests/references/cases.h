@@ -6,6 +6,7 @@
 #include "image/image_io.h"
 #include "image/metrics.h"
 #include "references/rendering.h"
+#include "support/image_header.h"
 
 namespace duet::test {
 
@@ -80,8 +81,7 @@ struct Reference {
     const ImageFile file = read_image(folder + "/mean.exr");
     mean = file.image;
     variance = read_image(folder + "/variance.exr").image;
-    for (const auto& [key, value] : file.header)
-      if (key == "spp") spp = std::atof(value.c_str());
+    spp = std::atof(header_field(file, "spp").c_str());
     REQUIRE(spp > 0);
   }
   Image mean;

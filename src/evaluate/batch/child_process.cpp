@@ -49,11 +49,13 @@ class SignalsWait {
 
 /// Lets the signals that the parent handles have their effect; what is ignored stays ignored.
 void handle_no_signals() {
-  for (const int signal : {SIGINT, SIGTERM, SIGHUP, SIGUSR1}) {
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
     struct sigaction now {};
     if (sigaction(signal, nullptr, &now) == 0 && now.sa_handler != SIG_IGN)
       ::signal(signal, SIG_DFL);
   }
+  // A wish for the image so far, which must not end a process that does not listen yet.
+  ::signal(SIGUSR1, SIG_IGN);
 }
 
 /// What the new process does before it becomes the program; only async-signal-safe calls.

@@ -87,11 +87,4 @@ std::vector<CsvRow> read_csv(std::string_view text, const std::shared_ptr<const 
   return CsvReader(text, file, diagnostics).read();
 }
 
-std::string csv_field(const std::string& value) {
-  if (value.find_first_of(",\"\r\n") == value.npos) return value;
-  std::string field = "\"";
-  for (const char c : value) field += c == '"' ? std::string("\"\"") : std::string(1, c);
-  return field + '"';
-}
-
 }  // namespace duet::batch

@@ -22,7 +22,4 @@ struct CsvRow {
 std::vector<CsvRow> read_csv(std::string_view text, const std::shared_ptr<const std::string>& file,
                              Diagnostics& diagnostics);
 
-/// A field, in quotes if it needs them.
-std::string csv_field(const std::string& value);
-
 }  // namespace duet::batch

@@ -2,18 +2,16 @@
 
 #include <algorithm>
 #include <charconv>
-#include <map>
 
+#include "evaluate/batch/pbrt_skim.h"
 #include "mitsuba/loader.h"
-#include "pbrt/lexer.h"
 #include "pbrt/pbrt.h"
 
 namespace duet::batch {
 
 namespace {
 
-/// What films have that do not say it (Mitsuba's hdrfilm, pbrt's rgb).
-constexpr double kMitsubaWidth = 768, kMitsubaHeight = 576;
+/// What pbrt's films have that do not say it.
 constexpr double kPbrtWidth = 1280, kPbrtHeight = 720;
 
 /// The numbers of a text, whatever stands between them.
@@ -50,49 +48,29 @@ std::optional<double> mitsuba_pixels(const Job& job) {
   Diagnostics ignored;
   Report report(ignored);
   const NodeTree tree = load_tree(job.scene, options, with_disk({}), report);
+  const FilmDescription preset;
   for (const Node& node : tree.nodes) {
     if (node.kind != PluginKind::film) continue;
-    const double width = film_number(node, "width").value_or(kMitsubaWidth);
-    const double height = film_number(node, "height").value_or(kMitsubaHeight);
+    const double width = film_number(node, "width").value_or(preset.width);
+    const double height = film_number(node, "height").value_or(preset.height);
     return film_number(node, "crop_width").value_or(width) *
            film_number(node, "crop_height").value_or(height);
   }
   if (ignored.has_errors()) return std::nullopt;
-  return kMitsubaWidth * kMitsubaHeight;
-}
-
-/// The parameters of a directive that are numbers, by name.
-std::map<std::string, double> pbrt_numbers(pbrt::Lexer& in) {
-  std::map<std::string, double> numbers;
-  std::string name;
-  for (;;) {
-    const pbrt::Kind kind = in.peek();
-    if (kind == pbrt::Kind::string) {
-      const std::string text = in.take_string();
-      name = text.substr(text.find_last_of(' ') + 1);
-    } else if (kind == pbrt::Kind::number) {
-      std::vector<double> values;
-      in.take_numbers(values);
-      if (!values.empty()) numbers.emplace(name, values[0]);
-    } else if (kind == pbrt::Kind::open || kind == pbrt::Kind::close) {
-      in.take_bracket();
-    } else {
-      return numbers;
-    }
-  }
+  return double(preset.width) * preset.height;
 }
 
 std::optional<double> pbrt_pixels(const std::string& file) {
   pbrt::Lexer in(file);
   while (in.peek() != pbrt::Kind::end) {
     if (in.peek() != pbrt::Kind::word) {
-      pbrt_numbers(in);
+      take_parameters(in);
       continue;
     }
     const std::string directive = in.take_word();
     if (directive == "WorldBegin") break;
     if (directive != "Film") continue;
-    const std::map<std::string, double> film = pbrt_numbers(in);
+    const std::map<std::string, double> film = take_parameters(in);
     const auto number = [&](const char* name, double otherwise) {
       const auto at = film.find(name);
       return at == film.end() ? otherwise : at->second;

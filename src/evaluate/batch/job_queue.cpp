@@ -7,6 +7,7 @@
 #include <charconv>
 #include <chrono>
 #include <cmath>
+#include <csignal>
 #include <filesystem>
 #include <stdexcept>
 
@@ -135,6 +136,8 @@ void JobQueue::run(const QueueEvents& events) {
       signal = asked;
       for (const Running& r : running_) r.process.send(signal);
     }
+    if (events.wants_snapshots())
+      for (const Running& r : running_) r.process.send(SIGUSR1);
     if (signal == 0) start_what_fits();
     if (running_.empty()) return;
     wait_for_messages();

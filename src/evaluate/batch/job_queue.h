@@ -25,6 +25,8 @@ struct QueueSettings {
 struct QueueEvents {
   /// The signal that asks to stop, or 0. The processes get it, too, and no others are started.
   std::function<int()> stop_signal;
+  /// Whether someone wishes the images so far; the processes are told.
+  std::function<bool()> wants_snapshots;
   /// A job has come to its end.
   std::function<void(size_t job, const JobResult& result)> finished;
   /// Several times a second.

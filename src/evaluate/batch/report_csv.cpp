@@ -1,20 +1,10 @@
 // The outcome of a batch for spreadsheets and programs.
-#include <fmt/format.h>
+#include <fmt/ranges.h>
 
-#include "evaluate/batch/csv.h"
 #include "evaluate/batch/reports.h"
+#include "evaluate/report/csv_field.h"
 
 namespace duet::batch {
-
-namespace {
-
-std::string joined(const std::vector<std::string>& texts, const char* separator) {
-  std::string all;
-  for (const std::string& text : texts) all += (all.empty() ? "" : separator) + text;
-  return all;
-}
-
-}  // namespace
 
 std::string outcome_csv(const BatchOutcome& batch) {
   std::string csv =
@@ -28,7 +18,7 @@ std::string outcome_csv(const BatchOutcome& batch) {
         fmt::to_string(i + 1),
         csv_field(job.where.to_string()),
         csv_field(job.scene),
-        csv_field(joined(job.outputs, ";")),
+        csv_field(fmt::format("{}", fmt::join(job.outputs, ";"))),
         status_name(r.status),
         csv_field(r.integrator),
         r.spp > 0 ? fmt::format("{}", r.spp) : "",
@@ -38,7 +28,7 @@ std::string outcome_csv(const BatchOutcome& batch) {
         r.error ? (r.error_is_bound ? "true" : "false") : "",
         r.memory_peak > 0 ? fmt::format("{:.0f}", r.memory_peak) : "",
         was_run && r.is_good() ? fmt::to_string(r.messages.size()) : "",
-        csv_field(r.reason.empty() ? joined(r.messages, "\n") : r.reason)};
+        csv_field(r.reason.empty() ? fmt::format("{}", fmt::join(r.messages, "\n")) : r.reason)};
     for (const std::string& field : fields) csv += (&field == fields ? "" : ",") + field;
     csv += "\r\n";
   }

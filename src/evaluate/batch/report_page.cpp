@@ -3,9 +3,9 @@
 
 #include <filesystem>
 
-#include "base/percent.h"
 #include "base/printable.h"
 #include "base/seconds_text.h"
+#include "evaluate/batch/job_arguments.h"
 #include "evaluate/batch/reports.h"
 #include "evaluate/web/page.h"
 #include "evaluate/web/thumbnail.h"
@@ -77,27 +77,22 @@ std::string details(const Job& job, const JobResult& r) {
     html += "</pre></details>";
   }
   std::string options;
-  for (const JobOption& option : job.options) {
-    if (option.values.empty()) options += " --" + option.name;
-    for (const std::string& value : option.values)
-      options += fmt::format(" --{}={}", option.name, value);
-  }
+  for (const std::string& option : option_arguments(job)) options += " " + option;
   if (!options.empty())
     html += "<div class=\"soft\"><small>" + html_text(options) + "</small></div>";
   return html;
 }
 
 std::string row(const Job& job, const JobResult& r, size_t number, const std::string& page) {
-  const std::string error = r.error ? (r.error_is_bound ? "&lt; " : "") + percent(*r.error) : "";
   return fmt::format(
              "<tr data-verdict=\"{0}\"><td data-value=\"{1}\">{1}</td>{2}<td class=\"name\">{3}"
              "<div class=\"soft\"><small>{4}</small></div></td>"
              "<td class=\"text\"><span class=\"badge {5}\">{0}</span></td>",
              status_name(r.status), number, picture(job, r, page), html_text(job_name(job)),
              html_text(job.scene), badge_class(r.status)) +
-         number_cell(r.spp, r.spp > 0 ? fmt::format("{:.6g}", r.spp) : "") +
+         number_cell(r.spp, spp_text(r)) +
          number_cell(r.seconds, r.seconds > 0 ? seconds_text(r.seconds) : "") +
-         number_cell(r.error.value_or(0), error) +
+         number_cell(r.error.value_or(0), escape_markup(error_text(r))) +
          fmt::format("<td class=\"text\">{}</td></tr>\n", details(job, r));
 }
 

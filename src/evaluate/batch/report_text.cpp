@@ -18,14 +18,6 @@ size_t warning_count(const JobResult& result) {
   return result.is_good() ? result.messages.size() : 0;
 }
 
-std::string spp_text(double spp) {
-  return spp > 0 ? fmt::format("{:.6g}", spp) : "";
-}
-
-std::string error_text(const JobResult& result) {
-  return result.error ? (result.error_is_bound ? "< " : "") + percent(*result.error) : "";
-}
-
 /// The text in so many columns, at their right.
 std::string right(const std::string& text, size_t width) {
   return std::string(width - std::min(width, columns(text)), ' ') + text;
@@ -41,6 +33,14 @@ std::string table_line(const std::vector<std::string>& cells) {
 }
 
 }  // namespace
+
+std::string spp_text(const JobResult& result) {
+  return result.spp > 0 ? fmt::format("{:.6g}", result.spp) : "";
+}
+
+std::string error_text(const JobResult& result) {
+  return result.error ? (result.error_is_bound ? "< " : "") + percent(*result.error) : "";
+}
 
 std::string job_name(const Job& job) {
   return printable(job.outputs.empty() ? job.scene : job.outputs[0]);
@@ -67,7 +67,7 @@ std::string result_text(const JobResult& result) {
     text += (text.empty() || part.empty() ? "" : ", ") + part;
   };
   if (!result.reason.empty()) add(result.reason);
-  if (result.spp > 0) add(spp_text(result.spp) + " spp");
+  if (result.spp > 0) add(spp_text(result) + " spp");
   if (result.status != JobStatus::kept) add(seconds_text(result.seconds));
   if (result.error) add("error " + error_text(result));
   if (const size_t n = warning_count(result); n > 0)
@@ -80,7 +80,7 @@ std::string outcome_table(const BatchOutcome& batch) {
   for (size_t i = 0; i < batch.jobs.size(); ++i) {
     const JobResult& r = batch.results[i];
     const size_t warnings = warning_count(r);
-    text += table_line({status_name(r.status), spp_text(r.spp),
+    text += table_line({status_name(r.status), spp_text(r),
                         r.seconds > 0 ? seconds_text(r.seconds) : "", error_text(r),
                         warnings > 0 ? fmt::to_string(warnings) : "",
                         job_name(batch.jobs[i]) + (r.reason.empty() ? "" : ": " + r.reason)});

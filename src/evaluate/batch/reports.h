@@ -23,6 +23,9 @@ struct BatchOutcome {
 std::string outcome_summary(const BatchOutcome& batch);
 /// "64 spp, 1.2 s, error 3.1 %, 2 warnings", as far as it is known.
 std::string result_text(const JobResult& result);
+/// The samples and the estimate of the error; "" where they are not known.
+std::string spp_text(const JobResult& result);
+std::string error_text(const JobResult& result);
 /// What a job is called: its first output.
 std::string job_name(const Job& job);
 

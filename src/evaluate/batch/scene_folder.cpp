@@ -5,8 +5,8 @@
 #include <set>
 
 #include "base/file_names.h"
+#include "evaluate/batch/pbrt_skim.h"
 #include "mitsuba/loader.h"
-#include "pbrt/lexer.h"
 #include "pbrt/pbrt.h"
 
 namespace duet::batch {
@@ -47,23 +47,12 @@ bool is_mitsuba_scene(const std::string& file, std::set<std::string>& parts) {
 bool is_pbrt_scene(const std::string& file) {
   try {
     pbrt::Lexer in(file);
-    std::vector<double> numbers;
-    for (;;) switch (in.peek()) {
-        case pbrt::Kind::end:
-          return false;
-        case pbrt::Kind::word:
-          if (in.take_word() == "WorldBegin") return true;
-          break;
-        case pbrt::Kind::string:
-          in.take_string();
-          break;
-        case pbrt::Kind::number:
-          numbers.clear();
-          in.take_numbers(numbers);
-          break;
-        default:
-          in.take_bracket();
-      }
+    while (in.peek() != pbrt::Kind::end)
+      if (in.peek() != pbrt::Kind::word)
+        take_parameters(in);
+      else if (in.take_word() == "WorldBegin")
+        return true;
+    return false;
   } catch (const pbrt::SyntaxError&) {
     return true;  // rendering it will tell where
   } catch (const ReadError&) {

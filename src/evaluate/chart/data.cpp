@@ -5,17 +5,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "evaluate/report/csv_field.h"
+
 namespace duet {
 
 namespace {
-
-/// A field of a CSV file (RFC 4180).
-std::string field(const std::string& text) {
-  if (text.find_first_of(",\"\r\n") == std::string::npos) return text;
-  std::string out = "\"";
-  for (const char c : text) out += c == '"' ? "\"\"" : std::string(1, c);
-  return out + "\"";
-}
 
 /// The root of a squared error that may be below zero because of what was subtracted.
 double root(double squared) {
@@ -140,7 +134,7 @@ std::string chart_csv(const ChartScene& scene) {
   for (const ChartLine& line : scene.lines)
     for (const ChartPoint& p : line.points)
       csv +=
-          fmt::format("{},{:.4f},{:.4f},{},{:.6g},{:.6g},{:.6g},{:.6g}\n", field(line.name),
+          fmt::format("{},{:.4f},{:.4f},{},{:.6g},{:.6g},{:.6g},{:.6g}\n", csv_field(line.name),
                       p.seconds, p.cpu_seconds, p.spp, root(p.mse), p.relmse, p.trimmed, p.firefly);
   return csv;
 }
@@ -153,12 +147,12 @@ std::string summary_csv(const std::vector<ChartScene>& scenes) {
       if (line.points.empty()) continue;
       const ChartPoint& p = line.points.back();
       const auto e = efficiency(line);
-      csv += fmt::format("{},{},{},{:.4f},{:.6g},{:.6g},{},{},{},{}\n", field(scene.name),
-                         field(line.name), p.spp, p.cpu_seconds, p.trimmed, p.firefly,
+      csv += fmt::format("{},{},{},{:.4f},{:.6g},{:.6g},{},{},{},{}\n", csv_field(scene.name),
+                         csv_field(line.name), p.spp, p.cpu_seconds, p.trimmed, p.firefly,
                          line.by_time.slope ? fmt::format("{:.4f}", line.by_time.slope->slope) : "",
                          e ? fmt::format("{:.6g}", e->value) : "",
                          e ? fmt::format("{:.4f}", e->value / best_efficiency(scene)) : "",
-                         field(scene.reference_source));
+                         csv_field(scene.reference_source));
     }
   return csv;
 }

@@ -1,8 +1,11 @@
 #include "evaluate/raw/merge.h"
 
 #include <algorithm>
+#include <stdexcept>
 
 #include "base/diagnostics.h"
+#include "base/memory_limit.h"
+#include "evaluate/report/memory_estimate.h"
 
 namespace duet {
 
@@ -33,6 +36,14 @@ void check_overlaps(const std::vector<RawFilm>& films) {
                                       to_string(films[k].state().samples.all())));
 }
 
+void check_memory(const RawImage& image) {
+  const size_t films = image.target_error ? kErrorBatches : 1;
+  const MemoryEstimate estimate = estimate_memory(image.contents, image.form.full_precision.size(),
+                                                  image.layout, films, image.form.half);
+  const std::string why = memory_refusal(estimate, memory_in_use(), memory_limit());
+  if (!why.empty()) throw std::runtime_error(why);
+}
+
 }  // namespace
 
 MergedFilms merge_raw_films(const std::vector<std::string>& paths) {
@@ -42,6 +53,7 @@ MergedFilms merge_raw_films(const std::vector<std::string>& paths) {
     if (films.size() > 1) check(films.front(), films.back());
   }
   check_overlaps(films);
+  check_memory(films.front().image());
   std::stable_sort(films.begin(), films.end(), [](const RawFilm& a, const RawFilm& b) {
     return first_sample(a) < first_sample(b);
   });

@@ -19,7 +19,8 @@ struct MergedFilms {
 
 /// Adds up raw films, in whatever order they are named; one is in memory at a time. Throws
 /// ReadError, which names the files, if one cannot be read or is damaged, if two are not of one
-/// image (difference()) or have samples in common.
+/// image (difference()) or have samples in common, and std::runtime_error if
+/// there is no room for the sums and the image.
 MergedFilms merge_raw_films(const std::vector<std::string>& paths);
 
 }  // namespace duet

@@ -21,9 +21,9 @@ struct PixelBytes {
   double encoded;    ///< as a file; it grows by copying, and not everything can be compressed
 };
 
-PixelBytes pixel_bytes(const Integrator& integrator, bool half) {
-  const double channels = double(integrator.channels().size());
-  const double exact = half ? double(integrator.data_channels().size()) : channels;
+PixelBytes pixel_bytes(size_t all_channels, size_t data_channels, bool half) {
+  const double channels = double(all_channels);
+  const double exact = half ? double(data_channels) : channels;
   PixelBytes b;
   b.sums = (channels + 1) * sizeof(double);
   b.image = b.converted = channels * sizeof(float);
@@ -33,32 +33,36 @@ PixelBytes pixel_bytes(const Integrator& integrator, bool half) {
 
 }  // namespace
 
-MemoryEstimate estimate_memory(const Integrator& integrator, const FilmLayout& layout,
-                               const RenderBudget& budget, bool half) {
-  const std::vector<std::string> channels = integrator.channels();
+MemoryEstimate estimate_memory(const FilmContents& contents, size_t data_channels,
+                               const FilmLayout& layout, size_t films, bool half) {
+  const size_t channels = contents.channels.size();
   const double pixels = double(layout.crop.width()) * layout.crop.height();
-  // How many layers of splats there are, and whether of moments, a film of one pixel tells, too.
-  Film small({{1, 1}, {0, 0, 1, 1}, layout.filter}, channels);
-  integrator.prepare(small);
-  const double tiles = Film::tile_bytes(layout, channels.size());
-  const double film = tiles + small.layer_bytes(layout);
-  const int films = budget.target_error ? kErrorBatches : 1;
-
-  const PixelBytes b = pixel_bytes(integrator, half);
+  const Film small({{1, 1}, {0, 0, 1, 1}, layout.filter}, contents);
+  const double film = Film::tile_bytes(layout, channels) + small.layer_bytes(layout);
+  const PixelBytes b = pixel_bytes(channels, data_channels, half);
   const double developing = pixels * (b.sums + b.image);
   const double writing = pixels * (b.image + b.converted + b.encoded);
   MemoryEstimate e;
-  e.films = films * film;
-  e.method = integrator.memory_bytes(layout);
-  if (budget.target_error) {
+  e.films = kSlack * double(films) * film;
+  if (films > 1) {
     // All films are developed to compare them (batch_relative_rmse).
-    const double comparing = pixels * (b.sums + films * b.image);
-    e.copies = std::max(comparing, writing);
+    const double comparing = pixels * (b.sums + double(films) * b.image);
+    e.copies = kSlack * std::max(comparing, writing);
   } else {
-    e.copies = PartialMeans::memory_bytes(pixels, small.splat_layer_count() > 0) +
-               std::max(developing, writing);
+    e.copies = kSlack * (PartialMeans::memory_bytes(pixels, !contents.splats.empty()) +
+                         std::max(developing, writing));
   }
-  e.films *= kSlack, e.copies *= kSlack;
+  return e;
+}
+
+MemoryEstimate estimate_memory(const Integrator& integrator, const FilmLayout& layout,
+                               const RenderBudget& budget, bool half) {
+  // What is gathered, a film of one pixel tells, too.
+  Film small({{1, 1}, {0, 0, 1, 1}, layout.filter}, integrator.channels());
+  integrator.prepare(small);
+  MemoryEstimate e = estimate_memory(small.contents(), integrator.data_channels().size(), layout,
+                                     budget.target_error ? kErrorBatches : 1, half);
+  e.method = integrator.memory_bytes(layout);
   return e;
 }
 

@@ -19,7 +19,11 @@ struct MemoryEstimate {
   double total() const { return films + method + copies; }
 };
 
-/// To be asked after Integrator::begin(). `half`: colours become 16-bit floats in files.
+/// Of a number of films, which are developed and written as images. `data_channels` of their
+/// channels are no colours; `half`: colours become 16-bit floats in files.
+MemoryEstimate estimate_memory(const FilmContents& contents, size_t data_channels,
+                               const FilmLayout& layout, size_t films, bool half);
+/// Of a render. To be asked after Integrator::begin().
 MemoryEstimate estimate_memory(const Integrator& integrator, const FilmLayout& layout,
                                const RenderBudget& budget, bool half);
 

@@ -2,6 +2,8 @@
 
 #include <doctest/doctest.h>
 
+#include "evaluate/report/csv_field.h"
+
 using namespace duet;
 using namespace duet::batch;
 

@@ -5,6 +5,7 @@
 #include <cstring>
 #include <random>
 
+#include "evaluate/raw/identity.h"
 #include "evaluate/raw/merge.h"
 #include "image/image_io.h"
 #include "support/transport_scene.h"
@@ -59,15 +60,13 @@ class RoomRender {
         way_(way) {
     layout_.filter.kind = way.filter;
     if (way.crop) layout_.crop = *way.crop;
-    image.integrator = way.method;
-    image.seed = 5;
-    image.layout = layout_;
-    image.form = {layout_.crop, layout_.full, PixelFormat::rgba, false, {}, {}};
     const auto integrator = make();
     integrator->begin(*scene_.scene, {layout_.full, kSpp, 1});
-    Film pixel({{1, 1}, {0, 0, 1, 1}, layout_.filter}, integrator->channels());
-    integrator->prepare(pixel);
-    image.contents = pixel.contents();
+    RenderRecord record;
+    record.integrator = way.method;
+    record.seed = 5;
+    image = raw_image(record, *integrator, layout_);
+    image.form = {layout_.crop, layout_.full, PixelFormat::rgba, false, {}, {}};
   }
 
   RenderRequest request(int spp, int threads = 1) const {

@@ -1,0 +1,20 @@
+// The sensor and the method that the command line chooses for a scene.
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "app/render_options.h"
+#include "base/log.h"
+
+namespace duet {
+
+/// The sensor of -s. Throws UsageError if the scene of this file does not have it.
+SensorDescription& chosen_sensor(SceneDescription& scene, size_t number, const std::string& file);
+
+/// Makes the method, which takes the place of the scene's, and reports what it cannot render.
+/// Throws UsageError for a method or parameters that there are not, and SceneFailure after errors.
+std::unique_ptr<Integrator> chosen_method(SceneDescription& scene, const SensorDescription& sensor,
+                                          const RenderOptions& options, Log& log);
+
+}  // namespace duet
