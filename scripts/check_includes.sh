@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Fails if an #include goes against the dependencies of the modules:
-#   app -> evaluate -> {integrators, parsers}; integrators -> transport -> scene
+#   app -> evaluate; python -> library -> evaluate -> {integrators, parsers}; integrators -> transport -> scene
 #       -> {materials, lights, media, cameras} -> textures -> {geometry, image} -> math -> base
 #   parsers -> scene/description.h and, of a description, scene/field_parameters.h, scene/filter_fields.h,
 #              scene/texture_uses.h, scene/texture_value.h and scene/texture_texels.h,
@@ -13,7 +13,7 @@ cd "$(dirname "$0")/.."
 
 find src parsers -name '*.h' -o -name '*.cpp' | sort | xargs awk '
   BEGIN {
-    n = split("app:10 evaluate:9 parsers:8 integrators:8 transport:7 scene:6 materials:5 lights:5 media:5 " \
+    n = split("app:10 python:11 library:10 evaluate:9 parsers:8 integrators:8 transport:7 scene:6 materials:5 lights:5 media:5 " \
               "cameras:5 textures:4 geometry:3 image:3 math:2 base:1", entries, " ")
     for (i = 1; i <= n; ++i) { split(entries[i], e, ":"); level[e[1]] = e[2] }
   }
@@ -29,6 +29,7 @@ find src parsers -name '*.h' -o -name '*.cpp' | sort | xargs awk '
     if (to == "mitsuba" || to == "mesh" || to == "volume" ||
         to == "curves" || to == "measured" || to == "weave" || to == "values" || to == "xml" ||
         to == "pbrt" || to == "files") to = "parsers"
+    if (to == "duet") to = "library"
     if (!(to in level)) { print FILENAME ":" FNR ": include of unknown module: " target; bad = 1; next }
     ok = to == module || level[to] < level[module]
     if (module == "parsers" && to != "parsers")

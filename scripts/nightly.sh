@@ -11,6 +11,9 @@ declare -A about=(
   [clang]="clang 14 compiles everything, without precompiled headers; warnings are errors"
   [bench]="every benchmark builds and runs once"
   [slurm]="\`duet slurm\` against Slurm's daemons on this machine: \`tests/slurm_test.py\`"
+  [package]="the Debian package installs and renders in a new Debian 12: \`tests/package_test.sh\`"
+  [library]="programs with the installed C++ library, by two compilers: \`tests/library_test.sh\`"
+  [python]="the Python package: \`scripts/python.sh\`"
   [fuzz]="every fuzzer, ${DUET_FUZZ_SECONDS:-120} seconds"
   [tsan]="unit tests under the thread sanitizer"
   [statistics]="statistics under the address and undefined-behaviour sanitizers"
@@ -20,7 +23,7 @@ declare -A about=(
   [mutations]="every bug of \`tests/mutations.py\` is noticed"
 )
 # Cheap ones first.
-stages=(clang bench slurm fuzz tsan statistics slow agreement stability mutations)
+stages=(clang bench slurm package library python fuzz tsan statistics slow agreement stability mutations)
 logs=build-nightly
 table=docs/nightly.md
 
@@ -52,6 +55,22 @@ run_slurm() {
   scripts/build.sh release duet
   # Not by ctest: where it is skipped, it is not tested.
   tests/slurm_test.py build/duet
+}
+
+run_package() {
+  scripts/package.sh
+  tests/package_test.sh build/duet_*.deb "$PWD/$logs/debian"
+}
+
+run_library() {
+  scripts/build.sh release duet
+  tests/library_test.sh build/duet
+}
+
+run_python() {
+  scripts/build.sh release duet
+  scripts/python.sh 2>&1 | tee "$logs/python.txt"
+  grep '^Ran ' "$logs/python.txt"
 }
 
 run_fuzz() {

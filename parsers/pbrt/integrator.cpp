@@ -11,13 +11,14 @@ namespace {
 
 using enum Status;
 
-#define DUET_PATH_SPECS                                          \
-  {"maxdepth", kInteger, "5", "scattering events"},              \
-      {"rrthreshold", kNumber, "1", "", 1, inert, Versions::v3}, \
-      {"lightsampler", kString, "bvh", "", 1, inert},            \
-      {"lightsamplestrategy", kString, "spatial", "", 1, inert}, \
-      {"regularize", kBoolean, "false", "", 1, ignored}, {       \
-    "pixelbounds", kInteger, "", "", 4, ignored, Versions::v3    \
+#define DUET_PATH_SPECS                                                             \
+  {"maxdepth", kInteger, "5", "scattering events"},                                 \
+      {"rrthreshold", kNumber, "1", "", 1, inert, Versions::v3},                    \
+      {"lightsampler", kString, "",                                                 \
+       "bvh, power, uniform or exhaustive; default: bvh if there are many lights"}, \
+      {"lightsamplestrategy", kString, "", "the same in v3, or spatial"},           \
+      {"regularize", kBoolean, "false", "", 1, ignored}, {                          \
+    "pixelbounds", kInteger, "", "", 4, ignored, Versions::v3                       \
   }
 
 constexpr Spec kPath[] = {DUET_PATH_SPECS};
@@ -55,9 +56,25 @@ bool has_passing_surfaces(const SceneDescription& scene) {
   return false;
 }
 
+LightSelection light_selection(Values& v) {
+  using enum LightSelection;
+  constexpr std::pair<std::string_view, LightSelection> known[] = {
+      {"bvh", bvh},         {"exhaustive", bvh},    {"power", power},
+      {"uniform", uniform}, {"spatial", automatic}, {"", automatic}};
+  const std::string_view parameter = v.has("lightsampler") ? "lightsampler" : "lightsamplestrategy";
+  const std::string name = v.string(parameter);
+  for (const auto& [word, selection] : known)
+    if (name == word) return selection;
+  v.reader().report().warning(v.where(parameter),
+                              "there is no light sampler {}; lights are chosen as without it",
+                              in_quotes(name));
+  return automatic;
+}
+
 /// `beneath`: light is followed beneath surfaces that have a medium of their own.
 PathLimits limits(Values& v, bool beneath) {
   PathLimits limits;
+  limits.light_selection = light_selection(v);
   if (beneath) {
     v.reader().approximate(v.where("maxdepth"),
                            "paths of any depth: the limit would count walks beneath surfaces");
@@ -106,7 +123,9 @@ void read_simple_volume_path(Values& v, SceneDescription& scene) {
 BidirectionalIntegratorDescription bidirectional(Values& v, BidirectionalMethod method) {
   BidirectionalIntegratorDescription b;
   b.method = method;
-  b.max_depth = limits(v, v.reader().has_interiors()).max_depth;
+  const PathLimits all = limits(v, v.reader().has_interiors());
+  b.max_depth = all.max_depth;
+  b.light_selection = all.light_selection;
   return b;
 }
 
@@ -138,8 +157,10 @@ void read_occlusion(Values& v, SceneDescription& scene) {
   scene.integrator.method = o;
 }
 
-void read_direct(Values&, SceneDescription& scene) {
-  scene.integrator.method = DirectIntegratorDescription{};
+void read_direct(Values& v, SceneDescription& scene) {
+  DirectIntegratorDescription direct;
+  direct.light_selection = light_selection(v);
+  scene.integrator.method = direct;
 }
 
 using ReadIntegrator = void (*)(Values&, SceneDescription&);

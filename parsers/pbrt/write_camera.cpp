@@ -94,19 +94,26 @@ void SceneWriter::integrator() {
   };
   if (std::visit(is_strict, i.method))
     lose("directions on which the shading and the geometric normal disagree count");
-  const auto limits = [&](std::string_view name, int segments, bool hides) {
-    if (hides) lose("lights can be seen directly");
+  const auto limits = [&](std::string_view name, int segments, const auto& m) {
     Statement s("Integrator", name);
     s.integer("maxdepth", segments < 0 ? kNoLimit : std::max(segments - 1, 0));
+    if constexpr (requires {
+                    m.hide_emitters;
+                    m.light_selection;
+                  }) {
+      if (m.hide_emitters) lose("lights can be seen directly");
+      if (m.light_selection != LightSelection::automatic)
+        s.string("lightsampler", kLightSelectionNames[size_t(m.light_selection)]);
+    }
     return s;
   };
   const auto write = [&]<class T>(const T& m) -> Statement {
     if constexpr (std::is_same_v<T, PathIntegratorDescription>)
-      return limits("path", m.max_depth, m.hide_emitters);
+      return limits("path", m.max_depth, m);
     else if constexpr (std::is_same_v<T, VolumePathIntegratorDescription>)
-      return limits("volpath", m.max_depth, m.hide_emitters);
+      return limits("volpath", m.max_depth, m);
     else if constexpr (std::is_same_v<T, DirectIntegratorDescription>)
-      return limits("path", 2, m.hide_emitters);
+      return limits("path", 2, m);
     else if constexpr (std::is_same_v<T, OcclusionIntegratorDescription>) {
       if (m.background) lose("where the camera sees nothing, ambient occlusion is black");
       Statement s("Integrator", "ambientocclusion");
@@ -116,19 +123,19 @@ void SceneWriter::integrator() {
     } else if constexpr (std::is_same_v<T, BidirectionalIntegratorDescription>) {
       using enum BidirectionalMethod;
       if (m.is(ppm)) {
-        Statement s = limits("sppm", m.max_depth, m.hide_emitters);
+        Statement s = limits("sppm", m.max_depth, m);
         if (m.radius > 0) s.number("radius", m.radius);
         return s;
       }
       if (!m.is(bdpt) && !m.is(ptracer))
         lose(fmt::format("pbrt has no integrator \"{}\": bdpt takes its place", m.method_name()));
-      return limits(m.is(ptracer) ? "lightpath" : "bdpt", m.max_depth, m.hide_emitters);
+      return limits(m.is(ptracer) ? "lightpath" : "bdpt", m.max_depth, m);
     } else {
       lose(fmt::format("pbrt has no integrator \"{}\": volpath takes its place", m.method_name()));
       if constexpr (std::is_base_of_v<PathLimits, T>)
-        return limits("volpath", m.max_depth, m.hide_emitters);
+        return limits("volpath", m.max_depth, m);
       else
-        return limits("volpath", -1, false);
+        return limits("volpath", -1, m);
     }
   };
   head_text_ += std::visit(write, i.method).text();

@@ -11,6 +11,7 @@
 #include "app/commands.h"
 #include "app/output.h"
 #include "app/scene_operand.h"
+#include "base/parallel.h"
 
 namespace duet {
 

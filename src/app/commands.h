@@ -39,5 +39,7 @@ void add_compare_command(CLI::App& app, Program& program);
 void add_chart_command(CLI::App& app, Program& program);
 void add_plugins_command(CLI::App& app, Program& program);
 void add_stability_command(CLI::App& app, Program& program);
+/// Tells of all commands that were added.
+void add_completion_command(CLI::App& app);
 
 }  // namespace duet

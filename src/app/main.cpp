@@ -14,6 +14,7 @@
 #include "app/help.h"
 #include "app/program.h"
 #include "app/standard_streams.h"
+#include "app/version.h"
 #include "base/diagnostics.h"
 #include "base/shell.h"
 #include "evaluate/report/provenance.h"
@@ -71,11 +72,19 @@ int run(std::vector<std::string> arguments, Program& program) {
   CLI::App app{
       "Duet renders the Mitsuba scenes you already have and says how accurate the images are.",
       "duet"};
-  app.set_version_flag("--version", "duet " DUET_VERSION);
+  app.set_version_flag(
+      "--version",
+      [&app] { return app.count("--verbose") > 0 ? version_text() : "duet " DUET_VERSION; },
+      "Print the version and exit; with -v that of all libraries, too");
+  app.add_flag("-v,--verbose")->group("");
   app.require_subcommand(1);
   app.footer(
       "duet SCENE... is short for duet render SCENE...\n"
-      "duet help COMMAND, or duet COMMAND --help, has its options and examples.");
+      "duet help COMMAND, or duet COMMAND --help, has its options and examples.\n\n"
+      "Environment:\n"
+      "  DUET_THREADS        number of threads where no option says it\n"
+      "  DUET_PATH           further folders to look for files of scenes, between colons\n"
+      "  DUET_MEMORY_LIMIT   bytes of memory that a render may take");
   app.formatter(std::make_shared<HelpFormatter>());
   add_render_command(app, program);
   add_batch_command(app, program);
@@ -87,6 +96,7 @@ int run(std::vector<std::string> arguments, Program& program) {
   add_chart_command(app, program);
   add_plugins_command(app, program);
   add_stability_command(app, program);
+  add_completion_command(app);
   try {
     arguments = in_full(std::move(arguments), app);
     const std::string help = arguments.empty() ? "duet --help" : "duet " + arguments[0] + " --help";

@@ -4,9 +4,9 @@
 
 #include "app/arguments.h"
 #include "app/commands.h"
+#include "app/display_options.h"
 #include "app/output.h"
 #include "app/program.h"
-#include "app/scene_images.h"
 #include "base/diagnostics.h"
 #include "evaluate/raw/merge.h"
 #include "evaluate/raw/slices.h"
@@ -19,7 +19,7 @@ namespace {
 
 struct MergeOptions {
   std::vector<std::string> films, outputs;
-  std::string png, raw, stats, exposure = "0", slices, spp, slice_command;
+  std::string png, raw, stats, exposure = "0", tone_map, slices, spp, slice_command;
   bool quiet = false;
 };
 
@@ -72,7 +72,7 @@ class ExpectedSlices {
 int merge(MergeOptions o, Program& program) {
   if (o.quiet) program.log.set_level(Log::Level::quiet);
   if (!o.png.empty()) o.outputs.push_back(o.png);
-  const double exposure = parse_amount("--exposure", o.exposure, {{"", 1}}, -100, 100);
+  const DisplaySettings display = parse_display(o.exposure, o.tone_map);
   if (o.outputs.empty() && o.raw.empty())
     throw UsageError("merge: -o, --png or --raw has to name a file");
   for (const std::string& path : o.outputs) {
@@ -94,25 +94,16 @@ int merge(MergeOptions o, Program& program) {
   }
   const MergedFilms merged = merge_raw_films(o.films);
   if (merged.result.spp == 0) throw std::runtime_error("the films have no samples");
-  for (const std::string& path : o.outputs) check_has_colours(path, merged.image.contents.channels);
-  RenderRecord record;
+  check_formats(o.outputs, merged.image.contents.channels);
+  RenderRecord record = record_of(merged);
   record.command_line = program.command_line;
-  record.scene_file = fmt::format("{} raw films", merged.films);
-  record.integrator = merged.image.integrator;
-  record.decision = merged.image.decision;
-  record.noise_only = merged.image.noise_only;
-  record.seed = merged.image.seed;
   record.threads = program.threads();
   const std::string gaps = to_string(slices.gaps(merged));
   if (!gaps.empty()) program.log.warning("samples are missing: {}", gaps);
   if (!o.raw.empty()) write_raw_film(o.raw, merged.image, merged.state);
-  HeaderFields header = merged.image.header;
-  for (HeaderField& field : samples_header(record, merged.result))
-    header.push_back(std::move(field));
-  header.emplace_back("slices", int(merged.films));
-  if (!gaps.empty()) header.emplace_back("missingSamples", gaps);
+  const HeaderFields header = header_of(merged, record, gaps);
   for (const std::string& path : o.outputs)
-    write_image_file(path, merged.result.image, merged.image.form, header, exposure);
+    write_image(path, merged.result.image, merged.image.form, header, display);
   if (!o.stats.empty()) {
     StatisticsFile statistics(o.stats);
     statistics.add(record, merged.result, {.render = merged.result.seconds}, {});
@@ -133,7 +124,7 @@ void add_merge_command(CLI::App& app, Program& program) {
       ->allow_extra_args(false);
   c->add_option("--png", o->png, "Image for display");
   c->add_option("--raw", o->raw, "All of them as one raw film, to go on from");
-  c->add_option("--exposure", o->exposure, "Exposure of .png and .jpg, in stops");
+  add_display_options(*c, o->exposure, o->tone_map);
   c->add_option("--stats", o->stats, "Write statistics as JSON to this file");
   c->add_option("--slices", o->slices,
                 "The films are this many slices, as of duet render --slice, of all samples; those "

@@ -11,7 +11,6 @@
 #include "app/scene_operand.h"
 #include "app/standard_output.h"
 #include "base/atomic_file.h"
-#include "base/file_names.h"
 
 namespace duet {
 
@@ -36,21 +35,19 @@ OutputNames output_names(const std::string& scene_file) {
   return {says_nothing ? folder : path.stem().string(), folder, "", "", ""};
 }
 
-bool is_display_format(const std::string& path) {
-  const std::string format = image_format(path);
-  return format == "png" || format == "jpg";
-}
-
-void check_has_colours(const std::string& path, const std::vector<std::string>& channels) {
-  if (is_display_format(path) && channels[0] != "R")
-    throw UsageError(
-        fmt::format("-o {}: the image has layers only, which .exr files can hold", path));
-}
-
-std::string image_format(const std::string& path) {
-  const std::string e = extension_of(path);
-  if (e == ".exr" || e == ".png" || e == ".jpg") return e.substr(1);
-  return e == ".jpeg" ? "jpg" : "";
+void check_formats(const std::vector<std::string>& paths,
+                   const std::vector<std::string>& channels) {
+  const bool keeps_layers = !std::all_of(paths.begin(), paths.end(), is_display_format);
+  for (const std::string& path : paths) {
+    if (is_display_format(path) && channels[0] != "R")
+      throw UsageError(
+          fmt::format("-o {}: the image has layers only, which .exr files can hold", path));
+    // Colours and alpha come first.
+    if (!keeps_layers && channels.size() > 4)
+      throw UsageError(
+          fmt::format("-o {}: only .exr files can hold the other layers ({}{}); write one, too",
+                      path, channels[4], channels.size() > 5 ? ", …" : ""));
+  }
 }
 
 std::string output_path(const std::string& pattern, const OutputNames& names,
@@ -95,17 +92,10 @@ std::string prepare_file(const std::string& path) {
   return "";
 }
 
-void write_image(const std::string& path, const Image& image, PixelFormat format,
-                 const ExrOptions& exr, const DisplayOptions& display) {
-  const auto encode = [&](const std::string& to) {
-    if (!is_display_format(to)) return exr_bytes(to, in_pixel_format(image, format), exr);
-    const bool with_alpha = has_alpha(format) && extension_of(to) == ".png";
-    const DisplayImage shown = to_display(image, display, is_grey(format), with_alpha);
-    return display_image_bytes(to, image.width, image.height, shown.channels, shown.bytes,
-                               display.fields);
-  };
+void write_image(const std::string& path, const Image& image, const ImageForm& form,
+                 const HeaderFields& header, const DisplaySettings& display) {
   const auto write = [&](const std::string& to) {
-    const std::vector<uint8_t> bytes = encode(to);
+    const std::vector<uint8_t> bytes = image_file_bytes(to, image, form, header, display);
     if (is_standard_output(to)) return write_standard_output(bytes);
     // The number of samples may be part of its name, and is known only now.
     std::error_code ignored;

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "scene/film_image.h"
+#include "evaluate/report/image_file.h"
 
 namespace duet {
 
@@ -28,13 +28,9 @@ OutputNames output_names(const std::string& scene_file);
 std::string output_path(const std::string& pattern, const OutputNames& names,
                         const std::string& extension = ".exr");
 
-/// Whether the path's extension is that of a format for display: png, jpg or jpeg.
-bool is_display_format(const std::string& path);
-/// Throws UsageError if an image without colours is to be written in a format for display.
-void check_has_colours(const std::string& path, const std::vector<std::string>& channels);
-/// The format that images of such a name are written in: "exr", "png", "jpg" or, for all others,
-/// "".
-std::string image_format(const std::string& path);
+/// Throws UsageError if files cannot hold what an image has: formats for display no image without
+/// colours, and they alone no further layers.
+void check_formats(const std::vector<std::string>& paths, const std::vector<std::string>& channels);
 
 /// Makes a directory and those above it. Whether it is there now; the current one has an empty
 /// name.
@@ -44,10 +40,10 @@ bool make_directories(const std::filesystem::path& directory, std::error_code& e
 /// be.
 std::string prepare_file(const std::string& path);
 
-/// Writes the image (channels R, G, B, A first, if it has colours) in the format of the path's
-/// extension, into directories that are made if they are missing. If that fails the image is saved
-/// as EXR in the temporary directory instead. Throws std::runtime_error with both facts.
-void write_image(const std::string& path, const Image& image, PixelFormat format,
-                 const ExrOptions& exr, const DisplayOptions& display);
+/// Writes an image (image_file_bytes()) into directories that are made if they are missing. If that
+/// fails the image is saved as EXR in the temporary directory instead. Throws std::runtime_error
+/// with both facts.
+void write_image(const std::string& path, const Image& image, const ImageForm& form,
+                 const HeaderFields& header, const DisplaySettings& display);
 
 }  // namespace duet

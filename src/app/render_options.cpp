@@ -7,6 +7,8 @@
 
 #include "app/arguments.h"
 #include "app/commands.h"
+#include "app/display_options.h"
+#include "app/live_display.h"
 #include "app/output.h"
 #include "app/program.h"
 #include "app/standard_output.h"
@@ -54,6 +56,11 @@ void RenderOptionParser::add_method_options(CLI::App& c) {
                "noisy parts get more samples");
   c.add_flag("--require-target", options_.require_target,
              "Exit with 4 if --target-error is not met when time or samples are used up");
+  c.add_option(
+       "--light-selection", light_selection_,
+       "By what light samples choose a light: auto, bvh (a tree: near ones first), power or "
+       "uniform; the same as -I light_selection=NAME")
+      ->check(CLI::IsMember({"auto", "bvh", "power", "uniform"}));
   c.add_option("--seed", seed_, "Seed of the random numbers");
   c.add_flag("--strict-sampler", options_.strict_sampler,
              "The sampler that the scene names, instead of Duet's Sobol' points");
@@ -72,7 +79,7 @@ void RenderOptionParser::add_image_options(CLI::App& c) {
       ->expected(0, 1)
       ->default_str("weighted")
       ->check(CLI::IsMember({"weighted", "raw"}));
-  c.add_option("--exposure", exposure_, "Exposure of .png and .jpg, in stops");
+  add_display_options(c, exposure_, tone_map_);
 }
 
 void RenderOptionParser::add_output_options(CLI::App& c) {
@@ -99,6 +106,9 @@ void RenderOptionParser::add_output_options(CLI::App& c) {
   c.add_flag("-v,--verbose", o.verbose, "More messages")->excludes(quiet);
   c.add_option("--progress", progress_, "auto, bar, plain or none")
       ->check(CLI::IsMember({"auto", "bar", "plain", "none"}));
+  c.add_option("--display", viewer_,
+               "Show the image as it grows in a viewer: tev, tev://HOST or tev://HOST:PORT "
+               "(default: 127.0.0.1:14158)");
   c.add_option("--log", o.log_file, "Write all messages to this file, too");
 }
 
@@ -157,7 +167,7 @@ void RenderOptionParser::finish_numbers() {
   if (!time_.empty()) budget.seconds = parse_seconds("--time", time_);
   if (!target_.empty())
     budget.target_error = parse_amount("--target-error", target_, {{"", 1}, {"%", 0.01}}, 1e-6, 1);
-  options_.exposure = parse_amount("--exposure", exposure_, {{"", 1}}, -100, 100);
+  options_.display = parse_display(exposure_, tone_map_);
   options_.threads = program_.threads();
   if (!threads_.empty()) {
     const int wanted = int(parse_whole("--threads", threads_, 1, kMaxThreads));
@@ -233,6 +243,8 @@ RenderOptions RenderOptionParser::finish() {
   if (!o.integrator.name.empty()) o.read.methods = {o.integrator.name};
   for (const std::string& p : integrator_parameters_)
     o.integrator.parameters.push_back(parse_assignment("-I", p));
+  if (!light_selection_.empty())
+    o.integrator.parameters.emplace_back("light_selection", light_selection_);
   o.integrator.layers = layers_;
   if (!techniques_.empty())
     o.techniques = techniques_ == "raw" ? TechniqueOutput::raw : TechniqueOutput::weighted;
@@ -242,6 +254,7 @@ RenderOptions RenderOptionParser::finish() {
                                       : ProgressStyle::automatic;
   if (o.require_target && !o.budget.target_error)
     throw UsageError("--require-target: there is no --target-error");
+  if (!viewer_.empty()) o.viewer = parse_viewer(viewer_);
   finish_format();
   finish_raw();
   check_standard_output();

@@ -7,6 +7,8 @@
 
 #include "app/progress.h"
 #include "app/scene_file.h"
+#include "base/tcp.h"
+#include "image/tone_curve.h"
 #include "integrators/make_integrator.h"
 
 namespace CLI {
@@ -21,7 +23,7 @@ struct RenderOptions {
   ReadOptions read;
   std::vector<std::string> outputs;
   std::string extension = ".exr";  ///< of images whose names have none
-  double exposure = 0;
+  DisplaySettings display;
   bool skip_existing = false, keep_going = true;
   bool keep_partial_name = false, require_target = false;
 
@@ -49,6 +51,7 @@ struct RenderOptions {
   std::string stats_file, log_file;
   bool quiet = false, verbose = false;
   ProgressStyle progress = ProgressStyle::automatic;
+  std::optional<TcpAddress> viewer;  ///< that shows the image as it grows
 };
 
 /// Adds the options to a command; `finish` is to be called once they are parsed and throws
@@ -72,9 +75,9 @@ class RenderOptionParser {
 
   Program& program_;
   RenderOptions options_;
-  std::string spp_, time_, target_, size_, crop_, exposure_ = "0", threads_, seed_, sensor_,
-                                                  progress_ = "auto", techniques_, format_,
-                                                  checkpoint_, samples_, slice_;
+  std::string spp_, time_, target_, size_, crop_,
+      exposure_ = "0", tone_map_, threads_, seed_, sensor_, progress_ = "auto", techniques_,
+      format_, light_selection_, checkpoint_, samples_, slice_, viewer_;
   std::vector<std::string> integrator_parameters_, layers_;
 };
 

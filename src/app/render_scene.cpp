@@ -4,6 +4,7 @@
 #include <chrono>
 
 #include "app/commands.h"
+#include "app/live_display.h"
 #include "app/program.h"
 #include "app/raw_output.h"
 #include "app/scene_images.h"
@@ -15,6 +16,7 @@
 #include "evaluate/raw/identity.h"
 #include "evaluate/report/memory_estimate.h"
 #include "evaluate/report/render_report.h"
+#include "evaluate/report/scene_render.h"
 #include "scene/build.h"
 #include "scene/features.h"
 #include "scene/film_layout.h"
@@ -102,13 +104,10 @@ class SceneRenderer {
       throw UsageError(fmt::format("--crop: {}", e.what()));
     }
     integrator_ = chosen_method(description_, sensor, options_, log_);
-    if (const std::string bias = integrator_->bias(); !bias.empty()) warn(bias);
-    record_.bias = integrator_->bias();
-    view_ = sensor;
-    // One place stands for all that a moving sensor passes.
-    if (!sensor.motion.empty())
-      view_.to_world = sensor.motion.at(sensor.shutter[0]) * sensor.to_world;
     make_request(sensor.sampler);
+    record_ = record_of(description_.integrator, *integrator_, request_);
+    if (!record_.bias.empty()) warn(record_.bias);
+    view_ = opening_view(sensor);
     planned_spp_ = request_.budget.spp.value_or(sensor.sampler.sample_count);
     choose_samples();
 
@@ -117,12 +116,6 @@ class SceneRenderer {
     Fingerprint scene;
     file_ == kStandardInput ? scene.add(program_.standard_input) : scene.add_file(file_);
     record_.scene_hash = scene.text();
-    record_.integrator = integrator_name(description_.integrator);
-    record_.integrator_parameters = integrator_parameters(description_.integrator);
-    record_.sampler = request_.sequence == SampleSequence::sobol ? "sobol" : "independent";
-    record_.seed = request_.seed;
-    record_.threads = request_.threads;
-    record_.requested = request_.budget;
     add_settings();
     OutputNames names = output_names(file_);
     names.integrator = record_.integrator;
@@ -150,7 +143,7 @@ class SceneRenderer {
     image.techniques = options_.techniques == TechniqueOutput::none  ? "none"
                        : options_.techniques == TechniqueOutput::raw ? "raw"
                                                                      : "weighted";
-    image.form = image_form();
+    image.form = form_of(view_, layout_, *integrator_);
     image.header = scene_header(record_, view_, layout_.full);
     return image;
   }
@@ -172,23 +165,17 @@ class SceneRenderer {
   }
 
   void make_request(const SamplerDescription& sampler) {
-    request_.budget = options_.budget;
-    if (!request_.budget.spp && !request_.budget.seconds && !request_.budget.target_error)
-      request_.budget.spp = sampler.sample_count;
-    if (request_.budget.target_error && !has_colours())
-      throw UsageError("--target-error: the image has layers only, no colours to estimate it from");
-    request_.seed = options_.seed.value_or(sampler.seed);
-    request_.threads = options_.threads;
-    request_.sequence = SampleSequence::sobol;
-    if (options_.strict_sampler && sampler.name == "independent")
-      request_.sequence = SampleSequence::independent;
-    else if (options_.strict_sampler && sampler.name != "sobol")
-      warn(fmt::format("the sampler \"{}\" is not available; Owen-scrambled Sobol' points are used",
-                       sampler.name));
+    std::string warning;
+    try {
+      request_ = request_of(
+          sampler, {options_.budget, options_.seed, options_.strict_sampler, options_.threads},
+          *integrator_, warning);
+    } catch (const std::invalid_argument& e) {
+      throw UsageError(e.what());
+    }
+    if (!warning.empty()) warn(warning);
     request_.cancel = &interrupt_flag();
   }
-
-  bool has_colours() const { return integrator_->channels()[0] == "R"; }
 
   /// A warning that --strict makes an error.
   void warn(const std::string& text) const {
@@ -198,18 +185,10 @@ class SceneRenderer {
 
   /// Finds out before rendering what would be a pity to find out afterwards.
   void check_outputs(const std::vector<std::string>& planned) const {
-    const bool keeps_layers = !std::all_of(planned.begin(), planned.end(), is_display_format);
-    const std::vector<std::string> channels = integrator_->channels();
-    for (const std::string& path : planned) {
+    for (const std::string& path : planned)
       if (const std::string why = prepare_file(path); !why.empty())
         throw SceneFailure(fmt::format("cannot write {}: {}", path, why));
-      check_has_colours(path, channels);
-      // Colours and alpha come first.
-      if (!keeps_layers && channels.size() > 4)
-        throw UsageError(
-            fmt::format("-o {}: only .exr files can hold the other layers ({}{}); write one, too",
-                        path, channels[4], channels.size() > 5 ? ", …" : ""));
-    }
+    check_formats(planned, integrator_->channels());
   }
 
   void build() {
@@ -251,11 +230,22 @@ class SceneRenderer {
     ProgressDisplay display(options_.progress,
                             batch_.is_several() ? output_names(file_).scene : file_, batch_, log_);
     request_.progress = [&](const RenderProgress& p) { display.show(p); };
-    // Standard output takes one image: the last.
-    if (!has_standard_output()) request_.wants_snapshot = take_snapshot_request;
-    request_.snapshot = [&](RenderResult so_far) { write_snapshot(std::move(so_far)); };
+    LiveDisplay live(options_.viewer, images_->planned()[0], log_);
+    bool is_shown = false, is_written = false;
+    request_.wants_snapshot = [&, writes = !has_standard_output()] {
+      // Standard output takes one image: the last.
+      is_written = writes && take_snapshot_request();
+      is_shown = live.wants_image();
+      return is_written || is_shown;
+    };
+    request_.snapshot = [&](RenderResult so_far) {
+      if (is_shown) live.show(so_far.image);
+      if (is_written) write_snapshot(std::move(so_far));
+    };
     request_.after_pass = [&](const RenderState& so_far) { raw_->after_pass(so_far); };
-    return render(*scene_, *integrator_, layout_, request_, state);
+    RenderResult result = render(*scene_, *integrator_, layout_, request_, state);
+    if (result.spp > 0) live.show(result.image);
+    return result;
   }
 
   bool has_standard_output() const {
@@ -275,19 +265,10 @@ class SceneRenderer {
     }
   }
 
-  ImageForm image_form() const {
-    return {layout_.crop,
-            layout_.full,
-            view_.film.pixel_format,
-            view_.film.component_format == ComponentFormat::half,
-            integrator_->data_channels(),
-            view_.film.tone_mapping};
-  }
-
   std::vector<std::string> write(const RenderResult& result) {
     HeaderFields header = scene_header(record_, view_, layout_.full);
     for (HeaderField& field : samples_header(record_, result)) header.push_back(std::move(field));
-    return images_->write(result, image_form(), header);
+    return images_->write(result, form_of(view_, layout_, *integrator_), header);
   }
 
   /// After an interrupt that came before every pixel had a sample: no file is replaced.

@@ -4,23 +4,12 @@
 #include <filesystem>
 #include <stdexcept>
 
+#include "app/display_options.h"
 #include "app/standard_output.h"
 #include "evaluate/report/partial_image.h"
 #include "evaluate/report/provenance.h"
 
 namespace duet {
-
-void write_image_file(const std::string& path, const Image& image, const ImageForm& form,
-                      const HeaderFields& header, double exposure) {
-  ExrOptions exr;
-  exr.half = form.half;
-  exr.full_precision = form.full_precision;
-  exr.origin = {form.crop.x0, form.crop.y0};
-  exr.full_size = form.full_size;
-  exr.header = header;
-  const DisplayOptions display{exposure, form.tone_mapping, header_texts(header)};
-  write_image(path, image, form.pixel_format, exr, display);
-}
 
 SceneImages::SceneImages(const RenderOptions& options, const std::string& scene,
                          const OutputNames& names, const Fingerprint& settings, int planned_spp,
@@ -54,7 +43,7 @@ std::vector<std::string> SceneImages::partial_paths(int spp) const {
 std::string SceneImages::settings_hash(const std::string& path) const {
   Fingerprint all = settings_;
   // What the film says about tones is part of the scene.
-  if (is_display_format(path)) all.add(fmt::format("exposure {}", options_.exposure));
+  if (is_display_format(path)) all.add(display_text(options_.display));
   return all.text();
 }
 
@@ -81,7 +70,7 @@ std::vector<std::string> SceneImages::write(const RenderResult& result, const Im
     HeaderFields fields = header;
     fields.emplace_back("settingsHash", settings_hash(path));
     try {
-      write_image_file(path, result.image, form, fields, options_.exposure);
+      write_image(path, result.image, form, fields, options_.display);
       if (!result.interrupted) remove_partial(path, scene_);
     } catch (const std::exception& e) {
       failures += (failures.empty() ? "" : "; ") + std::string(e.what());

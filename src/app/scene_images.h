@@ -9,14 +9,8 @@
 #include "app/render_options.h"
 #include "base/log.h"
 #include "evaluate/report/fingerprint.h"
-#include "evaluate/report/header.h"
-#include "evaluate/report/image_form.h"
 
 namespace duet {
-
-/// Writes an image; see write_image(). `exposure` is that of formats for display.
-void write_image_file(const std::string& path, const Image& image, const ImageForm& form,
-                      const HeaderFields& header, double exposure);
 
 class SceneImages {
  public:

@@ -3,6 +3,7 @@
 #include <stdexcept>
 
 #include "app/commands.h"
+#include "evaluate/report/scene_render.h"
 
 namespace duet {
 
@@ -17,15 +18,12 @@ SensorDescription& chosen_sensor(SceneDescription& scene, size_t number, const s
 std::unique_ptr<Integrator> chosen_method(SceneDescription& scene, const SensorDescription& sensor,
                                           const RenderOptions& options, Log& log) {
   std::unique_ptr<Integrator> integrator;
+  Diagnostics diagnostics;
   try {
-    apply_override(scene.integrator, options.integrator);
-    integrator = make_integrator(scene.integrator, options.techniques);
+    integrator = method_of(scene, sensor, options.integrator, options.techniques, diagnostics);
   } catch (const std::invalid_argument& e) {
     throw UsageError(e.what());
   }
-  Diagnostics diagnostics;
-  check_support(scene, scene.integrator, diagnostics);
-  check_support(sensor, scene.integrator, diagnostics);
   report(diagnostics, options.read.strict, log);
   return integrator;
 }

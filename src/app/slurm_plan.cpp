@@ -6,6 +6,7 @@
 
 #include "app/arguments.h"
 #include "app/commands.h"
+#include "app/display_options.h"
 #include "app/job_options.h"
 #include "app/output.h"
 #include "app/program.h"
@@ -43,6 +44,7 @@ const std::pair<const char*, const char*> kRefused[] = {
     {"--keep-partial-name", "tasks write no images"},
     {"--stats", "all tasks would write this file"},
     {"--log", "all tasks would write this file"},
+    {"--display", "no task has an image, and they run elsewhere"},
 };
 
 /// The program that is running, wherever it was found.
@@ -162,9 +164,8 @@ class SlurmPlan {
     if (patterns.empty()) patterns.emplace_back();
     for (const std::string& pattern : patterns)
       job.merge_options.insert(job.merge_options.end(), {"-o", output_path(pattern, names)});
-    if (render_options_.exposure != 0)
-      job.merge_options.insert(job.merge_options.end(),
-                               {"--exposure", fmt::to_string(render_options_.exposure)});
+    for (const std::string& argument : display_arguments(render_options_.display))
+      job.merge_options.push_back(argument);
     const fs::path image = job.merge_options[1];
     job.name = image.stem().string();
     job.folder = fs::path(image).replace_extension(".slurm").string();

@@ -32,8 +32,11 @@ struct StabilityOptions {
 std::string catalogue_folder(const std::string& option) {
   if (!option.empty()) return option;
   std::error_code ignored;
-  for (const char* folder : {DUET_STABILITY_SOURCE, DUET_STABILITY_INSTALLED})
-    if (std::filesystem::exists(std::string(folder) + "/catalogue.json", ignored)) return folder;
+  // Packages are built for one place and unpacked in another.
+  const std::filesystem::path program = std::filesystem::read_symlink("/proc/self/exe", ignored);
+  const std::string beside = program.parent_path().parent_path() / "share/duet/stability";
+  for (const std::string& folder : {std::string(DUET_STABILITY_SOURCE), beside})
+    if (std::filesystem::exists(folder + "/catalogue.json", ignored)) return folder;
   return DUET_STABILITY_INSTALLED;
 }
 

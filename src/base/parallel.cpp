@@ -1,12 +1,18 @@
 #include "base/parallel.h"
 
+#include <fmt/format.h>
 #include <tbb/global_control.h>
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
 
 #include <algorithm>
+#include <charconv>
 #include <condition_variable>
+#include <cstdlib>
 #include <mutex>
+#include <optional>
+#include <stdexcept>
+#include <string_view>
 #include <system_error>
 #include <thread>
 #include <vector>
@@ -38,6 +44,18 @@ class FlushDenormals {
   unsigned saved_;
 #endif
 };
+
+std::optional<int> wanted_threads() {
+  const char* const text = std::getenv(kThreadsVariable);
+  if (!text || *text == '\0') return std::nullopt;
+  const std::string_view digits(text);
+  int threads = 0;
+  const auto [end, error] = std::from_chars(digits.begin(), digits.end(), threads);
+  if (error != std::errc() || end != digits.end() || threads < 1 || threads > kMaxThreads)
+    throw std::runtime_error(fmt::format("{}: \"{}\" is not a whole number from 1 to {}",
+                                         kThreadsVariable, text, kMaxThreads));
+  return threads;
+}
 
 }  // namespace
 
@@ -71,7 +89,7 @@ struct HardwareThreads::Limit {
 
 HardwareThreads::HardwareThreads() {
   const int processors = std::max(1, tbb::this_task_arena::max_concurrency());
-  count_ = startable_threads(processors);
+  count_ = startable_threads(wanted_threads().value_or(processors));
   // Such a limit holds when another one, such as Embree's, goes away.
   if (count_ < processors) limit_ = std::make_unique<Limit>(count_);
 }

@@ -11,11 +11,16 @@ namespace duet {
 /// limit on processes or memory may be in the way. At least 1.
 int startable_threads(int threads);
 
-/// Finds out how many threads the machine runs at once and lets this process have, and keeps TBB to
-/// so many while it exists: TBB ends the program if it cannot start a thread, which it may try at
-/// any time. One for the whole of a program is enough.
+inline constexpr int kMaxThreads = 1024;
+/// Environment variable with a number of threads instead of all that the machine runs at once.
+inline constexpr const char* kThreadsVariable = "DUET_THREADS";
+
+/// Finds out how many threads the machine runs at once, or kThreadsVariable asks for, and lets this
+/// process have, and keeps TBB to so many while it exists: TBB ends the program if it cannot start
+/// a thread, which it may try at any time. One for the whole of a program is enough.
 class HardwareThreads {
  public:
+  /// Throws std::runtime_error if kThreadsVariable is not a number from 1 to kMaxThreads.
   HardwareThreads();
   ~HardwareThreads();
   HardwareThreads(const HardwareThreads&) = delete;

@@ -50,4 +50,7 @@ class Accel {
   float lead_ = 0;
 };
 
+/// The version of Embree, such as "3.13.5".
+const char* embree_version();
+
 }  // namespace duet

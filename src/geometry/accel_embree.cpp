@@ -287,4 +287,8 @@ Bounds Accel::bounds() const {
   return out;
 }
 
+const char* embree_version() {
+  return RTC_VERSION_STRING;
+}
+
 }  // namespace duet

@@ -16,7 +16,7 @@ T interpolate(const T& a, const T& b, const T& c, float b1, float b2) {
 }
 
 struct Corners {
-  Point3f p0, p1, p2;
+  const Point3f &p0, &p1, &p2;
   Vector3f e1, e2;
   Corners(const TriangleMesh& m, const std::array<uint32_t, 3>& t)
       : p0(m.positions[t[0]]),

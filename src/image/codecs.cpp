@@ -21,7 +21,7 @@ constexpr const char* kModule = "duet_oiio.so";
 constexpr const char* kVariable = "DUET_IMAGE_MODULE";
 
 /// Where the module may be: where the user says; beside the program or library that this code is
-/// in; where an installation puts it.
+/// in, or in a folder there; where an installation puts it.
 std::vector<fs::path> candidates() {
   if (const char* chosen = std::getenv(kVariable)) return {chosen};
   std::vector<fs::path> directories;
@@ -32,7 +32,10 @@ std::vector<fs::path> candidates() {
   std::error_code error;
   Dl_info self;
   if (dladdr(reinterpret_cast<const void*>(&decode_with_module), &self) && self.dli_fname)
-    if (const fs::path p = fs::canonical(self.dli_fname, error); !error) add(p.parent_path());
+    if (const fs::path p = fs::canonical(self.dli_fname, error); !error) {
+      add(p.parent_path());
+      add(p.parent_path() / "duet");
+    }
   // The name of the program itself may be relative to a directory that has been left since.
   if (const fs::path p = fs::read_symlink("/proc/self/exe", error); !error) {
     add(p.parent_path());

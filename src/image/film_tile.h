@@ -28,7 +28,8 @@ struct PixelBounds {
 };
 
 /// Whether a film can add such values: they are finite, and not absurdly large.
-inline bool film_can_add(std::span<const float> values) {
+template <size_t N>
+inline bool film_can_add(std::span<const float, N> values) {
   bool can = true;
   for (const float v : values) can &= std::abs(v) <= float(ExactSum::kLargest);
   return can;

@@ -23,6 +23,17 @@ inline void add_parts(double weighted, double& coarse, double& fine) {
   fine += ((weighted - whole) + kFine) - kFine;
 }
 
+/// Copies values; whether all of them are below kSmall.
+template <size_t N>
+inline bool copy_small(std::span<const float, N> values, double* to) {
+  bool small = true;
+  for (size_t c = 0; c < values.size(); ++c) {
+    to[c] = double(values[c]);
+    small &= std::abs(values[c]) < float(kSmall);
+  }
+  return small;
+}
+
 /// Adds a sample to the pixels of a row, for a film of any channels. The lists do not overlap.
 DUET_WIDE void add_row(std::span<const double> sample, std::span<const float> weights, float factor,
                        double* __restrict weighted, double* __restrict coarse,
@@ -65,13 +76,28 @@ void SampleAdder::take(std::span<const float> values) {
     added_ = 0;
   }
   ++added_;
-  std::copy(values.begin(), values.end(), sample_.begin() + 1);
+  // A known number of values takes no loop.
+  double* const copies = sample_.data() + 1;
+  is_large_ =
+      !(values.size() == kColourSums - 1 ? copy_small(values.first<kColourSums - 1>(), copies)
+                                         : copy_small(values, copies));
   if (limit_) {
     const auto share = double(limit_->share(values.data()));
     for (size_t c = 1; c <= 3; ++c) sample_[c] *= share;
+    is_large_ = false;
+    for (const double v : sample_) is_large_ |= !(std::abs(v) < kSmall);
   }
-  is_large_ = false;
-  for (const double v : sample_) is_large_ |= !(std::abs(v) < kSmall);
+}
+
+inline void SampleAdder::add_to_pixel(size_t at) {
+  if (is_large_ || sample_.size() != kColourSums) {
+    constexpr float kOne = 1;
+    add(at, std::span(&kOne, 1), 1);
+    return;
+  }
+  const double* const sample = sample_.data();
+  double *const coarse = &coarse_[at], *const fine = &fine_[at];
+  for (size_t c = 0; c < kColourSums; ++c) add_parts(sample[c], coarse[c], fine[c]);
 }
 
 void SampleAdder::add(size_t at, std::span<const float> weights, float factor) {
@@ -90,8 +116,7 @@ void SampleAdder::add(size_t at, std::span<const float> weights, float factor) {
 void SampleAdder::add(int x, int y, const Point2f& position, std::span<const float> values) {
   take(values);
   if (filter_.is_unit_box()) {
-    constexpr float kOne = 1;
-    if (tile_.stored().contains(x, y)) add(tile_.index(x, y), std::span(&kOne, 1), 1);
+    if (tile_.stored().contains(x, y)) add_to_pixel(tile_.index(x, y));
     return;
   }
   for_reached_rows(filter_, position, tile_.stored(),

@@ -28,6 +28,8 @@ class SampleAdder {
   void take(std::span<const float> values);
   /// Adds the sample to neighbouring pixels with these weights; `at` is where their sums begin.
   void add(size_t at, std::span<const float> weights, float factor);
+  /// Adds it to one pixel alone.
+  void add_to_pixel(size_t at);
   void move_to_tile();
 
   const ReconstructionFilter& filter_;

@@ -13,7 +13,7 @@ inline constexpr size_t kMostMergedPhotons = 4096;
 template <class Vertex, class Weights>
 void BidirectionalIntegrator::connect(const Weights& weights, const Vertex& v, bool light_sample,
                                       Eye<Vertex>& eye) const {
-  if (light_sample && eye.scene.picker.size() > 0)
+  if (light_sample && !eye.scene.lights.empty())
     add(eye, 1, v.depth + 1,
         connect_light(eye.connections(weights, options_.strict_normals), v, eye.sampler));
   if (eye.merging && v.merges()) find_photons(v, eye);

@@ -35,7 +35,7 @@ void BidirectionalIntegrator::thesis_tail(const PathVertex& limit, Subpath& subp
     if (depth == max_depth_) return;
     reached.emplace(scene, s, -subpath.ray.direction, subpath.throughput, Partials{}, depth);
     v = &*reached;
-    if (!v->bsdf.has_smooth() || scene.picker.size() == 0) continue;
+    if (!v->bsdf.has_smooth() || scene.lights.empty()) continue;
     eye.sampler.start_dimension(kFirstVertexDimension + kDimensionsPerVertex * uint32_t(depth - 1));
     add(eye, 1, depth + 1,
         connect_light(eye.connections(PathWeights(), options_.strict_normals), *v, eye.sampler));

@@ -16,6 +16,20 @@ bool is_statistic(LayerKind kind) {
   return is_moment(kind) || kind == LayerKind::samples;
 }
 
+/// Most images have this many channels: a number that is known takes no loop.
+constexpr size_t kColours = 4;
+
+inline void clear(std::span<float> values) {
+  if (values.size() == kColours)
+    std::fill_n(values.data(), kColours, 0.0f);
+  else
+    std::fill(values.begin(), values.end(), 0.0f);
+}
+
+inline bool can_add(std::span<const float> values) {
+  return values.size() == kColours ? film_can_add(values.first<kColours>()) : film_can_add(values);
+}
+
 }  // namespace
 
 CameraIntegrator::CameraIntegrator(const CameraOutput& output) : image_(output.image) {
@@ -105,7 +119,8 @@ void CameraIntegrator::render_tile(const Scene& scene, const Film& film, FilmTil
                                    const SampleRange& range, RenderCounters& counters) const {
   const Camera& camera = *scene.camera;
   const bool has_lens = camera.has_lens();
-  std::vector<float> values(channels_.size());
+  std::vector<float> storage(channels_.size());
+  const std::span<float> values(storage);
   const std::unique_ptr<PathWorkspace> workspace = make_workspace(scene);
   [[maybe_unused]] std::optional<NextRays> next;
   const PixelBounds& b = tile.sampled();
@@ -123,15 +138,15 @@ void CameraIntegrator::render_tile(const Scene& scene, const Film& film, FilmTil
           sampler.start_dimension(kLensDimension);
           lens = sampler.next_2d();
         }
-        std::fill(values.begin(), values.end(), 0.0f);
+        clear(values);
         const CameraRay ray = camera.sample_ray(position, lens);
         CameraPath path{ray, pixel, i, ray.weight, nullptr, workspace.get()};
         if constexpr (kWithNextRays)
           if ((next = camera.next_rays(position, lens))) path.next = &*next;
         if (ray.weight != 0) sample(scene, path, sampler, counters, values);
-        if (!film_can_add(values)) {
+        if (!can_add(values)) {
           ++counters.nonfinite_samples;
-          std::fill(values.begin(), values.end(), 0.0f);
+          clear(values);
         }
         sums.add(x, y, position, values);
       }

@@ -27,7 +27,7 @@ Spectrum DirectIntegrator::radiance(const Scene& scene, const CameraPath& start,
       weighted_emission(scene, s, {ray.origin, ray.direction, hit.t}, std::nullopt, shares);
   const Bsdf bsdf = scene.materials[s.shape->material]->bind(s, -ray.direction);
   uint32_t dimension = kFirstVertexDimension;
-  if (bsdf.has_smooth() && scene.picker.size() > 0)
+  if (bsdf.has_smooth() && !scene.lights.empty())
     for (int i = 0; i < lights; ++i) {
       sampler.start_dimension(dimension);
       dimension += kDimensionsPerSample;

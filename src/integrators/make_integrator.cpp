@@ -44,7 +44,7 @@ std::optional<Method> find_method(const std::string& name) {
 /// Whether a parameter asks for the same in every method that has it.
 bool is_shared(const std::string& parameter) {
   return parameter == "max_depth" || parameter == "rr_depth" || parameter == "hide_emitters" ||
-         parameter == "strict_normals";
+         parameter == "strict_normals" || parameter == "light_selection";
 }
 
 /// Keeps what another method of the scene already said.

@@ -56,6 +56,7 @@ BidirectionalIntegratorDescription bidirectional(const PathLimits& o, Bidirectio
   d.rr_depth = o.rr_depth;
   d.hide_emitters = o.hide_emitters;
   d.strict_normals = o.strict_normals;
+  d.light_selection = o.light_selection;
   d.light_paths = light_paths;
   d.connections = connections;
   return d;

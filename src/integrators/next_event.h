@@ -43,17 +43,19 @@ inline Spectrum sample_light(const Scene& scene, const Surface& s, const B& bsdf
                              const NextEventOptions& options, Sampler& sampler,
                              RenderCounters& counters) {
   const SampleShares& shares = options.shares;
-  const auto [light, probability] = choose_light(scene, s.position, sampler);
+  const ChosenLight chosen = choose_light(scene, s.position, sampler);
+  const std::optional<LightSample>& light = chosen.sample;
   if (!light || (options.strict_normals && sides_differ(s, light->wi))) return {};
   const BsdfEval f = bsdf.eval(light->wi, Transport::radiance);
   if (f.value.is_black()) return {};
   const Ray shadow = light->finite ? spawn_ray_to(s, light->target) : spawn_ray(s, light->wi);
   ++counters.shadow_rays;
   if (scene.accel->occluded(shadow)) return {};
-  const float weight = light->delta ? 1.0f
-                                    : power_heuristic(light->pdf.value * probability * shares.light,
-                                                      f.pdf.value * shares.bsdf);
-  return f.value * light->weight * (weight / probability);
+  const float weight = light->delta
+                           ? 1.0f
+                           : power_heuristic(light->pdf.value * chosen.probability * shares.light,
+                                             f.pdf.value * shares.bsdf);
+  return f.value * light->weight * (weight / chosen.probability);
 }
 
 /// Emission of the surface that a ray has met, weighted against next event estimation. `bsdf_pdf`

@@ -2,7 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <charconv>
+#include <iterator>
 #include <limits>
 #include <stdexcept>
 #include <utility>
@@ -61,6 +63,17 @@ MethodParameter boolean(const std::string& name, bool& value) {
           }};
 }
 
+MethodParameter light_selection(LightSelection& value) {
+  return {"light_selection", [&value] { return std::string(kLightSelectionNames[size_t(value)]); },
+          [&value](const std::string& text) {
+            const auto at =
+                std::find(std::begin(kLightSelectionNames), std::end(kLightSelectionNames), text);
+            if (at == std::end(kLightSelectionNames))
+              refuse("light_selection", "auto, bvh, power or uniform", text);
+            value = LightSelection(at - std::begin(kLightSelectionNames));
+          }};
+}
+
 MethodParameter reuse_weights(ReuseWeights& value) {
   return {"weights",
           [&value] { return std::string(value == ReuseWeights::exact ? "exact" : "thesis"); },
@@ -92,7 +105,7 @@ MethodParameter thesis_reading(ReuseWeights& value) {
 Parameters path_parameters(PathLimits& d) {
   return {integer("max_depth", d.max_depth, -1, kMaxDepth),
           integer("rr_depth", d.rr_depth, 1, kMaxDepth), boolean("hide_emitters", d.hide_emitters),
-          boolean("strict_normals", d.strict_normals)};
+          boolean("strict_normals", d.strict_normals), light_selection(d.light_selection)};
 }
 
 Parameters parameters(PathIntegratorDescription& d) {
@@ -110,7 +123,8 @@ Parameters parameters(AutoIntegratorDescription& d) {
 Parameters parameters(DirectIntegratorDescription& d) {
   return {integer("emitter_samples", d.emitter_samples, 0, kMost),
           integer("bsdf_samples", d.bsdf_samples, 0, kMost),
-          boolean("hide_emitters", d.hide_emitters), boolean("strict_normals", d.strict_normals)};
+          boolean("hide_emitters", d.hide_emitters), boolean("strict_normals", d.strict_normals),
+          light_selection(d.light_selection)};
 }
 
 Parameters parameters(OcclusionIntegratorDescription& d) {
@@ -128,7 +142,10 @@ Parameters parameters(BidirectionalIntegratorDescription& d) {
                  integer("rr_depth", d.rr_depth, 1, kMaxDepth),
                  boolean("hide_emitters", d.hide_emitters)};
   const auto add = [&all](MethodParameter p) { all.push_back(std::move(p)); };
-  if (d.method != ptracer) add(boolean("strict_normals", d.strict_normals));
+  if (d.method != ptracer) {
+    add(boolean("strict_normals", d.strict_normals));
+    add(light_selection(d.light_selection));
+  }
   add(real("light_paths", d.light_paths, true, kMost));
   if (d.method == bdpt || d.method == vcm) add(integer("connections", d.connections, -1, kMost));
   if (d.method == bdpt) add(boolean("light_image", d.light_image));

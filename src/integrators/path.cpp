@@ -59,7 +59,7 @@ inline bool PathIntegrator::scatter(const Scene& scene, const Surface& s, const 
                                     Path& path) const {
   Sampler& sampler = path.sampler;
   const uint32_t dimension = kFirstVertexDimension + kDimensionsPerVertex * uint32_t(depth - 1);
-  if (bsdf.has_smooth() && scene.picker.size() > 0) {
+  if (bsdf.has_smooth() && !scene.lights.empty()) {
     sampler.start_dimension(dimension);
     path.sum += path.throughput *
                 sample_light(scene, s, bsdf, {options_.strict_normals}, sampler, path.counters);

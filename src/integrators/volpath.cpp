@@ -142,7 +142,7 @@ bool VolumePathIntegrator::scatter_in_medium(const Scene& scene, const Point3f& 
   ++path.counters.path_vertices;
   const PhaseFunction& phase = path.medium->phase();
   const Vector3f wo = -path.ray.direction;
-  if (scene.picker.size() > 0) {
+  if (!scene.lights.empty()) {
     path.sampler.start_dimension(dimension);
     if (const ChosenLight light = choose_light(scene, p, path.sampler); light.sample) {
       const LightSample& s = *light.sample;
@@ -168,7 +168,7 @@ inline bool VolumePathIntegrator::scatter_at_surface(const Scene& scene, const S
                                                      Path& path) const {
   Sampler& sampler = path.sampler;
   const bool separates = s.shape->separates_media();
-  if (bsdf.has_smooth() && scene.picker.size() > 0 && !at_limit(path.depth + 1)) {
+  if (bsdf.has_smooth() && !scene.lights.empty() && !at_limit(path.depth + 1)) {
     sampler.start_dimension(dimension);
     const ChosenLight light = choose_light(scene, s.position, sampler);
     if (light.sample && !(options_.strict_normals && sides_differ(s, light.sample->wi))) {

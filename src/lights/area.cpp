@@ -6,6 +6,11 @@ namespace duet {
 
 namespace {
 
+/// Share of points on meshes with a tree that are chosen by what triangles emit.
+constexpr float kEvenShare = 0.1f;
+/// Triangles in a leaf of a tree: a few next to each other are nearly as good from anywhere.
+constexpr uint32_t kTrianglesInLeaf = 4;
+
 struct Parallelogram {
   Point3f corner;
   Vector3f edge_u, edge_v;
@@ -34,7 +39,8 @@ std::optional<Parallelogram> find_parallelogram(const TriangleMesh& m) {
 
 }  // namespace
 
-AreaLight::AreaLight(const Shape& shape, const ColorSlot& radiance, bool two_sided)
+AreaLight::AreaLight(const Shape& shape, const ColorSlot& radiance, bool two_sided,
+                     LightSelection selection)
     : shape_(shape),
       radiance_(radiance),
       two_sided_(two_sided),
@@ -48,6 +54,7 @@ AreaLight::AreaLight(const Shape& shape, const ColorSlot& radiance, bool two_sid
   } else {
     strategy_ = Strategy::cells;
     cells_.emplace(shape, radiance);
+    if (needs_tree(shape.mesh->triangles.size(), selection)) make_tree();
   }
 }
 
@@ -87,14 +94,49 @@ double AreaLight::power(double) const {
   return double(kPi) * emission * (two_sided_ ? 2 : 1);
 }
 
+std::optional<LightBounds> AreaLight::bounds() const {
+  if (shape_.kind != ShapeKind::mesh) {
+    LightBounds b = LightBounds::around(analytic_bounds(shape_));
+    if (shape_.kind == ShapeKind::disk && !two_sided_)
+      b.normals = {Vector3f(sample_analytic(shape_, {0.5f, 0.5f}).ng)};
+    return b;
+  }
+  if (tree_) return tree_->bounds();
+  LightBounds all;
+  for (uint32_t t = 0; t < shape_.mesh->triangles.size(); ++t) all.extend(triangle_bounds(t));
+  return all;
+}
+
+void AreaLight::make_tree() {
+  const uint32_t count = uint32_t(shape_.mesh->triangles.size());
+  std::vector<LightTree::Entry> entries;
+  entries.reserve(count);
+  for (uint32_t t = 0; t < count; ++t) {
+    LightBounds b = triangle_bounds(t);
+    b.power = cells_->probability(t);
+    if (b.power > 0) entries.push_back({b, t});
+  }
+  tree_ = std::make_unique<LightTree>(std::move(entries), count, kTrianglesInLeaf);
+}
+
+LightBounds AreaLight::triangle_bounds(uint32_t triangle) const {
+  const TriangleMesh& mesh = *shape_.mesh;
+  LightBounds b;
+  for (const uint32_t corner : mesh.triangles[triangle]) b.box.extend(mesh.positions[corner]);
+  if (two_sided_)
+    b.normals = DirectionCone::all();
+  else if (triangle_area(mesh, triangle) > 0)
+    b.normals = {Vector3f(point_on_triangle(shape_, triangle, {1 / 3.0f, 1 / 3.0f}).ng)};
+  return b;
+}
+
 Spectrum AreaLight::emitted(const Surface& surface, const Vector3f& w) const {
   return two_sided_ || dot(surface.shading.n, w) > 0 ? radiance_(surface) : Spectrum();
 }
 
-std::optional<LightSample> AreaLight::sample_direct(const Point3f& from, const Point2f& u) const {
-  if (strategy_ == Strategy::parallelogram) return sample_parallelogram(from, u);
+std::optional<LightSample> AreaLight::sample_shape(const Point3f& from, const Point2f& u) const {
   if (strategy_ == Strategy::cone) return sample_cone(from, u);
-  ShapePoint p = cells_ ? cells_->sample(u) : sample_analytic(shape_, u);
+  auto [p, pdf] = direct_point(from, u);
   const Vector3f d = p.position - from;
   const float d2 = length_squared(d);
   if (!(d2 > 0)) return std::nullopt;
@@ -103,26 +145,36 @@ std::optional<LightSample> AreaLight::sample_direct(const Point3f& from, const P
   const float cosine = -dot(p.ng, wi);
   // Light leaves on the side of the shading normal, which the surface itself may hide.
   if (!(cosine > 0 && dot(p.ns, wi) < 0)) return std::nullopt;
-  return toward(p, to_solid_angle(p.pdf, d2, cosine), wi);
+  return toward(p, to_solid_angle(pdf, d2, cosine), wi);
 }
 
-std::optional<LightSample> AreaLight::sample_parallelogram(const Point3f& from,
-                                                           const Point2f& u) const {
-  const Point3f target = corner_ + (edge_u_ * u.x + edge_v_ * u.y);
-  const Vector3f d = target - from;
-  const float facing = -dot(normal_, d);
-  if (!(facing > 0)) return std::nullopt;
-  const float d2 = length_squared(d), distance = std::sqrt(d2), inv_distance = 1 / distance;
-  // area · cos θ / d²: what a density per area becomes per solid angle
-  const float projected = facing * float(area_);
-  const float solid_angle = projected * inv_distance * inv_distance * inv_distance;
-  std::optional<LightSample> sample(std::in_place);
-  sample->wi = d * inv_distance;
-  sample->target = target;
-  sample->weight = radiance_.constant * solid_angle;
-  sample->pdf = PdfW{d2 * distance / projected};
-  sample->emission = uniform_.value * kInvPi;
-  return sample;
+inline AreaLight::DirectPoint AreaLight::direct_point(const Point3f& from, const Point2f& u) const {
+  if (tree_) return point_by_tree(from, u);
+  const ShapePoint p = cells_ ? cells_->sample(u) : sample_analytic(shape_, u);
+  return {p, p.pdf};
+}
+
+// Triangles without power are not in the tree, so that its share is that of all others.
+AreaLight::DirectPoint AreaLight::point_by_tree(const Point3f& from, const Point2f& u) const {
+  const double fine = fine_variate(u.y, u);
+  if (fine < double(kEvenShare)) {
+    const ShapePoint p = cells_->sample({u.x, std::min(float(fine) / kEvenShare, kBelowOne)});
+    return {p, tree_pdf(from, p.primitive, p.barycentric)};
+  }
+  const LightTree::Pick pick =
+      tree_->sample((fine - double(kEvenShare)) / (1 - double(kEvenShare)), from);
+  ShapePoint p = cells_->sample(pick.light, {u.x, pick.remapped});
+  const float even = cells_->probability(pick.light);
+  const PdfA pdf{p.pdf.value * lerp(pick.probability, even, kEvenShare)};
+  p.pdf = cells_->pdf(pick.light, p.barycentric);
+  return {p, pdf};
+}
+
+PdfA AreaLight::tree_pdf(const Point3f& from, uint32_t triangle, const Point2f& barycentric) const {
+  const float even = cells_->probability(triangle);
+  if (!(even > 0)) return {};
+  const float within = cells_->pdf_within(triangle, barycentric).value;
+  return {within * lerp(tree_->probability(triangle, from), even, kEvenShare)};
 }
 
 Spectrum AreaLight::radiance(const ShapePoint& p) const {
@@ -181,8 +233,10 @@ PdfW AreaLight::pdf_direct(const Point3f& from, const Surface& surface, const Ve
                            float d2) const {
   const float facing = -dot(surface.ng, wi), cosine = two_sided_ ? std::abs(facing) : facing;
   if (!(cosine > 0)) return {};
-  return strategy_ == Strategy::cone ? cone_pdf(from)
-                                     : to_solid_angle(point_pdf(surface), d2, cosine);
+  if (strategy_ == Strategy::cone) return cone_pdf(from);
+  const PdfA pdf =
+      tree_ ? tree_pdf(from, surface.primitive, surface.barycentric) : point_pdf(surface);
+  return to_solid_angle(pdf, d2, cosine);
 }
 
 ShapePoint AreaLight::sample_point(const Point2f& u) const {
@@ -228,7 +282,8 @@ float AreaLight::emission_density(const Surface& surface, const Vector3f& w) con
 float AreaLight::direct_density(const EmissionSample& emission, const Point3f& at) const {
   if (strategy_ == Strategy::cone) return cone_pdf(at).value;
   const ShapePoint& p = emission.point;
-  return to_solid_angle(p.pdf, length_squared(p.position - at), dot(p.ng, emission.ray.direction))
+  const PdfA pdf = tree_ ? tree_pdf(at, p.primitive, p.barycentric) : p.pdf;
+  return to_solid_angle(pdf, length_squared(p.position - at), dot(p.ng, emission.ray.direction))
       .value;
 }
 

@@ -1,7 +1,10 @@
 // Surfaces that emit.
 #pragma once
 
+#include <memory>
+
 #include "lights/light.h"
+#include "lights/light_tree.h"
 #include "lights/triangle_cells.h"
 #include "textures/texture.h"
 
@@ -11,13 +14,21 @@ namespace duet {
 class AreaLight final : public SurfaceLight {
  public:
   /// `shape` must outlive the light and stay where it is; its area must not be zero.
-  AreaLight(const Shape& shape, const ColorSlot& radiance, bool two_sided = false);
+  /// `selection` is by what light samples choose a triangle of a mesh; they do so by what it
+  /// emits unless a tree serves.
+  AreaLight(const Shape& shape, const ColorSlot& radiance, bool two_sided = false,
+            LightSelection selection = LightSelection::automatic);
 
-  std::optional<LightSample> sample_direct(const Point3f& from, const Point2f& u) const override;
+  [[gnu::always_inline]] std::optional<LightSample> sample_direct(const Point3f& from,
+                                                                  const Point2f& u) const override {
+    return strategy_ == Strategy::parallelogram ? sample_parallelogram(from, u)
+                                                : sample_shape(from, u);
+  }
   Spectrum emitted(const Surface& surface, const Vector3f& w) const override;
   PdfW pdf_direct(const Point3f& from, const Surface& surface, const Vector3f& wi,
                   float d2) const override;
   double power(double scene_radius) const override;
+  std::optional<LightBounds> bounds() const override;
   /// A point in proportion to what it emits, and a direction by its cosine with the geometric
   /// normal.
   std::optional<EmissionSample> sample_emission(const Point2f& position,
@@ -40,10 +51,22 @@ class AreaLight final : public SurfaceLight {
   float direction_density() const { return two_sided_ ? 0.5f * kInvPi : kInvPi; }
   bool choose_cone();
   bool choose_parallelogram();
+  void make_tree();
+  LightBounds triangle_bounds(uint32_t triangle) const;
+  /// A light sample's point, with the density of sample_point() there, and its own density.
+  struct DirectPoint {
+    ShapePoint point;
+    PdfA pdf;
+  };
+  DirectPoint direct_point(const Point3f& from, const Point2f& u) const;
+  DirectPoint point_by_tree(const Point3f& from, const Point2f& u) const;
+  /// The density with which a light sample at `from` chooses a point of a mesh by the tree.
+  PdfA tree_pdf(const Point3f& from, uint32_t triangle, const Point2f& barycentric) const;
   /// The radiance of a point on the side that shines.
   Spectrum radiance(const ShapePoint& p) const;
   LightSample toward(const ShapePoint& p, PdfW pdf, const Vector3f& wi) const;
   std::optional<LightSample> sample_parallelogram(const Point3f& from, const Point2f& u) const;
+  std::optional<LightSample> sample_shape(const Point3f& from, const Point2f& u) const;
   std::optional<LightSample> sample_cone(const Point3f& from, const Point2f& u) const;
   /// The density of any direction that sample_cone() makes.
   PdfW cone_pdf(const Point3f& from) const;
@@ -59,11 +82,32 @@ class AreaLight final : public SurfaceLight {
   double area_;
   PdfA uniform_;  ///< 1 / area
   std::optional<TriangleCells> cells_;
-  Point3f corner_;  ///< of the parallelogram, just off its surface
+  std::unique_ptr<const LightTree> tree_;  ///< over the triangles of a mesh, or null
+  Point3f corner_;                         ///< of the parallelogram, just off its surface
   Vector3f edge_u_, edge_v_;
   Normal3f normal_;
   Point3f center_;  ///< of the sphere
   float radius_ = 0;
 };
+
+// The most frequent light is looked into by whoever asks it: the sample then stays in registers.
+[[gnu::always_inline]] inline std::optional<LightSample> AreaLight::sample_parallelogram(
+    const Point3f& from, const Point2f& u) const {
+  const Point3f target = corner_ + (edge_u_ * u.x + edge_v_ * u.y);
+  const Vector3f d = target - from;
+  const float facing = -dot(normal_, d);
+  if (!(facing > 0)) return std::nullopt;
+  const float d2 = length_squared(d), distance = std::sqrt(d2), inv_distance = 1 / distance;
+  // area · cos θ / d²: what a density per area becomes per solid angle
+  const float projected = facing * float(area_);
+  const float solid_angle = projected * inv_distance * inv_distance * inv_distance;
+  std::optional<LightSample> sample(std::in_place);
+  sample->wi = d * inv_distance;
+  sample->target = target;
+  sample->weight = radiance_.constant * solid_angle;
+  sample->pdf = PdfW{d2 * distance / projected};
+  sample->emission = uniform_.value * kInvPi;
+  return sample;
+}
 
 }  // namespace duet

@@ -1,6 +1,8 @@
 #include "lights/delta.h"
 
+#include <array>
 #include <numbers>
+#include <span>
 
 #include "math/angles.h"
 #include "math/equal_area.h"
@@ -50,6 +52,20 @@ double inverse_determinant(const Transform& t) {
                       double(r[0][2]) * minor(0, 1));
 }
 
+/// Bounds of a light at a point that shines into a pyramid: within corners at z = 1 of its own
+/// space.
+LightBounds pyramid_bounds(const Point3f& position, const Transform& to_world,
+                           std::span<const Point2f> corners) {
+  LightBounds b{{position, position}, {normalize(to_world(Vector3f(0, 0, 1)))}, 0};
+  float least = 1;
+  for (const Point2f& c : corners)
+    least = std::min(least, dot(b.normals.axis, normalize(to_world(Vector3f(c.x, c.y, 1)))));
+  // The corners are the furthest from the axis as long as all are before it.
+  if (!(least > 0.1f)) return LightBounds::around(b.box);
+  b.normals.angle = std::acos(least) + 1e-3f;
+  return b;
+}
+
 /// To look up a texture on no surface. The position is that at which a volume is looked up.
 Surface at_uv(const Point2f& uv, const Point3f& position) {
   Surface s;
@@ -93,6 +109,18 @@ SpotEmitter::SpotEmitter(const Transform& to_world, const Spectrum& intensity, d
 
 std::optional<LightSample> SpotEmitter::sample_direct(const Point3f& from, const Point2f&) const {
   return send(from - position_);
+}
+
+std::optional<LightBounds> SpotEmitter::bounds() const {
+  constexpr size_t kCorners = 8;
+  std::array<Point2f, kCorners> corners;  // around the circle
+  const float r = std::tan(cutoff_angle_) / std::cos(kPi / kCorners);
+  for (size_t i = 0; i < kCorners; ++i) {
+    const float phi = 2 * kPi * float(i) / kCorners;
+    corners[i] = {r * std::cos(phi), r * std::sin(phi)};
+  }
+  if (!(cutoff_angle_ < 1.4f)) return PositionEmitter::bounds();
+  return pyramid_bounds(position_, to_world_, corners);
 }
 
 inline std::optional<LightSample> SpotEmitter::send(const Vector3f& away) const {
@@ -151,6 +179,12 @@ ProjectorEmitter::ProjectorEmitter(const Transform& to_world, const ColorSlot& i
 std::optional<LightSample> ProjectorEmitter::sample_direct(const Point3f& from,
                                                            const Point2f&) const {
   return send(from - position_);
+}
+
+std::optional<LightBounds> ProjectorEmitter::bounds() const {
+  const float x = 0.5f / inv_width_, y = 0.5f / inv_height_;
+  const std::array<Point2f, 4> corners{{{x, y}, {-x, y}, {-x, -y}, {x, -y}}};
+  return pyramid_bounds(position_, to_world_, corners);
 }
 
 inline std::optional<LightSample> ProjectorEmitter::send(const Vector3f& away) const {

@@ -13,6 +13,9 @@ class PositionEmitter : public Light {
  public:
   explicit PositionEmitter(const Point3f& position)
       : Light(LightKind::position), position_(position) {}
+  std::optional<LightBounds> bounds() const override {
+    return LightBounds::around({position_, position_});
+  }
   float direct_density(const EmissionSample&, const Point3f& at) const override {
     return length_squared(at - position_);
   }
@@ -44,6 +47,7 @@ class SpotEmitter final : public PositionEmitter {
   /// domain.
   SpotEmitter(const Transform& to_world, const Spectrum& intensity, double cutoff,
               double beam_width, const Texture* texture, bool smooth = false);
+  std::optional<LightBounds> bounds() const override;
   std::optional<LightSample> sample_direct(const Point3f& from, const Point2f& u) const override;
   double power(double scene_radius) const override;
   /// A direction that is uniform in the cone, before the transform.
@@ -73,6 +77,7 @@ class ProjectorEmitter final : public PositionEmitter {
   /// `horizontal_fov` in degrees, of an image `aspect` times as wide as high.
   ProjectorEmitter(const Transform& to_world, const ColorSlot& irradiance, float scale,
                    double horizontal_fov, double aspect, bool is_intensity = false);
+  std::optional<LightBounds> bounds() const override;
   std::optional<LightSample> sample_direct(const Point3f& from, const Point2f& u) const override;
   double power(double scene_radius) const override;
   /// A direction by a uniform point of the image.

@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "geometry/surface.h"
+#include "lights/light_bounds.h"
 #include "lights/scene_sphere.h"
 #include "math/measure.h"
 #include "math/spectrum.h"
@@ -65,6 +66,10 @@ class Light {
   /// Lights that are infinitely far away count with what enters a sphere of `scene_radius` that
   /// holds the scene.
   virtual double power(double scene_radius) const = 0;
+
+  /// Where the light is and where it shines, without its power. Nothing if it is infinitely far
+  /// away or if no light sample finds it.
+  virtual std::optional<LightBounds> bounds() const { return std::nullopt; }
 
   /// A ray into the scene, chosen in proportion to what the light emits as far as that is known.
   /// Empty if the ray carries nothing.

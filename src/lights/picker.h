@@ -1,4 +1,4 @@
-// Which light, with what probability: one answer for everyone.
+// A choice among lights that is the same everywhere.
 #pragma once
 
 #include <memory>
@@ -30,7 +30,7 @@ class LightPicker {
     uint32_t light;
     float probability;
   };
-  /// There must be at least one light. `others` as in DiscreteDistribution::sample().
+  /// There must be at least one light. `others` as in fine_variate().
   Pick pick(float u, const Point2f& others) const {
     const auto p = distribution_.sample(u, others);
     return {p.index, p.probability};

@@ -110,6 +110,24 @@ ShapePoint TriangleCells::sample(const Point2f& u) const {
   return p;
 }
 
+ShapePoint TriangleCells::sample(uint32_t triangle, const Point2f& u) const {
+  if (n_ == 1) return point_on_triangle(shape_, triangle, square_to_triangle(u));
+  const uint32_t count = uint32_t(n_) * uint32_t(n_);
+  const auto pick = cells_.sample_within(triangle * count, count, u.y, u);
+  const Point2f b = square_to_triangle({u.x, pick.remapped});
+  ShapePoint p = point_on_triangle(shape_, triangle, within(cell(pick.index % count), b));
+  p.pdf.value *= pick.probability * float(count);
+  return p;
+}
+
+PdfA TriangleCells::pdf_within(uint32_t triangle, const Point2f& barycentric) const {
+  const float even = 1 / triangle_area(*shape_.mesh, triangle);
+  if (n_ == 1) return {even};
+  const uint32_t count = uint32_t(n_) * uint32_t(n_);
+  const float cell = cells_.probability(triangle * count + cell_at(barycentric));
+  return {even * float(count) * cell / probability(triangle)};
+}
+
 PdfA TriangleCells::pdf(uint32_t primitive, const Point2f& barycentric) const {
   if (uniform_.value > 0) return uniform_;
   const uint32_t per_triangle = uint32_t(n_) * uint32_t(n_);

@@ -17,7 +17,16 @@ class TriangleCells {
 
   /// A point with its density per area.
   ShapePoint sample(const Point2f& u) const;
-  /// The density with which sample() makes a point of the mesh.
+  /// A point of one triangle, with its density per area of that; it must emit.
+  ShapePoint sample(uint32_t triangle, const Point2f& u) const;
+  /// The probability with which sample(u) chooses the triangle.
+  float probability(uint32_t triangle) const {
+    const uint32_t count = uint32_t(n_) * uint32_t(n_);
+    return cells_.probability(triangle * count, count);
+  }
+  /// The density with which sample(triangle, u) makes a point of it.
+  PdfA pdf_within(uint32_t triangle, const Point2f& barycentric) const;
+  /// The density with which sample(u) makes a point of the mesh.
   PdfA pdf(uint32_t primitive, const Point2f& barycentric) const;
   /// Integral of the radiance's luminance over the mesh's area.
   double integral() const { return integral_; }

@@ -26,6 +26,15 @@ inline uint32_t find_interval(const Real* cdf, const Index* guide, uint32_t n, R
   return i;
 }
 
+/// The 24 bits of `u` in [0, 1), and 29 more: a hash of it and of `others`, two numbers that are
+/// used for something else besides.
+inline double fine_variate(float u, const Point2f& others) {
+  const uint64_t both =
+      uint64_t(std::bit_cast<uint32_t>(others.x)) << 32 | std::bit_cast<uint32_t>(others.y);
+  const uint64_t more = hash_combine(std::bit_cast<uint32_t>(u), both) >> 35;
+  return double(u) + double(more) * 0x1p-53;
+}
+
 /// Picks an index with probability proportional to its weight, by inversion of the cumulative sum,
 /// so that well distributed variates stay well distributed. The probabilities that it tells are
 /// those with which it picks: differences of the cumulative sum, which is in double precision and
@@ -45,15 +54,24 @@ class DiscreteDistribution {
     float probability;
     float remapped;  ///< uniform in [0, 1) again, independent of the index
   };
-  /// `others` are two numbers in [0, 1) that are used for something else besides. In large tables
-  /// the bits that u has not are a hash of them and u.
+  /// `others` as in fine_variate(), which large tables need.
   Pick sample(float u, const Point2f& others) const {
     if (!fine_cdf_.empty()) return pick(fine_cdf_, fine_variate(u, others));
     return pick(cdf_, u);
   }
+  /// The same among the `count` indices from `first` on, one of which must have weight.
+  Pick sample_within(uint32_t first, uint32_t count, float u, const Point2f& others) const {
+    if (!fine_cdf_.empty()) return pick_within(fine_cdf_, first, count, fine_variate(u, others));
+    return pick_within(cdf_, first, count, u);
+  }
   float probability(uint32_t index) const {
     return fine_cdf_.empty() ? cdf_[index + 1] - cdf_[index]
                              : float(fine_cdf_[index + 1] - fine_cdf_[index]);
+  }
+  /// That of the `count` indices from `first` on.
+  float probability(uint32_t first, uint32_t count) const {
+    return fine_cdf_.empty() ? cdf_[first + count] - cdf_[first]
+                             : float(fine_cdf_[first + count] - fine_cdf_[first]);
   }
   size_t size() const { return guide_.size(); }
   /// Sum of the weights as they were given.
@@ -66,12 +84,14 @@ class DiscreteDistribution {
     const Real p = cdf[i + 1] - cdf[i];
     return {i, float(p), std::min(float((u - cdf[i]) / p), kBelowOne)};
   }
-  /// The 24 bits of u, and 29 more.
-  static double fine_variate(float u, const Point2f& others) {
-    const uint64_t both =
-        uint64_t(std::bit_cast<uint32_t>(others.x)) << 32 | std::bit_cast<uint32_t>(others.y);
-    const uint64_t more = hash_combine(std::bit_cast<uint32_t>(u), both) >> 35;
-    return double(u) + double(more) * 0x1p-53;
+  template <class Real>
+  Pick pick_within(const std::vector<Real>& cdf, uint32_t first, uint32_t count, Real u) const {
+    const Real from = cdf[first], width = cdf[first + count] - from;
+    // Rounding must not lead out of the range, nor to what has no weight.
+    const Real last = std::nextafter(cdf[first + count], Real(0));
+    Pick p = pick(cdf, std::min(from + u * width, last));
+    p.probability /= float(width);
+    return p;
   }
 
   std::vector<float> cdf_;        ///< of up to kMostCoarse weights

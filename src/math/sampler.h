@@ -2,6 +2,7 @@
 // pixel can be made anywhere and at any time.
 #pragma once
 
+#include <array>
 #include <cstdint>
 
 #include "math/hash.h"
@@ -38,14 +39,12 @@ class Sampler {
     key_ = round == 0 ? pixel_key_ : hash_combine(pixel_key_, round);
     block_ = 0;
     row_ = sobol_row(index_);
+    group_ = kNoGroup;
   }
 
   /// Continues at the given dimension: each vertex of a path has dimensions of its own, so that
   /// what one vertex uses does not shift the numbers of the next.
-  void start_dimension(uint32_t d) {
-    dimension_ = d;
-    if (sequence_ == SampleSequence::sobol) select_block(d / kSobolDimensions);
-  }
+  void start_dimension(uint32_t d) { dimension_ = d; }
 
   [[gnu::always_inline]] float next_1d() {
     const uint32_t d = dimension_++;
@@ -68,28 +67,29 @@ class Sampler {
   uint64_t draw(uint32_t d) const { return mix64(key_ + 0x9e3779b97f4a7c15ull * (d + 1)); }
 
   float scrambled(uint32_t d) {
-    if (d / kSobolDimensions != block_) select_block(d / kSobolDimensions);
-    const uint32_t scramble = mix32(uint32_t(key_ >> 32) + 0x9e3779b9u * (d + 1));
-    return to_unit_float(owen_scramble_reversed(row_.value(d % kSobolDimensions), scramble));
+    if (d / kSobolGroup != group_) draw_group(d / kSobolGroup);
+    return numbers_[d % kSobolGroup];
   }
 
+  /// Makes the numbers of a group of dimensions.
+  void draw_group(uint32_t group);
   /// Dimensions come in blocks of kSobolDimensions; later blocks use the same points in another
   /// order that is itself an Owen scramble, so each prefix of the sequence stays well distributed.
   /// Source: Burley, "Practical Hash-based Owen Scrambling", JCGT 9(4), 2020.
-  void select_block(uint32_t block) {
-    if (block == block_) return;
-    block_ = block;
-    const uint32_t shuffle = mix32(uint32_t(key_) ^ (0x85ebca6bu * block));
-    row_ = sobol_row(block == 0 ? index_ : shuffle_index(index_, shuffle));
-  }
+  void select_block(uint32_t block);
+
+  static constexpr uint32_t kNoGroup = ~0u;
 
   SampleSequence sequence_;
   uint32_t index_ = 0;
   uint32_t dimension_ = 0;
-  uint32_t block_ = 0;
   uint64_t pixel_key_;
   uint64_t key_ = 0;
-  SobolRow row_;
+  /// Of Sobol' points, the numbers of the group of dimensions that was asked for last: a vertex of
+  /// a path needs about as many, and together they cost little more than one.
+  uint32_t group_ = kNoGroup, block_ = 0;
+  SobolRow row_;  ///< of the block of dimensions
+  std::array<float, kSobolGroup> numbers_;
 };
 
 }  // namespace duet

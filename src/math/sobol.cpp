@@ -1,5 +1,7 @@
 #include "math/sobol.h"
 
+#include "base/instruction_sets.h"
+
 namespace duet::sobol_detail {
 namespace {
 
@@ -69,3 +71,17 @@ constexpr Table make_rows() {
 constinit const Table kRows = make_rows();
 
 }  // namespace duet::sobol_detail
+
+namespace duet {
+
+DUET_WIDE void scramble_group(const SobolRow& row, uint32_t key, uint32_t first, float* numbers) {
+  const uint32_t *const low = row.low + first % kSobolDimensions, *const high =
+                                                                      row.high +
+                                                                      first % kSobolDimensions;
+  for (uint32_t i = 0; i < kSobolGroup; ++i) {
+    const uint32_t seed = mix32(key + 0x9e3779b9u * (first + i + 1));
+    numbers[i] = to_unit_float(owen_scramble_reversed(low[i] ^ high[i], seed));
+  }
+}
+
+}  // namespace duet

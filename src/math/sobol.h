@@ -9,6 +9,8 @@
 namespace duet {
 
 inline constexpr int kSobolDimensions = 16;
+/// So many dimensions, from a multiple of this number on, are scrambled at once.
+inline constexpr uint32_t kSobolGroup = 8;
 /// Sample indices use this many low bits; a sequence may have 65,536 points before it repeats.
 inline constexpr int kSobolIndexBits = 16;
 
@@ -23,7 +25,6 @@ extern const Table kRows;
 struct SobolRow {
   const uint32_t* low = nullptr;
   const uint32_t* high = nullptr;
-  uint32_t value(uint32_t dimension) const { return low[dimension] ^ high[dimension]; }
 };
 
 inline SobolRow sobol_row(uint32_t index) {
@@ -53,5 +54,10 @@ constexpr uint32_t owen_scramble_reversed(uint32_t reversed, uint32_t seed) {
 constexpr uint32_t shuffle_index(uint32_t index, uint32_t seed) {
   return reverse_bits(laine_karras(reverse_bits(index), seed)) & ((1u << kSobolIndexBits) - 1);
 }
+
+/// The numbers of kSobolGroup dimensions of a sample, from dimension `first` on, each scrambled by
+/// a seed of its own. `key` tells the pixels apart; `row` has the point for these dimensions, in
+/// which `first` is dimension first % kSobolDimensions.
+void scramble_group(const SobolRow& row, uint32_t key, uint32_t first, float* numbers);
 
 }  // namespace duet

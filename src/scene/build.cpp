@@ -65,7 +65,10 @@ void SceneBuilder::survey() {
   if (!scene.media.empty())
     for (const auto& light : scene.lights)
       scene.light_media.push_back(medium_before(scene, *light));
-  scene.picker = LightPicker(selection_weights(scene.lights, sampling_weights_, bounds.radius()));
+  scene.emission_picker =
+      LightPicker(selection_weights(scene.lights, sampling_weights_, bounds.radius()));
+  scene.direct_picker = DirectPicker(scene.lights, sampling_weights_, bounds.radius(),
+                                     light_selection(description_.integrator));
 }
 
 bool SceneBuilder::check_transform(const Matrix4& m, const SourceLocation& where) {

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "base/diagnostics.h"
+#include "lights/light_selection.h"
 #include "scene/field.h"
 
 namespace duet {
@@ -28,6 +29,9 @@ inline constexpr Parameter kStrictNormals0x{
     "drop paths whose shading and geometric normals disagree",
     any,
     v0};
+inline constexpr Parameter kLightSelection{
+    "light_selection", string, kInitial,
+    "by what light samples choose a light: auto, bvh, power or uniform (docs/lights.md)"};
 constexpr Parameter max_depth_parameter(
     std::string_view note = "longest path in segments; -1: no limit") {
   return {"max_depth", integer, kInitial, note, depth};
@@ -43,6 +47,7 @@ struct PathLimits {
   bool hide_emitters = false;
   /// Ignore directions that the shading and the geometric normal see on different sides.
   bool strict_normals = false;
+  LightSelection light_selection = LightSelection::automatic;
 
   static constexpr auto limits(const Parameter& max_depth) {
     using namespace parameter_words;
@@ -50,16 +55,24 @@ struct PathLimits {
     return std::tuple(field(&L::max_depth, max_depth), field(&L::rr_depth, kRrDepth),
                       field(&L::hide_emitters, kHideEmitters));
   }
-  static constexpr auto fields() {
+  /// What Mitsuba 3 does not have.
+  static constexpr auto own_fields() {
     using namespace parameter_words;
-    return std::tuple_cat(
-        limits(max_depth_parameter()),
-        std::tuple(field(&PathLimits::strict_normals, kStrictNormals0x).unwritten()));
+    using L = PathLimits;
+    return std::tuple(
+        field(&L::strict_normals, kStrictNormals0x).unwritten(),
+        field(&L::light_selection, kLightSelection).words(kLightSelectionNames).unwritten());
   }
-  std::vector<std::string> losses() const { return without_strict_normals(strict_normals); }
-  static std::vector<std::string> without_strict_normals(bool strict) {
-    if (!strict) return {};
-    return {"\"strict_normals\" does not exist in Mitsuba 3"};
+  static constexpr auto fields() {
+    return std::tuple_cat(limits(parameter_words::max_depth_parameter()), own_fields());
+  }
+  std::vector<std::string> losses() const { return own_losses(strict_normals, light_selection); }
+  static std::vector<std::string> own_losses(bool strict, LightSelection selection) {
+    std::vector<std::string> lost;
+    if (strict) lost.emplace_back("\"strict_normals\" does not exist in Mitsuba 3");
+    if (selection != LightSelection::automatic)
+      lost.emplace_back("\"light_selection\" does not exist in Mitsuba 3");
+    return lost;
   }
 };
 struct PathIntegratorDescription : PathLimits {
@@ -77,8 +90,7 @@ struct VolumePathIntegratorDescription : PathLimits {
     return std::tuple_cat(
         limits(max_depth_parameter("longest path in segments; surfaces that light passes straight "
                                    "do not count; -1: no limit")),
-        std::tuple(field(&PathLimits::strict_normals, kStrictNormals0x).unwritten(),
-                   field(&D::name)));
+        own_fields(), std::tuple(field(&D::name)));
   }
   const char* method_name() const {
     return name == VolumePathName::volpath ? "volpath" : "volpathmis";
@@ -87,6 +99,7 @@ struct VolumePathIntegratorDescription : PathLimits {
 struct DirectIntegratorDescription {
   int emitter_samples = 1, bsdf_samples = 1;
   bool hide_emitters = false, strict_normals = false;
+  LightSelection light_selection = LightSelection::automatic;
   static constexpr auto fields() {
     using namespace parameter_words;
     using enum ParameterType;
@@ -101,11 +114,12 @@ struct DirectIntegratorDescription {
         field(&D::bsdf_samples, Parameter{"bsdf_samples", integer, kInitial, "", not_negative})
             .read_by_plugin(),
         field(&D::hide_emitters, kHideEmitters),
-        field(&D::strict_normals, kStrictNormals0x).unwritten());
+        field(&D::strict_normals, kStrictNormals0x).unwritten(),
+        field(&D::light_selection, kLightSelection).words(kLightSelectionNames).unwritten());
   }
   static constexpr const char* method_name() { return "direct"; }
   std::vector<std::string> losses() const {
-    return PathLimits::without_strict_normals(strict_normals);
+    return PathLimits::own_losses(strict_normals, light_selection);
   }
 };
 struct DepthIntegratorDescription {
@@ -148,6 +162,7 @@ struct BidirectionalIntegratorDescription {
   int max_depth = -1;
   int rr_depth = 5;
   bool hide_emitters = false, strict_normals = false;
+  LightSelection light_selection = LightSelection::automatic;
   double light_paths = 0;  ///< light sub-paths per pixel; 0: the default of the method
   /// Light vertices to which each eye vertex is connected; −1: all of one light sub-path.
   int connections = -1;
@@ -168,42 +183,13 @@ struct BidirectionalIntegratorDescription {
   bool connects() const { return is(BidirectionalMethod::bdpt) || is(BidirectionalMethod::vcm); }
   bool merges() const { return method >= BidirectionalMethod::ppm; }
 
-  static constexpr auto fields() {
+  /// What only `reuse` has.
+  static constexpr auto reuse_fields() {
     using namespace parameter_words;
     using enum ParameterType;
     using D = BidirectionalIntegratorDescription;
-    using enum BidirectionalMethod;
-    constexpr auto reuses = [](const D& d) { return d.is(reuse); };
-    constexpr auto merging = [](const D& d) { return d.merges(); };
+    constexpr auto reuses = [](const D& d) { return d.is(BidirectionalMethod::reuse); };
     return std::tuple(
-        field(&D::method), field(&D::max_depth, max_depth_parameter()),
-        field(&D::rr_depth, kRrDepth), field(&D::hide_emitters, kHideEmitters),
-        field(&D::strict_normals, kStrictNormals).when([](const D& d) { return !d.is(ptracer); }),
-        field(&D::light_paths,
-              Parameter{"light_paths", number, kInitial,
-                        "light sub-paths for each pixel; 0: 1/4 for bdpt and vcm, 1 for the others",
-                        not_negative})
-            .when([](const D& d) { return !d.is(ptracer) || d.light_paths != 0; }),
-        field(
-            &D::connections,
-            Parameter{"connections", integer, kInitial,
-                      "light vertices for each eye vertex; -1: those of one light sub-path", depth})
-            .when([](const D& d) { return d.connects(); }),
-        field(&D::light_image,
-              Parameter{"light_image", boolean, kInitial, "connect light vertices to the camera"})
-            .when([](const D& d) { return d.is(bdpt); }),
-        field(&D::radius, Parameter{.name = "radius",
-                                    .type = number,
-                                    .preset = kInitial,
-                                    .note = "of merging in the first iteration, in world units; 0: "
-                                            "from the size of a pixel",
-                                    .range = not_negative,
-                                    .aliases = "initial_radius"})
-            .when(merging),
-        field(&D::alpha,
-              Parameter{"alpha", number, kInitial,
-                        "how fast the radius shrinks; 0: the method's default", fraction})
-            .when(merging),
         field(&D::max_eye_depth, Parameter{"max_eye_depth", integer, kInitial,
                                            "longest eye sub-path in segments", not_negative})
             .when(reuses),
@@ -220,12 +206,60 @@ struct BidirectionalIntegratorDescription {
                                      "a or b, what the weights of the thesis are taken to mean"})
             .words(kReadings)
             .read_by_plugin()
-            .when([](const D& d) { return d.is(reuse) && d.weights != ReuseWeights::exact; }),
+            .when([](const D& d) {
+              return d.is(BidirectionalMethod::reuse) && d.weights != ReuseWeights::exact;
+            }),
         field(&D::continue_probability,
               Parameter{"continue_probability", number, kInitial,
                         "that an eye sub-path goes on beyond its limit", probability})
-            .when(reuses),
-        field(&D::merge_parts));
+            .when(reuses));
+  }
+  static constexpr auto fields() {
+    using namespace parameter_words;
+    using enum ParameterType;
+    using D = BidirectionalIntegratorDescription;
+    using enum BidirectionalMethod;
+    constexpr auto merging = [](const D& d) { return d.merges(); };
+    return std::tuple_cat(
+        std::tuple(
+            field(&D::method), field(&D::max_depth, max_depth_parameter()),
+            field(&D::rr_depth, kRrDepth), field(&D::hide_emitters, kHideEmitters),
+            field(&D::strict_normals, kStrictNormals).when([](const D& d) {
+              return !d.is(ptracer);
+            }),
+            field(&D::light_selection, kLightSelection)
+                .words(kLightSelectionNames)
+                .terse()
+                .when([](const D& d) { return !d.is(ptracer); }),
+            field(&D::light_paths,
+                  Parameter{
+                      "light_paths", number, kInitial,
+                      "light sub-paths for each pixel; 0: 1/4 for bdpt and vcm, 1 for the others",
+                      not_negative})
+                .when([](const D& d) { return !d.is(ptracer) || d.light_paths != 0; }),
+            field(&D::connections,
+                  Parameter{"connections", integer, kInitial,
+                            "light vertices for each eye vertex; -1: those of one light sub-path",
+                            depth})
+                .when([](const D& d) { return d.connects(); }),
+            field(&D::light_image, Parameter{"light_image", boolean, kInitial,
+                                             "connect light vertices to the camera"})
+                .when([](const D& d) { return d.is(bdpt); }),
+            field(&D::radius,
+                  Parameter{.name = "radius",
+                            .type = number,
+                            .preset = kInitial,
+                            .note = "of merging in the first iteration, in world units; 0: "
+                                    "from the size of a pixel",
+                            .range = not_negative,
+                            .aliases = "initial_radius"})
+                .when(merging),
+            field(&D::alpha,
+                  Parameter{"alpha", number, kInitial,
+                            "how fast the radius shrinks; 0: the method's default", fraction})
+                .when(merging),
+            field(&D::merge_parts)),
+        reuse_fields());
   }
   std::string_view method_name() const { return kMethods[size_t(method)]; }
   std::vector<std::string> losses() const {
@@ -241,7 +275,10 @@ struct AutoIntegratorDescription : PathLimits {
   static constexpr auto fields() {
     using namespace parameter_words;
     return std::tuple_cat(limits(max_depth_parameter()),
-                          std::tuple(field(&PathLimits::strict_normals, kStrictNormals)));
+                          std::tuple(field(&PathLimits::strict_normals, kStrictNormals),
+                                     field(&PathLimits::light_selection, kLightSelection)
+                                         .words(kLightSelectionNames)
+                                         .terse()));
   }
   static constexpr const char* method_name() { return "auto"; }
   static std::vector<std::string> losses() { return {"only Duet reads the integrator \"auto\""}; }
@@ -272,5 +309,20 @@ struct IntegratorDescription {
                         &IntegratorDescription::moments);
   }
 };
+
+/// By what the method's light samples choose a light; `power`, which costs nothing, if it has none.
+inline LightSelection light_selection(const IntegratorDescription& integrator) {
+  return std::visit(
+      []<class T>(const T& method) {
+        if constexpr (std::is_same_v<T, BidirectionalIntegratorDescription>)
+          return method.is(BidirectionalMethod::ptracer) ? LightSelection::power
+                                                         : method.light_selection;
+        else if constexpr (requires { method.light_selection; })
+          return method.light_selection;
+        else
+          return LightSelection::power;
+      },
+      integrator.method);
+}
 
 }  // namespace duet

@@ -9,20 +9,29 @@ namespace duet {
 
 namespace {
 
+/// The geometric mean of luminance, black pixels set to a small number. Source: Reinhard et al.
+/// 2002, eq. 1.
+double log_average(const Image& image) {
+  double sum = 0;
+  const size_t n = size_t(image.width) * image.height;
+  for (size_t i = 0; i < n; ++i) {
+    const float* p = &image.data[i * image.channels.size()];
+    sum += std::log(1e-3 + std::max(0.0, double(Spectrum(p[0], p[1], p[2]).luminance())));
+  }
+  return std::exp(sum / double(n));
+}
+
 /// Reinhard et al., "Photographic Tone Reproduction for Digital Images", 2002, eqs. 1 to 4, applied
 /// to luminance: `key` is the middle grey; `burn` from 0 to 1 lowers the luminance that becomes
 /// white by the square of 1 − burn, as Mitsuba 0.6 does.
 class Reinhard {
  public:
   Reinhard(const Image& image, double key, double burn) {
-    double log_sum = 0, brightest = 0;
+    double brightest = 0;
     const size_t n = size_t(image.width) * image.height;
-    for (size_t i = 0; i < n; ++i) {
-      const double y = std::max(0.0, double(luminance(&image.data[i * image.channels.size()])));
-      log_sum += std::log(1e-3 + y);
-      brightest = std::max(brightest, y);
-    }
-    scale_ = key / std::exp(log_sum / double(n));
+    for (size_t i = 0; i < n; ++i)
+      brightest = std::max(brightest, double(luminance(&image.data[i * image.channels.size()])));
+    scale_ = key / log_average(image);
     const double white = brightest * scale_ * std::pow(std::clamp(1 - burn, 1e-8, 1.0), 2);
     inverse_white2_ = white > 0 ? 1 / (white * white) : 0;
   }
@@ -36,6 +45,8 @@ class Reinhard {
   double scale_, inverse_white2_;
 };
 
+constexpr double kMiddleGrey = 0.18;
+
 }  // namespace
 
 bool has_alpha(PixelFormat f) {
@@ -48,9 +59,17 @@ bool is_grey(PixelFormat f) {
 
 DisplayImage to_display(const Image& image, const DisplayOptions& options, bool grey,
                         bool with_alpha) {
-  const ToneMapping tone = options.tone_mapping.value_or(ToneMapping{});
+  const DisplaySettings& settings = options.settings;
+  ToneMapping tone = options.tone_mapping.value_or(ToneMapping{});
+  if (settings.curve) {
+    tone = ToneMapping{};
+    tone.reinhard = settings.curve == ToneCurve::reinhard;
+  }
+  const bool is_film = settings.curve == ToneCurve::aces || settings.curve == ToneCurve::agx;
   const size_t n = size_t(image.width) * image.height, stride = image.channels.size();
-  const double scale = std::exp2(options.exposure + (tone.reinhard ? 0 : tone.exposure));
+  double scale = std::exp2(settings.exposure + (tone.reinhard ? 0 : tone.exposure));
+  // Reinhard's operator begins with that.
+  if (settings.automatic && !tone.reinhard) scale *= kMiddleGrey / log_average(image);
   std::optional<Reinhard> reinhard;
   if (tone.reinhard) reinhard.emplace(image, tone.key, tone.burn);
   const auto byte = [](double v) { return uint8_t(std::lround(255 * std::clamp(v, 0.0, 1.0))); };
@@ -66,10 +85,15 @@ DisplayImage to_display(const Image& image, const DisplayOptions& options, bool 
     const float* p = &image.data[i * stride];
     double s = scale * (reinhard ? reinhard->factor(p) : 1.0);
     if (with_alpha && p[3] > 0) s /= p[3];
-    if (grey)
+    if (is_film) {
+      const Spectrum rgb = Spectrum(p[0], p[1], p[2]) * float(s);
+      const Spectrum c = displayed(grey ? Spectrum(rgb.luminance()) : rgb, *settings.curve);
+      for (int k = 0; k < (grey ? 1 : 3); ++k) out.bytes.push_back(byte(double(c[k])));
+    } else if (grey) {
       out.bytes.push_back(encode(Spectrum(p[0], p[1], p[2]).luminance() * s));
-    else
+    } else {
       for (int c = 0; c < 3; ++c) out.bytes.push_back(encode(p[c] * s));
+    }
     if (with_alpha) out.bytes.push_back(byte(p[3]));
   }
   return out;

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "image/image_io.h"
+#include "image/tone_curve.h"
 #include "scene/description.h"
 
 namespace duet {
@@ -21,9 +22,9 @@ Image in_pixel_format(const Image& image, PixelFormat format);
 
 /// How display formats show radiance.
 struct DisplayOptions {
-  double exposure = 0;  ///< stops, on top of what the scene's film says
-  std::optional<ToneMapping> tone_mapping;
-  TextFields fields = {};  ///< what the file says about the image
+  DisplaySettings settings;
+  std::optional<ToneMapping> tone_mapping;  ///< of the film
+  TextFields fields = {};                   ///< what the file says about the image
 };
 
 /// Bytes for a display, channels interleaved.

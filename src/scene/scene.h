@@ -8,8 +8,8 @@
 #include "cameras/camera.h"
 #include "geometry/accel.h"
 #include "geometry/surface.h"
+#include "lights/direct_picker.h"
 #include "lights/light.h"
-#include "lights/picker.h"
 #include "materials/bsdf.h"
 #include "media/medium.h"
 #include "scene/features.h"
@@ -35,7 +35,8 @@ struct Scene {
   std::vector<std::unique_ptr<Texture>> textures;
   std::vector<std::unique_ptr<Material>> materials;
   std::vector<std::unique_ptr<Light>> lights;
-  LightPicker picker;
+  LightPicker emission_picker;  ///< the light that a light sub-path begins at
+  DirectPicker direct_picker;   ///< the light that a light sample is taken of
   /// The light that rays find when they leave the scene, or null; and its index.
   const EnvironmentLight* environment = nullptr;
   uint32_t environment_index = kNone;

@@ -71,8 +71,8 @@ inline Connection connect_hit(const Scene& scene, const Weights& weights, const 
   const Spectrum emitted = light->emitted(s, -subpath.ray.direction);
   if (emitted.is_black()) return {};
   const float direct = choice_density(scene, *light, subpath.from, s, subpath.ray.direction, d2);
-  const float emission =
-      light->emission_density(s, -subpath.ray.direction) * scene.picker.probability(s.shape->light);
+  const float emission = light->emission_density(s, -subpath.ray.direction) *
+                         scene.emission_picker.probability(s.shape->light);
   return {subpath.throughput * emitted, weights.hit(subpath, direct / transmittance, emission)};
 }
 
@@ -84,8 +84,8 @@ inline Connection connect_escape(const Scene& scene, const Weights& weights, con
   const Spectrum emitted = scene.environment->emitted(subpath.from, w);
   if (emitted.is_black()) return {};
   const float direct = choice_density(scene, subpath.from, w);
-  const float emission =
-      scene.environment->emission_density(w) * scene.picker.probability(scene.environment_index);
+  const float emission = scene.environment->emission_density(w) *
+                         scene.emission_picker.probability(scene.environment_index);
   return {subpath.throughput * emitted, weights.hit(subpath, direct / transmittance, emission)};
 }
 
@@ -105,7 +105,7 @@ template <class Weights, class Vertex>
 inline Connection connect_light(const ConnectionContext<Weights>& c, const Vertex& eye,
                                 Sampler& sampler) {
   const Scene& scene = c.scene;
-  const auto [sample, probability] = choose_light(scene, eye.position(), sampler);
+  const auto [sample, probability, light] = choose_light(scene, eye.position(), sampler);
   if (!sample || (c.strict_normals && eye.has_two_sides(sample->wi))) return {};
   const BsdfEval f = eye.eval(sample->wi, Transport::radiance);
   if (f.value.is_black()) return {};
@@ -113,11 +113,13 @@ inline Connection connect_light(const ConnectionContext<Weights>& c, const Verte
   if (sample->delta)
     direct = sample->finite ? length_squared(sample->target - eye.position()) : 1.0f;
   const float hit = sample->delta ? 0.0f : f.pdf.value;
-  ConnectionEnd eye_end{sample->emission * eye.cosine(sample->wi) / direct,
+  direct *= probability;
+  const float emission = sample->emission * scene.emission_picker.probability(light);
+  ConnectionEnd eye_end{emission * eye.cosine(sample->wi) / direct,
                         eye.reverse_pdf(sample->wi, Transport::radiance)};
   eye_end.merges = eye.merges(f.pdf.value, eye_end.beyond);
   Connection connection{eye.throughput * f.value * sample->weight * (1 / probability),
-                        c.weights.light_sample(eye, direct * probability, hit, eye_end)};
+                        c.weights.light_sample(eye, direct, hit, eye_end)};
   const float kept = c.roulette.keep(connection.value * connection.weight);
   if (kept == 0) return {};
   connection.value *= kept;
@@ -129,8 +131,7 @@ inline Connection connect_light(const ConnectionContext<Weights>& c, const Verte
     if (!transmittance) return {};
     connection.value *= transmittance->value;
     eye_end.arrival *= transmittance->nominal;
-    connection.weight =
-        c.weights.light_sample(eye, direct * probability, hit * transmittance->nominal, eye_end);
+    connection.weight = c.weights.light_sample(eye, direct, hit * transmittance->nominal, eye_end);
   } else {
     const Ray shadow = sample->finite ? spawn_ray_to(eye.surface, sample->target)
                                       : spawn_ray(eye.surface, sample->wi);

@@ -13,32 +13,36 @@ namespace duet {
 struct ChosenLight {
   std::optional<LightSample> sample;
   float probability;
+  uint32_t light;  ///< its index
 };
 
 /// Uses two or three dimensions of the sampler. The scene must have a light.
-inline ChosenLight choose_light(const Scene& scene, const Point3f& from, Sampler& sampler) {
+[[gnu::always_inline]] inline ChosenLight choose_light(const Scene& scene, const Point3f& from,
+                                                       Sampler& sampler) {
   const Point2f u = sampler.next_2d();
-  const LightPicker::Pick pick =
-      scene.picker.size() == 1 ? LightPicker::Pick{0, 1} : scene.picker.pick(sampler.next_1d(), u);
+  const LightPicker::Pick pick = scene.lights.size() == 1
+                                     ? LightPicker::Pick{0, 1}
+                                     : scene.direct_picker.pick(sampler.next_1d(), u, from);
   const Light& light = *scene.lights[pick.light];
   // The common kind is called directly, so that the compiler can look into it.
   return {light.kind() == LightKind::area
               ? static_cast<const AreaLight&>(light).sample_direct(from, u)
               : light.sample_direct(from, u),
-          pick.probability};
+          pick.probability, pick.light};
 }
 
 /// Density per solid angle at `from` with which choose_light() makes the direction `w`, which has
 /// met the surface `s` of a light at squared distance `d2`.
 inline float choice_density(const Scene& scene, const SurfaceLight& light, const Point3f& from,
                             const Surface& s, const Vector3f& w, float d2) {
-  return light.pdf_direct(from, s, w, d2).value * scene.picker.probability(s.shape->light);
+  return light.pdf_direct(from, s, w, d2).value *
+         scene.direct_picker.probability(s.shape->light, from);
 }
 
 /// The same for a direction that leaves the scene, which must have an environment.
 inline float choice_density(const Scene& scene, const Point3f& from, const Vector3f& w) {
   return scene.environment->pdf_direct(from, w).value *
-         scene.picker.probability(scene.environment_index);
+         scene.direct_picker.probability(scene.environment_index, from);
 }
 
 }  // namespace duet

@@ -22,13 +22,14 @@ struct LightStart {
   const Light* light;
   uint32_t index;  ///< of the light
   float pick_probability;
+  const DirectPicker* direct_picker;  ///< of light samples
   EmissionSample emission;
 
   /// Density of the ray as in EmissionSample::density.
   float density() const { return emission.density * pick_probability; }
   /// Density per solid angle with which a light sample at `at` finds the start of the ray.
   float direct(const Point3f& at) const {
-    return light->direct_density(emission, at) * pick_probability;
+    return light->direct_density(emission, at) * direct_picker->probability(index, at);
   }
 };
 
@@ -36,7 +37,7 @@ struct LightStart {
 inline std::optional<LightStart> start_light_subpath(const Scene& scene, Sampler& sampler) {
   const float choice = sampler.next_1d();
   const Point2f position = sampler.next_2d(), direction = sampler.next_2d();
-  const LightPicker::Pick pick = scene.picker.pick(choice, position);
+  const LightPicker::Pick pick = scene.emission_picker.pick(choice, position);
   const Light& light = *scene.lights[pick.light];
   const auto e = light.sample_emission(position, direction);
   if (!e || !(pick.probability > 0)) return std::nullopt;
@@ -46,6 +47,7 @@ inline std::optional<LightStart> start_light_subpath(const Scene& scene, Sampler
   start.light = &light;
   start.index = pick.light;
   start.pick_probability = pick.probability;
+  start.direct_picker = &scene.direct_picker;
   start.emission = *e;
   return start;
 }

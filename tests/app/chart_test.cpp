@@ -318,7 +318,7 @@ TEST_SUITE("program") {
                       "--reference", "reference.exr", "-o", "out"});
     };
     const Outcome fine =
-        external(std::string("other=") + DUET_PROGRAM + " {scene} --spp {spp} -o {out} -q");
+        external(std::string("other=") + program_path() + " {scene} --spp {spp} -o {out} -q");
     CHECK(fine.code == 0);
     const Rows rows = csv(s.file("out/chart.csv"));
     int expected = 1;
@@ -337,10 +337,11 @@ TEST_SUITE("program") {
     CHECK(contains(s.file("out/index.html"), "exit code 7"));
     CHECK(csv(s.file("out/chart.csv")).back()[0] == "path");
     CHECK(contains(external("other=true {spp} {out}").err, "cannot be opened"));
-    const Outcome slow = external("other=sleep 600; echo {spp} {out}");
+    const Outcome slow = external("other=cp reference.exr {out}; sleep 600; echo {spp}");
     CHECK(slow.code == 1);
     CHECK(slow.seconds < 300);  // it was ended
     CHECK(contains(slow.err, "did not end within its share"));
+    CHECK_FALSE(s.has("out/external-output.exr"));
     CHECK(s.chart({"tiny.xml", "--external", "other=render {out}"}).code == 2);
     CHECK(s.chart({"tiny.xml", "--external", "render {spp} {out}"}).code == 2);
     CHECK(external("other=render {spp} {out} {speed}").code == 2);

@@ -72,6 +72,36 @@ TEST_SUITE("program") {
     }
   }
 
+  TEST_CASE("tone mapping and automatic exposure change what is shown and nothing else") {
+    const Workplace place;
+    place.scene();
+    const auto render = [&](const std::string& name, const std::vector<std::string>& options) {
+      std::vector<std::string> all{"tiny.xml", "-o", name + ".exr", "-o", name + ".png"};
+      all.insert(all.end(), options.begin(), options.end());
+      CHECK(place.run(all).code == 0);
+      return read_image(place.path(name + ".png")).bytes;
+    };
+    const auto plain = render("plain", {});
+    // The geometric mean of luminance is middle grey: in sRGB 118 of 255.
+    const auto automatic = render("auto", {"--exposure", "auto"});
+    REQUIRE(automatic.size() == 16 * 12 * 3);
+    double sum = 0;
+    for (size_t i = 0; i < automatic.size(); i += 3) {
+      const auto linear = [&](size_t c) { return srgb_to_linear(float(automatic[i + c]) / 255); };
+      sum += std::log(double(Spectrum(linear(0), linear(1), linear(2)).luminance()));
+    }
+    CHECK(std::exp(sum / (16 * 12)) == doctest::Approx(0.18).epsilon(0.02));
+    CHECK(render("brighter", {"--exposure", "auto+1"})[0] > automatic[0]);
+    for (const std::string curve : {"aces", "agx", "reinhard"})
+      CHECK(render(curve, {"--tonemap", curve}) != plain);
+    CHECK(render("srgb", {"--tonemap", "srgb"}) == plain);
+    CHECK(read_image(place.path("agx.exr")).image.data ==
+          read_image(place.path("plain.exr")).image.data);
+    for (const char* wrong : {"auto2", "auto+", "bright"})
+      CHECK(place.run({"tiny.xml", "--exposure", wrong}).code == 2);
+    CHECK(place.run({"tiny.xml", "--tonemap", "filmic"}).code == 2);
+  }
+
   TEST_CASE("exposure brightens what is shown and nothing else") {
     const Workplace place;
     place.scene();

@@ -124,6 +124,32 @@ TEST_CASE("a tile has the same sums in whichever order and parts it gets its sam
   }
 }
 
+TEST_CASE("colours and alpha have the sums that they have among other channels") {
+  for (const FilterKind kind : {FilterKind::box, FilterKind::gaussian})
+    for (const bool limited : {false, true}) {
+      FilmLayout layout = layout_with(kind);
+      if (limited) layout.sample_limit = SampleLimit{.most = 3};
+      const Film film(layout, {"R", "G", "B", "A"}), wider(layout, {"R", "G", "B", "A", "more"});
+      FilmTile tile = film.tiles()[1], wide = wider.tiles()[1];
+      {
+        SampleAdder sums(film, tile), wide_sums(wider, wide);
+        for (const TileSample& s : samples_in(tile, 5000)) {
+          // The second is at times very large: so is every channel in turn.
+          std::array<float, 5> values{s.values[0], 0.3f * s.values[0], -s.values[0], 1, 0};
+          const size_t channel = size_t(16 * s.position.y) % 4;
+          values[channel] = s.values[1];
+          const int x = int(s.position.x), y = int(s.position.y);
+          sums.add(x, y, s.position, std::span(values).first<4>());
+          wide_sums.add(x, y, s.position, values);
+        }
+      }
+      size_t different = 0;
+      for (size_t i = 0; i < tile.sums().size(); ++i)
+        different += !(tile.sums()[i] == wide.sums()[i / 5 * 6 + i % 5]);
+      CHECK(different == 0);
+    }
+}
+
 TEST_CASE(
     "a constant is one after a million samples, and keeps what is small beside what is large") {
   for (const FilterKind kind : {FilterKind::box, FilterKind::gaussian}) {

@@ -302,7 +302,7 @@ TEST_CASE("parameters of other methods are kept, and those it has not are refuse
   d.method = PathIntegratorDescription{{7, 3, true, true}};
   apply_override(d, {"auto", {}, {}});
   CHECK(integrator_parameters(d) ==
-        "max_depth=7 rr_depth=3 hide_emitters=true strict_normals=true");
+        "max_depth=7 rr_depth=3 hide_emitters=true strict_normals=true light_selection=auto");
   CHECK_THROWS_AS(apply_override(d, {"", {{"light_paths", "1"}}, {}}), std::invalid_argument);
   CHECK_THROWS_AS(make_integrator(d, TechniqueOutput::weighted), std::invalid_argument);
   const auto undecided = make_integrator(d);

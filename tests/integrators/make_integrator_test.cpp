@@ -60,9 +60,10 @@ TEST_CASE("the parameters of each method, with their presets") {
     return integrator_parameters(with({}, name));
   };
   const std::string paths = "max_depth=-1 rr_depth=5 hide_emitters=false",
-                    more = paths + " strict_normals=false light_paths=0";
-  CHECK(parameters("path") == paths + " strict_normals=false");
-  CHECK(parameters("auto") == paths + " strict_normals=false");
+                    own = paths + " strict_normals=false light_selection=auto",
+                    more = own + " light_paths=0";
+  CHECK(parameters("path") == own);
+  CHECK(parameters("auto") == own);
   CHECK(parameters("ptracer") == paths + " light_paths=0");
   CHECK(parameters("bdpt") == more + " connections=-1 light_image=true");
   CHECK(parameters("reuse") ==
@@ -142,6 +143,7 @@ TEST_CASE("values that a parameter cannot have are refused by name") {
       {"reuse", "weights", "b", "exact or thesis"},
       {"reuse", "thesis_reading", "c", "a or b"},
       {"reuse", "thesis_reading", "a", "weights=thesis"},
+      {"path", "light_selection", "tree", "auto, bvh, power or uniform"},
   };
   for (const auto& [method, name, value, needs] : cases) {
     const std::string message = refusal(method, {{name, value}});
@@ -152,10 +154,11 @@ TEST_CASE("values that a parameter cannot have are refused by name") {
   CHECK(refusal("vcm", {{"conections", "1"}}) ==
         "integrator \"vcm\" has no parameter \"conections\" (did you mean \"connections\"?)");
   CHECK(refusal("ptracer", {{"strict_normals", "true"}}).starts_with("integrator \"ptracer\" has"));
+  CHECK(refusal("ptracer", {{"light_selection", "bvh"}}).starts_with("integrator \"ptracer\" has"));
 }
 
 TEST_CASE("another method keeps what the scene said about paths and nothing else") {
-  const PathIntegratorDescription path{8, 3, true, true};
+  const PathIntegratorDescription path{8, 3, true, true, LightSelection::bvh};
   for (const std::string name : {"bdpt", "reuse", "ppm", "bpm", "vcm"}) {
     CAPTURE(name);
     const IntegratorDescription selected = with(describe(path), name);
@@ -164,7 +167,9 @@ TEST_CASE("another method keeps what the scene said about paths and nothing else
                              .max_depth = 8,
                              .rr_depth = 3,
                              .hide_emitters = true,
-                             .strict_normals = true});
+                             .strict_normals = true,
+                             .light_selection = LightSelection::bvh});
+    CHECK(light_selection(selected) == LightSelection::bvh);
     CHECK(with(selected, "path") == describe(path));
   }
   CHECK(with(describe(path), "ptracer").method ==

@@ -91,3 +91,26 @@ TEST_CASE("a sequence that is used up continues with another scramble") {
   s.start_sample(3 + (1u << kSobolIndexBits));
   CHECK(s.next_1d() != first);
 }
+
+TEST_CASE("Sobol' numbers are made group by group, and are those of each dimension by itself") {
+  constexpr uint64_t kSeed = 21, kPixel = 5;
+  constexpr uint32_t kBatch = 2, kIndex = 300, kCount = 70;
+  const uint64_t key = hash_combine(hash_combine(kSeed, kBatch), kPixel);
+  // Burley's construction, number by number.
+  const auto number = [&](uint32_t d) {
+    const uint32_t block = d / kSobolDimensions;
+    const uint32_t shuffle = mix32(uint32_t(key) ^ (0x85ebca6bu * block));
+    const SobolRow row = sobol_row(block == 0 ? kIndex : shuffle_index(kIndex, shuffle));
+    const uint32_t reversed = row.low[d % kSobolDimensions] ^ row.high[d % kSobolDimensions];
+    const uint32_t seed = mix32(uint32_t(key >> 32) + 0x9e3779b9u * (d + 1));
+    return to_unit_float(owen_scramble_reversed(reversed, seed));
+  };
+  Sampler s(SampleSequence::sobol, kSeed, kBatch, kPixel);
+  s.start_sample(kIndex);
+  for (uint32_t d = 0; d < kCount; ++d) CHECK(s.next_1d() == number(d));
+  for (uint32_t d = kCount; d-- > 0;) {
+    s.start_dimension(d);
+    const Point2f p = s.next_2d();
+    CHECK(p == Point2f{number(d), number(d + 1)});
+  }
+}

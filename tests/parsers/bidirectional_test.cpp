@@ -275,7 +275,11 @@ TEST_CASE("bidirectional integrators survive being written and read again") {
         "only Duet reads the integrator \"ppm\"");
   check({.method = bpm, .strict_normals = true, .radius = 1e-3, .alpha = 1},
         "only Duet reads the integrator \"bpm\"");
-  check({.method = vcm, .connections = 0, .radius = 2, .alpha = 0.3},
+  check({.method = vcm,
+         .light_selection = LightSelection::uniform,
+         .connections = 0,
+         .radius = 2,
+         .alpha = 0.3},
         "only Duet reads the integrator \"vcm\"");
   for (const ReuseWeights weights :
        {ReuseWeights::exact, ReuseWeights::thesis_a, ReuseWeights::thesis_b})

@@ -81,9 +81,25 @@ TEST_CASE("pbrt writer: films, filters and samples survive") {
   }
 }
 
+TEST_CASE("pbrt's light samplers are selections of lights") {
+  const auto selection = [](const std::string& integrator) {
+    return light_selection(
+        read_pbrt_text("Integrator " + integrator + " Camera \"orthographic\"\nWorldBegin\n", false)
+            .integrator);
+  };
+  using enum LightSelection;
+  CHECK(selection("\"path\"") == automatic);
+  CHECK(selection("\"volpath\" \"string lightsampler\" \"bvh\"") == bvh);
+  CHECK(selection("\"path\" \"string lightsampler\" \"exhaustive\"") == bvh);
+  CHECK(selection("\"bdpt\" \"string lightsampler\" \"uniform\"") == uniform);
+  CHECK(selection("\"path\" \"string lightsamplestrategy\" \"power\"") == power);
+  CHECK(selection("\"path\" \"string lightsamplestrategy\" \"spatial\"") == automatic);
+}
+
 TEST_CASE("pbrt writer: integrators survive") {
   for (const std::string integrator :
        {"\"path\" \"integer maxdepth\" 3", "\"volpath\" \"integer maxdepth\" 12",
+        "\"path\" \"string lightsampler\" \"power\"", "\"bdpt\" \"string lightsampler\" \"bvh\"",
         "\"bdpt\" \"integer maxdepth\" 4", "\"lightpath\" \"integer maxdepth\" 4",
         "\"sppm\" \"float radius\" 0.25", "\"ambientocclusion\"",
         "\"ambientocclusion\" \"float maxdistance\" 3"}) {

@@ -205,6 +205,11 @@ TEST_CASE("integrators") {
                                   "<boolean name='strictNormals' value='true'/></integrator>")
                            .method)
             .strict_normals);
+  CHECK(std::get<Path>(integrator("3.0.0",
+                                  "<integrator type='path'><string name='light_selection' "
+                                  "value='power'/></integrator>")
+                           .method)
+            .light_selection == LightSelection::power);
   CHECK(
       std::get<Direct>(
           integrator(

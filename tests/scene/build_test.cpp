@@ -56,7 +56,7 @@ TEST_CASE("lights around nothing emit finite rays") {
 TEST_CASE("lights are chosen by the weights that the scene gives them") {
   // Two of a kind: without weights each has a probability of one half.
   const auto probability = [](const std::string& first, const std::string& second) {
-    return build(first + second)->picker.probability(0);
+    return build(first + second)->emission_picker.probability(0);
   };
   const std::string weight = "<float name='sampling_weight' value='3'/>";
   const auto point = [](const std::string& more) {

@@ -30,9 +30,13 @@ void redirect(const char* path, int stream) {
 
 }  // namespace
 
+const char* program_path() {
+  return DUET_PROGRAM;
+}
+
 Process::Process(const std::vector<std::string>& arguments, const ProcessOptions& o)
     : start_(now()) {
-  std::vector<std::string> texts{DUET_PROGRAM};
+  std::vector<std::string> texts{program_path()};
   texts.insert(texts.end(), arguments.begin(), arguments.end());
   std::vector<char*> argv;
   for (std::string& t : texts) argv.push_back(t.data());

@@ -35,6 +35,9 @@ struct ProcessOptions {
   std::vector<int> ignored = {};
 };
 
+/// Of the program `duet` that is tested.
+const char* program_path();
+
 /// The program `duet` under way.
 class Process {
  public:

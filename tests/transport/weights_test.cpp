@@ -3,6 +3,7 @@
 #include <array>
 #include <cmath>
 
+#include "support/light_oracle.h"
 #include "support/mis_oracle.h"
 #include "support/transport_scene.h"
 #include "transport/light_subpath.h"
@@ -55,8 +56,17 @@ std::vector<std::string> scenes() {
   const auto ball = [](const std::string& where, const std::string& bsdf) {
     return sphere_xml(where, "0.4", bsdf);
   };
+  // So many that the choice among them depends on the point.
+  std::string many = lamp + bulb + point + sky +
+                     "<emitter type='spot'><transform name='to_world'><lookat origin='0.6,0,1.8' "
+                     "target='0,0.3,0' up='0,1,0'/></transform></emitter>";
+  for (const char* where : {"-0.9, -0.9, 0.3", "0.9, 0.8, 0.1", "-0.8, 0.8, 1.7"})
+    many += sphere_xml(where, "0.05",
+                       "<emitter type='area'><rgb name='radiance' value='20'/></emitter>");
   return {
       camera + grey_walls + lamp,
+      lens + grey_walls + many + ball("-0.4, 0, 0.4", glass) + ball("0.5, 0.2, 0.7", rough_metal),
+      camera + room_xml(plastic) + many + ball("0, 0, 0.6", mirror),
       camera + grey_walls + lamp + ball("-0.4, 0, 0.4", glass) + ball("0.5, 0.2, 0.9", mirror),
       lens + grey_walls + bulb + ball("-0.4, 0, 0.5", rough_glass) + ball("0.5, 0, 0.4", plastic),
       camera + room_xml(rough_metal) + lamp + sky + ball("0, 0, 0.6", glass),
@@ -286,7 +296,8 @@ class Checker {
                     const LightStart& start) const {
     const Vertex& first = light.vertices[0];
     path.to_light = first.wo;
-    path.direct = double(start.direct(first.position()));
+    path.direct = double(start.light->direct_density(start.emission, first.position())) *
+                  direct_probability(scene_, start.index, first.position());
     path.emission = double(start.density());
     path.light_can_be_hit = !is_delta(start.light->kind());
     for (int j = 0; j < count; ++j) {
@@ -298,6 +309,27 @@ class Checker {
       path.specular.push_back(specular);
       path.eta.push_back(specular ? eta_towards_eye(scene_, v.surface, v.wo, to_eye) : 1.0);
     }
+  }
+
+  /// s = 1 at the last vertex of the eye sub-path.
+  template <class Weights>
+  void check_light_sample(const ConnectionContext<Weights>& connections, const Vertex& v,
+                          const Record& eye, const Ray& camera_ray, Sampler& sampler) {
+    Sampler same = sampler;
+    const Connection connection = connect_light(connections, v, sampler);
+    const ChosenLight chosen = choose_light(scene_, v.position(), same);
+    if (connection.value.is_black()) return;
+    const LightSample& sample = *chosen.sample;
+    const double pick = direct_probability(scene_, chosen.light, v.position());
+    const double none = sample.finite ? double(length_squared(sample.target - v.position())) : 1;
+    OraclePath path;
+    path.to_light = sample.wi;
+    path.light_can_be_hit = !sample.delta;
+    path.direct = (sample.delta ? none : double(sample.pdf.value)) * pick;
+    path.emission = double(sample.emission * scene_.emission_picker.probability(chosen.light));
+    append_eye(path, eye, v.depth, camera_ray);
+    check(path, 1, connection.weight,
+          sample.finite ? sample.target : v.position() + sample.wi * 1e3f, camera_ray.origin);
   }
 
   /// One light sub-path and one eye sub-path with all their connections.
@@ -349,6 +381,7 @@ void Checker<Vertex>::eye_subpath(Weights weights, const Ray& camera_ray, int ma
   /// Connects the vertex with all of the light sub-path; whether the eye sub-path goes on.
   const auto pass = [&](const Vertex& v) {
     eye.add(v);
+    if (v.is_smooth()) check_light_sample(connections, v, eye, camera_ray, sampler);
     const auto connect = [&](const Record& from, const Vertex& l) {
       if (!l.is_smooth()) return;
       const Connection connection = connect_ends(connections, l, v);
@@ -413,15 +446,16 @@ void Checker<Vertex>::eye_subpath(Weights weights, const Ray& camera_ray, int ma
       double direct = 0, emission = 0;
       if (!found && scene_.environment) {
         connection = connect_escape(scene_, weights, subpath, transmittance);
-        const float pick = scene_.picker.probability(scene_.environment_index);
-        direct = double(scene_.environment->pdf_direct(subpath.from, subpath.ray.direction).value *
-                        pick);
+        const float pick = scene_.emission_picker.probability(scene_.environment_index);
+        direct = double(scene_.environment->pdf_direct(subpath.from, subpath.ray.direction).value) *
+                 direct_probability(scene_, scene_.environment_index, subpath.from);
         emission = double(scene_.environment->emission_density(subpath.ray.direction) * pick);
       } else if (found && scene_.light_on(*s.shape)) {
         connection = connect_hit(scene_, weights, subpath, s, d2, transmittance);
         const SurfaceLight& l = *scene_.light_on(*s.shape);
-        const float pick = scene_.picker.probability(s.shape->light);
-        direct = double(l.pdf_direct(subpath.from, s, subpath.ray.direction, d2).value * pick);
+        const float pick = scene_.emission_picker.probability(s.shape->light);
+        direct = double(l.pdf_direct(subpath.from, s, subpath.ray.direction, d2).value) *
+                 direct_probability(scene_, s.shape->light, subpath.from);
         emission = double(l.emission_density(s, -subpath.ray.direction) * pick);
       }
       if (!connection.value.is_black()) {

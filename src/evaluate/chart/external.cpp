@@ -59,6 +59,18 @@ Run run(const std::string& command, double limit, const std::atomic<bool>& cance
   return r;
 }
 
+/// A file that is there neither before nor after, whatever a renderer does and whenever it is
+/// stopped.
+struct RemovedFile {
+  const std::string path;
+  explicit RemovedFile(std::string file) : path(std::move(file)) { remove(); }
+  ~RemovedFile() { remove(); }
+  void remove() const {
+    std::error_code ignored;
+    std::filesystem::remove(path, ignored);
+  }
+};
+
 }  // namespace
 
 bool ExternalRenderer::finished() const {
@@ -71,9 +83,8 @@ void ExternalRenderer::fail(const std::string& why) {
 }
 
 void ExternalRenderer::slice(double) {
-  std::error_code ignored;
+  const RemovedFile output{task_.run.output};
   ExternalRun& next = task_.run;
-  std::filesystem::remove(next.output, ignored);
   const Run r = run(task_.command(next), budget_ - used_, *task_.cancel);
   used_ += r.seconds;
   last_ = r.seconds;
@@ -95,7 +106,6 @@ void ExternalRenderer::slice(double) {
   } catch (const std::exception& e) {
     return fail(e.what());
   }
-  std::filesystem::remove(next.output, ignored);
   next.spp *= 2;
 }
 

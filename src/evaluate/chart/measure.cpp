@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <map>
 
 #include "base/percent.h"
 #include "scene/build.h"
@@ -84,6 +85,9 @@ class SceneChart {
   struct Prepared {
     std::string name, parameters;
     std::unique_ptr<Integrator> integrator;
+    IntegratorDescription description;
+    /// By what it chooses lights if the chart says so: that is built into scenes.
+    std::string light_selection;
   };
 
   Prepared make(const ChartMethod& m) const {
@@ -99,7 +103,9 @@ class SceneChart {
       check_support(plan_.description, d, diagnostics);
       check_support(plan_.description.sensors.at(plan_.sensor), d, diagnostics);
       messages_.report(diagnostics);
-      Prepared p{m.name, integrator_parameters(d), make_integrator(d)};
+      Prepared p{m.name, integrator_parameters(d), make_integrator(d), d, ""};
+      for (const auto& [name, value] : m.integrator.parameters)
+        if (name == "light_selection") p.light_selection = value;
       return p;
     } catch (const std::invalid_argument& e) {
       throw ChartMethodError(e.what());
@@ -125,23 +131,37 @@ class SceneChart {
   }
 
   void build() {
+    render_.seed = plan_.seed;
+    render_.threads = plan_.threads;
+    render_.cancel = plan_.cancel;
+    std::map<std::string, const IntegratorDescription*> selections;
+    for (const Prepared& p : integrators_) selections[p.light_selection] = &p.description;
+    if (reference_method_.integrator)
+      selections[reference_method_.light_selection] = &reference_method_.description;
+    for (const auto& [selection, integrator] : selections) {
+      SceneDescription description = plan_.description;
+      if (!selection.empty()) description.integrator = *integrator;
+      if (selection == selections.rbegin()->first) plan_.description = {};
+      build(selection, std::move(description));
+    }
+  }
+
+  void build(const std::string& selection, SceneDescription description) {
     BuildOptions build;
     build.sensor = plan_.sensor;
     build.threads = plan_.threads;
     Diagnostics diagnostics;
-    scene_ = build_scene(std::move(plan_.description), build, diagnostics);
+    scenes_.push_back(build_scene(std::move(description), build, diagnostics));
     messages_.report(diagnostics);
-    render_.scene = scene_.get();
-    render_.seed = plan_.seed;
-    render_.threads = plan_.threads;
-    render_.cancel = plan_.cancel;
+    ChartRender& render = renders_[selection] = render_;
+    render.scene = scenes_.back().get();
   }
 
   bool make_own_reference(double seconds) {
     info("there is no --reference; one is made with {} in {:.3g} s", reference_method_.name,
          seconds);
-    auto made =
-        make_reference(render_, *reference_method_.integrator, reference_method_.name, seconds);
+    auto made = make_reference(renders_.at(reference_method_.light_selection),
+                               *reference_method_.integrator, reference_method_.name, seconds);
     if (!made) {
       warning("interrupted before there was a reference; there is no chart");
       return false;
@@ -154,8 +174,8 @@ class SceneChart {
   void make_renderers(const NoisyReference& reference, double seconds) {
     const double share = seconds / double(integrators_.size() + plan_.external.size());
     for (Prepared& p : integrators_) {
-      renderers_.push_back(
-          std::make_unique<OwnRenderer>(render_, std::move(p.integrator), reference, share));
+      renderers_.push_back(std::make_unique<OwnRenderer>(
+          renders_.at(p.light_selection), std::move(p.integrator), reference, share));
       renderers_.back()->line.name = p.name;
       renderers_.back()->line.parameters = p.parameters;
     }
@@ -226,10 +246,11 @@ class SceneChart {
   ChartPlan plan_;
   const ChartMessages& messages_;
   ChartScene chart_;
-  ChartRender render_;
+  ChartRender render_;                          ///< without a scene
+  std::map<std::string, ChartRender> renders_;  ///< by Prepared::light_selection
   std::vector<Prepared> integrators_;
   Prepared reference_method_;
-  std::unique_ptr<Scene> scene_;
+  std::vector<std::unique_ptr<Scene>> scenes_;
   std::vector<std::unique_ptr<ChartRenderer>> renderers_;
   double share_ = 0, shown_ = 0;
 };

@@ -1,7 +1,6 @@
 #include "evaluate/raw/merge.h"
 
 #include <algorithm>
-#include <stdexcept>
 
 #include "base/diagnostics.h"
 #include "base/memory_limit.h"
@@ -41,7 +40,7 @@ void check_memory(const RawImage& image) {
   const MemoryEstimate estimate = estimate_memory(image.contents, image.form.full_precision.size(),
                                                   image.layout, films, image.form.half);
   const std::string why = memory_refusal(estimate, memory_in_use(), memory_limit());
-  if (!why.empty()) throw std::runtime_error(why);
+  if (!why.empty()) throw TooLittleMemory(why);
 }
 
 }  // namespace
@@ -79,6 +78,26 @@ MergedFilms merge_raw_films(const std::vector<std::string>& paths) {
   merged.result.relative_rmse = parts->relative_rmse();
   merged.result.rmse_is_upper_bound = merged.image.sampler != "independent";
   return merged;
+}
+
+RenderRecord record_of(const MergedFilms& merged) {
+  RenderRecord record;
+  record.scene_file = fmt::format("{} raw films", merged.films);
+  record.integrator = merged.image.integrator;
+  record.decision = merged.image.decision;
+  record.noise_only = merged.image.noise_only;
+  record.seed = merged.image.seed;
+  return record;
+}
+
+HeaderFields header_of(const MergedFilms& merged, const RenderRecord& record,
+                       const std::string& gaps) {
+  HeaderFields header = merged.image.header;
+  for (HeaderField& field : samples_header(record, merged.result))
+    header.push_back(std::move(field));
+  header.emplace_back("slices", int(merged.films));
+  if (!gaps.empty()) header.emplace_back("missingSamples", gaps);
+  return header;
 }
 
 }  // namespace duet

@@ -1,12 +1,19 @@
 // What a render takes in memory, estimated before it begins.
 #pragma once
 
+#include <stdexcept>
 #include <string>
 
 #include "base/memory_limit.h"
 #include "integrators/pass.h"
 
 namespace duet {
+
+/// There is less memory than an image would take.
+class TooLittleMemory : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
 
 /// Bytes besides what the scene takes.
 struct MemoryEstimate {

@@ -1,5 +1,9 @@
 #include "evaluate/report/read_scene.h"
 
+#include <algorithm>
+#include <cstdlib>
+#include <string_view>
+
 #include "mitsuba/mitsuba.h"
 #include "pbrt/pbrt.h"
 
@@ -7,9 +11,20 @@ namespace duet {
 
 namespace {
 
+std::vector<std::string> all_search_paths(const ReadingOptions& options) {
+  std::vector<std::string> paths = options.search_paths;
+  const char* const more = std::getenv(kPathVariable);
+  for (std::string_view rest = more ? more : ""; !rest.empty();) {
+    const size_t colon = std::min(rest.find(':'), rest.size());
+    if (colon > 0) paths.emplace_back(rest.substr(0, colon));
+    rest.remove_prefix(std::min(colon + 1, rest.size()));
+  }
+  return paths;
+}
+
 MitsubaOptions mitsuba_options(const ReadingOptions& options) {
   MitsubaOptions mitsuba;
-  mitsuba.search_paths = options.search_paths;
+  mitsuba.search_paths = all_search_paths(options);
   mitsuba.defines = options.defines;
   mitsuba.replacing_methods = options.methods;
   mitsuba.files = options.files;
@@ -21,7 +36,7 @@ std::optional<LoadedScene> read_pbrt_scene(const std::string& file, const Readin
   InputFiles files;
   pbrt::Options pbrt;
   if (options.pbrt_version != 0) pbrt.version = pbrt::Version(options.pbrt_version);
-  pbrt.search_paths = options.search_paths;
+  pbrt.search_paths = all_search_paths(options);
   pbrt.replaces_integrator = !options.methods.empty();
   pbrt.exists = files.watch({}).exists;
   auto scene = pbrt::read_pbrt(file, pbrt, diagnostics);

@@ -10,6 +10,10 @@
 
 namespace duet {
 
+/// Environment variable with further folders to look for files, after ReadingOptions::search_paths;
+/// between colons.
+inline constexpr const char* kPathVariable = "DUET_PATH";
+
 /// What Mitsuba's and pbrt's readers are told.
 struct ReadingOptions {
   std::vector<std::pair<std::string, std::string>> defines;  ///< as MitsubaOptions has them

@@ -92,6 +92,21 @@ Series Series::without(int group, int groups) const {
   return part;
 }
 
+namespace {
+
+/// Makes the description that of the plan's method, and the method.
+std::unique_ptr<Integrator> override_method(const SeriesPlan& plan,
+                                            IntegratorDescription& description) {
+  try {
+    apply_override(description, {plan.method, listed(plan.parameters), {}});
+    return make_integrator(description);
+  } catch (const std::invalid_argument& e) {
+    throw CatalogueError(fmt::format("{} with {}: {}", plan.scene, plan.method, e.what()));
+  }
+}
+
+}  // namespace
+
 struct Laboratory::BuiltScene {
   std::unique_ptr<Scene> scene;
   FilmLayout layout;
@@ -103,7 +118,12 @@ Laboratory::Laboratory(int threads, std::function<bool()> cancelled)
 Laboratory::~Laboratory() = default;
 
 Experiment Laboratory::prepare(const SeriesPlan& plan) {
-  std::unique_ptr<BuiltScene>& built = scenes_[plan.scene + "\n" + joined(plan.defines)];
+  // By what lights are chosen is built into scenes.
+  std::string selection;
+  for (const auto& [name, value] : plan.parameters)
+    if (name == "light_selection") selection = value;
+  std::unique_ptr<BuiltScene>& built =
+      scenes_[plan.scene + "\n" + joined(plan.defines) + "\n" + selection];
   if (!built) {
     auto fresh = std::make_unique<BuiltScene>();
     MitsubaOptions options;
@@ -119,6 +139,7 @@ Experiment Laboratory::prepare(const SeriesPlan& plan) {
     const FilmDescription& film = read->description.sensors.at(0).film;
     fresh->layout = {{film.width, film.height}, {0, 0, film.width, film.height}, film.filter};
     fresh->integrator = read->description.integrator;
+    if (!selection.empty()) override_method(plan, read->description.integrator);
     BuildOptions build;
     build.threads = threads_;
     fresh->scene = build_scene(std::move(read->description), build, diagnostics);
@@ -126,12 +147,7 @@ Experiment Laboratory::prepare(const SeriesPlan& plan) {
     built = std::move(fresh);
   }
   IntegratorDescription description = built->integrator;
-  try {
-    apply_override(description, {plan.method, listed(plan.parameters), {}});
-    return {*built->scene, built->layout, make_integrator(description)};
-  } catch (const std::invalid_argument& e) {
-    throw CatalogueError(fmt::format("{} with {}: {}", plan.scene, plan.method, e.what()));
-  }
+  return {*built->scene, built->layout, override_method(plan, description)};
 }
 
 Image Laboratory::image(Experiment& experiment, const SeriesPlan& plan, int batch, int threads,

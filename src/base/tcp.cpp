@@ -1,0 +1,97 @@
+#include "base/tcp.h"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <netdb.h>
+#include <poll.h>
+#include <sys/socket.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <chrono>
+#include <cstring>
+#include <stdexcept>
+
+namespace duet {
+
+namespace {
+
+/// How often somebody who waits looks whether he should stop.
+constexpr int kMillisecondsBetweenLooks = 50;
+
+/// Whether the socket can be written to, or has failed, after so many milliseconds.
+bool is_writable(int socket, int milliseconds) {
+  pollfd wait{socket, POLLOUT, 0};
+  return poll(&wait, 1, milliseconds) > 0;
+}
+
+/// The error of connecting; 0 if there is none.
+int connect_within(int socket, const addrinfo& to, double seconds) {
+  if (connect(socket, to.ai_addr, to.ai_addrlen) == 0) return 0;
+  if (errno != EINPROGRESS) return errno;
+  if (!is_writable(socket, int(1000 * seconds))) return ETIMEDOUT;
+  int error = 0;
+  socklen_t size = sizeof(error);
+  getsockopt(socket, SOL_SOCKET, SO_ERROR, &error, &size);
+  return error;
+}
+
+}  // namespace
+
+std::string TcpAddress::text() const {
+  return host.find(':') == std::string::npos ? fmt::format("{}:{}", host, port)
+                                             : fmt::format("[{}]:{}", host, port);
+}
+
+TcpPeer::TcpPeer(const TcpAddress& address) : address_(address) {
+  addrinfo hints{};
+  hints.ai_family = AF_UNSPEC;
+  hints.ai_socktype = SOCK_STREAM;
+  addrinfo* found = nullptr;
+  const int error =
+      getaddrinfo(address.host.c_str(), fmt::to_string(address.port).c_str(), &hints, &found);
+  if (error != 0)
+    throw std::runtime_error(fmt::format("{}: {}", address.text(), gai_strerror(error)));
+  found_ = {found, freeaddrinfo};
+}
+
+TcpConnection::TcpConnection(const TcpPeer& peer, double seconds) {
+  int error = EADDRNOTAVAIL;
+  for (const addrinfo* a = peer.found_.get(); a; a = a->ai_next) {
+    const int s = socket(a->ai_family, a->ai_socktype | SOCK_NONBLOCK | SOCK_CLOEXEC, 0);
+    if (s < 0) continue;
+    error = connect_within(s, *a, seconds);
+    if (error == 0) {
+      socket_ = s;
+      return;
+    }
+    close(s);
+  }
+  throw std::runtime_error(fmt::format("{}: {}", peer.address().text(), std::strerror(error)));
+}
+
+TcpConnection::~TcpConnection() {
+  close(socket_);
+}
+
+void TcpConnection::send(std::span<const uint8_t> bytes, double seconds,
+                         const std::atomic<bool>& cancel) {
+  using Clock = std::chrono::steady_clock;
+  Clock::time_point last = Clock::now();
+  while (!bytes.empty()) {
+    const ssize_t n = ::send(socket_, bytes.data(), bytes.size(), MSG_NOSIGNAL);
+    if (n > 0) {
+      bytes = bytes.subspan(size_t(n));
+      last = Clock::now();
+      continue;
+    }
+    if (n < 0 && errno != EAGAIN && errno != EWOULDBLOCK && errno != EINTR)
+      throw std::runtime_error(std::strerror(errno));
+    is_writable(socket_, kMillisecondsBetweenLooks);
+    if (cancel.load()) throw std::runtime_error("there was no time to send all of it");
+    if (std::chrono::duration<double>(Clock::now() - last).count() > seconds)
+      throw std::runtime_error(std::strerror(ETIMEDOUT));
+  }
+}
+
+}  // namespace duet

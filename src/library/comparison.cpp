@@ -1,0 +1,65 @@
+#include "duet/comparison.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+#include <stdexcept>
+
+#include "evaluate/compare/compare.h"
+#include "evaluate/compare/json.h"
+#include "evaluate/report/scene_json.h"
+#include "library/contents.h"
+
+namespace duet {
+
+namespace {
+
+const Image& finite(const ComparedImage& compared, const char* name) {
+  const Image& image = compared.contents().linear.image;
+  try {
+    check_finite(image, name);
+  } catch (const std::runtime_error& e) {
+    throw std::invalid_argument(e.what());
+  }
+  return image;
+}
+
+}  // namespace
+
+ComparedImage ComparedImage::load(const std::string& path) {
+  try {
+    return ComparedImage(std::make_shared<const Contents>(Contents{load_linear(path)}));
+  } catch (const ReadError& e) {
+    throw FileError(e.what());
+  }
+}
+
+ComparedImage ComparedImage::from_pixels(std::span<const float> pixels, int width, int height,
+                                         const std::vector<std::string>& channels) {
+  Contents made;
+  if (width < 1 || height < 1 || channels.empty() ||
+      pixels.size() != size_t(width) * size_t(height) * channels.size())
+    throw std::invalid_argument(fmt::format("{} numbers are not {} × {} × {}", pixels.size(),
+                                            height, width, channels.size()));
+  made.linear.image = Image(width, height, channels);
+  std::copy(pixels.begin(), pixels.end(), made.linear.image.data.begin());
+  return ComparedImage(std::make_shared<const Contents>(std::move(made)));
+}
+
+std::string compare_images(const ComparedImage& image, const ComparedImage& reference,
+                           const std::optional<ReferenceVariance>& variance, int threads) {
+  finite(reference, "the reference");
+  std::optional<NoiseModel> noise;
+  if (variance)
+    noise = NoiseModel{&finite(variance->image, "the variance"), variance->image_spp,
+                       variance->reference_spp};
+  CompareSettings settings;
+  settings.threads = threads_or_all(threads);
+  Comparison comparison;
+  measure(image.contents().linear, reference.contents().linear, noise, settings, kLongestOfOne,
+          comparison);
+  return json_text(comparison_json(settings, comparison));
+}
+
+}  // namespace duet

@@ -1,0 +1,40 @@
+// What is behind the handles of the public headers.
+#pragma once
+
+#include <string>
+
+#include "duet/comparison.h"
+#include "duet/errors.h"
+#include "duet/rendered_image.h"
+#include "duet/scene_file.h"
+#include "evaluate/compare/linear_image.h"
+#include "evaluate/report/header.h"
+#include "evaluate/report/image_form.h"
+#include "evaluate/report/loaded_scene.h"
+
+namespace duet {
+
+struct SceneFile::Contents {
+  std::string name;
+  LoadedScene loaded;
+};
+
+struct RenderedImage::Contents {
+  Image image;
+  ImageForm form;
+  HeaderFields header;
+  bool interrupted = false;
+};
+
+struct ComparedImage::Contents {
+  LinearImage linear;
+};
+
+/// All threads that the process may have, for settings that ask for none. From the first call on
+/// TBB keeps to them until the process ends.
+int threads_or_all(int threads);
+
+/// Errors and warnings as the public headers have them.
+std::vector<SceneMessage> scene_messages(const Diagnostics& diagnostics);
+
+}  // namespace duet

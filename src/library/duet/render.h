@@ -1,0 +1,64 @@
+// Rendering.
+#pragma once
+
+#include <array>
+#include <atomic>
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <duet/rendered_image.h>
+#include <duet/scene_file.h>
+
+namespace duet {
+
+/// A layer for each technique.
+enum class RenderedTechniques { none, weighted, raw };
+
+/// What `duet render` can be told, with the same meaning. Where nothing is said the scene decides.
+struct RenderSettings {
+  // When to stop: the first limit that is reached.
+  std::optional<int> spp;              ///< samples per pixel
+  std::optional<double> seconds;       ///< wall time
+  std::optional<double> target_error;  ///< relative standard error, such as 0.01
+
+  std::string integrator;  ///< a method instead of the scene's: "auto", "path", "bdpt", "vcm" …
+  std::vector<std::pair<std::string, std::string>> parameters;  ///< of the method
+  std::vector<std::string> layers;                              ///< "albedo", "depth" …
+  RenderedTechniques techniques = RenderedTechniques::none;
+
+  std::optional<uint64_t> seed;
+  bool strict_sampler = false;  ///< the sampler that the scene names, instead of Sobol' points
+  int threads = 0;              ///< 0: all, or what DUET_THREADS says
+  std::optional<std::array<int, 2>> size;  ///< width and height
+  std::optional<std::array<int, 4>> crop;  ///< x, y, width, height, in pixels
+  size_t sensor = 0;
+};
+
+/// How far a render is.
+struct RenderedShare {
+  double fraction = 0;  ///< of the budget, as far as it is known
+  double spp = 0;       ///< samples per pixel
+  double seconds = 0;
+};
+
+/// How a render is watched and stopped.
+struct RenderWatch {
+  std::function<void(const RenderedShare&)> progress = {};      ///< from any thread, one at a time
+  std::function<void(const std::string&)> warning = {};         ///< from the calling thread
+  std::function<void(const RenderedImage&)> image_so_far = {};  ///< from the calling thread
+  double image_seconds = 10;                                    ///< between images so far
+  const std::atomic<bool>* cancel = nullptr;                    ///< to be set by any thread
+};
+
+/// The image, which has the same bits as that of `duet render` with the same settings, whatever the
+/// number of threads; nothing if it was cancelled before every pixel had a sample. Throws
+/// SceneError for what the method cannot render, std::invalid_argument, std::out_of_range and
+/// MemoryError.
+[[gnu::visibility("default")]] std::optional<RenderedImage> render_file(
+    const SceneFile& scene, const RenderSettings& settings, const RenderWatch& watch = {});
+
+}  // namespace duet

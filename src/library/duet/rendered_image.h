@@ -1,0 +1,60 @@
+// Images that were rendered.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <string>
+#include <utility>
+#include <variant>
+#include <vector>
+
+namespace duet {
+
+using MetadataValue = std::variant<std::string, float, int, std::array<float, 16>>;
+
+/// How files for display show radiance.
+struct DisplayForm {
+  double exposure = 0;              ///< stops
+  bool automatic_exposure = false;  ///< the mean of luminance becomes middle grey before that
+  std::string tone_map;             ///< "srgb", "aces", "agx", "reinhard"; "": as the scene says
+};
+
+/// Linear values of height × width × channels, float32. It never changes; copies share the pixels.
+class [[gnu::visibility("default")]] RenderedImage {
+ public:
+  /// A copy of height × width × 4 linear values: R, G, B and A, rows from the top.
+  static RenderedImage from_rgba(std::span<const float> pixels, int width, int height);
+
+  int width() const;
+  int height() const;
+  /// "R", "G", "B", "A", if it has colours, then layers such as "depth.Y".
+  const std::vector<std::string>& channels() const;
+  /// Rows from the top, channels interleaved.
+  std::span<const float> pixels() const;
+  /// What the header of an EXR file says: integrator, spp, seed, relativeStandardError …
+  const std::vector<std::pair<std::string, MetadataValue>>& metadata() const;
+  /// Whether it was cancelled before it had all samples.
+  bool interrupted() const;
+
+  /// Writes a file as a whole, in the format of the path's extension: .exr (linear, all layers),
+  /// .png or .jpg (sRGB, as `display` says). Throws std::invalid_argument for other extensions,
+  /// and for images without colours in formats for display, and FileError.
+  void save(const std::string& path, const DisplayForm& display = {}) const;
+  /// The bytes of a PNG file. Throws std::invalid_argument for images without colours.
+  std::vector<uint8_t> png(const DisplayForm& display = {}) const;
+
+  /// The library's own.
+  struct Contents;
+  explicit RenderedImage(std::shared_ptr<const Contents> contents)
+      : contents_(std::move(contents)) {}
+  const Contents& contents() const {
+    return *contents_;
+  }
+
+ private:
+  std::shared_ptr<const Contents> contents_;
+};
+
+}  // namespace duet

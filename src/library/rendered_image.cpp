@@ -1,0 +1,88 @@
+#include "duet/rendered_image.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <stdexcept>
+
+#include "base/atomic_file.h"
+#include "evaluate/report/image_file.h"
+#include "image/tone_curve.h"
+#include "library/contents.h"
+
+namespace duet {
+
+namespace {
+
+DisplaySettings settings_of(const DisplayForm& display) {
+  DisplaySettings settings{display.exposure, display.automatic_exposure, {}};
+  if (display.tone_map.empty()) return settings;
+  settings.curve = tone_curve_of(display.tone_map);
+  if (!settings.curve)
+    throw std::invalid_argument(fmt::format("there is no tone mapping \"{}\"; there are {}",
+                                            display.tone_map, fmt::join(kToneCurveNames, " ")));
+  return settings;
+}
+
+}  // namespace
+
+RenderedImage RenderedImage::from_rgba(std::span<const float> pixels, int width, int height) {
+  Contents made{{width, height, {"R", "G", "B", "A"}}, {}, {}, false};
+  if (width < 1 || height < 1 || pixels.size() != made.image.data.size())
+    throw std::invalid_argument(
+        fmt::format("{} numbers are not {} × {} × 4", pixels.size(), height, width));
+  std::copy(pixels.begin(), pixels.end(), made.image.data.begin());
+  made.form.crop = {0, 0, width, height};
+  made.form.full_size = {width, height};
+  made.form.half = false;
+  return RenderedImage(std::make_shared<const Contents>(std::move(made)));
+}
+
+int RenderedImage::width() const {
+  return contents_->image.width;
+}
+
+int RenderedImage::height() const {
+  return contents_->image.height;
+}
+
+const std::vector<std::string>& RenderedImage::channels() const {
+  return contents_->image.channels;
+}
+
+std::span<const float> RenderedImage::pixels() const {
+  return contents_->image.data;
+}
+
+const std::vector<std::pair<std::string, MetadataValue>>& RenderedImage::metadata() const {
+  return contents_->header;
+}
+
+bool RenderedImage::interrupted() const {
+  return contents_->interrupted;
+}
+
+void RenderedImage::save(const std::string& path, const DisplayForm& display) const {
+  if (image_format(path).empty())
+    throw std::invalid_argument(fmt::format("{}: images are written as .exr, .png or .jpg", path));
+  const auto& [image, form, header, interrupted] = *contents_;
+  if (is_display_format(path) && image.channels[0] != "R")
+    throw std::invalid_argument(
+        fmt::format("{}: the image has layers only, which .exr files can hold", path));
+  const std::vector<uint8_t> bytes =
+      image_file_bytes(path, image, form, header, settings_of(display));
+  try {
+    write_file_atomically(path, bytes);
+  } catch (const std::runtime_error& e) {
+    throw FileError(e.what());
+  }
+}
+
+std::vector<uint8_t> RenderedImage::png(const DisplayForm& display) const {
+  const auto& [image, form, header, interrupted] = *contents_;
+  if (image.channels[0] != "R")
+    throw std::invalid_argument("the image has layers only, no colours to show");
+  return image_file_bytes("image.png", image, form, header, settings_of(display));
+}
+
+}  // namespace duet

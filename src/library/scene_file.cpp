@@ -1,0 +1,88 @@
+#include "duet/scene_file.h"
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
+#include "evaluate/report/read_scene.h"
+#include "evaluate/report/scene_json.h"
+#include "evaluate/report/scene_summary.h"
+#include "library/contents.h"
+
+namespace duet {
+
+namespace {
+
+/// The name that a scene from a text has in messages.
+constexpr const char* kTextName = "<string>";
+
+std::string all_errors(const std::vector<SceneMessage>& messages) {
+  std::string text;
+  for (const SceneMessage& m : messages)
+    if (m.is_error) text += (text.empty() ? "" : "\n") + m.text;
+  return text;
+}
+
+LoadedScene read(const std::string& name, const ReadingOptions& options) {
+  Diagnostics diagnostics;
+  std::optional<LoadedScene> scene = read_scene(name, options, diagnostics);
+  if (!scene || diagnostics.has_errors()) throw SceneError(scene_messages(diagnostics));
+  return std::move(*scene);
+}
+
+ReadingOptions reading_options(const SceneFileOptions& options) {
+  ReadingOptions reading;
+  reading.defines = options.defines;
+  reading.search_paths = options.search_paths;
+  return reading;
+}
+
+}  // namespace
+
+std::vector<SceneMessage> scene_messages(const Diagnostics& diagnostics) {
+  std::vector<SceneMessage> messages;
+  for (const Diagnostic& d : diagnostics.summary())
+    messages.push_back({d.severity == Severity::error, d.where.file ? *d.where.file : "",
+                        d.where.line, d.where.column, d.to_string()});
+  return messages;
+}
+
+SceneError::SceneError(std::vector<SceneMessage> messages)
+    : std::runtime_error(all_errors(messages)), messages_(std::move(messages)) {}
+
+const SceneMessage& SceneError::first() const {
+  return *std::find_if(messages_.begin(), messages_.end(),
+                       [](const SceneMessage& m) { return m.is_error; });
+}
+
+SceneFile SceneFile::load(const std::string& path, const SceneFileOptions& options) {
+  return SceneFile(
+      std::make_shared<const Contents>(Contents{path, read(path, reading_options(options))}));
+}
+
+SceneFile SceneFile::from_text(const std::string& text, const SceneFileOptions& options) {
+  ReadingOptions reading = reading_options(options);
+  reading.files.read = [&text, on_disk = with_disk({}).read](const std::string& path) {
+    return path == kTextName ? std::optional(text) : on_disk(path);
+  };
+  return SceneFile(std::make_shared<const Contents>(Contents{kTextName, read(kTextName, reading)}));
+}
+
+const std::string& SceneFile::name() const {
+  return contents_->name;
+}
+
+std::vector<std::string> SceneFile::warnings() const {
+  std::vector<std::string> texts;
+  for (const Diagnostic& d : contents_->loaded.warnings) texts.push_back(d.to_string());
+  return texts;
+}
+
+std::string SceneFile::info_json() const {
+  return json_text(scene_json(contents_->name, contents_->name, contents_->loaded));
+}
+
+std::string SceneFile::summary() const {
+  return scene_summary(contents_->loaded, false);
+}
+
+}  // namespace duet

@@ -1,0 +1,24 @@
+"""Duet: renders Mitsuba (0.4 to 3.x) and pbrt (v3, v4) scene files.
+
+    import duet
+    scene = duet.load_file("room.xml", spp="64")
+    image = duet.render(scene, integrator="auto", seed=1)
+    image.save("room.exr")
+    pixels = numpy.asarray(image)      # height × width × channels, float32, linear, without a copy
+
+The images have the same bits as those of the command `duet` with the same settings.
+"""
+from . import util
+from ._compare import compare
+from ._duet import __version__
+from ._image import Image
+from ._render import merge, render
+from ._scene import Scene, SceneError, SceneWarning, load_dict, load_file, load_string
+from ._transform import Transform4f
+from ._variant import set_variant, variant
+
+#: Mitsuba 3's name for it.
+ScalarTransform4f = Transform4f
+
+__all__ = ["Image", "ScalarTransform4f", "Scene", "SceneError", "SceneWarning", "Transform4f", "__version__", "compare",
+           "load_dict", "load_file", "load_string", "merge", "render", "set_variant", "util", "variant"]

@@ -1,0 +1,39 @@
+"""Comparing images."""
+from __future__ import annotations
+
+import json
+import os
+
+from . import _duet
+from ._image import Image, pixels_of
+
+
+def _linear(image, what):
+    """A file, an Image or an array as linear colours."""
+    if isinstance(image, (str, os.PathLike)):
+        return _duet.ComparedImage.load(os.fspath(image))
+    return _duet.ComparedImage.from_pixels(*pixels_of(image, what))
+
+
+def _samples(given, image, what):
+    if given is not None:
+        return float(given)
+    if isinstance(image, Image) and "spp" in image.metadata:
+        return float(image.metadata["spp"])
+    raise ValueError(f"with a variance, the samples per pixel of the {what} have to be known: {what}_spp")
+
+
+def compare(image, reference, *, variance=None, image_spp: float | None = None,
+            reference_spp: float | None = None) -> dict:
+    """The figures of `duet compare --json` as a dict: rmse, relrmse, flip, ssim …, "verdict".
+
+    Images are files, duet.Image, or arrays of linear values (height × width, or with 1, 3 or 4 channels). `variance` is
+    that of one sample of the reference, likewise; with it bias and noise are told apart ("bias_test"), for which the
+    samples per pixel of both images are needed: their own if they are a duet.Image. Raises ValueError for images that do
+    not go together and OSError for files that cannot be read.
+    """
+    noise = None
+    if variance is not None:
+        noise = _duet.Variance(_linear(variance, "variance"), _samples(image_spp, image, "image"),
+                               _samples(reference_spp, reference, "reference"))
+    return json.loads(_duet.compare(_linear(image, "image"), _linear(reference, "reference"), noise))

@@ -1,0 +1,104 @@
+"""Images: rendered ones, and arrays."""
+from __future__ import annotations
+
+import os
+from collections.abc import Sequence
+
+import numpy
+from numpy.lib.mixins import NDArrayOperatorsMixin
+
+from ._duet import Image as _Pixels
+
+_CHANNELS = {1: ["Y"], 3: ["R", "G", "B"], 4: ["R", "G", "B", "A"]}
+
+
+def pixels_of(image, what: str = "the image") -> tuple[numpy.ndarray, list[str]]:
+    """An array as height × width × channels float32, and the names of its channels."""
+    pixels = numpy.asarray(image)
+    if pixels.dtype.kind not in "fiu":
+        raise TypeError(f"{what}: an image is a file, a duet.Image or an array of numbers, not {type(image).__name__}")
+    if pixels.ndim == 2:
+        pixels = pixels[:, :, None]
+    channels = image.channels if isinstance(image, Image) else _CHANNELS.get(pixels.shape[-1] if pixels.ndim else 0)
+    if pixels.ndim != 3 or channels is None or 0 in pixels.shape:
+        raise ValueError(f"{what}: an image has height × width × 1, 3 or 4 values, not "
+                         f"{' × '.join(map(str, pixels.shape))}")
+    return numpy.ascontiguousarray(pixels, dtype=numpy.float32), list(channels)
+
+
+class Image(NDArrayOperatorsMixin):
+    """An image: height × width × channels linear values, float32, rows from the top.
+
+    numpy.asarray(image) is its pixels without a copy, read-only; they stay as long as the array does. Calculations with
+    images, such as image ** (1 / 2.2), give arrays.
+    """
+
+    def __init__(self, pixels):
+        if not isinstance(pixels, _Pixels):
+            raise TypeError("images are made by duet.render() and Image.from_array()")
+        self._pixels = pixels
+
+    @classmethod
+    def from_array(cls, pixels) -> Image:
+        """A copy of an array of linear values, height × width, or with 1, 3 or 4 channels: R, G, B, A, with one channel
+        grey and with less than four opaque."""
+        given, channels = pixels_of(pixels)
+        if len(channels) > 4:
+            raise ValueError("an image with layers cannot be copied")
+        rgba = numpy.ones((*given.shape[:2], 4), numpy.float32)
+        rgba[:, :, :3 if len(channels) < 4 else 4] = given
+        return cls(_Pixels.from_rgba(rgba))
+
+    @property
+    def channels(self) -> Sequence[str]:
+        """Names of the channels: "R", "G", "B", "A", then layers such as "depth.Y"."""
+        return self._pixels.channels
+
+    @property
+    def metadata(self) -> dict:
+        """What the header of an EXR file says: integrator, spp, seed, relativeStandardError …"""
+        return self._pixels.metadata
+
+    @property
+    def interrupted(self) -> bool:
+        """Whether Ctrl-C ended the render before it had all samples."""
+        return self._pixels.interrupted
+
+    @property
+    def shape(self) -> tuple[int, int, int]:
+        """(height, width, channels)."""
+        return self._pixels.pixels().shape
+
+    def __len__(self) -> int:
+        return self.shape[0]
+
+    def __getitem__(self, index):
+        return self._pixels.pixels()[index]
+
+    def __array__(self, dtype=None, copy=None) -> numpy.ndarray:
+        pixels = self._pixels.pixels()
+        if dtype is not None and numpy.dtype(dtype) != pixels.dtype:
+            if copy is False:
+                raise ValueError("another type of numbers needs a copy")
+            return pixels.astype(dtype)
+        return pixels.copy() if copy else pixels
+
+    def __array_ufunc__(self, function, method, *inputs, **kwargs):
+        arrays = [i._pixels.pixels() if isinstance(i, Image) else i for i in inputs]
+        return getattr(function, method)(*arrays, **kwargs)
+
+    def save(self, path: str | os.PathLike, exposure: float | str = 0.0, tonemap: str | None = None) -> None:
+        """Writes an image file: .exr (linear, all layers), .png or .jpg (for display). Files are replaced as a whole.
+
+        `exposure` is in stops, or "auto": the mean of luminance becomes middle grey. `tonemap` is "srgb", "aces", "agx" or
+        "reinhard"; by default as the scene says. Raises ValueError for other names and OSError if it cannot be written.
+        """
+        automatic = exposure == "auto"
+        self._pixels.save(os.fspath(path), 0.0 if automatic else exposure, automatic, tonemap or "")
+
+    def _repr_png_(self) -> bytes | None:
+        return self._pixels.png() if self.channels[0] == "R" else None
+
+    def __repr__(self) -> str:
+        height, width, _ = self.shape
+        return f"<duet.Image {width}×{height}, {', '.join(self.channels)}>"

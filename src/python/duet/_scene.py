@@ -1,0 +1,104 @@
+"""Scenes: reading them from files, strings and dictionaries."""
+from __future__ import annotations
+
+import json
+import os
+import warnings
+from collections.abc import Mapping, Sequence
+
+from . import _duet
+from ._xml import scene_xml
+
+
+class SceneError(RuntimeError):
+    """Errors in a scene. The text has all of them, a line each."""
+
+    def __init__(self, message, file=None, line=0, column=0, messages=()):
+        super().__init__(message)
+        #: The file of the first error, or None if it is not known.
+        self.file = file
+        #: Its line and column, counted from 1; 0 if they are not known.
+        self.line = line
+        self.column = column
+        #: All errors and warnings, each as "file:line:column: error: text".
+        self.messages = list(messages)
+
+
+class SceneWarning(UserWarning):
+    """Something in a scene that is not rendered as its file says, or that may not be meant."""
+
+
+class Scene:
+    """A scene as its file describes it; it never changes. Several threads may render it at once."""
+
+    def __init__(self, read):
+        self._read = read
+
+    @property
+    def name(self) -> str:
+        """The file's name, or "<string>"."""
+        return self._read.name
+
+    @property
+    def warnings(self) -> list[str]:
+        """What was noticed while it was read, as "file:line:column: warning: text"."""
+        return self._read.warnings
+
+    def info(self) -> dict:
+        """What `duet info --json` prints, as a dict: integrator, sensors, shapes, materials, lights …"""
+        return json.loads(self._read.json())
+
+    def __repr__(self):
+        return f"<duet.Scene {self.name}>"
+
+    def __str__(self):
+        return self._read.summary()
+
+
+def _texts(defines):
+    texts = []
+    for name, value in defines.items():
+        if isinstance(value, bool):
+            value = "true" if value else "false"
+        elif not isinstance(value, (str, int, float)):
+            raise TypeError(f"{name}: a parameter is a text or a number, not {type(value).__name__}")
+        texts.append((name, str(value)))
+    return texts
+
+
+def _load(name, text, defines, search_paths):
+    if isinstance(search_paths, (str, os.PathLike)):
+        raise TypeError("search_paths is a list of folders")
+    read = _duet.load(name, text, _texts(defines), [os.fspath(p) for p in search_paths])
+    for warning in read.warnings:
+        warnings.warn(warning, SceneWarning, stacklevel=3)
+    return Scene(read)
+
+
+def load_file(path: str | os.PathLike, *, search_paths: Sequence[str | os.PathLike] = (),
+              **defines: str | int | float | bool) -> Scene:
+    """Reads a scene file (.xml, .pbrt, .pbrt.gz).
+
+    `defines` are values for the scene's `$name` parameters, as of `duet -D`; `search_paths` are further folders to look
+    for files. Raises SceneError, with file, line and column; warnings are SceneWarning.
+    """
+    return _load(os.fspath(path), None, defines, search_paths)
+
+
+def load_string(text: str, *, search_paths: Sequence[str | os.PathLike] = (),
+                **defines: str | int | float | bool) -> Scene:
+    """Reads a scene from the text of a Mitsuba XML file. Its relative files are looked for from the current folder and
+    in `search_paths`. Errors and parameters as with load_file()."""
+    if not isinstance(text, str):
+        raise TypeError(f"a scene is a str, not {type(text).__name__}")
+    return _load("<string>", text, defines, search_paths)
+
+
+def load_dict(scene: Mapping, *, search_paths: Sequence[str | os.PathLike] = ()) -> Scene:
+    """Reads a scene from nested dicts, in Mitsuba 3's convention: {"type": "scene", "name": {"type": "sphere", …}, …}.
+
+    Values are numbers, texts, bools, lists of three numbers (points and vectors), 4 × 4 arrays (transforms, column
+    vectors), other dicts, {"type": "rgb", "value": …}, and {"type": "ref", "id": name} for something that an entry
+    before has as its name or "id". Raises TypeError and ValueError for others, and SceneError.
+    """
+    return _load("<string>", scene_xml(scene), {}, search_paths)

@@ -1,0 +1,42 @@
+#!/usr/bin/env bash
+# Builds the C++ library, installs it into an empty folder, and builds and runs examples/cpp against
+# it with g++ and clang. The program, built already, makes the same image: library_test.sh PROGRAM [FOLDER]
+set -euo pipefail
+program=$(realpath "$1")
+cd "$(dirname "$0")/.."
+. scripts/deps.sh
+duet_install clang-14
+root=$PWD
+mkdir -p "${2:-build-library}"
+folder=$(realpath "${2:-build-library}")
+
+# What users have of a build folder is what was installed.
+install_library() {
+  cmake -S . -B "$folder/build" -G Ninja -DCMAKE_BUILD_TYPE=Release -DDUET_LIBRARY=ON \
+    -DDUET_BUILD_TESTS=OFF >/dev/null
+  cmake --build "$folder/build" >/dev/null
+  rm -rf "$folder/installed"
+  cmake --install "$folder/build" --prefix "$folder/installed" >/dev/null
+}
+
+use_library() {
+  local examples=$folder/examples-$1
+  rm -rf "$examples"
+  cmake -S "$root/examples/cpp" -B "$examples" -DCMAKE_CXX_COMPILER="$1" \
+    -DCMAKE_PREFIX_PATH="$folder/installed" >/dev/null
+  cmake --build "$examples" >/dev/null
+  cd "$folder"
+  "$examples/render" "$root/scenes/textures/scene.xml" library.exr 2
+  "$program" "$root/scenes/textures/scene.xml" -i auto --spp 2 -o program.exr -q
+  "$program" compare library.exr program.exr --require 'rmse<1e-12' >/dev/null
+  "$examples/progress" | tail -n 1
+  "$examples/compare" "$root/scenes/cornell-box/scene.xml" | grep -q '"relrmse"'
+  cd "$root"
+}
+
+[ "$(ls src/library/duet/*.h | wc -l)" -le 12 ]
+install_library
+for compiler in g++ clang++-14; do use_library "$compiler"; done
+# Nothing but the functions and classes of the headers is to be seen from outside.
+! nm -DC --defined-only "$folder"/installed/lib*/libduet.so | grep -E ' T ' | grep -E 'Embree|PathIntegrator'
+echo "3 programs with 2 compilers ran on the installed library"
