@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <system_error>
 
 #include "app/arguments.h"
 #include "app/commands.h"
@@ -12,12 +13,21 @@ namespace {
 
 /// Nobody sees more than this.
 constexpr std::chrono::milliseconds kLeastTimeBetween{100};
-/// How much longer rendering lasts than making an image of it.
-constexpr int kRenderTimes = 100;
+/// How much longer rendering lasts than making an image of it. Sending it, in another thread, takes
+/// about as much time again.
+constexpr int kRenderTimes = 200;
+
+TcpPeer find_viewer(const TcpAddress& viewer) {
+  try {
+    return TcpPeer(viewer);
+  } catch (const std::runtime_error& e) {
+    throw UsageError(fmt::format("--display: {}", e.what()));
+  }
+}
 
 }  // namespace
 
-TcpAddress parse_viewer(const std::string& text) {
+TcpPeer parse_viewer(const std::string& text) {
   constexpr std::string_view scheme = "tev";
   const auto refuse = [&] {
     throw UsageError(
@@ -25,7 +35,7 @@ TcpAddress parse_viewer(const std::string& text) {
   };
   TcpAddress viewer;
   viewer.port = kTevPort;
-  if (text == scheme) return viewer;
+  if (text == scheme) return find_viewer(viewer);
   if (!text.starts_with("tev://")) refuse();
   std::string host = text.substr(6), port;
   // An IPv6 address has colons of its own.
@@ -42,15 +52,32 @@ TcpAddress parse_viewer(const std::string& text) {
   }
   if (host.empty()) refuse();
   viewer.host = host;
-  return viewer;
+  return find_viewer(viewer);
 }
 
-LiveDisplay::LiveDisplay(const std::optional<TcpAddress>& viewer, std::string name, Log& log)
-    : name_(std::move(name)) {
-  if (viewer) tev_.emplace(*viewer, [&log](const std::string& text) { log.warning("{}", text); });
+LiveDisplay::LiveDisplay(const std::optional<TcpPeer>& viewer, std::string name, Log& log)
+    : name_(std::move(name)), log_(log) {
+  try {
+    if (viewer) tev_.emplace(*viewer);
+  } catch (const std::system_error& e) {
+    log_.warning("--display: there is no thread for it: {}", e.what());
+  }
+}
+
+LiveDisplay::~LiveDisplay() {
+  if (!tev_) return;
+  tev_->finish();
+  warn_of_failure();
+}
+
+/// From the thread that renders: what draws a progress bar makes room for one message at a time.
+void LiveDisplay::warn_of_failure() {
+  if (const std::string failure = tev_->take_failure(); !failure.empty())
+    log_.warning("{}", failure);
 }
 
 bool LiveDisplay::wants_image() {
+  if (tev_) warn_of_failure();
   if (!tev_ || !tev_->is_free() || Clock::now() < next_) return false;
   asked_ = Clock::now();
   return true;

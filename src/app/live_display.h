@@ -10,14 +10,19 @@
 
 namespace duet {
 
-/// The viewer that --display names: "tev", "tev://host" or "tev://host:port". Throws UsageError.
-TcpAddress parse_viewer(const std::string& text);
+/// The viewer that --display names: "tev", "tev://host" or "tev://host:port". Throws UsageError,
+/// also if there is no such host; whether somebody listens there is not asked.
+TcpPeer parse_viewer(const std::string& text);
 
 /// Shows the image of one render, as often as that takes less than a hundredth of the time.
 class LiveDisplay {
  public:
-  /// Without a viewer nothing is shown.
-  LiveDisplay(const std::optional<TcpAddress>& viewer, std::string name, Log& log);
+  /// Without a viewer nothing is shown. The log gets one warning if the viewer fails.
+  LiveDisplay(const std::optional<TcpPeer>& viewer, std::string name, Log& log);
+  /// Gives the last image two seconds to arrive.
+  ~LiveDisplay();
+  LiveDisplay(const LiveDisplay&) = delete;
+  LiveDisplay& operator=(const LiveDisplay&) = delete;
 
   /// Whether it is time for an image, which is then developed for show().
   bool wants_image();
@@ -26,8 +31,11 @@ class LiveDisplay {
  private:
   using Clock = std::chrono::steady_clock;
 
+  void warn_of_failure();
+
   std::optional<TevDisplay> tev_;
   std::string name_;
+  Log& log_;
   Clock::time_point asked_, next_;
 };
 

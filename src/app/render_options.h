@@ -51,7 +51,7 @@ struct RenderOptions {
   std::string stats_file, log_file;
   bool quiet = false, verbose = false;
   ProgressStyle progress = ProgressStyle::automatic;
-  std::optional<TcpAddress> viewer;  ///< that shows the image as it grows
+  std::optional<TcpPeer> viewer;  ///< that shows the image as it grows
 };
 
 /// Adds the options to a command; `finish` is to be called once they are parsed and throws

@@ -19,17 +19,28 @@ namespace {
 /// How often somebody who waits looks whether he should stop.
 constexpr int kMillisecondsBetweenLooks = 50;
 
+using Clock = std::chrono::steady_clock;
+
 /// Whether the socket can be written to, or has failed, after so many milliseconds.
 bool is_writable(int socket, int milliseconds) {
   pollfd wait{socket, POLLOUT, 0};
   return poll(&wait, 1, milliseconds) > 0;
 }
 
+/// The same after so many seconds, whatever signals arrive.
+bool becomes_writable(int socket, double seconds) {
+  const Clock::time_point end = Clock::now() + std::chrono::milliseconds(int(1000 * seconds));
+  do {
+    if (is_writable(socket, kMillisecondsBetweenLooks)) return true;
+  } while (Clock::now() < end);
+  return false;
+}
+
 /// The error of connecting; 0 if there is none.
 int connect_within(int socket, const addrinfo& to, double seconds) {
   if (connect(socket, to.ai_addr, to.ai_addrlen) == 0) return 0;
   if (errno != EINPROGRESS) return errno;
-  if (!is_writable(socket, int(1000 * seconds))) return ETIMEDOUT;
+  if (!becomes_writable(socket, seconds)) return ETIMEDOUT;
   int error = 0;
   socklen_t size = sizeof(error);
   getsockopt(socket, SOL_SOCKET, SO_ERROR, &error, &size);
@@ -76,7 +87,6 @@ TcpConnection::~TcpConnection() {
 
 void TcpConnection::send(std::span<const uint8_t> bytes, double seconds,
                          const std::atomic<bool>& cancel) {
-  using Clock = std::chrono::steady_clock;
   Clock::time_point last = Clock::now();
   while (!bytes.empty()) {
     const ssize_t n = ::send(socket_, bytes.data(), bytes.size(), MSG_NOSIGNAL);

@@ -19,10 +19,14 @@ constexpr std::chrono::seconds kTimeAtEnd{2};
 
 }  // namespace
 
-TevDisplay::TevDisplay(const TcpAddress& viewer, Warn warn)
-    : viewer_(viewer), warn_(std::move(warn)), thread_([this] { work(); }) {}
+TevDisplay::TevDisplay(TcpPeer viewer) : viewer_(std::move(viewer)), thread_([this] { work(); }) {}
 
 TevDisplay::~TevDisplay() {
+  finish();
+}
+
+void TevDisplay::finish() {
+  if (!thread_.joinable()) return;
   std::unique_lock lock(mutex_);
   ends_ = true;
   changed_.notify_all();
@@ -37,6 +41,11 @@ void TevDisplay::show(const std::string& name, Image image) {
   waiting_ = Shown{name, std::move(image)};
   is_free_ = false;
   changed_.notify_all();
+}
+
+std::string TevDisplay::take_failure() {
+  const std::lock_guard lock(mutex_);
+  return std::exchange(failure_, "");
 }
 
 void TevDisplay::work() {
@@ -74,12 +83,12 @@ void TevDisplay::send(const Shown& shown) {
     }
     for (size_t c = 0; c < image.channels.size(); ++c)
       transmit(tev_update_channel(shown.name, image, c));
-    has_warned_ = false;
   } catch (const std::exception& e) {
     connection_.reset();
-    if (!has_warned_ && !cancel_.load())
-      warn_(fmt::format("tev does not show {}: {}", shown.name, e.what()));
-    has_warned_ = true;
+    if (std::exchange(has_failed_, true)) return;
+    const std::lock_guard lock(mutex_);
+    failure_ = fmt::format("tev at {} does not show {}: {}", viewer_.address().text(), shown.name,
+                           e.what());
   }
 }
 

@@ -3,7 +3,6 @@
 
 #include <atomic>
 #include <condition_variable>
-#include <functional>
 #include <mutex>
 #include <optional>
 #include <string>
@@ -17,14 +16,12 @@ namespace duet {
 /// The port that tev listens to unless it is told otherwise.
 inline constexpr uint16_t kTevPort = 14158;
 
-/// Sends images from a thread of its own. A viewer that is not there, hangs or goes away is warned
-/// of once and tried again with the next image.
+/// Sends images from a thread of its own. If the viewer is not there, hangs or goes away, the next
+/// image is another attempt.
 class TevDisplay {
  public:
-  using Warn = std::function<void(const std::string&)>;
-  /// `warn` is called from the thread. Throws std::runtime_error if there is no such host.
-  TevDisplay(const TcpAddress& viewer, Warn warn);
-  /// The last image that was shown is still sent, if that takes no longer than two seconds.
+  /// Throws std::system_error if there is no thread to be had.
+  explicit TevDisplay(TcpPeer viewer);
   ~TevDisplay();
   TevDisplay(const TevDisplay&) = delete;
   TevDisplay& operator=(const TevDisplay&) = delete;
@@ -34,6 +31,12 @@ class TevDisplay {
   /// Shows an image, which replaces one of the same name that was shown before, and one that waits
   /// to be sent. Returns at once.
   void show(const std::string& name, Image image);
+  /// Ends the thread. The last image that was shown is still sent, if that takes no longer than two
+  /// seconds; nothing is shown afterwards.
+  void finish();
+  /// Why an image could not be shown, for the first time; "" before that, and for whoever asks
+  /// again.
+  std::string take_failure();
 
  private:
   struct Shown {
@@ -45,17 +48,17 @@ class TevDisplay {
   void send(const Shown& shown);
 
   const TcpPeer viewer_;
-  const Warn warn_;
   std::atomic<bool> is_free_{true}, cancel_{false};
   std::mutex mutex_;
   std::condition_variable changed_;
   std::optional<Shown> waiting_;
+  std::string failure_;
   bool ends_ = false, is_sending_ = false;
 
   // Of the thread alone.
   std::optional<TcpConnection> connection_;
   Shown created_;  ///< the image that the viewer has, without its values
-  bool has_warned_ = false;
+  bool has_failed_ = false;
   std::thread thread_;
 };
 
