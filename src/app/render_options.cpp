@@ -79,6 +79,10 @@ void RenderOptionParser::add_image_options(CLI::App& c) {
       ->expected(0, 1)
       ->default_str("weighted")
       ->check(CLI::IsMember({"weighted", "raw"}));
+  c.add_flag(
+      "--denoise", options_.denoise,
+      "Write NAME.denoised.exr, too: the image without most of its noise, but biased, by Open "
+      "Image Denoise if that is found (DUET_OIDN_LIBRARY)");
   add_display_options(c, exposure_, tone_map_);
 }
 
@@ -136,6 +140,8 @@ void RenderOptionParser::finish_raw() {
     throw UsageError("--resume: one film belongs to one scene; --checkpoint resumes several");
   if (o.skip_existing && !o.writes_images)
     throw UsageError("--skip-existing: --raw without -o writes no image");
+  if (o.denoise && !o.writes_images)
+    throw UsageError("--denoise: --raw without -o writes no image");
   if (!checkpoint_.empty()) o.checkpoint = parse_seconds("--checkpoint", checkpoint_);
   if (samples_.empty() && slice_.empty()) return;
   const std::string option = samples_.empty() ? "--slice" : "--samples";
@@ -206,6 +212,8 @@ void RenderOptionParser::check_standard_output() const {
   if (count == 0) return;
   if (count > 1 || options_.read.scenes.size() > 1)
     throw UsageError("-o -: standard output holds one image");
+  if (options_.denoise)
+    throw UsageError("-o -: standard output holds one image, --denoise makes two");
   if (options_.skip_existing) throw UsageError("-o -: --skip-existing needs images that can exist");
   if (const std::string why = standard_output_refusal(); !why.empty())
     throw UsageError("-o -: " + why);

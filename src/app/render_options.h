@@ -26,6 +26,7 @@ struct RenderOptions {
   DisplaySettings display;
   bool skip_existing = false, keep_going = true;
   bool keep_partial_name = false, require_target = false;
+  bool denoise = false;  ///< whether there is a denoised image beside each image
 
   IntegratorOverride integrator;
   RenderBudget budget;

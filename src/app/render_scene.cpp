@@ -7,6 +7,7 @@
 #include "app/live_display.h"
 #include "app/program.h"
 #include "app/raw_output.h"
+#include "app/scene_denoiser.h"
 #include "app/scene_images.h"
 #include "app/scene_method.h"
 #include "app/scene_operand.h"
@@ -103,7 +104,9 @@ class SceneRenderer {
     } catch (const std::out_of_range& e) {
       throw UsageError(fmt::format("--crop: {}", e.what()));
     }
+    denoiser_.emplace(options_, description_.integrator);
     integrator_ = chosen_method(description_, sensor, options_, log_);
+    denoiser_->load(integrator_->channels());
     make_request(sensor.sampler);
     record_ = record_of(description_.integrator, *integrator_, request_);
     if (!record_.bias.empty()) warn(record_.bias);
@@ -155,7 +158,8 @@ class SceneRenderer {
     settings_.add(fmt::format("{} {}, sensor {}, techniques {}", record_.integrator,
                               record_.integrator_parameters, options_.sensor,
                               int(options_.techniques)));
-    for (const std::string& channel : integrator_->channels()) settings_.add(channel);
+    for (const std::string& channel : denoiser_->shown(integrator_->channels()))
+      settings_.add(channel);
     settings_.add(fmt::format("{} spp, {} s, error {}", budget.spp.value_or(0),
                               budget.seconds.value_or(0), budget.target_error.value_or(0)));
     if (request_.samples) settings_.add("samples " + to_string(*request_.samples));
@@ -188,7 +192,7 @@ class SceneRenderer {
     for (const std::string& path : planned)
       if (const std::string why = prepare_file(path); !why.empty())
         throw SceneFailure(fmt::format("cannot write {}: {}", path, why));
-    check_formats(planned, integrator_->channels());
+    check_formats(planned, denoiser_->shown(integrator_->channels()));
   }
 
   void build() {
@@ -207,6 +211,7 @@ class SceneRenderer {
   void decide() {
     integrator_->begin(*scene_, {layout_.full, planned_spp_, options_.threads});
     const MethodDecision* decision = integrator_->decision();
+    denoiser_->set_method(decision ? decision->method : record_.integrator);
     if (!decision) return;
     record_.decision = *decision;
     for (const std::string& line : decision->candidates) log_.write(Log::Level::verbose, line);
@@ -268,7 +273,7 @@ class SceneRenderer {
   std::vector<std::string> write(const RenderResult& result) {
     HeaderFields header = scene_header(record_, view_, layout_.full);
     for (HeaderField& field : samples_header(record_, result)) header.push_back(std::move(field));
-    return images_->write(result, form_of(view_, layout_, *integrator_), header);
+    return denoiser_->write(*images_, result, form_of(view_, layout_, *integrator_), header);
   }
 
   /// After an interrupt that came before every pixel had a sample: no file is replaced.
@@ -311,6 +316,7 @@ class SceneRenderer {
   int planned_spp_ = 0;
   Fingerprint settings_;
   std::optional<SceneImages> images_;
+  std::optional<SceneDenoiser> denoiser_;
   std::optional<RawOutput> raw_;
   std::string scene_hash_;  ///< if there is a raw film
   std::unique_ptr<Integrator> integrator_;

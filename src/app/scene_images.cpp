@@ -6,6 +6,7 @@
 
 #include "app/display_options.h"
 #include "app/standard_output.h"
+#include "evaluate/report/denoised_image.h"
 #include "evaluate/report/partial_image.h"
 #include "evaluate/report/provenance.h"
 
@@ -21,39 +22,56 @@ SceneImages::SceneImages(const RenderOptions& options, const std::string& scene,
       planned_spp_(planned_spp),
       log_(log) {}
 
-std::vector<std::string> SceneImages::paths(int spp) const {
+std::vector<std::string> SceneImages::paths(Kind kind, int spp) const {
   OutputNames names = names_;
   names.spp = fmt::to_string(spp);
   std::vector<std::string> result;
   for (const std::string& pattern : options_.outputs)
     result.push_back(output_path(pattern, names, options_.extension));
   if (result.empty()) result.push_back(output_path("", names, options_.extension));
+  if (kind == Kind::denoised)
+    for (std::string& path : result) path = denoised_path(path);
   return result;
 }
 
-std::vector<std::string> SceneImages::partial_paths(int spp) const {
-  if (options_.keep_partial_name) return paths(spp);
+std::vector<std::string> SceneImages::planned() const {
+  std::vector<std::string> all = paths(Kind::rendered, planned_spp_);
+  if (options_.denoise)
+    for (std::string& path : paths(Kind::denoised, planned_spp_)) all.push_back(std::move(path));
+  return all;
+}
+
+std::vector<std::string> SceneImages::partial_paths(Kind kind, int spp) const {
+  if (options_.keep_partial_name) return paths(kind, spp);
   // The name of the image that it is a part of.
-  std::vector<std::string> result = paths(options_.budget.spp ? planned_spp_ : spp);
+  std::vector<std::string> result = paths(kind, options_.budget.spp ? planned_spp_ : spp);
   for (std::string& path : result)
     if (!is_standard_output(path)) path = partial_path(path);
   return result;
 }
 
-std::string SceneImages::settings_hash(const std::string& path) const {
+std::string SceneImages::settings_hash(Kind kind, const std::string& path) const {
   Fingerprint all = settings_;
+  if (kind == Kind::denoised) all.add("denoised");
   // What the film says about tones is part of the scene.
   if (is_display_format(path)) all.add(display_text(options_.display));
   return all.text();
 }
 
 bool SceneImages::are_finished() const {
+  // Each says why it is not.
+  const bool rendered = are_finished(Kind::rendered);
+  return (!options_.denoise || are_finished(Kind::denoised)) && rendered;
+}
+
+bool SceneImages::are_finished(Kind kind) const {
   bool finished = true;
-  for (const std::string& path : planned()) {
+  for (const std::string& path : paths(kind, planned_spp_)) {
     std::error_code ignored;
     if (!std::filesystem::exists(path, ignored)) {
       finished = false;
-    } else if (const std::string why = unfinished_reason(path, settings_hash(path)); !why.empty()) {
+    } else if (const std::string why = unfinished_reason(path, settings_hash(kind, path));
+               !why.empty()) {
       log_.info("{} is rendered again: {}", path, why);
       finished = false;
     }
@@ -61,27 +79,43 @@ bool SceneImages::are_finished() const {
   return finished;
 }
 
-std::vector<std::string> SceneImages::write(const RenderResult& result, const ImageForm& form,
-                                            const HeaderFields& header) {
+std::vector<std::string> SceneImages::write_files(Kind kind, const Image& image,
+                                                  const RenderResult& result, const ImageForm& form,
+                                                  const HeaderFields& header) const {
   const std::vector<std::string> written =
-      result.interrupted ? partial_paths(result.spp) : paths(result.spp);
+      result.interrupted ? partial_paths(kind, result.spp) : paths(kind, result.spp);
   std::string failures;
   for (const std::string& path : written) {
     HeaderFields fields = header;
-    fields.emplace_back("settingsHash", settings_hash(path));
+    fields.emplace_back("settingsHash", settings_hash(kind, path));
     try {
-      write_image(path, result.image, form, fields, options_.display);
+      write_image(path, image, form, fields, options_.display);
       if (!result.interrupted) remove_partial(path, scene_);
     } catch (const std::exception& e) {
       failures += (failures.empty() ? "" : "; ") + std::string(e.what());
     }
   }
   if (!failures.empty()) throw std::runtime_error(failures);
+  return written;
+}
+
+std::vector<std::string> SceneImages::write(const RenderResult& result, const ImageForm& form,
+                                            const HeaderFields& header) {
+  const std::vector<std::string> written =
+      write_files(Kind::rendered, result.image, result, form, header);
   std::error_code ignored;
   for (const std::string& path : partial_)
     if (std::find(written.begin(), written.end(), path) == written.end())
       std::filesystem::remove(path, ignored);
   partial_ = result.interrupted ? written : std::vector<std::string>{};
+  return written;
+}
+
+std::vector<std::string> SceneImages::write_denoised(const Image& image, const RenderResult& result,
+                                                     const ImageForm& form,
+                                                     const HeaderFields& header) {
+  const std::vector<std::string> written = write_files(Kind::denoised, image, result, form, header);
+  if (result.interrupted) partial_.insert(partial_.end(), written.begin(), written.end());
   return written;
 }
 

@@ -19,9 +19,9 @@ class SceneImages {
   SceneImages(const RenderOptions& options, const std::string& scene, const OutputNames& names,
               const Fingerprint& settings, int planned_spp, Log& log);
 
-  /// The files of a finished image with this many samples.
-  std::vector<std::string> paths(int spp) const;
-  std::vector<std::string> planned() const { return paths(planned_spp_); }
+  /// The files of a finished image: those of the image itself first, then those of the denoised
+  /// one.
+  std::vector<std::string> planned() const;
   /// Whether all planned files are finished images of these settings. One line says why one that is
   /// there is not.
   bool are_finished() const;
@@ -31,12 +31,24 @@ class SceneImages {
   /// Throws std::runtime_error once the others have been written.
   std::vector<std::string> write(const RenderResult& result, const ImageForm& form,
                                  const HeaderFields& header);
+  /// The same for the denoised image of the result that was written last.
+  std::vector<std::string> write_denoised(const Image& image, const RenderResult& result,
+                                          const ImageForm& form, const HeaderFields& header);
 
  private:
+  enum class Kind { rendered, denoised };
+
+  /// The files of a finished image with this many samples.
+  std::vector<std::string> paths(Kind kind, int spp) const;
   /// The files of an image that is not finished.
-  std::vector<std::string> partial_paths(int spp) const;
+  std::vector<std::string> partial_paths(Kind kind, int spp) const;
+  /// Writes an image to the files of its kind; returns their names.
+  std::vector<std::string> write_files(Kind kind, const Image& image, const RenderResult& result,
+                                       const ImageForm& form, const HeaderFields& header) const;
   /// Of what decides the bytes of a file, for display or not.
-  std::string settings_hash(const std::string& path) const;
+  std::string settings_hash(Kind kind, const std::string& path) const;
+  /// Whether the planned files of a kind are finished.
+  bool are_finished(Kind kind) const;
 
   const RenderOptions& options_;
   std::string scene_;  ///< as headers say it

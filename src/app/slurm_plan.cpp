@@ -42,6 +42,7 @@ const std::pair<const char*, const char*> kRefused[] = {
     {"--format", "the name behind -o says it"},
     {"--skip-existing", "tasks write no images"},
     {"--keep-partial-name", "tasks write no images"},
+    {"--denoise", "tasks write no images"},
     {"--stats", "all tasks would write this file"},
     {"--log", "all tasks would write this file"},
     {"--display", "no task has an image, and they run elsewhere"},

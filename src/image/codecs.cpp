@@ -2,7 +2,6 @@
 
 #include <dlfcn.h>
 
-#include <algorithm>
 #include <cstdlib>
 #include <filesystem>
 #include <memory>
@@ -10,6 +9,7 @@
 
 #include "base/parallel.h"
 #include "image/codec_module.h"
+#include "image/module_paths.h"
 
 namespace duet {
 
@@ -20,30 +20,12 @@ namespace {
 constexpr const char* kModule = "duet_oiio.so";
 constexpr const char* kVariable = "DUET_IMAGE_MODULE";
 
-/// Where the module may be: where the user says; beside the program or library that this code is
-/// in, or in a folder there; where an installation puts it.
+/// Where the module may be: where the user says, or in one of the directories for modules.
 std::vector<fs::path> candidates() {
   if (const char* chosen = std::getenv(kVariable)) return {chosen};
-  std::vector<fs::path> directories;
-  const auto add = [&](const fs::path& directory) {
-    if (std::find(directories.begin(), directories.end(), directory) == directories.end())
-      directories.push_back(directory);
-  };
-  std::error_code error;
-  Dl_info self;
-  if (dladdr(reinterpret_cast<const void*>(&decode_with_module), &self) && self.dli_fname)
-    if (const fs::path p = fs::canonical(self.dli_fname, error); !error) {
-      add(p.parent_path());
-      add(p.parent_path() / "duet");
-    }
-  // The name of the program itself may be relative to a directory that has been left since.
-  if (const fs::path p = fs::read_symlink("/proc/self/exe", error); !error) {
-    add(p.parent_path());
-    add(p.parent_path().parent_path() / "lib" / "duet");
-  }
-  add(DUET_MODULE_DIR);
-  for (fs::path& directory : directories) directory /= kModule;
-  return directories;
+  std::vector<fs::path> paths = module_directories();
+  for (fs::path& path : paths) path /= kModule;
+  return paths;
 }
 
 const DuetCodecs* load() {

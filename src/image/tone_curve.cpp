@@ -54,7 +54,7 @@ Spectrum agx(const Spectrum& linear) {
   return product(kOut, each(product(kIn, linear), curve));
 }
 
-float encoded(float v) {
+float srgb_encoded(float v) {
   return v > 0 ? linear_to_srgb(std::min(v, 1.0f)) : 0;
 }
 
@@ -71,7 +71,7 @@ Spectrum displayed(const Spectrum& linear, ToneCurve curve) {
   const Spectrum c = each(linear, [](float v) { return v > 0 ? v : 0.0f; });
   if (curve == ToneCurve::agx)
     return each(agx(c), [](float v) { return v > 0 ? std::min(v, 1.0f) : 0.0f; });
-  return each(curve == ToneCurve::aces ? aces(c) : c, encoded);
+  return each(curve == ToneCurve::aces ? aces(c) : c, srgb_encoded);
 }
 
 }  // namespace duet

@@ -16,6 +16,11 @@ bool is_statistic(LayerKind kind) {
   return is_moment(kind) || kind == LayerKind::samples;
 }
 
+/// Whether a layer is made of what the ray meets.
+bool looks_at_hits(LayerKind kind) {
+  return !is_statistic(kind) && kind != LayerKind::denoise_split;
+}
+
 /// Most images have this many channels: a number that is known takes no loop.
 constexpr size_t kColours = 4;
 
@@ -38,15 +43,16 @@ CameraIntegrator::CameraIntegrator(const CameraOutput& output) : image_(output.i
     const std::vector<std::string> names = layer_channels(layer);
     layers_.push_back({layer.kind, channels_.size(), names.size()});
     channels_.insert(channels_.end(), names.begin(), names.end());
-    looks_at_first_hit_ |= !is_statistic(layer.kind);
+    looks_at_first_hit_ |= looks_at_hits(layer.kind);
     looks_at_next_rays_ |= layer_needs_next_rays(layer.kind);
+    follows_specular_ |= layer_follows_specular(layer.kind);
   }
 }
 
 std::vector<std::string> CameraIntegrator::data_channels() const {
   std::vector<std::string> names;
   for (const PlacedLayer& layer : layers_)
-    if (layer.kind != LayerKind::albedo)
+    if (layer.kind != LayerKind::albedo && layer.kind != LayerKind::denoise_albedo)
       names.insert(names.end(), channels_.begin() + ptrdiff_t(layer.first),
                    channels_.begin() + ptrdiff_t(layer.first + layer.channels));
   return names;
@@ -89,12 +95,17 @@ void CameraIntegrator::sample(const Scene& scene, const CameraPath& path, Sample
   counters.closest_rays += looks_at_first_hit_;
   Surface surface;
   if (found) surface = scene.surface(ray, hit);
+  SpecularView specular;
+  if (found && follows_specular_)
+    specular = follow_specular(scene, ray, surface, sampler, counters);
   for (const PlacedLayer& layer : layers_) {
     const std::span<float> out = values.subspan(layer.first);
     if (is_moment(layer.kind))
       out[0] = l.r * l.r, out[1] = l.g * l.g, out[2] = l.b * l.b;
+    else if (layer.kind == LayerKind::denoise_split)
+      evaluate_split(path.sample, l, out);
     else if (found)
-      evaluate_layer(layer.kind, scene, {surface, -ray.direction, hit, path.next}, out);
+      evaluate_layer(layer.kind, scene, {surface, -ray.direction, hit, path.next, &specular}, out);
   }
 }
 

@@ -87,7 +87,7 @@ class CameraIntegrator : public Integrator {
   std::vector<PlacedLayer> layers_;
   std::vector<std::string> channels_;
   std::vector<size_t> colour_layers_;  ///< where those of add_colour_layer() begin
-  bool looks_at_first_hit_ = false, looks_at_next_rays_ = false;
+  bool looks_at_first_hit_ = false, looks_at_next_rays_ = false, follows_specular_ = false;
 };
 
 }  // namespace duet

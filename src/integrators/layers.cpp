@@ -7,7 +7,7 @@ namespace duet {
 
 namespace {
 
-const std::array<std::pair<const char*, LayerKind>, 17> kNames{{
+const std::array<std::pair<const char*, LayerKind>, 20> kNames{{
     {"albedo", LayerKind::albedo},
     {"depth", LayerKind::depth},
     {"position", LayerKind::position},
@@ -25,14 +25,20 @@ const std::array<std::pair<const char*, LayerKind>, 17> kNames{{
     {"moments", LayerKind::moments},
     {"variance", LayerKind::variance},
     {"samples", LayerKind::samples},
+    {"denoise_albedo", LayerKind::denoise_albedo},
+    {"denoise_normal", LayerKind::denoise_normal},
+    {"denoise_split", LayerKind::denoise_split},
 }};
 
 std::vector<const char*> suffixes(LayerKind kind) {
   switch (kind) {
     case LayerKind::albedo:
+    case LayerKind::denoise_albedo:
     case LayerKind::moments:
     case LayerKind::variance:
       return {"R", "G", "B"};
+    case LayerKind::denoise_split:
+      return {"R", "G", "B", "S"};
     case LayerKind::depth:
       return {"T"};
     case LayerKind::uv:
@@ -51,6 +57,10 @@ std::vector<const char*> suffixes(LayerKind kind) {
 template <class Triple>
 void put(const Triple& t, std::span<float> out) {
   out[0] = t.x, out[1] = t.y, out[2] = t.z;
+}
+
+void put(const Spectrum& s, std::span<float> out) {
+  out[0] = s.r, out[1] = s.g, out[2] = s.b;
 }
 
 /// Mitsuba knows no derivatives on linear curves and grids of distances. A surface has some even
@@ -108,15 +118,30 @@ bool layer_needs_next_rays(LayerKind kind) {
   return kind == LayerKind::duv_dx || kind == LayerKind::duv_dy;
 }
 
+bool layer_follows_specular(LayerKind kind) {
+  return kind == LayerKind::denoise_albedo || kind == LayerKind::denoise_normal;
+}
+
+void evaluate_split(uint32_t sample, const Spectrum& radiance, std::span<float> out) {
+  constexpr uint32_t kAtATime = 8;
+  const float sign = sample & kAtATime ? -1.0f : 1.0f;
+  put(radiance * sign, out);
+  out[3] = sign;
+}
+
 void evaluate_layer(LayerKind kind, const Scene& scene, const LayerPoint& point,
                     std::span<float> out) {
   const Surface& s = point.surface;
   switch (kind) {
-    case LayerKind::albedo: {
-      const Spectrum a = scene.materials[s.shape->material]->albedo(s, point.wo);
-      out[0] = a.r, out[1] = a.g, out[2] = a.b;
+    case LayerKind::albedo:
+      put(scene.materials[s.shape->material]->albedo(s, point.wo), out);
       break;
-    }
+    case LayerKind::denoise_albedo:
+      put(point.specular->albedo, out);
+      break;
+    case LayerKind::denoise_normal:
+      put(point.specular->normal, out);
+      break;
     case LayerKind::depth:
       out[0] = point.hit.t;
       break;
@@ -153,6 +178,7 @@ void evaluate_layer(LayerKind kind, const Scene& scene, const LayerPoint& point,
     case LayerKind::moments:
     case LayerKind::variance:
     case LayerKind::samples:
+    case LayerKind::denoise_split:
       break;
   }
 }

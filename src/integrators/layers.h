@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "integrators/specular_layers.h"
 #include "scene/scene.h"
 
 namespace duet {
@@ -23,9 +24,12 @@ enum class LayerKind {
   duv_dy,  ///< the same to the one below
   prim_index,
   shape_index,
-  moments,   ///< mean of the squares of the samples' colours
-  variance,  ///< of the pixel's colours, as if samples were independent
-  samples,   ///< number of samples of the pixel
+  moments,         ///< mean of the squares of the samples' colours
+  variance,        ///< of the pixel's colours, as if samples were independent
+  samples,         ///< number of samples of the pixel
+  denoise_albedo,  ///< through perfectly specular surfaces (specular_layers.h)
+  denoise_normal,
+  denoise_split,  ///< colours, and 1, with alternating signs for each eight samples
 };
 
 struct Layer {
@@ -46,6 +50,14 @@ SurfaceNeeds layer_needs(LayerKind kind);
 /// Whether a layer looks at where the neighbouring pixels' rays go.
 bool layer_needs_next_rays(LayerKind kind);
 
+/// Whether a layer is of what is seen in mirrors and through glass.
+bool layer_follows_specular(LayerKind kind);
+
+/// Writes the layer denoise_split of one sample of a pixel: from the colours' mean with signs, that
+/// without and the mean of the signs follow those of two halves of the samples. Halves of eight
+/// samples at a time are as well spread as the whole.
+void evaluate_split(uint32_t sample, const Spectrum& radiance, std::span<float> out);
+
 /// What a camera ray has hit.
 struct LayerPoint {
   const Surface& surface;
@@ -53,6 +65,8 @@ struct LayerPoint {
   Hit hit;
   /// The rays beside it, or null if there are none or the layer does not need them.
   const NextRays* next;
+  /// What is seen in mirrors and through glass, or null if the layer does not need it.
+  const SpecularView* specular = nullptr;
 };
 
 /// Writes the layer's value at a point; nothing for statistics. A miss leaves zeros.

@@ -91,7 +91,8 @@ CameraOutput camera_output(const IntegratorDescription& integrator) {
       throw std::invalid_argument(fmt::format("there is no layer \"{}\"{}; there are {}",
                                               layer.kind, did_you_mean(layer.kind, layer_names()),
                                               fmt::join(layer_names(), ", ")));
-    if (!output.image && (*kind == LayerKind::moments || *kind == LayerKind::variance))
+    if (!output.image && (*kind == LayerKind::moments || *kind == LayerKind::variance ||
+                          *kind == LayerKind::denoise_split))
       throw std::invalid_argument(
           fmt::format("layer \"{}\" needs an image, which \"aov\" does not make", layer.kind));
     for (const Layer& other : output.layers)

@@ -58,6 +58,18 @@ void measure(const LinearImage& image, const LinearImage& reference,
   if (settings.for_page) add_images(image.image, reference.image, flip, longest, c);
 }
 
+void refuse_denoised(const CompareSettings& settings, const LinearImage& image,
+                     const std::string& path) {
+  if (image.denoiser.empty()) return;
+  for (const Requirement& r : settings.requirements)
+    for (const Figure& f : figures({}))
+      if (f.name == r.figure && !f.needs.empty())
+        throw std::runtime_error(fmt::format(
+            "{} was denoised by {} and is biased: --require \"{}\" is for images as they "
+            "were rendered",
+            path, image.denoiser, r.text));
+}
+
 void write_differences(const CompareSettings& settings, const Image& image, const Image& reference,
                        const ImageMetrics& m) {
   const auto write = [&](const std::string& path, const std::vector<uint8_t>& bytes) {
@@ -77,6 +89,7 @@ void write_differences(const CompareSettings& settings, const Image& image, cons
 Comparison compare_pair(const CompareSettings& o, int longest) {
   const LinearImage image = load_linear(o.image), reference = load_linear(o.reference);
   check_finite(reference.image, o.reference);
+  refuse_denoised(o, image, o.image);
   std::optional<NoiseModel> noise;
   LinearImage variance;
   if (!o.variance.empty()) {

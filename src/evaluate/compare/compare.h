@@ -68,6 +68,10 @@ std::string summary_of(const CompareSettings& settings, const std::vector<Compar
 void measure(const LinearImage& image, const LinearImage& reference,
              const std::optional<NoiseModel>& noise, const CompareSettings& settings, int longest,
              Comparison& comparison);
+/// Throws std::runtime_error if figures are required that tell bias from noise, of an image that
+/// was denoised: its error is bias, of a size that nobody knows.
+void refuse_denoised(const CompareSettings& settings, const LinearImage& image,
+                     const std::string& path);
 /// Writes the images of differences that the settings ask for.
 void write_differences(const CompareSettings& settings, const Image& image, const Image& reference,
                        const ImageMetrics& metrics);

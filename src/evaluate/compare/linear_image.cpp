@@ -15,8 +15,10 @@ LinearImage load_linear(const std::string& path) {
   LinearImage linear;
   linear.image = std::move(file.image);
   linear.display_encoded = file.display_encoded;
-  for (const auto& [name, value] : file.header)
+  for (const auto& [name, value] : file.header) {
     if (name == "spp") linear.spp = value;
+    if (name == "denoiser") linear.denoiser = value;
+  }
   linear.header = std::move(file.header);
   if (!file.display_encoded) return linear;
   std::vector<float>& data = linear.image.data;

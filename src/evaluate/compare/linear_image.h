@@ -14,7 +14,8 @@ namespace duet {
 struct LinearImage {
   Image image;
   bool display_encoded = false;
-  std::string spp;  ///< that its header says, or ""
+  std::string spp;       ///< that its header says, or ""
+  std::string denoiser;  ///< by which it was denoised, as its header says, or ""
   /// All that its header says.
   std::vector<std::pair<std::string, std::string>> header;
 };

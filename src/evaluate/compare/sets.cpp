@@ -25,11 +25,12 @@ struct Side {
   LinearImage mean;
 };
 
-Side load_side(const std::vector<std::string>& files) {
+Side load_side(const CompareSettings& settings, const std::vector<std::string>& files) {
   Side side;
   std::vector<double> sums;
   for (const std::string& file : files) {
     LinearImage image = load_linear(file);
+    refuse_denoised(settings, image, file);
     try {
       side.batches.add(image.image);
     } catch (const std::invalid_argument& e) {
@@ -68,7 +69,7 @@ Comparison compare_named(const CompareSettings& o, const std::string& name) {
 
 Comparison compare_sets(const CompareSettings& o, const std::vector<std::string>& images,
                         const std::vector<std::string>& references) {
-  const Side a = load_side(images), b = load_side(references);
+  const Side a = load_side(o, images), b = load_side(o, references);
   check_finite(b.mean.image, o.reference);
   if (a.mean.image.width != b.mean.image.width || a.mean.image.height != b.mean.image.height)
     throw std::runtime_error(fmt::format("the images are {}x{}, the references {}x{}",

@@ -1,0 +1,54 @@
+#include "app/scene_denoiser.h"
+
+#include <algorithm>
+#include <stdexcept>
+
+#include "app/commands.h"
+#include "app/output.h"
+#include "evaluate/report/denoised_image.h"
+
+namespace duet {
+
+SceneDenoiser::SceneDenoiser(const RenderOptions& options, IntegratorDescription& integrator)
+    : options_(options) {
+  if (options.denoise) hidden_ = add_denoiser_layers(integrator.aovs, options.integrator.layers);
+}
+
+void SceneDenoiser::load(const std::vector<std::string>& channels) {
+  if (!options_.denoise) return;
+  if (channels[0] != "R")
+    throw UsageError("--denoise: the image has layers only, no colours to denoise");
+  try {
+    denoiser_.emplace(options_.threads);
+  } catch (const std::runtime_error& e) {
+    throw SceneFailure(fmt::format("--denoise: {}", e.what()));
+  }
+}
+
+bool SceneDenoiser::hides(const std::string& channel) const {
+  return std::find(hidden_.begin(), hidden_.end(), channel) != hidden_.end();
+}
+
+std::vector<std::string> SceneDenoiser::shown(const std::vector<std::string>& channels) const {
+  std::vector<std::string> all;
+  for (const std::string& channel : channels)
+    if (!hides(channel)) all.push_back(channel);
+  return all;
+}
+
+std::vector<std::string> SceneDenoiser::write(SceneImages& images, const RenderResult& result,
+                                              const ImageForm& form,
+                                              const HeaderFields& header) const {
+  if (!denoiser_) return images.write(result, form, header);
+  // The noisy image first: it is safe then whatever becomes of the other.
+  RenderResult shown = result;
+  shown.image = without_channels(result.image, hidden_);
+  std::vector<std::string> written = images.write(shown, form, header);
+  const Image clean = denoised_image(*denoiser_, result.image, layers_tell_noise(method_));
+  for (std::string& path :
+       images.write_denoised(clean, result, form, denoised_header(header, denoiser_->name())))
+    written.push_back(std::move(path));
+  return written;
+}
+
+}  // namespace duet

@@ -1,0 +1,41 @@
+// --denoise, for one scene.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "app/render_options.h"
+#include "app/scene_images.h"
+#include "image/denoiser.h"
+
+namespace duet {
+
+class SceneDenoiser {
+ public:
+  /// Has the method render the layers that guide the denoiser, if the options ask for it.
+  SceneDenoiser(const RenderOptions& options, IntegratorDescription& integrator);
+  /// Loads the denoiser, if the options ask for it. Throws UsageError if the method's channels are
+  /// no colours, and SceneFailure if there is no denoiser.
+  void load(const std::vector<std::string>& channels);
+
+  /// Whether a channel is rendered for the denoiser only, and not part of the image.
+  bool hides(const std::string& channel) const;
+  /// Those that are part of the image.
+  std::vector<std::string> shown(const std::vector<std::string>& channels) const;
+
+  /// Sets the method that has rendered the image, once it is known.
+  void set_method(const std::string& name) { method_ = name; }
+  /// Writes the image and then the denoised one; returns the names of the files. Throws
+  /// std::runtime_error.
+  std::vector<std::string> write(SceneImages& images, const RenderResult& result,
+                                 const ImageForm& form, const HeaderFields& header) const;
+
+ private:
+  const RenderOptions& options_;
+  std::optional<Denoiser> denoiser_;
+  std::vector<std::string> hidden_;
+  std::string method_;
+};
+
+}  // namespace duet

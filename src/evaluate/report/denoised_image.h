@@ -1,0 +1,38 @@
+// Images without noise (--denoise): what a denoiser needs of a render, and what is said of what it
+// makes.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "evaluate/report/header.h"
+#include "image/denoiser.h"
+#include "scene/description.h"
+
+namespace duet {
+
+/// Adds the layers that guide the denoiser to those that a scene asks for. Returns the names of
+/// channels that are in the image only for that: of layers that neither the scene nor `asked` name.
+std::vector<std::string> add_denoiser_layers(AovDescription& layers,
+                                             const std::vector<std::string>& asked);
+
+/// An image without some of its channels.
+Image without_channels(const Image& image, const std::vector<std::string>& names);
+
+/// Whether the layers tell how noisy the image of a method is: not where light sub-paths add to
+/// pixels that are not theirs.
+bool layers_tell_noise(const std::string& method);
+
+/// The colours without noise, and alpha as it is, of an image that has the layers. If they tell how
+/// noisy it is, the denoiser changes little where there is no noise (denoiser_bias.h). Throws
+/// std::runtime_error if the denoiser fails.
+Image denoised_image(const Denoiser& denoiser, const Image& image, bool tells_noise);
+
+/// The header of the denoised image: that of the noisy one, with the denoiser's name as `denoiser`
+/// and the bias.
+HeaderFields denoised_header(HeaderFields header, const std::string& denoiser);
+
+/// "folder/image.denoised.exr" for "folder/image.exr".
+std::string denoised_path(const std::string& path);
+
+}  // namespace duet

@@ -1,0 +1,33 @@
+#include "image/module_paths.h"
+
+#include <dlfcn.h>
+
+#include <algorithm>
+
+namespace duet {
+
+namespace fs = std::filesystem;
+
+std::vector<fs::path> module_directories() {
+  std::vector<fs::path> directories;
+  const auto add = [&](const fs::path& directory) {
+    if (std::find(directories.begin(), directories.end(), directory) == directories.end())
+      directories.push_back(directory);
+  };
+  std::error_code error;
+  Dl_info self;
+  if (dladdr(reinterpret_cast<const void*>(&module_directories), &self) && self.dli_fname)
+    if (const fs::path p = fs::canonical(self.dli_fname, error); !error) {
+      add(p.parent_path());
+      add(p.parent_path() / "duet");
+    }
+  // The name of the program itself may be relative to a directory that has been left since.
+  if (const fs::path p = fs::read_symlink("/proc/self/exe", error); !error) {
+    add(p.parent_path());
+    add(p.parent_path().parent_path() / "lib" / "duet");
+  }
+  add(DUET_MODULE_DIR);
+  return directories;
+}
+
+}  // namespace duet

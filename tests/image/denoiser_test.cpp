@@ -1,0 +1,68 @@
+// Open Image Denoise itself, where it is installed; tests/app/denoise_test.cpp needs none.
+#include "image/denoiser.h"
+
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <optional>
+#include <stdexcept>
+
+#include "math/hash.h"
+
+using namespace duet;
+
+namespace {
+
+/// The denoiser, or null with the reason printed.
+std::optional<Denoiser> installed_denoiser(int threads) {
+  try {
+    return std::optional<Denoiser>(std::in_place, threads);
+  } catch (const std::runtime_error& e) {
+    MESSAGE("skipped: ", std::string(e.what()));
+    return std::nullopt;
+  }
+}
+
+constexpr int kSize = 64;
+
+/// Two areas of one colour each, with noise as large as the colours.
+NoisyImage noisy_image() {
+  NoisyImage image{kSize, kSize, {}, {}, {}};
+  for (int i = 0; i < kSize * kSize; ++i) {
+    const float albedo = i % kSize < kSize / 2 ? 0.25f : 0.75f;
+    for (int c = 0; c < 3; ++c) {
+      image.colour.push_back(albedo * 2 * float(mix64(uint64_t(3 * i + c)) % 1000) / 999);
+      image.albedo.push_back(albedo);
+      image.normal.push_back(c == 2 ? 1.0f : 0.0f);
+    }
+  }
+  return image;
+}
+
+double mean_square_error(const std::vector<float>& colour, const std::vector<float>& truth) {
+  double sum = 0;
+  for (size_t i = 0; i < colour.size(); ++i) sum += std::pow(double(colour[i] - truth[i]), 2);
+  return sum / double(colour.size());
+}
+
+}  // namespace
+
+TEST_CASE("the denoiser takes nearly all of the noise, whatever the number of threads") {
+  const auto denoiser = installed_denoiser(1);
+  if (!denoiser) return;
+  CHECK(denoiser->name().starts_with("Open Image Denoise 2."));
+  const NoisyImage noisy = noisy_image();
+  const std::vector<float> clean = denoiser->denoise(noisy);
+  CHECK(mean_square_error(clean, noisy.albedo) <
+        mean_square_error(noisy.colour, noisy.albedo) / 50);
+  CHECK(installed_denoiser(2)->denoise(noisy) == clean);
+}
+
+TEST_CASE("the denoiser takes images of one pixel, and values that are not colours") {
+  const auto denoiser = installed_denoiser(1);
+  if (!denoiser) return;
+  CHECK(denoiser->denoise({1, 1, {0.5f, 0.5f, 0.5f}, {1, 1, 1}, {0, 0, 1}}).size() == 3);
+  NoisyImage odd = noisy_image();
+  odd.colour[0] = NAN, odd.colour[10] = INFINITY, odd.colour[20] = -5;
+  for (const float v : denoiser->denoise(odd)) CHECK((std::isfinite(v) && v >= 0));
+}
