@@ -106,7 +106,7 @@ class SceneRenderer {
     }
     denoiser_.emplace(options_, description_.integrator);
     integrator_ = chosen_method(description_, sensor, options_, log_);
-    denoiser_->load(integrator_->channels());
+    denoiser_->load();
     make_request(sensor.sampler);
     record_ = record_of(description_.integrator, *integrator_, request_);
     if (!record_.bias.empty()) warn(record_.bias);

@@ -11,13 +11,15 @@ namespace duet {
 
 SceneDenoiser::SceneDenoiser(const RenderOptions& options, IntegratorDescription& integrator)
     : options_(options) {
-  if (options.denoise) hidden_ = add_denoiser_layers(integrator.aovs, options.integrator.layers);
+  if (!options.denoise) return;
+  const std::string& method = options.integrator.name;
+  if (method.empty() ? !integrator.image : method == "aov")
+    throw UsageError("--denoise: the image has layers only, no colours to denoise");
+  hidden_ = add_denoiser_layers(integrator.aovs, options.integrator.layers);
 }
 
-void SceneDenoiser::load(const std::vector<std::string>& channels) {
+void SceneDenoiser::load() {
   if (!options_.denoise) return;
-  if (channels[0] != "R")
-    throw UsageError("--denoise: the image has layers only, no colours to denoise");
   try {
     denoiser_.emplace(options_.threads);
   } catch (const std::runtime_error& e) {

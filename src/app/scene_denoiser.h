@@ -13,11 +13,11 @@ namespace duet {
 
 class SceneDenoiser {
  public:
-  /// Has the method render the layers that guide the denoiser, if the options ask for it.
+  /// Has the method render the layers that guide the denoiser, if the options ask for it. Throws
+  /// UsageError if its image has no colours.
   SceneDenoiser(const RenderOptions& options, IntegratorDescription& integrator);
-  /// Loads the denoiser, if the options ask for it. Throws UsageError if the method's channels are
-  /// no colours, and SceneFailure if there is no denoiser.
-  void load(const std::vector<std::string>& channels);
+  /// Loads the denoiser, if the options ask for it. Throws SceneFailure if there is none.
+  void load();
 
   /// Whether a channel is rendered for the denoiser only, and not part of the image.
   bool hides(const std::string& channel) const;

@@ -1,6 +1,8 @@
 #include "integrators/layers.h"
 
+#include <algorithm>
 #include <array>
+#include <bit>
 #include <utility>
 
 namespace duet {
@@ -123,8 +125,10 @@ bool layer_follows_specular(LayerKind kind) {
 }
 
 void evaluate_split(uint32_t sample, const Spectrum& radiance, std::span<float> out) {
-  constexpr uint32_t kAtATime = 8;
-  const float sign = sample & kAtATime ? -1.0f : 1.0f;
+  // Of the samples from a power of two to the next the first half has one sign, the second the
+  // other: the highest bit but one, and of the first two samples the lowest.
+  const uint32_t half = std::max(std::bit_floor(sample) >> 1, 1u);
+  const float sign = (sample & half) != 0 ? -1.0f : 1.0f;
   put(radiance * sign, out);
   out[3] = sign;
 }

@@ -29,7 +29,7 @@ enum class LayerKind {
   samples,         ///< number of samples of the pixel
   denoise_albedo,  ///< through perfectly specular surfaces (specular_layers.h)
   denoise_normal,
-  denoise_split,  ///< colours, and 1, with alternating signs for each eight samples
+  denoise_split,  ///< colours, and 1, with signs that tell two halves of the samples
 };
 
 struct Layer {
@@ -54,8 +54,9 @@ bool layer_needs_next_rays(LayerKind kind);
 bool layer_follows_specular(LayerKind kind);
 
 /// Writes the layer denoise_split of one sample of a pixel: from the colours' mean with signs, that
-/// without and the mean of the signs follow those of two halves of the samples. Halves of eight
-/// samples at a time are as well spread as the whole.
+/// without and the mean of the signs follow those of two halves of the samples. Each is made of the
+/// longest runs of samples that there are for any number of them: such are nearly as well spread as
+/// the whole.
 void evaluate_split(uint32_t sample, const Spectrum& radiance, std::span<float> out);
 
 /// What a camera ray has hit.
