@@ -48,9 +48,9 @@ Spectrum DirectIntegrator::radiance(const Scene& scene, const CameraPath& start,
     Spectrum light;
     if (scene.accel->closest_hit(next, hit))
       light = weighted_emission(scene, scene.surface(next, hit),
-                                {s.position, next.direction, hit.t}, pdf, shares);
+                                {lit_point(scene, s), next.direction, hit.t}, pdf, shares);
     else
-      light = weighted_environment(scene, s.position, next.direction, pdf, shares);
+      light = weighted_environment(scene, lit_point(scene, s), next.direction, pdf, shares);
     sum += sample->weight * light * (1 / float(bsdfs));
   }
   return sum;

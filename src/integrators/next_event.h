@@ -26,6 +26,16 @@ struct ArrivingRay {
   float t;             ///< the distance
 };
 
+/// Where the light at a surface point is looked up. A ribbon of curves faces every ray, so one that
+/// starts on it would meet it again: like pbrt, an opaque one is lit where rays are clear of it.
+inline Point3f lit_point(const Scene& scene, const Surface& s) {
+  const Shape& shape = *s.shape;
+  if (shape.kind != ShapeKind::curves || shape.curves->profile == CurveProfile::tube)
+    return s.position;
+  if (scene.materials[shape.material]->transmits()) return s.position;
+  return offset_position(s, Vector3f(s.ng));
+}
+
 /// Weight of a sample with density a where b could have made it too.
 /// Source: Veach 1997, section 9.2.4, the power heuristic with exponent 2.
 inline float power_heuristic(float a, float b) {
@@ -43,7 +53,7 @@ inline Spectrum sample_light(const Scene& scene, const Surface& s, const B& bsdf
                              const NextEventOptions& options, Sampler& sampler,
                              RenderCounters& counters) {
   const SampleShares& shares = options.shares;
-  const ChosenLight chosen = choose_light(scene, s.position, sampler);
+  const ChosenLight chosen = choose_light(scene, lit_point(scene, s), sampler);
   const std::optional<LightSample>& light = chosen.sample;
   if (!light || (options.strict_normals && sides_differ(s, light->wi))) return {};
   const BsdfEval f = bsdf.eval(light->wi, Transport::radiance);

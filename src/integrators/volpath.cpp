@@ -170,7 +170,7 @@ inline bool VolumePathIntegrator::scatter_at_surface(const Scene& scene, const S
   const bool separates = s.shape->separates_media();
   if (bsdf.has_smooth() && !scene.lights.empty() && !at_limit(path.depth + 1)) {
     sampler.start_dimension(dimension);
-    const ChosenLight light = choose_light(scene, s.position, sampler);
+    const ChosenLight light = choose_light(scene, lit_point(scene, s), sampler);
     if (light.sample && !(options_.strict_normals && sides_differ(s, light.sample->wi))) {
       const LightSample& l = *light.sample;
       const BsdfEval f = bsdf.eval(l.wi, Transport::radiance);
@@ -193,7 +193,7 @@ inline bool VolumePathIntegrator::scatter_at_surface(const Scene& scene, const S
     if (at_limit(++path.depth)) return false;
     path.competes = !sample->delta;
     if (path.competes) path.weights.light = path.weights.pdf * (1 / sample->pdf.value);
-    path.from = s.position;
+    path.from = lit_point(scene, s);
   }
   if (!survives(path)) return false;
   if (separates) path.medium = scene.medium_beyond(s, sample->wi);
