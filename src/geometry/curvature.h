@@ -22,4 +22,12 @@ inline bool has_curvature(ShapeKind kind) {
 /// coordinates of meshes, the uv of the others.
 Curvature curvature_at(const Surface& s);
 
+/// ∂n/∂u and ∂n/∂v of the shading normal, along the surface's dp_du and dp_dv, which it must have;
+/// of interpolated normals that of the sum that is not normalised, as in pbrt. Zero on curves and
+/// signed distance fields.
+struct NormalDerivatives {
+  Vector3f du{0}, dv{0};
+};
+NormalDerivatives normal_derivatives(const Surface& s);
+
 }  // namespace duet

@@ -20,6 +20,13 @@ struct MeshAttribute {
   bool operator==(const MeshAttribute&) const = default;
 };
 
+/// What bump maps take as the derivatives of the position on a mesh that has normals.
+enum class BumpTangents : uint8_t {
+  derivatives,     ///< those by the texture coordinates
+  across_normals,  ///< pbrt-v4's: ∂p/∂u made perpendicular to the normal, and the normal × that
+  unit_backwards,  ///< pbrt-v3's: the same turned round and made unit vectors, which inverts bumps
+};
+
 /// Vertices are shared by the triangles that name them. Arrays other than `positions` and
 /// `triangles` may be empty; otherwise they have one entry per vertex.
 struct TriangleMesh {
@@ -31,6 +38,7 @@ struct TriangleMesh {
   /// The normals were made from the faces: transform_mesh makes them again, because neither angles
   /// nor the side that a winding shows survive every transform.
   bool computed_normals = false;
+  BumpTangents bump_tangents = BumpTangents::derivatives;
 
   bool operator==(const TriangleMesh&) const = default;
   const MeshAttribute* find_attribute(const std::string& name) const;

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cassert>
 
+#include "geometry/curvature.h"
+
 namespace duet {
 
 TwoSided::TwoSided(const Material& front, const Material& back) : front_(front), back_(back) {
@@ -107,14 +109,40 @@ SurfaceNeeds BumpMap::needs() const {
   return nested_.needs() | SurfaceNeeds{.uv = height_.needs_uv(), .tangents = true};
 }
 
-Normal3f BumpMap::normal(const Surface& s) const {
-  const Point2f slope = height_.gradient(s) * scale_;
+namespace {
+
+/// Replaces the tangents by those that pbrt has on meshes with normals, which are kept for
+/// rendering only if they are not flat.
+void set_bump_tangents(Surface& s) {
+  const TriangleMesh* mesh = s.shape->mesh.get();
+  if (!mesh || mesh->bump_tangents == BumpTangents::derivatives) return;
   const Vector3f n(s.shading.n);
-  // The change of the base's normal from place to place is neglected.
-  const Vector3f du = s.dp_du + n * (slope.x - dot(n, s.dp_du));
-  const Vector3f dv = s.dp_dv + n * (slope.y - dot(n, s.dp_dv));
+  Vector3f u = s.dp_du - n * dot(n, s.dp_du);
+  if (mesh->bump_tangents == BumpTangents::unit_backwards) u = -normalize(u);
+  s.dp_du = u;
+  s.dp_dv = cross(n, u);
+}
+
+/// Across a surface displaced by heights with the derivatives `slope`, which move its points by
+/// `turned` besides; in the shading frame.
+Normal3f displaced_normal(const Surface& s, const Point2f& slope, const NormalDerivatives& turned) {
+  const Vector3f n(s.shading.n);
+  const Vector3f du = s.dp_du + n * (slope.x - dot(n, s.dp_du)) + turned.du;
+  const Vector3f dv = s.dp_dv + n * (slope.y - dot(n, s.dp_dv)) + turned.dv;
   const Vector3f up = cross(du, dv);
   return Normal3f(s.shading.to_local(dot(s.ng, up) < 0 ? -up : up));
+}
+
+}  // namespace
+
+Normal3f BumpMap::normal(const Surface& s) const {
+  if (!follows_curvature_) return displaced_normal(s, height_.gradient(s) * scale_, {});
+  const float height = height_(s) * scale_;
+  const NormalDerivatives turning = normal_derivatives(s);
+  Surface base = s;
+  set_bump_tangents(base);
+  return displaced_normal(base, height_.gradient(base) * scale_,
+                          {turning.du * height, turning.dv * height});
 }
 
 SurfaceNeeds NormalMap::needs() const {

@@ -121,12 +121,18 @@ class Perturbed : public Material {
   const Material& nested_;
 };
 
-/// Normals of the surface displaced by scale · height.
+/// Normals of the surface displaced by scale · height. If it `follows_curvature`, as in pbrt, the
+/// displacement also stretches the surface where its normal turns, and meshes have their own
+/// tangents (BumpTangents); Mitsuba leaves both out.
 /// Source: Blinn, "Simulation of Wrinkled Surfaces", 1978.
 class BumpMap final : public Perturbed {
  public:
-  BumpMap(const FloatSlot& height, float scale, const TiltOptions& options, const Material& nested)
-      : Perturbed(options, nested), height_(height), scale_(scale) {}
+  BumpMap(const FloatSlot& height, float scale, bool follows_curvature, const TiltOptions& options,
+          const Material& nested)
+      : Perturbed(options, nested),
+        height_(height),
+        scale_(scale),
+        follows_curvature_(follows_curvature) {}
   SurfaceNeeds needs() const override;
 
  protected:
@@ -135,6 +141,7 @@ class BumpMap final : public Perturbed {
  private:
   FloatSlot height_;
   float scale_;
+  bool follows_curvature_;
 };
 
 /// Normals in the shading frame, stored as colours (n + 1) / 2.

@@ -120,6 +120,7 @@ class Hasher {
   void add(const TriangleMesh& m) {
     add(m.positions), add(m.normals), add(m.uvs), add(m.triangles), add(m.attributes);
     add(m.computed_normals);
+    add(m.bump_tangents);
   }
   void add(const LensSurface& s) { add(s.radius), add(s.thickness), add(s.ior), add(s.aperture); }
   void add(const SampleLimit& l) { add(l.sensor), add(l.most); }

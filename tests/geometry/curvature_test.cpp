@@ -168,3 +168,81 @@ TEST_CASE("a mesh's curvature does not depend on how its triangles are numbered"
     check(curvature_at(s), mean, gaussian, 1e-3);
   }
 }
+
+namespace {
+
+/// The surface at a place, found by a ray towards it; for meshes the triangle is given instead.
+Surface seen(const Shape& shape, const Instance* instance, const Point2f& at) {
+  const auto place = [&](const auto& x) { return instance ? instance->to_world(x) : x; };
+  Hit hit{};
+  if (shape.mesh) {
+    hit.u = at.x, hit.v = at.y;
+    return make_surface(shape, instance, {}, hit);
+  }
+  const float phi = 2 * kPi * at.x, theta = kPi * at.y;
+  const Point3f unit = shape.kind == ShapeKind::sphere
+                           ? Point3f(std::cos(phi) * std::sin(theta),
+                                     std::sin(phi) * std::sin(theta), std::cos(theta))
+                           : Point3f(std::cos(phi), std::sin(phi), at.y);
+  const Point3f p = place(shape.to_world(unit));
+  const Vector3f direction = normalize(place(shape.to_world(Vector3f(unit.x, unit.y, 0.5f))));
+  hit.t = 1;
+  return make_surface(shape, instance, {p - direction, direction, INFINITY}, hit);
+}
+
+/// Against differences of the normals close by.
+void check_derivatives(const Shape& shape, const Instance* instance, const Point2f& at) {
+  const Surface s = seen(shape, instance, at);
+  const NormalDerivatives found = normal_derivatives(s);
+  constexpr float h = 1e-3f;
+  const auto difference = [&](float x, float y) {
+    return (Vector3f(seen(shape, instance, {at.x + x, at.y + y}).shading.n) -
+            Vector3f(seen(shape, instance, {at.x - x, at.y - y}).shading.n)) *
+           (0.5f / h);
+  };
+  const Vector3f du = difference(h, 0), dv = difference(0, h);
+  // Normals that are interpolated are not of unit length between the vertices.
+  const auto across = [&](const Vector3f& v) {
+    const Vector3f n(s.shading.n);
+    return v - n * dot(n, v);
+  };
+  CHECK(length(across(found.du) - du) < 2e-2f * (1 + length(du)));
+  CHECK(length(across(found.dv) - dv) < 2e-2f * (1 + length(dv)));
+}
+
+}  // namespace
+
+TEST_CASE("the normal's derivatives are how it turns along the surface's tangents") {
+  Instance instance;
+  instance.to_world = Transform(Matrix4::translate(1, 2, -3) * Matrix4::rotate(70, 2, 1, 0) *
+                                Matrix4::scale(3, 3, 3));
+  for (const bool flip : {false, true})
+    for (const Instance* i :
+         {static_cast<const Instance*>(nullptr), static_cast<const Instance*>(&instance)}) {
+      for (const Point2f& at : {Point2f{0.1f, 0.2f}, Point2f{0.37f, 0.5f}, Point2f{0.8f, 0.8f}}) {
+        Shape ball = analytic(ShapeKind::sphere, turned(Matrix4::scale(2, 1, 0.7)), flip);
+        Shape tube = analytic(ShapeKind::cylinder, turned(Matrix4::scale(0.5, 0.8, 2)), flip);
+        for (Shape* shape : {&ball, &tube}) {
+          shape->needs = {true, true};
+          check_derivatives(*shape, i, at);
+        }
+      }
+      TriangleMesh m;
+      m.positions = {{0, 0, 0}, {1, 0.2f, 0.1f}, {0.3f, 0.8f, -0.2f}};
+      m.normals = {normalize(Normal3f(0.1f, 0.0f, 0.9f)), normalize(Normal3f(0.05f, 0.1f, 0.9f)),
+                   normalize(Normal3f(0.1f, -0.1f, 0.8f))};
+      m.triangles = {{0, 1, 2}};
+      Shape mesh;
+      mesh.needs = {true, true};
+      mesh.flip_normals = flip;
+      mesh.mesh = std::make_shared<TriangleMesh>(m);
+      check_derivatives(mesh, i, {0.3f, 0.4f});
+      // The same by coordinates that are the barycentric ones, stretched and exchanged.
+      const NormalDerivatives by_edges = normal_derivatives(seen(mesh, i, {0.3f, 0.4f}));
+      m.uvs = {{0, 0}, {0, 2}, {4, 0}};
+      mesh.mesh = std::make_shared<TriangleMesh>(m);
+      const NormalDerivatives by_uv = normal_derivatives(seen(mesh, i, {0.3f, 0.4f}));
+      CHECK(length(by_uv.dv * 2 - by_edges.du) < 1e-5f);
+      CHECK(length(by_uv.du * 4 - by_edges.dv) < 1e-5f);
+    }
+}

@@ -72,7 +72,7 @@ TEST_CASE("materials count by how they scatter, wherever they are nested, and on
   const MaterialId metal = add(rough), frost = add(frosted), plastic = add(PlasticMaterial{});
   const MaterialId mask = add(MaskMaterial{0.5, glass});
   const MaterialId blend = add(BlendMaterial{0.5, metal, mask});
-  const MaterialId bump = add(BumpMapMaterial{TextureId{0}, 1, true, true, true, blend});
+  const MaterialId bump = add(BumpMapMaterial{TextureId{0}, 1, true, true, true, false, blend});
   const MaterialId sides = add(TwoSidedMaterial{plastic, bump});
   PrincipledMaterial clear;
   clear.spec_trans = 0.5;

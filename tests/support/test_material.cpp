@@ -282,8 +282,8 @@ const Material& TestMaterial::make(const json& j) {
   if (type == "bumpmap") {
     textures_.emplace_back(
         new FlatTexture(Spectrum(0.5f), {j["slope"][0].get<float>(), j["slope"][1].get<float>()}));
-    return keep(
-        new BumpMap({0, textures_.back().get()}, number(j, "scale", 1), perturbation, *nested[0]));
+    return keep(new BumpMap({0, textures_.back().get()}, number(j, "scale", 1),
+                            flag(j, "follows_curvature", false), perturbation, *nested[0]));
   }
   if (type == "normalmap") {
     const Vector3f n = normalize(to_vector(j["normal"]));

@@ -54,8 +54,8 @@ MaterialPointer BumpMapMaterial::build(SceneBuilder& b, const SourceLocation& wh
   const Material* base = perturbed(b, nested, where);
   if (!base) return nullptr;
   return std::make_unique<BumpMap>(
-      slot, float(scale), TiltOptions{flip_invalid_normals, use_shadowing_function, drops_leaks},
-      *base);
+      slot, float(scale), follows_curvature,
+      TiltOptions{flip_invalid_normals, use_shadowing_function, drops_leaks}, *base);
 }
 
 MaterialPointer NormalMapMaterial::build(SceneBuilder& b, const SourceLocation& where) const {

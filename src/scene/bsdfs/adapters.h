@@ -84,13 +84,20 @@ inline constexpr Parameter kDropsLeaks{
     .note =
         "Duet's own: light that the surface has on another side than the perturbed normal is "
         "lost; pbrt lets it through"};
+inline constexpr Parameter kFollowsCurvature{
+    .name = "follows_curvature",
+    .type = boolean,
+    .preset = kInitial,
+    .note =
+        "Duet's own: bumps on curved surfaces as in pbrt, where the height also stretches them"};
 }  // namespace parameter_words
 
 struct BumpMapMaterial {
   FloatInput height = 0.0;
   double scale = 1;
   bool flip_invalid_normals = true, use_shadowing_function = true;
-  bool drops_leaks = true;  ///< see TiltOptions
+  bool drops_leaks = true;         ///< see TiltOptions
+  bool follows_curvature = false;  ///< see BumpMap
   MaterialId nested{};
 
   static constexpr auto fields() {
@@ -105,7 +112,8 @@ struct BumpMapMaterial {
                                                  .versions = v3}),
                       field(&M::flip_invalid_normals, kFlipInvalidNormals),
                       field(&M::use_shadowing_function, kUseShadowingFunction),
-                      field(&M::drops_leaks, kDropsLeaks).terse(), field(&M::nested));
+                      field(&M::drops_leaks, kDropsLeaks).terse(),
+                      field(&M::follows_curvature, kFollowsCurvature).terse(), field(&M::nested));
   }
   static constexpr const char* name() { return "bumpmap"; }
   Scattering scattering() const { return {.bumps = true}; }
