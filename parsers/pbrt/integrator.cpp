@@ -89,21 +89,26 @@ void read_volume_path(Values& v, SceneDescription& scene) {
   scene.integrator.method = VolumePathIntegratorDescription{limits(v, v.reader().has_interiors())};
 }
 
+/// Takes all media out of the scene but those beneath surfaces, if these are to be kept.
+void drop_media(const Reader& reader, SceneDescription& scene, bool keeps_beneath) {
+  for_each_shape(scene, [&](ShapeDescription& s) {
+    s.exterior = std::nullopt;
+    if (!keeps_beneath || !s.interior || !reader.is_interior(*s.interior))
+      s.interior = std::nullopt;
+  });
+  for (LightDescription& l : scene.lights) l.medium.reset();
+  for (SensorDescription& s : scene.sensors) s.medium.reset();
+  if (keeps_beneath) return;
+  scene.media.clear();
+  scene.phases.clear();
+  scene.volumes.clear();
+}
+
 /// Takes no notice of media, but v3's follows light beneath surfaces.
 void read_path(Values& v, SceneDescription& scene) {
   const Reader& reader = v.reader();
   const bool beneath = reader.version() == Version::v3 && reader.has_interiors();
-  for_each_shape(scene, [&](ShapeDescription& s) {
-    s.exterior = std::nullopt;
-    if (!beneath || !s.interior || !reader.is_interior(*s.interior)) s.interior = std::nullopt;
-  });
-  for (LightDescription& l : scene.lights) l.medium.reset();
-  for (SensorDescription& s : scene.sensors) s.medium.reset();
-  if (!beneath) {
-    scene.media.clear();
-    scene.phases.clear();
-    scene.volumes.clear();
-  }
+  drop_media(reader, scene, beneath);
   if (beneath || has_passing_surfaces(scene))
     scene.integrator.method = VolumePathIntegratorDescription{limits(v, beneath)};
   else
@@ -157,10 +162,14 @@ void read_occlusion(Values& v, SceneDescription& scene) {
   scene.integrator.method = o;
 }
 
+/// Direct light on surfaces, and on those that smooth ones show.
 void read_direct(Values& v, SceneDescription& scene) {
-  DirectIntegratorDescription direct;
-  direct.light_selection = light_selection(v);
+  PathIntegratorDescription direct{limits(v, false)};
+  direct.only_specular = true;
+  // What light passes straight through would count.
+  if (has_passing_surfaces(scene)) direct.max_depth = -1;
   scene.integrator.method = direct;
+  drop_media(v.reader(), scene, false);
 }
 
 using ReadIntegrator = void (*)(Values&, SceneDescription&);
@@ -178,10 +187,9 @@ constexpr Record<ReadIntegrator> kIntegrators[] = {
     {"sppm", Versions::both, done, "", kSppm, read_sppm},
     {"ambientocclusion", Versions::v4, done, "", kOcclusion, read_occlusion},
     {"ao", Versions::v3, done, "", kOcclusion, read_occlusion},
-    {"directlighting", Versions::v3, approximated,
-     "without what smooth surfaces reflect and refract", kDirect, read_direct},
-    {"whitted", Versions::v3, approximated, "without what smooth surfaces reflect and refract",
-     kDirect, read_direct},
+    {"directlighting", Versions::v3, done, "what is beneath surfaces is not seen", kDirect,
+     read_direct},
+    {"whitted", Versions::v3, done, "what is beneath surfaces is not seen", kDirect, read_direct},
     {"function", Versions::v4, refused, "it draws a function, not a scene", {}, nullptr},
 };
 

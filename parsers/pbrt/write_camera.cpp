@@ -108,9 +108,10 @@ void SceneWriter::integrator() {
     return s;
   };
   const auto write = [&]<class T>(const T& m) -> Statement {
-    if constexpr (std::is_same_v<T, PathIntegratorDescription>)
+    if constexpr (std::is_same_v<T, PathIntegratorDescription>) {
+      if (m.only_specular) lose("paths go on from surfaces that are not smooth");
       return limits("path", m.max_depth, m);
-    else if constexpr (std::is_same_v<T, VolumePathIntegratorDescription>)
+    } else if constexpr (std::is_same_v<T, VolumePathIntegratorDescription>)
       return limits("volpath", m.max_depth, m);
     else if constexpr (std::is_same_v<T, DirectIntegratorDescription>)
       return limits("path", 2, m);

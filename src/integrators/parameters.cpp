@@ -109,7 +109,9 @@ Parameters path_parameters(PathLimits& d) {
 }
 
 Parameters parameters(PathIntegratorDescription& d) {
-  return path_parameters(d);
+  Parameters p = path_parameters(d);
+  p.push_back(boolean("only_specular", d.only_specular));
+  return p;
 }
 
 Parameters parameters(VolumePathIntegratorDescription& d) {

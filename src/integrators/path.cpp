@@ -40,7 +40,8 @@ Spectrum PathIntegrator::radiance(const Scene& scene, const CameraPath& start, S
       path.sum +=
           path.throughput *
           weighted_emission(scene, s, {path.from, path.ray.direction, hit.t}, path.bsdf_pdf, {});
-    if (depth == options_.max_depth) {
+    // Where the direction was no delta lobe's the light on it has been found, and is all of it.
+    if (depth == options_.max_depth || (options_.only_specular && path.bsdf_pdf)) {
       path.alpha = 1;
       break;
     }
@@ -84,7 +85,7 @@ inline bool PathIntegrator::scatter(const Scene& scene, const Surface& s, const 
     path.bsdf_pdf.reset();
   else
     path.bsdf_pdf = sample->pdf;
-  path.from = s.position;
+  path.from = lit_point(scene, s);
   path.ray = spawn_ray(s, sample->wi);
   return true;
 }

@@ -10,7 +10,7 @@ namespace duet {
 /// samples, weighted by the power heuristic (Veach 1997, section 9.2.4).
 class PathIntegrator final : public CameraIntegrator {
  public:
-  PathIntegrator(const PathLimits& options, const CameraOutput& output)
+  PathIntegrator(const PathIntegratorDescription& options, const CameraOutput& output)
       : CameraIntegrator(output), options_(options) {}
 
  protected:
@@ -24,7 +24,7 @@ class PathIntegrator final : public CameraIntegrator {
   template <class B>
   bool scatter(const Scene& scene, const Surface& s, const B& bsdf, int depth, Path& path) const;
 
-  PathLimits options_;
+  PathIntegratorDescription options_;
 };
 
 }  // namespace duet

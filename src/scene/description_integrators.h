@@ -76,7 +76,23 @@ struct PathLimits {
   }
 };
 struct PathIntegratorDescription : PathLimits {
+  /// Paths go on from smooth surfaces only: direct light, and what mirrors and glass show of it.
+  bool only_specular = false;
+  static constexpr auto fields() {
+    using namespace parameter_words;
+    return std::tuple_cat(
+        PathLimits::fields(),
+        std::tuple(field(&PathIntegratorDescription::only_specular,
+                         Parameter{"only_specular", boolean, kInitial,
+                                   "Duet's own: paths go on from smooth surfaces only"})
+                       .unwritten()));
+  }
   static constexpr const char* method_name() { return "path"; }
+  std::vector<std::string> losses() const {
+    std::vector<std::string> lost = PathLimits::losses();
+    if (only_specular) lost.emplace_back("\"only_specular\" does not exist in Mitsuba 3");
+    return lost;
+  }
 };
 /// Mitsuba's two names for path tracing through media; Duet has one method for both.
 enum class VolumePathName { volpath, volpathmis };
