@@ -37,6 +37,10 @@ void SceneWriter::shape(const ShapeDescription& s, const std::string& id, std::s
     out_.close();
     return;
   }
+  const auto is_bumpy = [](const MaterialModel& b) { return b.is<BumpMapMaterial>(); };
+  const auto* m = std::get_if<MeshShape>(&s.geometry);
+  if (m && m->mesh->bump_tangents != BumpTangents::derivatives && holds(d_, s.material, is_bumpy))
+    lose("bumps on meshes with normals follow texture coordinates, not pbrt's tangents");
   if (s.flip_normals) out_.boolean("flip_normals", true);
   out_.reference({}, material_id(s.material));
   if (s.interior) out_.reference("interior", medium_id(*s.interior));

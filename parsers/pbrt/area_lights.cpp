@@ -48,6 +48,7 @@ std::optional<AreaEmission> read_area_light(Reader& reader, const Plugin& plugin
   if (v.has("L")) reader.report().error(v.where("L"), "a light has either \"L\" or a file");
   BitmapTexture image;
   image.file = v.file("filename");
+  v.reader().note_image_colors(v.where("filename"));
   if (image.file.empty()) return std::nullopt;
   scale_to_power(v, scale, image, [&](const TextureTexels& pixels) {
     return flux() * double(pixels.mean().luminance());

@@ -64,6 +64,11 @@ Spectrum Reader::triple_color(const Parameter& p, ColorMeaning meaning) {
   return color;
 }
 
+void Reader::note_image_colors(const SourceLocation& where) {
+  if (film_color_space != 0)
+    approximate(where, "images in the film's colour space: their own is left out");
+}
+
 Spectrum Reader::constant_color(const Parameter& p, ColorMeaning meaning) {
   const auto fail = [&](const std::string& why) {
     report_.error(p.where, "parameter \"{}\": {}", p.name, why);

@@ -162,6 +162,7 @@ void read_infinite(Values& v) {
   }
   EnvironmentMapLight map;
   map.file = v.file(name);
+  v.reader().note_image_colors(v.where(name));
   if (map.file.empty()) return;
   if (!v3 && v.has("L"))
     v.reader().report().error(v.where("L"), "a light has either \"L\" or a file");
@@ -210,6 +211,7 @@ void read_projection(Values& v) {
   }
   BitmapTexture image;
   image.file = v.file(name);
+  v.reader().note_image_colors(v.where(name));
   if (image.file.empty()) return;
   image.filter = TextureFilter::nearest;
   image.wrap_u = image.wrap_v = WrapMode::clamp;

@@ -95,6 +95,7 @@ MaterialId with_bumps(Values& v, MaterialId material) {
     BumpMapMaterial bump;
     bump.height = v.float_input(bumps);
     bump.flip_invalid_normals = bump.use_shadowing_function = bump.drops_leaks = false;
+    bump.follows_curvature = true;
     bump.nested = material;
     // A constant height changes nothing.
     if (std::holds_alternative<double>(bump.height)) return material;

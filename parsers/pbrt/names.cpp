@@ -67,20 +67,26 @@ BilerpDescription constant_texture(double x) {
 }  // namespace
 
 template <class Input>
-const Input& Reader::await_texture(const std::string& name, const SourceLocation& where) {
+const Input& Reader::await_texture(const std::string& name, const SourceLocation& where,
+                                   bool by_texture) {
   constexpr bool is_color = std::is_same_v<Input, ColorInput>;
   (is_color ? undefined_colors_ : undefined_numbers_).emplace(name, where);
+  if (by_texture) awaited_images_.emplace(name, where);
   Input& entry = texture_names(change_names(), static_cast<const Input*>(nullptr))[name];
   entry = add_texture(constant_texture(0.5), where);
   return entry;
 }
 
 template <class Input>
-void Reader::define_texture(const std::string& name, const Input& made,
+void Reader::define_texture(const std::string& name, const Input& made, bool is_image,
                             const SourceLocation& where) {
   constexpr bool is_color = std::is_same_v<Input, ColorInput>;
   auto& known = texture_names(change_names(), static_cast<const Input*>(nullptr));
   if ((is_color ? undefined_colors_ : undefined_numbers_).erase(name) > 0) {
+    if (const auto user = awaited_images_.extract(name); user && !is_image)
+      report_.error(user.mapped(),
+                    "texture {} is defined only after this one: of textures, only images may be",
+                    in_quotes(name));
     const TextureId awaited = std::get<TextureId>(known.at(name));
     if (const TextureId* id = std::get_if<TextureId>(&made))
       scene_.textures[size_t(awaited)] = scene_.textures[size_t(*id)];
@@ -95,10 +101,12 @@ void Reader::define_texture(const std::string& name, const Input& made,
     report_.error(where, "there is a texture {} already", in_quotes(name));
 }
 
-template const ColorInput& Reader::await_texture(const std::string&, const SourceLocation&);
-template const FloatInput& Reader::await_texture(const std::string&, const SourceLocation&);
-template void Reader::define_texture(const std::string&, const ColorInput&, const SourceLocation&);
-template void Reader::define_texture(const std::string&, const FloatInput&, const SourceLocation&);
+template const ColorInput& Reader::await_texture(const std::string&, const SourceLocation&, bool);
+template const FloatInput& Reader::await_texture(const std::string&, const SourceLocation&, bool);
+template void Reader::define_texture(const std::string&, const ColorInput&, bool,
+                                     const SourceLocation&);
+template void Reader::define_texture(const std::string&, const FloatInput&, bool,
+                                     const SourceLocation&);
 
 MediumId Reader::named_medium(const std::string& name, const SourceLocation& where) {
   if (const auto found = media_.find(name); found != media_.end()) return found->second;

@@ -61,6 +61,7 @@ struct Parameter {
   std::vector<double> numbers;  ///< of numbers, points, colours …; of booleans 0 or 1
   std::vector<std::string> strings;
   uint8_t color_space = 0;  ///< of the graphics state where it stands
+  bool is_default = false;  ///< of Attribute: not everything in the block has such a parameter
 };
 
 /// A directive with parameters: `directive "name" parameters`.

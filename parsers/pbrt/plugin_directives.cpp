@@ -13,6 +13,7 @@ void Directives::reverse_orientation(Lexer&, const Plugin&) {
 void Directives::attribute(Lexer& in, const Plugin& d) {
   const std::string target = take_string(in, d);
   std::vector<Parameter> parameters = read_parameters(in, state().color_space, report());
+  for (Parameter& p : parameters) p.is_default = true;
   const std::vector<std::string> targets{"shape", "light", "material", "medium", "texture"};
   if (std::find(targets.begin(), targets.end(), target) == targets.end()) {
     report().error(d.where, "there are no defaults for {}{}", in_quotes(target),

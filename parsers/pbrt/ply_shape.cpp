@@ -51,6 +51,10 @@ bool ends_with_gz(const std::string& path) {
 
 }  // namespace
 
+BumpTangents bump_tangents(Version version) {
+  return version == Version::v3 ? BumpTangents::unit_backwards : BumpTangents::across_normals;
+}
+
 void finish_triangles(TriangleMesh& mesh, bool needs_uv) {
   if (!needs_uv || !mesh.uvs.empty()) return;
   const bool own_normals = !mesh.normals.empty();
@@ -71,11 +75,19 @@ const PlyMesh* Reader::ply_mesh(const std::string& path, bool needs_uv,
     TriangleMesh mesh =
         ends_with_gz(path) ? read_ply(path, inflate_file(path), options) : read_ply(path, options);
     mesh.attributes.clear();
+    if (version_ == Version::v3) {
+      for (const auto& [a, b, c, d] : quads) {
+        mesh.triangles.push_back({a, b, c});
+        mesh.triangles.push_back({d, a, c});
+      }
+      quads.clear();
+    }
     result.own_normals = !mesh.normals.empty();
     result.is_whole_file = quads.empty() && result.own_normals && !ends_with_gz(path);
     if (quads.empty()) {
       if (needs_uv && mesh.uvs.empty()) result.is_whole_file = false;
       finish_triangles(mesh, needs_uv);
+      if (result.own_normals) mesh.bump_tangents = bump_tangents(version_);
     } else {
       PatchMesh patches{mesh.positions, mesh.normals, mesh.uvs, {}};
       // Corners run around a face, but row by row in a patch.

@@ -112,6 +112,7 @@ void read_triangle_mesh(Values& v) {
   if (!read_arrays(v, v.has("st") && !v.has("uv") ? "st" : "uv", mesh, mesh.triangles)) return;
   finish_triangles(mesh, v.reader().needs_uv(v.plugin()));
   const bool own_normals = !mesh.normals.empty();
+  if (own_normals) mesh.bump_tangents = bump_tangents(v.reader().version());
   add_mesh(v, std::move(mesh), own_normals);
 }
 
@@ -179,7 +180,9 @@ void read_loop_subdivision(Values& v) {
     v.reader().report().error(v.where("levels"), "{} levels of subdivision are too many", levels);
     return;
   }
-  add_mesh(v, subdivide_loop(positions, *triangles, levels), true);
+  TriangleMesh mesh = subdivide_loop(positions, *triangles, levels);
+  mesh.bump_tangents = bump_tangents(v.reader().version());
+  add_mesh(v, std::move(mesh), true);
 }
 
 constexpr Spec kHeightField[] = {
@@ -250,13 +253,15 @@ void read_nurbs(Values& v) {
     v.reader().report().error(v.where(), "{}", why);
     return;
   }
-  add_mesh(v, make_nurbs(n), true);
+  TriangleMesh mesh = make_nurbs(n);
+  mesh.bump_tangents = bump_tangents(v.reader().version());
+  add_mesh(v, std::move(mesh), true);
 }
 
 constexpr Record<ReadShape> kMeshes[] = {
     {"trianglemesh", Versions::both, done, "", kTriangleMesh, read_triangle_mesh},
-    {"plymesh", Versions::both, done, "faces of four corners are bilinear patches", kPlyMesh,
-     read_ply_mesh},
+    {"plymesh", Versions::both, done,
+     "faces of four corners are bilinear patches, in v3 two triangles", kPlyMesh, read_ply_mesh},
     {"bilinearmesh", Versions::v4, done, "patches that are not flat become triangles",
      kBilinearMesh, read_bilinear_mesh},
     {"loopsubdiv", Versions::both, done, "", kLoop, read_loop_subdivision},

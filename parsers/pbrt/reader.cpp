@@ -16,6 +16,7 @@ Reader::Reader(const std::string& file, const Options& options, Version version,
   const SourceLocation start{std::make_shared<const std::string>(file), 1, 1};
   const MaterialId grey = add_material(DiffuseMaterial{}, start);
   state_.material = add_material(TwoSidedMaterial{grey, grey}, start);
+  set_looks_at_uv(state_.material, false);
 }
 
 void Reader::read() {

@@ -64,6 +64,8 @@ class Reader {
   std::string file(const std::string& name, const SourceLocation& where);
 
   // ---- Colours (colors.cpp) ----
+  /// Says that the colours of an image are taken for those of the film, if that is not sRGB.
+  void note_image_colors(const SourceLocation& where);
   Spectrum constant_color(const Parameter& p, ColorMeaning meaning);
   /// Light of a black body whose spectrum is 1 at its peak.
   Spectrum black_body(double kelvin);
@@ -76,11 +78,13 @@ class Reader {
   MaterialId named_material(const std::string& name, const SourceLocation& where);
   MediumId named_medium(const std::string& name, const SourceLocation& where);
   void define_material(const std::string& name, MaterialId made, const SourceLocation& where);
-  /// A texture that is defined later (v4): ColorInput or FloatInput.
+  /// A texture that is defined later (v4): ColorInput or FloatInput. Other textures can only use
+  /// images so, which pbrt loads before it makes any of the others.
   template <class Input>
-  const Input& await_texture(const std::string& name, const SourceLocation& where);
+  const Input& await_texture(const std::string& name, const SourceLocation& where, bool by_texture);
   template <class Input>
-  void define_texture(const std::string& name, const Input& made, const SourceLocation& where);
+  void define_texture(const std::string& name, const Input& made, bool is_image,
+                      const SourceLocation& where);
   void define_medium(const std::string& name, MediumDescription medium);
   /// Reports what was asked for and never defined.
   void check_names();
@@ -147,6 +151,8 @@ class Reader {
   NameTables global_names_;
   std::map<std::string, MediumId, std::less<>> media_;
   Undefined undefined_materials_, undefined_media_, undefined_colors_, undefined_numbers_;
+  /// Undefined textures that a texture uses.
+  Undefined awaited_images_;
   /// A shape whose material is defined later.
   struct Waiting {
     MaterialId material;
@@ -163,6 +169,12 @@ class Reader {
   std::unordered_map<std::string, uint32_t> objects_;
   /// The group that ObjectBegin has begun.
   std::optional<uint32_t> object_;
+  /// A shape of an object that moves in it: the only one of a group of its own.
+  struct MovingPart {
+    uint32_t group;
+    Motion motion;
+  };
+  std::map<uint32_t, std::vector<MovingPart>> moving_parts_;  ///< by the object's group
   /// Materials with alpha on shapes, by what they are made of.
   std::map<std::pair<MaterialId, FloatInput>, MaterialId> masked_;
 };

@@ -1,6 +1,7 @@
 // What surfaces have besides their geometry: transform, orientation, material, light and media.
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "pbrt/reader.h"
 #include "pbrt/shapes.h"
@@ -91,9 +92,15 @@ void Reader::add_shape(const Plugin& from, ShapeParts parts) {
     if (shape.emission && shape.material != state_.material)
       approximate(from.where, "a light with alpha shines where alpha takes the surface away, too");
   }
-  auto& list = object_ ? scene_.groups[*object_].shapes : scene_.shapes;
+  std::optional<uint32_t> group = object_;
+  if (object_ && !shape.motion.empty()) {
+    group = uint32_t(scene_.groups.size());
+    moving_parts_[*object_].push_back({*group, std::exchange(shape.motion, {})});
+    scene_.groups.push_back({from.where, {}, {}});
+  }
+  auto& list = group ? scene_.groups[*group].shapes : scene_.shapes;
   if (!undefined_materials_.empty() && is_awaited(state_.material))
-    waiting_.push_back({state_.material, object_, list.size(), state_.outside});
+    waiting_.push_back({state_.material, group, list.size(), state_.outside});
   list.push_back(std::move(shape));
 }
 
@@ -122,6 +129,42 @@ void Reader::finish_shapes() {
     }
   }
 }
+
+namespace {
+
+/// Whether lengths change alike in all directions.
+bool is_similarity(const Matrix4& m) {
+  double squares[3][3] = {}, largest = 0;
+  for (size_t i = 0; i < 3; ++i)
+    for (size_t j = 0; j < 3; ++j) {
+      for (int k = 0; k < 3; ++k) squares[i][j] += m[k][i] * m[k][j];
+      largest = std::max(largest, std::abs(squares[i][j]));
+    }
+  bool same = true;
+  for (size_t i = 0; i < 3; ++i)
+    for (size_t j = 0; j < 3; ++j)
+      same &= std::abs(squares[i][j] - (i == j ? squares[0][0] : 0.0)) <= 1e-9 * largest;
+  return same;
+}
+
+/// The motion `inner` of a part of what stands at `place`, or moves by `outer`. Where the way
+/// between poses is not that between the products, it is followed in small steps.
+Motion compose(const Matrix4& place, const Motion& outer, const Motion& inner) {
+  std::vector<Keyframe> poses = inner.keyframes();
+  if (!outer.empty() || !is_similarity(place)) {
+    constexpr int kSteps = 32;
+    const double begin = poses.front().time, length = poses.back().time - begin;
+    poses.clear();
+    for (int i = 0; i <= kSteps; ++i) {
+      const double time = begin + length * i / kSteps;
+      poses.push_back({time, inner.at(time)});
+    }
+  }
+  for (Keyframe& k : poses) k.pose = outer.at(k.time) * place * k.pose;
+  return Motion(std::move(poses));
+}
+
+}  // namespace
 
 void Reader::begin_object(const std::string& name, const SourceLocation& where) {
   if (object_) {
@@ -161,7 +204,19 @@ void Reader::add_instance(const std::string& name, const SourceLocation& where) 
   Plugin instance{"ObjectInstance", name, where, {}};
   shape.motion = motion(instance);
   if (shape.motion.empty()) shape.to_world = state_.ctm[0];
-  scene_.shapes.push_back(std::move(shape));
+  const auto parts = moving_parts_.find(found->second);
+  if (parts == moving_parts_.end()) {
+    scene_.shapes.push_back(std::move(shape));
+    return;
+  }
+  for (const MovingPart& part : parts->second) {
+    ShapeDescription moving;
+    moving.where = where;
+    moving.geometry = InstanceShape{part.group};
+    moving.motion = compose(shape.to_world, shape.motion, part.motion);
+    scene_.shapes.push_back(std::move(moving));
+  }
+  if (!scene_.groups[found->second].shapes.empty()) scene_.shapes.push_back(std::move(shape));
 }
 
 double world_area(const ShapeDescription& shape) {

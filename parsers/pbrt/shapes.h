@@ -56,6 +56,9 @@ void append_patches(const PatchMesh& patches, TriangleMesh& mesh);
 TriangleMesh subdivide_loop(const std::vector<Point3f>& positions,
                             const std::vector<std::array<uint32_t, 3>>& triangles, int levels);
 
+/// What bumps take as tangents on triangles that files give.
+BumpTangents bump_tangents(Version version);
+
 /// Gives a mesh without texture coordinates those that pbrt has by default, if they are needed.
 void finish_triangles(TriangleMesh& mesh, bool needs_uv);
 

@@ -109,8 +109,7 @@ void read_image(Values& v, const Request& request, Made& made) {
   image.to_uv = mapping(v);
   // A number of an image in colours: in v3 the luminance, as textures have it by themselves.
   if (!request.is_color && reader.version() == Version::v4) image.channel = TextureChannel::number;
-  if (request.is_color && reader.film_color_space != 0)
-    reader.approximate(v.where(), "images in the film's colour space: their own is left out");
+  if (request.is_color) reader.note_image_colors(v.where());
   // Their first row is at t = 1.
   for (double& x : image.to_uv.m[1]) x = -x;
   image.to_uv.m[1][2] += 1;
@@ -252,11 +251,12 @@ void read_texture(Reader& reader, const Plugin& plugin, const std::string& name,
     Values values(reader, plugin, record->parameters);
     record->read(values, request, made);
   }
+  const bool is_image = plugin.name == "imagemap";
   // After an error it has a value, too, so that its users are not reported.
   if (request.is_color)
-    reader.define_texture(name, made.color, plugin.where);
+    reader.define_texture(name, made.color, is_image, plugin.where);
   else
-    reader.define_texture(name, made.number, plugin.where);
+    reader.define_texture(name, made.number, is_image, plugin.where);
 }
 
 void list_textures(std::vector<Row>& rows) {

@@ -71,6 +71,7 @@ void Values::check(const Parameter& p) {
       if (s.name == p.name) known = &s;
     }
   if (!known) {
+    if (p.is_default) return;
     const std::string name = plugin_.name.empty() ? "" : fmt::format(" \"{}\"", plugin_.name);
     report.warning(p.where, "{}{} has no parameter {}{}; it is ignored", plugin_.directive, name,
                    in_quotes(p.name), did_you_mean(p.name, names));
@@ -194,10 +195,10 @@ const Input* Values::find_texture(const Parameter& p,
     reader_.count_texture();
     return &found->second;
   }
-  // In v4 all textures of a file are made before anything that uses them, but in their order.
-  if (reader_.version() == Version::v4 && plugin_.directive != "Texture") {
+  // In v4 all textures of a file are made before anything that uses them.
+  if (reader_.version() == Version::v4) {
     reader_.count_texture();
-    return &reader_.await_texture<Input>(name, p.where);
+    return &reader_.await_texture<Input>(name, p.where, plugin_.directive == "Texture");
   }
   const std::string message =
       fmt::format("there is no texture {} of {}{}", in_quotes(name), of,

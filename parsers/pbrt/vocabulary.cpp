@@ -59,7 +59,9 @@ warning. Names that are in no table are warnings with the nearest known one.
   directives on the wrong side of WorldBegin: pbrt-v3 goes on without them, and so does Duet, with a warning.
 - Several infinite lights add up.
 - Curves that are no hair face each ray as pbrt's do; only the methods that follow light from the camera alone can render
-  such ribbons.
+  such ribbons. Opaque ones are lit where rays are clear of them: a width in front of them, as in pbrt.
+- Bumps on meshes with normals have pbrt's tangents: in v4 the second one is as long as the first, in v3 both are unit
+  vectors turned backwards, so that bumps are dents and of another depth.
 - Where light is scattered beneath surfaces paths have no limit of depth. A walk in a medium differs from pbrt's profiles
   where the surface is curved or thin: light that pbrt absorbs in the depth comes out on the other side.
 - Textures are looked up without blur: pbrt blurs them by ray differentials, which many samples make small.

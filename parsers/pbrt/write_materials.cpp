@@ -50,6 +50,7 @@ void SceneWriter::end_material(Statement& s, const Around& around) {
   if (const BumpMapMaterial* b = around.bumps) {
     if (b->drops_leaks || b->use_shadowing_function || b->flip_invalid_normals)
       lose("bumps as Mitsuba has them: without its corrections where normals are turned far");
+    if (!b->follows_curvature) lose("bumps stretch the surface where it bends, as in pbrt");
     if (const TextureId* height = std::get_if<TextureId>(&b->height)) {
       std::string name = texture(*height, false);
       if (b->scale != 1) {

@@ -140,7 +140,12 @@ void SceneWriter::mesh(const MeshShape& m, const FloatInput& alpha, const Matrix
 }
 
 void SceneWriter::geometry(const ShapeDescription& s, const FloatInput& alpha, const Matrix4& own) {
-  if (const auto* m = std::get_if<MeshShape>(&s.geometry)) {
+  const auto* m = std::get_if<MeshShape>(&s.geometry);
+  const auto is_bumpy = [](const MaterialModel& b) { return b.is<BumpMapMaterial>(); };
+  if (has_own_normals(s) && !(m && m->mesh->bump_tangents == BumpTangents::across_normals) &&
+      holds(d_, s.material, is_bumpy))
+    lose("bumps on meshes with normals have the tangents of pbrt-v4");
+  if (m) {
     if (m->mesh->uvs.empty() && looks_at_uv(s))
       lose("texture coordinates of meshes that have none are those of pbrt");
     return mesh(*m, alpha, own);

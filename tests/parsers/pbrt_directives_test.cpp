@@ -110,6 +110,17 @@ TEST_CASE("pbrt: Attribute sets parameters of what comes in its block") {
   CHECK(scene.shapes[0].to_world[0][0] == 2);
   CHECK(scene.shapes[1].to_world[0][0] == 3);
   CHECK(scene.shapes[2].to_world[0][0] == 1);
+  // Not all that comes in a block has what it sets.
+  const TemporaryDirectory folder;
+  const auto messages = [&](const std::string& world) {
+    return read_pbrt_file(
+               folder.write("scene.pbrt",
+                            "Film \"rgb\"\nCamera \"orthographic\"\nWorldBegin\n" + world))
+        .messages;
+  };
+  const std::string triangle = "Shape \"trianglemesh\" \"point3 P\" [0 0 0 1 0 0 0 1 0]";
+  CHECK(messages("Attribute \"shape\" \"float radius\" 2\n" + triangle + "\n") == "");
+  CHECK(messages(triangle + " \"float radius\" 2\n") != "");
 }
 
 TEST_CASE("pbrt instances: the transform at the definition and that at the use") {

@@ -2,6 +2,7 @@
 #include <doctest/doctest.h>
 #include <fmt/format.h>
 
+#include "image/image_io.h"
 #include "scene/build.h"
 #include "support/files.h"
 #include "support/pbrt_file.h"
@@ -51,7 +52,25 @@ TEST_CASE("pbrt-v4: textures are used before they are defined, constants and oth
   // Textures that are made of others come after them, and names belong to one kind.
   const PbrtFile nested = read_text(
       "Film \"rgb\"\nWorldBegin\nTexture \"a\" \"float\" \"scale\" \"texture tex\" \"a\"\n");
-  CHECK(nested.messages.find("there is no texture \"a\" of numbers") != std::string::npos);
+  CHECK_MESSAGE(nested.messages.find("error: texture \"a\" is defined only after this one") !=
+                    std::string::npos,
+                nested.messages);
+  // But images may come later, for pbrt loads them first.
+  const std::string scaled =
+      "Texture \"t\" \"spectrum\" \"scale\" \"texture tex\" \"later\" \"float scale\" .5\n";
+  const TemporaryDirectory folder;
+  Image pixels(1, 1, {"R", "G", "B"});
+  pixels.data = {0.5f, 0.25f, 0.75f};
+  write_exr(folder.path("image.exr"), pixels, {});
+  const SceneDescription image = scene_of(
+      read_pbrt_file(folder.write("scene.pbrt", "Film \"rgb\"\nWorldBegin\n" + shapes + scaled +
+                                                    "Texture \"later\" \"spectrum\" \"imagemap\""
+                                                    " \"string filename\" \"image.exr\"\n")));
+  const TextureId half = std::get<TextureId>(reflectance_of(image, 0));
+  const auto& product = std::get<ScaledTextureDescription>(image.textures.at(size_t(half)).model);
+  CHECK(std::holds_alternative<BitmapTexture>(image.textures.at(size_t(product.inner)).model));
+  const PbrtFile never = read_text("Film \"rgb\"\nWorldBegin\n" + scaled);
+  CHECK(never.messages.find("there is no texture \"later\" of colours") != std::string::npos);
   const PbrtFile kind =
       read_text("Film \"rgb\"\nWorldBegin\n" + shapes + "Texture \"t\" \"float\" \"constant\"\n");
   CHECK(kind.messages.find("there is no texture \"t\" of colours") != std::string::npos);

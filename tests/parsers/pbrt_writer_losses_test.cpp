@@ -46,6 +46,10 @@ TEST_CASE("pbrt writer: BSDFs, lights, media and sensors that pbrt does not have
   const auto on_sphere = [](const std::string& bsdf) {
     return "<shape type='sphere'>" + bsdf + "</shape>";
   };
+  const std::string bumps =
+      "<bsdf type='bumpmap'><texture type='checkerboard'/><bsdf type='diffuse'/></bsdf>";
+  has(on_sphere(bumps), "bumps stretch the surface where it bends, as in pbrt");
+  has("<shape type='cube'>" + bumps + "</shape>", "bumps on meshes with normals have the tangents");
   has(on_sphere("<bsdf type='principled'/>"), "the BSDF \"principled\" does not exist in pbrt");
   has(on_sphere("<bsdf type='roughconductor'/>"), "the microfacets of \"beckmann\"");
   has(on_sphere(

@@ -46,7 +46,8 @@ bool is_close(const VolumeDescription& a, const VolumeDescription& b, float tole
 }
 
 /// Normals are given length one again when they are read: those that are the same but for that are
-/// taken from `from`.
+/// taken from `from`. So are the tangents of bumps: where there are some, the writer says that they
+/// are those of pbrt-v4.
 void align_normals(ShapeDescription& s, const ShapeDescription& from) {
   auto* mesh = std::get_if<MeshShape>(&s.geometry);
   const auto* other = std::get_if<MeshShape>(&from.geometry);
@@ -56,6 +57,7 @@ void align_normals(ShapeDescription& s, const ShapeDescription& from) {
     const Normal3f& n = other->mesh->normals[i];
     if (length_squared(Vector3f(made->normals[i]) - Vector3f(n)) < 1e-12f) made->normals[i] = n;
   }
+  made->bump_tangents = other->mesh->bump_tangents;
   mesh->mesh = std::move(made);
 }
 
