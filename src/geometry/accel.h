@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "geometry/ray_batch.h"
 #include "geometry/shape.h"
 
 namespace duet {
@@ -33,12 +34,22 @@ class Accel {
   bool closest_hit(const Ray& ray, Hit& hit) const;
   /// Whether anything lies between the ray's origin and ray.tmax.
   bool occluded(const Ray& ray) const;
+  /// The same for the first `n` rays of a batch, in packets as wide as the machine's registers.
+  /// What is found depends on the other rays only where two surfaces are equally near, or by
+  /// rounding at the edge of one. `blocked` is 1 or 0. Beyond the first n the results are anything.
+  void closest_hits(const RayBatch& rays, int n, HitBatch& hits) const;
+  void occluded(const RayBatch& rays, int n, BatchArray<int32_t>& blocked) const;
   /// The box around everything.
   Bounds bounds() const;
 
  private:
   struct Device;
   void set_lead(const std::vector<Shape>& shapes, ShapeRange top);
+  void choose_packets(const std::vector<Shape>& shapes);
+  template <int kWidth>
+  void intersect_packets(const RayBatch& rays, int n, HitBatch& hits) const;
+  template <int kWidth>
+  void occlude_packets(const RayBatch& rays, int n, BatchArray<int32_t>& blocked) const;
 
   std::unique_ptr<Device> device_;
   /// Copies of what the queries need, so that they follow one pointer less.
@@ -48,6 +59,7 @@ class Accel {
   const std::vector<Instance>* instances_ = nullptr;
   /// How far before their origin rays begin for Embree, which keeps what it finds there to itself.
   float lead_ = 0;
+  int packet_ = 1;  ///< how many rays are traced at once
 };
 
 /// The version of Embree, such as "3.13.5".

@@ -1,4 +1,5 @@
-// The only file that knows Embree. Versions 3.13 and 4 differ in how per-ray arguments are passed.
+// Builds Embree's acceleration structures; accel_embree_queries.cpp asks them. No other file knows
+// Embree.
 #if __has_include(<embree4/rtcore.h>)
 #include <embree4/rtcore.h>
 #else
@@ -33,32 +34,43 @@ void analytic_bounds_callback(const RTCBoundsFunctionArguments* args) {
   args->bounds_o->upper_z = b.upper.z;
 }
 
-Ray to_ray(const RTCRay& r) {
-  return {{r.org_x, r.org_y, r.org_z}, {r.dir_x, r.dir_y, r.dir_z}, r.tfar};
+Ray ray_of(RTCRayN* rays, unsigned n, unsigned i) {
+  return {{RTCRayN_org_x(rays, n, i), RTCRayN_org_y(rays, n, i), RTCRayN_org_z(rays, n, i)},
+          {RTCRayN_dir_x(rays, n, i), RTCRayN_dir_y(rays, n, i), RTCRayN_dir_z(rays, n, i)},
+          RTCRayN_tfar(rays, n, i)};
 }
 
 void analytic_intersect_callback(const RTCIntersectFunctionNArguments* args) {
-  if (args->N != 1 || !args->valid[0]) return;
-  auto* ray_hit = reinterpret_cast<RTCRayHit*>(args->rayhit);
   const Shape& shape = *static_cast<const Shape*>(args->geometryUserPtr);
-  double t[2];
-  if (!intersect_analytic(shape, args->primID, to_ray(ray_hit->ray), ray_hit->ray.tnear,
-                          ray_hit->ray.tfar, t))
-    return;
-  ray_hit->ray.tfar = float(t[0]);
-  ray_hit->hit.u = ray_hit->hit.v = 0;
-  ray_hit->hit.primID = args->primID;
-  ray_hit->hit.geomID = args->geomID;
-  ray_hit->hit.instID[0] = args->context->instID[0];
+  const unsigned n = args->N;
+  RTCRayN* const rays = RTCRayHitN_RayN(args->rayhit, n);
+  RTCHitN* const hits = RTCRayHitN_HitN(args->rayhit, n);
+  for (unsigned i = 0; i < n; ++i) {
+    if (!args->valid[i]) continue;
+    const Ray ray = ray_of(rays, n, i);
+    double t[2];
+    if (!intersect_analytic(shape, args->primID, ray, double(RTCRayN_tnear(rays, n, i)),
+                            double(ray.tmax), t))
+      continue;
+    RTCRayN_tfar(rays, n, i) = float(t[0]);
+    RTCHitN_u(hits, n, i) = RTCHitN_v(hits, n, i) = 0;
+    RTCHitN_primID(hits, n, i) = args->primID;
+    RTCHitN_geomID(hits, n, i) = args->geomID;
+    RTCHitN_instID(hits, n, i, 0) = args->context->instID[0];
+  }
 }
 
 void analytic_occluded_callback(const RTCOccludedFunctionNArguments* args) {
-  if (args->N != 1 || !args->valid[0]) return;
-  auto* ray = reinterpret_cast<RTCRay*>(args->ray);
   const Shape& shape = *static_cast<const Shape*>(args->geometryUserPtr);
-  double t[2];
-  if (intersect_analytic(shape, args->primID, to_ray(*ray), ray->tnear, ray->tfar, t))
-    ray->tfar = -INFINITY;
+  const unsigned n = args->N;
+  for (unsigned i = 0; i < n; ++i) {
+    if (!args->valid[i]) continue;
+    const Ray ray = ray_of(args->ray, n, i);
+    double t[2];
+    if (intersect_analytic(shape, args->primID, ray, double(RTCRayN_tnear(args->ray, n, i)),
+                           double(ray.tmax), t))
+      RTCRayN_tfar(args->ray, n, i) = -INFINITY;
+  }
 }
 
 /// Lets rays through the inside of a tube.
@@ -166,6 +178,7 @@ Accel::Accel(const std::vector<Shape>& shapes, ShapeRange top,
     rtcCommitScene(s);
   }
   set_lead(shapes, top);
+  choose_packets(shapes);
   for (uint32_t i = 0; i < instances.size(); ++i) {
     RTCGeometry g = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_INSTANCE);
     rtcSetGeometryInstancedScene(g, device_->scenes[1 + instances[i].group]);
@@ -199,6 +212,25 @@ void Accel::set_lead(const std::vector<Shape>& shapes, ShapeRange top) {
       lead_ = std::max(lead_, kRadii * radius * i.scale);
 }
 
+void Accel::choose_packets(const std::vector<Shape>& shapes) {
+  // Curves have filters and rays that begin elsewhere, which are made for one ray at a time. Where
+  // analytic shapes are many, rays that part are slow in packets: each asks for other shapes.
+  constexpr int kFewAnalyticShapes = 16;
+  int analytic = 0;
+  for (const Shape& shape : shapes) {
+    if (shape.kind == ShapeKind::curves || shape.kind == ShapeKind::sdf_grid) return;
+    analytic += shape.kind != ShapeKind::mesh;
+  }
+  if (analytic > kFewAnalyticShapes) return;
+  const auto has = [&](RTCDeviceProperty p) {
+    return rtcGetDeviceProperty(device_->device, p) != 0;
+  };
+  if (has(RTC_DEVICE_PROPERTY_NATIVE_RAY16_SUPPORTED))
+    packet_ = 16;
+  else if (has(RTC_DEVICE_PROPERTY_NATIVE_RAY8_SUPPORTED))
+    packet_ = 8;
+}
+
 void Accel::update(std::span<const uint32_t> shapes, std::span<const uint32_t> instances) {
   RTCScene scene = device_->scenes[0];
   for (const uint32_t shape : shapes) {
@@ -214,66 +246,6 @@ void Accel::update(std::span<const uint32_t> shapes, std::span<const uint32_t> i
   }
   rtcCommitScene(scene);
   check(device_->device, "to follow what moves");
-}
-
-namespace {
-
-/// `lead`: Accel::lead_.
-inline void set_ray(RTCRay& r, const Ray& ray, float lead) {
-  // Embree reads origin and direction as vectors of four: what is written piece by piece and read
-  // as a whole has to wait until it has left the store buffer.
-  using Four [[gnu::vector_size(16), gnu::may_alias]] = float;
-  *reinterpret_cast<Four*>(&r.org_x) = Four{ray.origin.x, ray.origin.y, ray.origin.z, 0};
-  *reinterpret_cast<Four*>(&r.dir_x) = Four{ray.direction.x, ray.direction.y, ray.direction.z, 0};
-  r.tfar = ray.tmax;
-  if (lead > 0) {
-    const Point3f origin = ray.origin - ray.direction * lead;
-    *reinterpret_cast<Four*>(&r.org_x) = Four{origin.x, origin.y, origin.z, lead};
-    r.tfar += lead;
-  }
-  r.mask = ~0u, r.id = 0, r.flags = 0;
-}
-
-}  // namespace
-
-bool Accel::closest_hit(const Ray& ray, Hit& hit) const {
-  RTCRayHit rh;
-  set_ray(rh.ray, ray, lead_);
-  rh.hit.geomID = RTC_INVALID_GEOMETRY_ID;
-  rh.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
-#if RTC_VERSION_MAJOR >= 4
-  rtcIntersect1(static_cast<RTCScene>(scene_), &rh);
-#else
-  RTCIntersectContext context;
-  rtcInitIntersectContext(&context);
-  rtcIntersect1(static_cast<RTCScene>(scene_), &context, &rh);
-#endif
-  if (rh.hit.geomID == RTC_INVALID_GEOMETRY_ID) return false;
-  hit.t = rh.ray.tfar - lead_;
-  hit.u = rh.hit.u;
-  hit.v = rh.hit.v;
-  hit.primitive = rh.hit.primID;
-  if (rh.hit.instID[0] == RTC_INVALID_GEOMETRY_ID) {
-    hit.shape = top_first_ + rh.hit.geomID;
-    hit.instance = kNone;
-  } else {
-    hit.instance = rh.hit.instID[0] - top_count_;
-    hit.shape = (*groups_)[(*instances_)[hit.instance].group].first + rh.hit.geomID;
-  }
-  return true;
-}
-
-bool Accel::occluded(const Ray& ray) const {
-  RTCRay r;
-  set_ray(r, ray, lead_);
-#if RTC_VERSION_MAJOR >= 4
-  rtcOccluded1(static_cast<RTCScene>(scene_), &r);
-#else
-  RTCIntersectContext context;
-  rtcInitIntersectContext(&context);
-  rtcOccluded1(static_cast<RTCScene>(scene_), &context, &r);
-#endif
-  return r.tfar < 0;
 }
 
 Bounds Accel::bounds() const {

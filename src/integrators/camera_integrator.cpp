@@ -113,10 +113,8 @@ void CameraIntegrator::render_samples(const Scene& scene, Film& film, const Samp
                                       const PassControl& control, RenderCounters& counters) {
   for_each_tile(film, control, counters, [&](FilmTile& tile, RenderCounters& c) {
     SampleRange own = samples;
-    if (!samples.tiles.empty()) {
-      const TileSamples& s = samples.tiles[size_t(&tile - film.tiles().data())];
-      own.first = s.first, own.count = s.count;
-    }
+    const TileSamples s = samples_of_tile(samples, size_t(&tile - film.tiles().data()));
+    own.first = s.first, own.count = s.count;
     if (own.count == 0) return;
     if (looks_at_next_rays_)
       render_tile<true>(scene, film, tile, own, c);

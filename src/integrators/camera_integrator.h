@@ -64,6 +64,8 @@ class CameraIntegrator : public Integrator {
   virtual Spectrum radiance(const Scene& scene, const CameraPath& path, Sampler& sampler,
                             RenderCounters& counters, std::span<float> values) const = 0;
   virtual std::unique_ptr<PathWorkspace> make_workspace(const Scene&) const { return nullptr; }
+  /// Whether colours and alpha are all that is rendered.
+  bool only_colours() const { return image_ && layers_.empty() && colour_layers_.empty(); }
   /// Adds a layer of three channels that radiance() fills; returns the first of them.
   size_t add_colour_layer(const std::string& name);
   /// Has the film gather the moments that layers ask for, which a sample cannot tell where passes

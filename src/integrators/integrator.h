@@ -36,6 +36,11 @@ struct SampleRange {
 SampleRange part_of(const SampleRange& range, uint32_t done, uint32_t count,
                     std::vector<TileSamples>& tiles);
 
+/// Those of a range that the `tile`-th tile of a film gets.
+inline TileSamples samples_of_tile(const SampleRange& range, size_t tile) {
+  return range.tiles.empty() ? TileSamples{range.first, range.count} : range.tiles[tile];
+}
+
 /// How a pass is to be run.
 struct PassControl {
   int threads = 1;

@@ -38,10 +38,9 @@ inline Point3f lit_point(const Scene& scene, const Surface& s) {
 
 /// Weight of a sample with density a where b could have made it too.
 /// Source: Veach 1997, section 9.2.4, the power heuristic with exponent 2.
-inline float power_heuristic(float a, float b) {
-  if (!(a > 0)) return 0;
+[[gnu::always_inline]] inline float power_heuristic(float a, float b) {
   const float ratio = b / a;
-  return 1 / (1 + ratio * ratio);
+  return a > 0 ? 1 / (1 + ratio * ratio) : 0.0f;
 }
 
 /// Next event estimation at a surface point: radiance towards the Bsdf's wo that comes straight

@@ -1,6 +1,9 @@
 #include "integrators/path.h"
 
+#include <algorithm>
+
 #include "integrators/next_event.h"
+#include "integrators/wide_tiles.h"
 #include "materials/plain_diffuse.h"
 #include "transport/roulette.h"
 
@@ -17,6 +20,30 @@ struct PathIntegrator::Path {
   Point3f from = ray.origin;       ///< the previous vertex
   float eta = 1;                   ///< relative index of refraction along the path
 };
+
+/// Whether light is looked up beside some surface points (lit_point()), which batches do not know.
+static bool has_ribbons(const Scene& scene) {
+  return std::any_of(scene.shapes.begin(), scene.shapes.end(), [](const Shape& s) {
+    return s.kind == ShapeKind::curves && s.curves->profile != CurveProfile::tube;
+  });
+}
+
+bool PathIntegrator::takes_batches(const Scene& scene) const {
+  return batches_ == PathBatches::where_possible && only_colours() && !scene.motion &&
+         options_.max_depth != 0 && !options_.hide_emitters && !options_.strict_normals &&
+         !options_.only_specular && !has_ribbons(scene);
+}
+
+void PathIntegrator::render_samples(const Scene& scene, Film& film, const SampleRange& samples,
+                                    const PassControl& control, RenderCounters& counters) {
+  if (!takes_batches(scene))
+    return CameraIntegrator::render_samples(scene, film, samples, control, counters);
+  WideTiles wide(scene, options_, film, samples);
+  for_each_tile(film, control, counters, [&](FilmTile& tile, RenderCounters& c) {
+    const TileSamples own = samples_of_tile(samples, size_t(&tile - film.tiles().data()));
+    if (own.count > 0) wide.render(tile, own, c);
+  });
+}
 
 Spectrum PathIntegrator::radiance(const Scene& scene, const CameraPath& start, Sampler& sampler,
                                   RenderCounters& counters, std::span<float> values) const {

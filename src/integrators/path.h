@@ -6,14 +6,21 @@
 
 namespace duet {
 
+/// Whether PathIntegrator traces paths in batches (wide_tracer.h) or one by one. The images are the
+/// same.
+enum class PathBatches { where_possible, never };
+
 /// Unidirectional path tracing from the camera. Light is found by light samples and by BSDF
 /// samples, weighted by the power heuristic (Veach 1997, section 9.2.4).
 class PathIntegrator final : public CameraIntegrator {
  public:
-  PathIntegrator(const PathIntegratorDescription& options, const CameraOutput& output)
-      : CameraIntegrator(output), options_(options) {}
+  PathIntegrator(const PathIntegratorDescription& options, const CameraOutput& output,
+                 PathBatches batches = PathBatches::where_possible)
+      : CameraIntegrator(output), options_(options), batches_(batches) {}
 
  protected:
+  void render_samples(const Scene& scene, Film& film, const SampleRange& samples,
+                      const PassControl& control, RenderCounters& counters) override;
   Spectrum radiance(const Scene& scene, const CameraPath& start, Sampler& sampler,
                     RenderCounters& counters, std::span<float> values) const override;
 
@@ -24,7 +31,10 @@ class PathIntegrator final : public CameraIntegrator {
   template <class B>
   bool scatter(const Scene& scene, const Surface& s, const B& bsdf, int depth, Path& path) const;
 
+  bool takes_batches(const Scene& scene) const;
+
   PathIntegratorDescription options_;
+  PathBatches batches_;
 };
 
 }  // namespace duet

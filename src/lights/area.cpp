@@ -11,13 +11,9 @@ constexpr float kEvenShare = 0.1f;
 /// Triangles in a leaf of a tree: a few next to each other are nearly as good from anywhere.
 constexpr uint32_t kTrianglesInLeaf = 4;
 
-struct Parallelogram {
-  Point3f corner;
-  Vector3f edge_u, edge_v;
-};
-
-/// The parallelogram that two triangles make together, if they do, and shine on one side of it.
-std::optional<Parallelogram> find_parallelogram(const TriangleMesh& m) {
+/// Corner and edges of the parallelogram that two triangles make together, if they do, and shine on
+/// one side of it.
+std::optional<ParallelogramLight> find_parallelogram(const TriangleMesh& m) {
   if (m.triangles.size() != 2) return std::nullopt;
   // Normals that differ would make the emitting side vary.
   for (const Normal3f& n : m.normals)
@@ -32,7 +28,7 @@ std::optional<Parallelogram> find_parallelogram(const TriangleMesh& m) {
       if (corner(1, j + 1) != d || corner(1, j + 2) != b) continue;
       const Vector3f u = b - a, v = d - a;
       const float size = std::max(max_abs(u), max_abs(v));
-      if (max_abs((c - d) - u) <= 1e-5f * size) return Parallelogram{a, u, v};
+      if (max_abs((c - d) - u) <= 1e-5f * size) return ParallelogramLight{a, u, v, {}, {}};
     }
   return std::nullopt;
 }
@@ -81,10 +77,9 @@ bool AreaLight::choose_parallelogram() {
                    second = point_on_triangle(shape_, 1, {0.3f, 0.3f});
   // Normals that lean would darken a part of the directions.
   if (!(dot(first.ng, first.ns) > 0.9999f)) return false;
-  normal_ = first.ng;
-  edge_u_ = p->edge_u;
-  edge_v_ = p->edge_v;
-  corner_ = p->corner + Vector3f(normal_) * std::max(first.offset, second.offset);
+  const Vector3f off = Vector3f(first.ng) * std::max(first.offset, second.offset);
+  parallelogram_ = {p->corner + off, p->edge_u,          p->edge_v,
+                    first.ng,        radiance_.constant, float(area_)};
   return true;
 }
 
@@ -247,8 +242,9 @@ ShapePoint AreaLight::sample_point(const Point2f& u) const {
     return p;
   }
   ShapePoint p{};
-  p.position = corner_ + (edge_u_ * u.x + edge_v_ * u.y);
-  p.ng = p.ns = normal_;
+  const ParallelogramLight& l = parallelogram_;
+  p.position = l.corner + (l.edge_u * u.x + l.edge_v * u.y);
+  p.ng = p.ns = l.normal;
   p.pdf = uniform_;
   return p;
 }

@@ -10,6 +10,38 @@
 
 namespace duet {
 
+/// A light that is a flat parallelogram and shines on one side, the same everywhere: light samples
+/// of it have a closed form, which is also that of many points at once.
+struct ParallelogramLight {
+  Point3f corner;  ///< just off its surface
+  Vector3f edge_u, edge_v;
+  Normal3f normal;
+  Spectrum radiance;
+  float area = 0;
+
+  /// A light sample without the radiance.
+  struct Sample {
+    Point3f target;
+    Vector3f wi;
+    float facing;  ///< positive if the light is seen from its side; the rest is valid only then
+    float solid_angle;  ///< area · cos θ / d²
+    float pdf;          ///< per solid angle
+  };
+  [[gnu::always_inline]] Sample sample(const Point3f& from, const Point2f& u) const {
+    Sample s;
+    s.target = corner + (edge_u * u.x + edge_v * u.y);
+    const Vector3f d = s.target - from;
+    s.facing = -dot(normal, d);
+    const float d2 = length_squared(d), distance = std::sqrt(d2), inv_distance = 1 / distance;
+    // what a density per area becomes per solid angle
+    const float projected = s.facing * area;
+    s.solid_angle = projected * inv_distance * inv_distance * inv_distance;
+    s.wi = d * inv_distance;
+    s.pdf = d2 * distance / projected;
+    return s;
+  }
+};
+
 /// Emits the same radiance into all directions on the side of the shading normal, or on both sides.
 class AreaLight final : public SurfaceLight {
  public:
@@ -37,6 +69,10 @@ class AreaLight final : public SurfaceLight {
   float emission_density(const Surface& surface, const Vector3f& w) const override;
   /// Total area of the surface.
   double area() const { return area_; }
+  /// The light as such, or null if it is none.
+  const ParallelogramLight* parallelogram() const {
+    return strategy_ == Strategy::parallelogram ? &parallelogram_ : nullptr;
+  }
 
  private:
   /// How points are chosen.
@@ -83,9 +119,7 @@ class AreaLight final : public SurfaceLight {
   PdfA uniform_;  ///< 1 / area
   std::optional<TriangleCells> cells_;
   std::unique_ptr<const LightTree> tree_;  ///< over the triangles of a mesh, or null
-  Point3f corner_;                         ///< of the parallelogram, just off its surface
-  Vector3f edge_u_, edge_v_;
-  Normal3f normal_;
+  ParallelogramLight parallelogram_;
   Point3f center_;  ///< of the sphere
   float radius_ = 0;
 };
@@ -93,19 +127,13 @@ class AreaLight final : public SurfaceLight {
 // The most frequent light is looked into by whoever asks it: the sample then stays in registers.
 [[gnu::always_inline]] inline std::optional<LightSample> AreaLight::sample_parallelogram(
     const Point3f& from, const Point2f& u) const {
-  const Point3f target = corner_ + (edge_u_ * u.x + edge_v_ * u.y);
-  const Vector3f d = target - from;
-  const float facing = -dot(normal_, d);
-  if (!(facing > 0)) return std::nullopt;
-  const float d2 = length_squared(d), distance = std::sqrt(d2), inv_distance = 1 / distance;
-  // area · cos θ / d²: what a density per area becomes per solid angle
-  const float projected = facing * float(area_);
-  const float solid_angle = projected * inv_distance * inv_distance * inv_distance;
+  const ParallelogramLight::Sample s = parallelogram_.sample(from, u);
+  if (!(s.facing > 0)) return std::nullopt;
   std::optional<LightSample> sample(std::in_place);
-  sample->wi = d * inv_distance;
-  sample->target = target;
-  sample->weight = radiance_.constant * solid_angle;
-  sample->pdf = PdfW{d2 * distance / projected};
+  sample->wi = s.wi;
+  sample->target = s.target;
+  sample->weight = parallelogram_.radiance * s.solid_angle;
+  sample->pdf = PdfW{s.pdf};
   sample->emission = uniform_.value * kInvPi;
   return sample;
 }

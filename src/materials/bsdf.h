@@ -7,6 +7,8 @@
 
 namespace duet {
 
+class Texture;
+
 struct BsdfEval {
   Spectrum value;  ///< f |cos θ_i| without delta lobes
   PdfW pdf;
@@ -272,6 +274,8 @@ class Material {
   virtual bool passes_straight() const { return false; }
   /// Whether there is a bump or normal map in it: these cannot be nested in one another.
   virtual bool perturbs() const { return false; }
+  /// The texture that bind() is most likely to wait for, or null.
+  virtual const Texture* main_texture() const { return nullptr; }
   /// How many bump maps, normal maps and coats lie over each other at most.
   virtual int cover_count() const { return 0; }
   /// Reflectance for the albedo layer, seen from the unit world direction `wo`; as in Mitsuba 3

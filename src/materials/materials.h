@@ -52,6 +52,7 @@ class Diffuse final : public SingleModelMaterial<Diffuse> {
   Spectrum local_albedo(const Surface& s, const Vector3f&) const override {
     return reflectance_(s);
   }
+  const ColorSlot& reflectance() const { return reflectance_; }
 
  private:
   ColorSlot reflectance_;
@@ -151,6 +152,7 @@ class Plastic final : public SingleModelMaterial<Plastic> {
   Spectrum local_albedo(const Surface& s, const Vector3f&) const override {
     return options_.diffuse_reflectance(s);
   }
+  const Texture* main_texture() const override { return options_.diffuse_reflectance.texture; }
 
  private:
   PlasticOptions options_;
@@ -167,6 +169,7 @@ class RoughPlastic final : public SingleModelMaterial<RoughPlastic> {
   Spectrum local_albedo(const Surface& s, const Vector3f&) const override {
     return options_.diffuse_reflectance(s);
   }
+  const Texture* main_texture() const override { return options_.diffuse_reflectance.texture; }
 
  private:
   PlasticOptions options_;

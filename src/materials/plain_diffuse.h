@@ -2,6 +2,7 @@
 #pragma once
 
 #include "materials/bsdf.h"
+#include "textures/texture.h"
 
 namespace duet {
 
@@ -13,13 +14,19 @@ class PlainDiffuse {
     return material.constant() && material.constant()->component.kind == ModelKind::diffuse;
   }
 
+  /// The side of the shading normal on which the surface is lit, ±1, or 0 if that is not the side
+  /// of wo, whose cosine is given.
+  [[gnu::always_inline]] static float lit_side(float cosine, bool two_sided) {
+    const float back = two_sided ? -1.0f : 0.0f;
+    return cosine > 0 ? 1.0f : cosine < 0 ? back : 0.0f;
+  }
+
   /// `wo` is a unit vector in world space.
   PlainDiffuse(const Material& material, const Surface& s, const Vector3f& wo)
       : frame_(s.shading),
         reflectance_(material.constant()->component.model.diffuse.reflectance),
         has_smooth_(material.constant()->has_smooth) {
-    const float cosine = dot(frame_.n, wo);
-    side_ = cosine > 0 ? 1.0f : cosine < 0 && material.constant()->two_sided ? -1.0f : 0.0f;
+    side_ = lit_side(dot(frame_.n, wo), material.constant()->two_sided);
   }
 
   bool has_smooth() const { return has_smooth_; }
@@ -49,5 +56,13 @@ class PlainDiffuse {
   bool has_smooth_;
   float side_;  ///< on which the surface is lit, 0 if not on that of wo
 };
+
+/// A material that is nothing but a DiffuseModel, with or without textures, on one or both sides.
+struct DiffuseSurface {
+  const ColorSlot& reflectance;
+  bool two_sided;
+};
+/// The material as such, if it is one.
+std::optional<DiffuseSurface> as_diffuse(const Material& material);
 
 }  // namespace duet

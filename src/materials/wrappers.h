@@ -20,6 +20,9 @@ class TwoSided final : public Material {
   bool perturbs() const override { return front_.perturbs() || back_.perturbs(); }
   int cover_count() const override { return std::max(front_.cover_count(), back_.cover_count()); }
   Spectrum local_albedo(const Surface& surface, const Vector3f& wo) const override;
+  const Texture* main_texture() const override { return front_.main_texture(); }
+  /// The material of both sides, or null if they differ.
+  const Material* of_both_sides() const { return &front_ == &back_ ? &front_ : nullptr; }
 
  protected:
   void add_components(const Surface& surface, BsdfBuilder& builder) const override;

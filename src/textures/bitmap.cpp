@@ -94,6 +94,15 @@ inline Spectrum Bitmap::full_color(const Surface& s) const {
   });
 }
 
+void Bitmap::prefetch(const Surface& s) const {
+  const Point2f p = image_coordinates(s.uv);
+  const int x = nearest(p.x, pixels_->width(), wrap_u_);
+  const Span v = span(p.y, pixels_->height(), wrap_v_);
+  if (x < 0 || v.first < 0 || v.second < 0) return;
+  pixels_->prefetch(x, v.first);
+  pixels_->prefetch(x, v.second);
+}
+
 Spectrum Bitmap::color(const Surface& s) const {
   return pixels_->is_grey() ? Spectrum(grey(s)) : full_color(s);
 }

@@ -21,6 +21,7 @@ class Bitmap final : public Texture {
   Point2f gradient(const Surface& s) const override;
   Spectrum average() const override { return pixels_->average(); }
   Point2i resolution() const override { return {pixels_->width(), pixels_->height()}; }
+  void prefetch(const Surface& s) const override;
 
  private:
   /// The two texels between which a coordinate lies along one axis and the weight of the second.

@@ -73,6 +73,14 @@ class BitmapPixels {
     const auto texel = [&](const auto& t) { return t(x, y); };
     return is_grey() ? visit_grey(texel) : visit_color(texel).luminance();
   }
+  /// Tells the processor that the texel (x, y), which must exist, will be asked for.
+  void prefetch(int x, int y) const {
+    const size_t at = size_t(y) * size_t(width_) + size_t(x);
+    if (bytes_.empty())
+      __builtin_prefetch(&floats_[at * size_t(channels_)]);
+    else
+      __builtin_prefetch(&bytes_[at * (is_grey() ? 1 : kColorStride)]);
+  }
 
  private:
   /// Bytes per texel of a colour image: with a fourth one no texel straddles two cache lines.

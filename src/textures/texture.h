@@ -22,6 +22,8 @@ class Texture {
   /// How finely the texture varies over the unit square of texture coordinates: texels along u and
   /// v.
   virtual Point2i resolution() const { return {1, 1}; }
+  /// Tells the processor that a lookup will follow: memory is far away.
+  virtual void prefetch(const Surface&) const {}
 };
 
 /// A colour parameter. The constant costs no call.

@@ -16,19 +16,30 @@ struct ChosenLight {
   uint32_t light;  ///< its index
 };
 
-/// Uses two or three dimensions of the sampler. The scene must have a light.
+/// Whether there is more than one light to choose from.
+inline bool has_light_choice(const Scene& scene) {
+  return scene.lights.size() > 1;
+}
+
+/// `u` picks the point of the light and, where there is a choice, `choice` the light. The scene
+/// must have one.
 [[gnu::always_inline]] inline ChosenLight choose_light(const Scene& scene, const Point3f& from,
-                                                       Sampler& sampler) {
-  const Point2f u = sampler.next_2d();
-  const LightPicker::Pick pick = scene.lights.size() == 1
-                                     ? LightPicker::Pick{0, 1}
-                                     : scene.direct_picker.pick(sampler.next_1d(), u, from);
+                                                       const Point2f& u, float choice) {
+  const LightPicker::Pick pick =
+      has_light_choice(scene) ? scene.direct_picker.pick(choice, u, from) : LightPicker::Pick{0, 1};
   const Light& light = *scene.lights[pick.light];
   // The common kind is called directly, so that the compiler can look into it.
   return {light.kind() == LightKind::area
               ? static_cast<const AreaLight&>(light).sample_direct(from, u)
               : light.sample_direct(from, u),
           pick.probability, pick.light};
+}
+
+/// The same with two or three dimensions of the sampler.
+[[gnu::always_inline]] inline ChosenLight choose_light(const Scene& scene, const Point3f& from,
+                                                       Sampler& sampler) {
+  const Point2f u = sampler.next_2d();
+  return choose_light(scene, from, u, has_light_choice(scene) ? sampler.next_1d() : 0.0f);
 }
 
 /// Density per solid angle at `from` with which choose_light() makes the direction `w`, which has

@@ -1,0 +1,133 @@
+#include "integrators/wide_tiles.h"
+
+#include "image/sample_adder.h"
+
+namespace duet {
+
+namespace {
+
+constexpr int kSize = Film::kTileSize;
+static_assert(kSize * kSize <= kBatch);
+
+/// The square of the full image in which a tile lies, as far as there is light.
+PixelBounds whole_square(const Film& film, const FilmTile& tile) {
+  const int x = tile.sampled().x0 / kSize * kSize, y = tile.sampled().y0 / kSize * kSize;
+  const FilmLayout& layout = film.layout();
+  const PixelBounds full{0, 0, layout.full.x, layout.full.y};
+  return PixelBounds{x, y, x + kSize, y + kSize}.intersect(layout.ends_at_crop ? layout.crop
+                                                                               : full);
+}
+
+}  // namespace
+
+/// What one thread needs for a tile.
+struct WideTiles::Workspace {
+  Workspace(const WideScene& scene, const PathLimits& limits, const SampleRange& range)
+      : camera(*scene.scene.camera),
+        tracer(scene, limits),
+        sampler(range.sequence, range.seed, range.scramble) {}
+
+  void enter(const PixelBounds& pixels, int width);
+  /// Begins the paths of a sample; returns how many there are.
+  int start_paths(uint32_t index);
+  void add_to(SampleAdder& sums, const PixelBounds& bounds, RenderCounters& counters);
+
+  const Camera& camera;
+  WideTracer tracer;
+  BatchSampler sampler;
+  PixelBounds square;
+  int count = 0;
+  BatchArray<uint64_t> pixel_keys{};
+  BatchKeys keys{};
+  BatchArray<float> x{}, y{}, lens_x{}, lens_y{};
+  BatchArray<float> weight{};  ///< of the camera's rays
+  WideSamples samples{};
+};
+
+void WideTiles::Workspace::enter(const PixelBounds& pixels, int width) {
+  square = pixels;
+  count = 0;
+  for (int py = square.y0; py < square.y1; ++py)
+    for (int px = square.x0; px < square.x1; ++px)
+      pixel_keys[count++] = sampler.pixel_key(uint64_t(py) * uint64_t(width) + uint64_t(px));
+}
+
+int WideTiles::Workspace::start_paths(uint32_t index) {
+  sampler.start_sample(index, count, pixel_keys, keys);
+  sampler.numbers_2d(count, keys, 0, x, y);
+  if (camera.has_lens()) sampler.numbers_2d(count, keys, kLensDimension, lens_x, lens_y);
+  samples = {};
+  WidePaths& paths = tracer.paths();
+  int n = 0, id = 0;
+  for (int py = square.y0; py < square.y1; ++py)
+    for (int px = square.x0; px < square.x1; ++px, ++id) {
+      x[id] += float(px), y[id] += float(py);
+      const CameraRay ray = camera.sample_ray({x[id], y[id]}, {lens_x[id], lens_y[id]});
+      weight[id] = ray.weight;
+      if (ray.weight == 0) continue;
+      paths.ray.origin.set(n, ray.origin);
+      paths.ray.direction.set(n, ray.direction);
+      paths.ray.tmax[n] = ray.tmax;
+      paths.from.set(n, ray.origin);
+      paths.throughput.set(n, 1, 1, 1);
+      paths.bsdf_pdf[n] = -1;
+      paths.eta[n] = 1;
+      paths.id[n] = id;
+      paths.keys.high[n] = keys.high[id], paths.keys.low[n] = keys.low[id];
+      ++n;
+    }
+  return n;
+}
+
+void WideTiles::Workspace::add_to(SampleAdder& sums, const PixelBounds& bounds,
+                                  RenderCounters& counters) {
+  int id = 0;
+  for (int py = square.y0; py < square.y1; ++py)
+    for (int px = square.x0; px < square.x1; ++px, ++id) {
+      if (!bounds.contains(px, py)) continue;
+      const float w = weight[id];
+      std::array<float, 4> values{samples.r[id] * w, samples.g[id] * w, samples.b[id] * w,
+                                  samples.alpha[id]};
+      if (!film_can_add(std::span<const float, 4>(values))) {
+        ++counters.nonfinite_samples;
+        values = {};
+      }
+      sums.add(px, py, {x[id], y[id]}, values);
+    }
+}
+
+WideTiles::WideTiles(const Scene& scene, const PathLimits& limits, const Film& film,
+                     const SampleRange& range)
+    : wide_(scene), limits_(limits), film_(film), range_(range) {}
+
+WideTiles::~WideTiles() = default;
+
+std::unique_ptr<WideTiles::Workspace> WideTiles::take_workspace() {
+  {
+    const std::lock_guard lock(mutex_);
+    if (!idle_.empty()) {
+      auto workspace = std::move(idle_.back());
+      idle_.pop_back();
+      return workspace;
+    }
+  }
+  return std::make_unique<Workspace>(wide_, limits_, range_);
+}
+
+void WideTiles::render(FilmTile& tile, const TileSamples& samples, RenderCounters& counters) {
+  std::unique_ptr<Workspace> workspace = take_workspace();
+  workspace->enter(whole_square(film_, tile), film_.full_size().x);
+  const PixelBounds& bounds = tile.sampled();
+  SampleAdder sums(film_, tile);
+  for (uint32_t i = samples.first; i < samples.first + samples.count; ++i) {
+    const int n = workspace->start_paths(i);
+    workspace->tracer.trace(n, workspace->sampler, workspace->samples, counters);
+    workspace->add_to(sums, bounds, counters);
+  }
+  tile.count_samples(samples.count);
+  counters.camera_paths += uint64_t(bounds.width()) * uint64_t(bounds.height()) * samples.count;
+  const std::lock_guard lock(mutex_);
+  idle_.push_back(std::move(workspace));
+}
+
+}  // namespace duet

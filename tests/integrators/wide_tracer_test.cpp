@@ -1,0 +1,168 @@
+#include "integrators/path.h"
+#include "support/transport_scene.h"
+
+using namespace duet;
+using namespace duet::test;
+
+namespace {
+
+constexpr int kSize = 40;
+
+const std::string kLamp = lamp_xml("0.4", "9,8,7");
+const std::string kEnvironment =
+    "<emitter type='constant'><rgb name='radiance' value='0.3,0.4,0.5'/></emitter>";
+const std::string kPlastic =
+    "<bsdf type='roughplastic'><float name='alpha' value='0.2'/>"
+    "<rgb name='diffuse_reflectance' value='0.2,0.5,0.3'/></bsdf>";
+const std::string kGlass = "<bsdf type='dielectric'/>";
+const std::string kCheckers =
+    "<bsdf type='twosided'><bsdf type='diffuse'><texture type='checkerboard' name='reflectance'>"
+    "<rgb name='color0' value='0.8,0.3,0.2'/><rgb name='color1' value='0.2,0.3,0.7'/>"
+    "<transform name='to_uv'><scale x='5' y='7'/></transform></texture></bsdf></bsdf>";
+/// Opaque in part, so that paths pass straight through.
+const std::string kMask =
+    "<bsdf type='mask'><float name='opacity' value='0.6'/>" + grey("0.7") + "</bsdf>";
+
+std::string camera(const std::string& type = "perspective", const std::string& extra = "") {
+  return camera_xml("0,-3.2,1", "0,0,1", kSize, type, extra);
+}
+
+struct Case {
+  const char* name;
+  std::string content;
+};
+
+const Case kCases[] = {
+    {"a diffuse room under one lamp", camera() + room_xml(grey("0.3,0.7,0.8")) + kLamp},
+    {"two lamps and an environment",
+     camera() + room_xml(grey("0.6")) + kLamp +
+         sphere_xml("0.4,0.2,0.3", "0.1",
+                    "<emitter type='area'><rgb name='radiance' value='5,9,2'/></emitter>") +
+         kEnvironment},
+    {"a point light through a lens",
+     camera("thinlens",
+            "<float name='aperture_radius' value='0.1'/>"
+            "<float name='focus_distance' value='3'/>") +
+         room_xml(grey("0.6")) +
+         "<emitter type='point'><point name='position' x='0' y='0' z='1.5'/>"
+         "<rgb name='intensity' value='3,2,1'/></emitter>"},
+    {"plastic, glass and masks on meshes and spheres",
+     camera() + room_xml(grey("0.6")) + kLamp + sphere_xml("-0.4,0.2,0.4", "0.35", kPlastic) +
+         sphere_xml("0.4,-0.2,0.4", "0.3", kGlass) +
+         "<shape type='cube'><transform name='to_world'><scale value='0.2'/><rotate z='1' "
+         "angle='30'/><translate y='-0.5' z='1.2'/></transform>" +
+         kMask + "</shape>"},
+    {"textures on meshes and analytic shapes",
+     camera() + room_xml(kCheckers) + kLamp + sphere_xml("-0.4,0.2,0.4", "0.35", kCheckers) +
+         "<shape type='disk'><transform name='to_world'><scale value='0.3'/>"
+         "<rotate x='1' angle='60'/><translate x='0.4' z='1.3'/></transform>" +
+         kCheckers +
+         "</shape><shape type='cube'><transform name='to_world'><scale value='0.2'/>"
+         "<translate x='0.3' y='-0.4' z='0.3'/></transform>" +
+         kCheckers + "</shape>"},
+    {"instances with smooth normals and one-sided surfaces",
+     camera() +
+         room_xml("<bsdf type='diffuse'><rgb name='reflectance' value='0.5,0.6,0.7'/></bsdf>") +
+         kLamp + "<shape type='shapegroup' id='g'><shape type='cube'>" + grey("0.5") +
+         "</shape></shape><shape type='instance'><ref id='g'/><transform name='to_world'>"
+         "<scale value='0.2'/><rotate z='1' angle='30'/><translate z='0.5'/></transform></shape>"
+         "<shape type='sphere'><boolean name='flip_normals' value='true'/>"
+         "<point name='center' value='0.5,0.3,0.8'/><float name='radius' value='0.3'/>" +
+         grey("0.4") + "</shape>"},
+};
+
+RenderRequest request(int spp, SampleSequence sequence, int threads = 2) {
+  RenderRequest r;
+  r.budget.spp = spp;
+  r.seed = 7;
+  r.sequence = sequence;
+  r.threads = threads;
+  return r;
+}
+
+RenderResult render_path(const TransportScene& s, PathBatches batches, const RenderRequest& r,
+                         PathLimits limits = {}) {
+  PathIntegrator path({limits}, {}, batches);
+  return render(*s.scene, path, s.layout, r);
+}
+
+/// Numbers of an image that differ from those of another by more than rounding.
+int differences(const Image& a, const Image& b) {
+  REQUIRE(a.data.size() == b.data.size());
+  int count = 0;
+  for (size_t i = 0; i < a.data.size(); ++i)
+    count += std::abs(a.data[i] - b.data[i]) > 1e-4f * (1 + std::abs(b.data[i]));
+  return count;
+}
+
+}  // namespace
+
+TEST_CASE("paths of a batch are those that are traced one by one") {
+  for (const Case& c : kCases) {
+    CAPTURE(c.name);
+    const TransportScene scene(c.content);
+    for (const SampleSequence sequence : {SampleSequence::sobol, SampleSequence::independent})
+      for (const int depth : {1, 3, 20}) {
+        CAPTURE(depth);
+        PathLimits limits;
+        limits.max_depth = depth;
+        limits.rr_depth = 3;
+        const RenderRequest r = request(4, sequence);
+        const RenderResult batches = render_path(scene, PathBatches::where_possible, r, limits),
+                           singly = render_path(scene, PathBatches::never, r, limits);
+        // But for paths that meet an edge, or that rounding has led elsewhere.
+        CHECK(differences(batches.image, singly.image) <= int(singly.image.data.size() / 200));
+        CHECK(double(batches.counters.closest_rays) ==
+              doctest::Approx(double(singly.counters.closest_rays)).epsilon(1e-3));
+        CHECK(double(batches.counters.shadow_rays) ==
+              doctest::Approx(double(singly.counters.shadow_rays)).epsilon(1e-3));
+        CHECK(double(batches.counters.path_vertices) ==
+              doctest::Approx(double(singly.counters.path_vertices)).epsilon(1e-3));
+        CHECK(batches.counters.camera_paths == singly.counters.camera_paths);
+      }
+  }
+}
+
+namespace {
+
+/// Surfaces that lie in one another: which of them a ray meets may depend on the rays beside it.
+const std::string kCoplanar =
+    camera() + room_xml(grey("0.2")) + room_xml(grey("0.9,0.5,0.1")) + room_xml(kPlastic) + kLamp;
+
+}  // namespace
+
+TEST_CASE("batches make the same image on any number of threads and in any passes") {
+  const TransportScene scene(kCoplanar);
+  RenderRequest r = request(6, SampleSequence::sobol, 1);
+  const Image one = render_path(scene, PathBatches::where_possible, r).image;
+  for (const int threads : {2, 7}) {
+    r.threads = threads;
+    CHECK(render_path(scene, PathBatches::where_possible, r).image.data == one.data);
+  }
+  r.pass_seconds = 0;
+  CHECK(render_path(scene, PathBatches::where_possible, r).image.data == one.data);
+}
+
+TEST_CASE("a window of an image made in batches is cut out of it") {
+  TransportScene scene(kCoplanar);
+  const RenderRequest r = request(3, SampleSequence::sobol);
+  const Image whole = render_path(scene, PathBatches::where_possible, r).image;
+  scene.layout.crop = {5, 11, 23, 37};
+  const Image window = render_path(scene, PathBatches::where_possible, r).image;
+  int same = 0;
+  for (int y = 0; y < window.height; ++y)
+    for (int x = 0; x < window.width; ++x)
+      for (int c = 0; c < 4; ++c)
+        same += window.data[size_t((y * window.width + x) * 4 + c)] ==
+                whole.data[size_t(((y + 11) * whole.width + x + 5) * 4 + c)];
+  CHECK(same == window.width * window.height * 4);
+}
+
+TEST_CASE("samples that are not finite are counted and left out in batches, too") {
+  const TransportScene scene(camera() + room_xml(grey("0.5")) + lamp_xml("0.4", "1e38,1e38,1e38"));
+  const RenderRequest r = request(2, SampleSequence::sobol);
+  const RenderResult batches = render_path(scene, PathBatches::where_possible, r),
+                     singly = render_path(scene, PathBatches::never, r);
+  CHECK(singly.counters.nonfinite_samples > 0);
+  CHECK(batches.counters.nonfinite_samples == singly.counters.nonfinite_samples);
+}
