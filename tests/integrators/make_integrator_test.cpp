@@ -62,7 +62,7 @@ TEST_CASE("the parameters of each method, with their presets") {
   const std::string paths = "max_depth=-1 rr_depth=5 hide_emitters=false",
                     own = paths + " strict_normals=false light_selection=auto",
                     more = own + " light_paths=0";
-  CHECK(parameters("path") == own);
+  CHECK(parameters("path") == own + " only_specular=false");
   CHECK(parameters("auto") == own);
   CHECK(parameters("ptracer") == paths + " light_paths=0");
   CHECK(parameters("bdpt") == more + " connections=-1 light_image=true");
