@@ -99,7 +99,7 @@ int differences(const Image& a, const Image& b) {
 
 TEST_CASE("paths of a batch are those that are traced one by one") {
   for (const Case& c : kCases) {
-    CAPTURE(c.name);
+    CAPTURE(std::string(c.name));
     const TransportScene scene(c.content);
     for (const SampleSequence sequence : {SampleSequence::sobol, SampleSequence::independent})
       for (const int depth : {1, 3, 20}) {
@@ -125,14 +125,24 @@ TEST_CASE("paths of a batch are those that are traced one by one") {
 
 namespace {
 
-/// Surfaces that lie in one another: which of them a ray meets may depend on the rays beside it.
-const std::string kCoplanar =
-    camera() + room_xml(grey("0.2")) + room_xml(grey("0.9,0.5,0.1")) + room_xml(kPlastic) + kLamp;
+/// Many surfaces that lie in one plane: which of them a ray meets may depend on the rays beside it.
+std::string coplanar() {
+  std::string content = camera() + kEnvironment;
+  for (int i = 0; i < 40; ++i) {
+    const auto number = [](double v) { return std::to_string(v); };
+    content += "<shape type='rectangle'><transform name='to_world'><scale value='" +
+               number(0.3 + 0.02 * i) + "'/><rotate z='1' angle='" + number(90 * (i % 4)) +
+               "'/><translate x='" + number(0.25 * (i % 7) - 0.75) + "' y='" +
+               number(0.25 * (i % 5) - 0.5) + "'/></transform>" +
+               grey(number(0.02 * i) + "," + number(0.9 - 0.02 * i) + ",0.5") + "</shape>";
+  }
+  return content;
+}
 
 }  // namespace
 
 TEST_CASE("batches make the same image on any number of threads and in any passes") {
-  const TransportScene scene(kCoplanar);
+  const TransportScene scene(coplanar());
   RenderRequest r = request(6, SampleSequence::sobol, 1);
   const Image one = render_path(scene, PathBatches::where_possible, r).image;
   for (const int threads : {2, 7}) {
@@ -144,7 +154,7 @@ TEST_CASE("batches make the same image on any number of threads and in any passe
 }
 
 TEST_CASE("a window of an image made in batches is cut out of it") {
-  TransportScene scene(kCoplanar);
+  TransportScene scene(coplanar());
   const RenderRequest r = request(3, SampleSequence::sobol);
   const Image whole = render_path(scene, PathBatches::where_possible, r).image;
   scene.layout.crop = {5, 11, 23, 37};
