@@ -15,6 +15,8 @@ struct WorkPerSample {
 
 /// In units of about a microsecond on the machine of docs/performance.md; only ratios matter.
 double path_cost(const WorkPerSample& work);
+/// `path` traces paths in batches (wide_tracer.h), `volpath` one by one.
+double volpath_cost(const WorkPerSample& work);
 /// Of the methods that trace sub-paths from both ends.
 double bidirectional_cost(const WorkPerSample& work);
 

@@ -21,7 +21,9 @@ double predicted_cost(const PricingRecord& record, const MethodCandidate& c) {
   w.eye_rays = double(record.eye_counters.closest_rays) / subpaths;
   w.light_samples = double(record.eye_counters.shadow_rays) / subpaths;
   w.medium_steps = double(record.eye_counters.medium_steps) / subpaths;
-  if (c.light_paths == 0) return path_cost(w);
+  if (c.light_paths == 0)
+    return std::holds_alternative<VolumePathIntegratorDescription>(c.method) ? volpath_cost(w)
+                                                                             : path_cost(w);
   w.light_rays = c.light_paths * double(record.light_counters.closest_rays) / subpaths;
   if (c.connections || c.merges > 0)
     w.stored_vertices = c.light_paths * record.light_vertices / subpaths;
