@@ -2,7 +2,6 @@
 // parser.
 #include <CLI/CLI.hpp>
 #include <memory>
-#include <regex>
 
 #include "app/commands.h"
 #include "app/program.h"
@@ -24,12 +23,9 @@ ShellOption shell_option(const CLI::Option& option) {
   // "TEXT:{auto,bar}"
   const std::string type = option.get_type_name();
   o.value = type.substr(0, type.find(':'));
-  const std::regex set(R"(\{([^}]*)\})"), item("[^,]+");
-  if (std::smatch found; std::regex_search(type, found, set)) {
-    const std::string items = found[1];
-    for (std::sregex_iterator i(items.begin(), items.end(), item), end; i != end; ++i)
-      o.choices.push_back(i->str());
-  }
+  const size_t open = type.find('{'), close = type.find('}', open);
+  if (close != type.npos)
+    o.choices = CLI::detail::split(type.substr(open + 1, close - open - 1), ',');
   if (o.names.back() == "--integrator" && !option.get_allow_extra_args())
     for (const IntegratorName& n : integrator_names()) o.choices.emplace_back(n.name);
   return o;
