@@ -235,6 +235,8 @@ class WhatGoesWrong(DuetTest):
 
 class Watching(DuetTest):
     def test_ctrl_c_gets_the_image_so_far(self):
+        # Shells have what they start in the background ignore Ctrl-C.
+        self.addCleanup(signal.signal, signal.SIGINT, signal.signal(signal.SIGINT, signal.default_int_handler))
         scene = duet.load_string(SCENE)
 
         def press(_fraction, spp, _seconds):
