@@ -27,7 +27,8 @@ void add_display_options(CLI::App& c, std::string& exposure, std::string& tone_m
   c.add_option("--tonemap", tone_map,
                "How .png and .jpg show bright colours: srgb (cut off), aces, agx or reinhard "
                "(default: as the scene says, srgb)")
-      ->check(CLI::IsMember({"srgb", "aces", "agx", "reinhard"}));
+      ->check(CLI::IsMember(
+          std::vector<std::string>(std::begin(kToneCurveNames), std::end(kToneCurveNames))));
 }
 
 DisplaySettings parse_display(const std::string& exposure, const std::string& tone_map) {

@@ -60,7 +60,8 @@ void RenderOptionParser::add_method_options(CLI::App& c) {
        "--light-selection", light_selection_,
        "By what light samples choose a light: auto, bvh (a tree: near ones first), power or "
        "uniform; the same as -I light_selection=NAME")
-      ->check(CLI::IsMember({"auto", "bvh", "power", "uniform"}));
+      ->check(CLI::IsMember(std::vector<std::string>(std::begin(kLightSelectionNames),
+                                                     std::end(kLightSelectionNames))));
   c.add_option("--seed", seed_, "Seed of the random numbers");
   c.add_flag("--strict-sampler", options_.strict_sampler,
              "The sampler that the scene names, instead of Duet's Sobol' points");

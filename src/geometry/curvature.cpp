@@ -43,19 +43,30 @@ Curvature of_triangle(const TriangleMesh& m, uint32_t primitive, const Point2f& 
   return {half_trace(first, second), (second.uu * second.vv - c12 * c21) / first.determinant()};
 }
 
+/// A point of the unit sphere or of the unit cylinder around z.
+struct QuadricPoint {
+  Vector3f q;
+  Vector3f around,
+      along;  ///< unit vectors across it: around the axis; along a meridian or the axis
+};
+
+QuadricPoint quadric_point(ShapeKind kind, const Point2f& uv) {
+  const bool sphere = kind == ShapeKind::sphere;
+  const float phi = 2 * kPi * uv.x, theta = sphere ? kPi * uv.y : 0.5f * kPi;
+  const float sin_phi = std::sin(phi), cos_phi = std::cos(phi);
+  const float sin_theta = std::sin(theta), cos_theta = std::cos(theta);
+  return {
+      {cos_phi * sin_theta, sin_phi * sin_theta, sphere ? cos_theta : 0.0f},
+      {-sin_phi, cos_phi, 0},
+      sphere ? Vector3f(cos_phi * cos_theta, sin_phi * cos_theta, -sin_theta) : Vector3f(0, 0, 1)};
+}
+
 /// x = M q, where q is on the unit sphere or the unit cylinder around z: a curve on it has
 /// q'' · q = −|q'|² (on the cylinder without the part along z), so that with the world's normal n
 /// the second fundamental form of x is −(n · M q) times that.
 Curvature of_quadric(const Shape& shape, const Point2f& uv) {
   const bool sphere = shape.kind == ShapeKind::sphere;
-  const float phi = 2 * kPi * uv.x, theta = sphere ? kPi * uv.y : 0.5f * kPi;
-  const float sin_phi = std::sin(phi), cos_phi = std::cos(phi);
-  const float sin_theta = std::sin(theta), cos_theta = std::cos(theta);
-  const Vector3f q(cos_phi * sin_theta, sin_phi * sin_theta, sphere ? cos_theta : 0.0f);
-  // Unit vectors across q: around the axis, and along a meridian or the axis.
-  const Vector3f around(-sin_phi, cos_phi, 0);
-  const Vector3f along =
-      sphere ? Vector3f(cos_phi * cos_theta, sin_phi * cos_theta, -sin_theta) : Vector3f(0, 0, 1);
+  const auto [q, around, along] = quadric_point(shape.kind, uv);
   const Form first = metric(shape.to_world(around), shape.to_world(along));
   const Normal3f n = normalize(shape.to_world(Normal3f(q)));
   const float height = dot(n, shape.to_world(q)), sign = faces_inwards(shape) ? -1.0f : 1.0f;
@@ -96,14 +107,9 @@ Turning turning_of_triangle(const TriangleMesh& m, uint32_t primitive, const Poi
 /// On x = M q as above the normal has the direction M⁻ᵀ q.
 Turning turning_of_quadric(const Shape& shape, const Point2f& uv) {
   const bool sphere = shape.kind == ShapeKind::sphere;
-  const float phi = 2 * kPi * uv.x, theta = sphere ? kPi * uv.y : 0.5f * kPi;
-  const float sin_phi = std::sin(phi), cos_phi = std::cos(phi);
-  const float sin_theta = std::sin(theta), cos_theta = std::cos(theta);
-  const Vector3f q(cos_phi * sin_theta, sin_phi * sin_theta, sphere ? cos_theta : 0.0f);
-  const Vector3f around = Vector3f(-q.y, q.x, 0) * (2 * kPi);
-  const Vector3f along = sphere
-                             ? Vector3f(cos_phi * cos_theta, sin_phi * cos_theta, -sin_theta) * kPi
-                             : Vector3f(0, 0, 1);
+  const QuadricPoint p = quadric_point(shape.kind, uv);
+  const Vector3f q = p.q, around = Vector3f(-q.y, q.x, 0) * (2 * kPi);
+  const Vector3f along = sphere ? p.along * kPi : p.along;
   const Vector3f direction(shape.to_world(Normal3f(q)));
   const float inverse = (faces_inwards(shape) ? -1.0f : 1.0f) / length(direction);
   const Vector3f n = direction * inverse;

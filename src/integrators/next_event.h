@@ -26,14 +26,16 @@ struct ArrivingRay {
   float t;             ///< the distance
 };
 
+/// Whether a shape is lit beside its points: see lit_point().
+inline bool is_lit_beside(const Scene& scene, const Shape& shape) {
+  return shape.kind == ShapeKind::curves && shape.curves->profile != CurveProfile::tube &&
+         !scene.materials[shape.material]->transmits();
+}
+
 /// Where the light at a surface point is looked up. A ribbon of curves faces every ray, so one that
 /// starts on it would meet it again: like pbrt, an opaque one is lit where rays are clear of it.
 inline Point3f lit_point(const Scene& scene, const Surface& s) {
-  const Shape& shape = *s.shape;
-  if (shape.kind != ShapeKind::curves || shape.curves->profile == CurveProfile::tube)
-    return s.position;
-  if (scene.materials[shape.material]->transmits()) return s.position;
-  return offset_position(s, Vector3f(s.ng));
+  return is_lit_beside(scene, *s.shape) ? offset_position(s, Vector3f(s.ng)) : s.position;
 }
 
 /// Weight of a sample with density a where b could have made it too.

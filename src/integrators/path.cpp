@@ -21,17 +21,16 @@ struct PathIntegrator::Path {
   float eta = 1;                   ///< relative index of refraction along the path
 };
 
-/// Whether light is looked up beside some surface points (lit_point()), which batches do not know.
-static bool has_ribbons(const Scene& scene) {
-  return std::any_of(scene.shapes.begin(), scene.shapes.end(), [](const Shape& s) {
-    return s.kind == ShapeKind::curves && s.curves->profile != CurveProfile::tube;
-  });
+/// Whether some surface points are lit beside themselves, which batches do not know.
+static bool has_shapes_lit_beside(const Scene& scene) {
+  return std::any_of(scene.shapes.begin(), scene.shapes.end(),
+                     [&](const Shape& s) { return is_lit_beside(scene, s); });
 }
 
 bool PathIntegrator::takes_batches(const Scene& scene) const {
   return batches_ == PathBatches::where_possible && only_colours() && !scene.motion &&
          options_.max_depth != 0 && !options_.hide_emitters && !options_.strict_normals &&
-         !options_.only_specular && !has_ribbons(scene);
+         !options_.only_specular && !has_shapes_lit_beside(scene);
 }
 
 void PathIntegrator::render_samples(const Scene& scene, Film& film, const SampleRange& samples,

@@ -6,22 +6,12 @@ namespace duet {
 
 namespace {
 
-uint32_t salt_32(uint32_t dimension) {
-  return 0x9e3779b9u * (dimension + 1);
-}
-
 /// One dimension of the first block of Sobol' points, in which all pixels have the same point.
-DUET_WIDEST void scramble_point(int n, uint32_t reversed, const BatchKeys& keys, uint32_t salt,
+DUET_WIDEST void scramble_point(int n, uint32_t reversed, const BatchKeys& keys, uint32_t dimension,
                                 BatchArray<float>& u) {
   DUET_LANES
   for (int i = 0; i < n; ++i)
-    u[i] = to_unit_float(owen_scramble_reversed(reversed, mix32(keys.high[i] + salt)));
-}
-
-/// A point of a later block of dimensions, in which each pixel has its own order of them.
-[[gnu::always_inline]] inline uint32_t shuffled_point(uint32_t index, uint32_t key,
-                                                      uint32_t block) {
-  return shuffle_index(index, mix32(key ^ (0x85ebca6bu * block)));
+    u[i] = to_unit_float(owen_scramble_reversed(reversed, scramble_seed(keys.high[i], dimension)));
 }
 
 /// The reversed coordinate of a point in a dimension.
@@ -34,11 +24,11 @@ DUET_WIDEST void scramble_point(int n, uint32_t reversed, const BatchKeys& keys,
 
 DUET_WIDEST void scramble_shuffled(int n, uint32_t index, const BatchKeys& keys, uint32_t dimension,
                                    BatchArray<float>& u) {
-  const uint32_t block = dimension / kSobolDimensions, salt = salt_32(dimension);
+  const uint32_t block = dimension / kSobolDimensions;
   DUET_LANES
   for (int i = 0; i < n; ++i) {
     const uint32_t x = coordinate(shuffled_point(index, keys.low[i], block), dimension);
-    u[i] = to_unit_float(owen_scramble_reversed(x, mix32(keys.high[i] + salt)));
+    u[i] = to_unit_float(owen_scramble_reversed(x, scramble_seed(keys.high[i], dimension)));
   }
 }
 
@@ -46,13 +36,12 @@ DUET_WIDEST void scramble_shuffled(int n, uint32_t index, const BatchKeys& keys,
 DUET_WIDEST void scramble_shuffled(int n, uint32_t index, const BatchKeys& keys, uint32_t dimension,
                                    BatchArray<float>& u, BatchArray<float>& v) {
   const uint32_t block = dimension / kSobolDimensions;
-  const uint32_t salt = salt_32(dimension), next = salt_32(dimension + 1);
   DUET_LANES
   for (int i = 0; i < n; ++i) {
     const uint32_t point = shuffled_point(index, keys.low[i], block);
     const uint32_t x = coordinate(point, dimension), y = coordinate(point, dimension + 1);
-    u[i] = to_unit_float(owen_scramble_reversed(x, mix32(keys.high[i] + salt)));
-    v[i] = to_unit_float(owen_scramble_reversed(y, mix32(keys.high[i] + next)));
+    u[i] = to_unit_float(owen_scramble_reversed(x, scramble_seed(keys.high[i], dimension)));
+    v[i] = to_unit_float(owen_scramble_reversed(y, scramble_seed(keys.high[i], dimension + 1)));
   }
 }
 
@@ -64,10 +53,6 @@ DUET_WIDEST void draw(int n, const BatchKeys& keys, uint64_t salt, BatchArray<fl
     x[i] = to_unit_float(uint32_t(bits >> 32));
     y[i] = to_unit_float(uint32_t(bits));
   }
-}
-
-uint64_t salt_of(uint32_t dimension) {
-  return 0x9e3779b97f4a7c15ull * (dimension + 1);
 }
 
 }  // namespace
@@ -90,11 +75,10 @@ void BatchSampler::numbers_1d(int n, const BatchKeys& keys, uint32_t dimension,
                               BatchArray<float>& u) const {
   if (sequence_ == SampleSequence::independent) {
     BatchArray<float> unused;
-    draw(n, keys, salt_of(dimension), u, unused);
+    draw(n, keys, dimension_salt(dimension), u, unused);
   } else if (dimension < kSobolDimensions) {
     const SobolRow row = sobol_row(index_);
-    scramble_point(n, row.low[dimension] ^ row.high[dimension], keys, 0x9e3779b9u * (dimension + 1),
-                   u);
+    scramble_point(n, row.low[dimension] ^ row.high[dimension], keys, dimension, u);
   } else {
     scramble_shuffled(n, index_, keys, dimension, u);
   }
@@ -103,7 +87,7 @@ void BatchSampler::numbers_1d(int n, const BatchKeys& keys, uint32_t dimension,
 void BatchSampler::numbers_2d(int n, const BatchKeys& keys, uint32_t dimension,
                               BatchArray<float>& x, BatchArray<float>& y) const {
   if (sequence_ == SampleSequence::independent) {
-    draw(n, keys, salt_of(dimension), x, y);
+    draw(n, keys, dimension_salt(dimension), x, y);
   } else if (dimension >= kSobolDimensions && dimension % kSobolDimensions < kSobolDimensions - 1) {
     scramble_shuffled(n, index_, keys, dimension, x, y);
   } else {

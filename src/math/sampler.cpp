@@ -11,8 +11,7 @@ void Sampler::draw_group(uint32_t group) {
 void Sampler::select_block(uint32_t block) {
   if (block == block_) return;
   block_ = block;
-  const uint32_t shuffle = mix32(uint32_t(key_) ^ (0x85ebca6bu * block));
-  row_ = sobol_row(block == 0 ? index_ : shuffle_index(index_, shuffle));
+  row_ = sobol_row(block == 0 ? index_ : shuffled_point(index_, uint32_t(key_), block));
 }
 
 }  // namespace duet

@@ -17,6 +17,11 @@ enum class SampleSequence {
   sobol,        ///< Owen-scrambled Sobol' points, scrambled anew for every pixel
 };
 
+/// What tells the dimensions of independent samples apart.
+constexpr uint64_t dimension_salt(uint32_t dimension) {
+  return 0x9e3779b97f4a7c15ull * (dimension + 1);
+}
+
 /// The random numbers of the samples of one pixel, handed out dimension by dimension.
 /// Numbers lie in [0, 1).
 class Sampler {
@@ -64,7 +69,7 @@ class Sampler {
   }
 
  private:
-  uint64_t draw(uint32_t d) const { return mix64(key_ + 0x9e3779b97f4a7c15ull * (d + 1)); }
+  uint64_t draw(uint32_t d) const { return mix64(key_ + dimension_salt(d)); }
 
   float scrambled(uint32_t d) {
     if (d / kSobolGroup != group_) draw_group(d / kSobolGroup);

@@ -79,7 +79,7 @@ DUET_WIDE void scramble_group(const SobolRow& row, uint32_t key, uint32_t first,
                                                                       row.high +
                                                                       first % kSobolDimensions;
   for (uint32_t i = 0; i < kSobolGroup; ++i) {
-    const uint32_t seed = mix32(key + 0x9e3779b9u * (first + i + 1));
+    const uint32_t seed = scramble_seed(key, first + i);
     numbers[i] = to_unit_float(owen_scramble_reversed(low[i] ^ high[i], seed));
   }
 }

@@ -55,6 +55,17 @@ constexpr uint32_t shuffle_index(uint32_t index, uint32_t seed) {
   return reverse_bits(laine_karras(reverse_bits(index), seed)) & ((1u << kSobolIndexBits) - 1);
 }
 
+/// The seed of the Owen scramble of a dimension; `key` tells the pixels apart.
+[[gnu::always_inline]] constexpr uint32_t scramble_seed(uint32_t key, uint32_t dimension) {
+  return mix32(key + 0x9e3779b9u * (dimension + 1));
+}
+
+/// The point of a later block of dimensions: each pixel has its own order of them.
+[[gnu::always_inline]] constexpr uint32_t shuffled_point(uint32_t index, uint32_t key,
+                                                         uint32_t block) {
+  return shuffle_index(index, mix32(key ^ (0x85ebca6bu * block)));
+}
+
 /// The numbers of kSobolGroup dimensions of a sample, from dimension `first` on, each scrambled by
 /// a seed of its own. `key` tells the pixels apart; `row` has the point for these dimensions, in
 /// which `first` is dimension first % kSobolDimensions.
