@@ -97,12 +97,7 @@ def fitted():
 
 
 def holdout(folder):
-    scenes = []
-    for name, xml, text, size in holdout_scenes.make():
-        file = folder / f'{name}.xml'
-        file.write_text(xml)
-        scenes.append(Scene(name, file, size, text))
-    return scenes
+    return [Scene(made.name, made.write(folder), made.size, made.text) for made in holdout_scenes.make()]
 
 
 def error(image, mean, variance):

@@ -4,18 +4,38 @@
     holdout_scenes.py [--seed 2014] FOLDER
 
 Five rooms with a partition and a door in it, lamps and furniture of random kinds, places and materials, the last with a
-box of fog; and four diffuse bodies in a block or a ball of rough glass, under a directional light, a point light and a
-small area light. Whoever works on the rules of `auto` uses other seeds. Writes FOLDER/NAME.xml and prints
-what is in each scene.
+box of fog; four diffuse bodies in a block or a ball of rough glass, under a directional light, a point light and a
+small area light; two rooms with a cloud of smoke that is denser in some places; and two bodies of a substance that
+scatters light below a smooth or rough surface. Whoever works on the rules of `auto` uses other seeds. Writes
+FOLDER/NAME.xml, what these files refer to, and prints what is in each scene.
 """
 import argparse
 import math
 import random
+import struct
 from pathlib import Path
+from typing import NamedTuple
 
 SEED = 2014
-ROOMS, BODIES = 5, 4
+ROOMS, BODIES, SMOKES, SUBSTANCES = 5, 4, 2, 2
 ROOM_SIZE, BODY_SIZE = (128, 128), (160, 120)
+SMOKE_NODES = 24
+
+
+class Made(NamedTuple):
+    name: str
+    xml: str
+    text: str  # what is in it
+    size: tuple
+    files: dict = {}  # name -> bytes
+
+    def write(self, folder):
+        """Returns the scene file."""
+        for name, content in self.files.items():
+            (folder / name).write_bytes(content)
+        file = folder / f'{self.name}.xml'
+        file.write_text(self.xml)
+        return file
 
 
 def rgb(r, low=0.2, high=0.8):
@@ -157,13 +177,36 @@ def furniture(r, places, specular):
     return parts, names
 
 
-def room(r, fog):
+def smoke_density(r):
+    """A grid of SMOKE_NODES³ densities from 0 to 1 in Mitsuba's format: the sum of some round puffs."""
+    puffs = [([r.uniform(0.25, 0.75) for _ in range(3)], r.uniform(0.08, 0.2)) for _ in range(r.randint(4, 8))]
+    at = [(i + 0.5) / SMOKE_NODES for i in range(SMOKE_NODES)]
+    values = [min(1.0, sum(math.exp(-((x - c[0]) ** 2 + (y - c[1]) ** 2 + (z - c[2]) ** 2) / (2 * s * s)) for c, s in puffs))
+              for z in at for y in at for x in at]
+    return b'VOL\x03' + struct.pack('<5i6f', 1, *(SMOKE_NODES,) * 3, 1, 0, 0, 0, 1, 1, 1) + struct.pack(f'<{len(values)}f', *values)
+
+
+def fog_in(r, w, d, h):
+    return ('<medium type="homogeneous" name="interior">'
+            f'<float name="sigma_t" value="{r.uniform(0.2, 0.5):.2f}"/><rgb name="albedo" value="0.9"/></medium>')
+
+
+def smoke_in(r, w, d, h, file):
+    """A cloud in the box that room() puts a medium into."""
+    to_world = transform((1.2 * w, 0.4 * d, 0.7 * h), (-0.6 * w, -0.7 * d, 0.05 * h))
+    return (f'<medium type="heterogeneous" name="interior"><volume type="gridvolume" name="sigma_t">'
+            f'<string name="filename" value="{file}"/>{to_world}</volume><float name="scale" value="{r.uniform(1, 3):.2f}"/>'
+            f'<rgb name="albedo" value="{rgb(r, 0.7, 0.95)}"/></medium>')
+
+
+def room(r, medium=None, name=''):
+    """A room; medium(r, w, d, h) is what fills a box before the partition."""
     w, d, h = r.uniform(1.8, 2.6), r.uniform(2.2, 3.2), r.uniform(2.4, 3.0)
     y = r.uniform(0.1, 0.4) * d
     wall, door = partition(r, w, h, y)
     spots = [(i * w / 2.2, j * d / 4 - d / 2.4) for i in (-1, 0, 1) for j in (0, 1, 2) if j * d / 4 - d / 2.4 < y - 0.5]
     r.shuffle(spots)
-    things, names = furniture(r, spots[:r.randint(2, 4)], not fog)
+    things, names = furniture(r, spots[:r.randint(2, 4)], not medium)
     # A lamp behind the partition, the stronger if there is none before it.
     front = r.random() < 0.6
     lamps = [lamp(r, (r.uniform(-0.6, 0.6) * w, r.uniform(y + 0.4, d - 0.4)), h, 1 if front else 8)]
@@ -171,10 +214,9 @@ def room(r, fog):
         lamps.append(lamp(r, (r.uniform(-0.6, 0.6) * w, r.uniform(-0.3 * d, y - 0.4)), h, 1))
     parts = [sensor((r.uniform(-0.4, 0.4) * w, -d + 0.15, r.uniform(1.2, 1.7)), (0, y, r.uniform(0.6, 1.0)), r.uniform(60, 75), ROOM_SIZE),
              *walls(r, w, d, h), *wall, *things, *(text for text, _ in lamps)]
-    if fog:
-        medium = f'<medium type="homogeneous" name="interior"><float name="sigma_t" value="{r.uniform(0.2, 0.5):.2f}"/><rgb name="albedo" value="0.9"/></medium>'
-        parts.append(cube((0.6 * w, 0.2 * d, 0.35 * h), (0, -0.5 * d, 0.4 * h), '<bsdf type="null"/>', 0, medium))
-        names.append('fog')
+    if medium:
+        parts.append(cube((0.6 * w, 0.2 * d, 0.35 * h), (0, -0.5 * d, 0.4 * h), '<bsdf type="null"/>', 0, medium(r, w, d, h)))
+        names.append(name)
     return scene(10, parts), '; '.join([door, *(f'lamp: {kind}' for _, kind in lamps), *names])
 
 
@@ -190,25 +232,55 @@ def body(r, light):
              f'<shape type="rectangle">{transform((6, 6, 1), (0, 0, 0))}{diffuse(r, 0.3, 0.7)}</shape>',
              cube((size,) * 3, at, glass, turn) if shell == 'block' else sphere(size, at, glass),
              cube((s,) * 3, at, diffuse(r), r.uniform(0, 90)) if inner == 'block' else sphere(s, at, diffuse(r))]
-    if light == 'directional':
-        parts.append(f'<emitter type="directional"><vector name="direction" x="{x:.2f}" y="{y:.2f}" z="-1"/><rgb name="irradiance" value="3"/></emitter>')
-    elif light == 'point':
-        parts.append(f'<emitter type="point"><point name="position" x="{3 * x:.2f}" y="{3 * y:.2f}" z="4"/><rgb name="intensity" value="40"/></emitter>')
-    else:
-        parts.append(sphere(0.1, (3 * x, 3 * y, 4), '<bsdf type="diffuse"/>', area(1200)))
+    parts.append(light_above(light, x, y))
     return scene(12, parts), f'{inner} in a {shell} of glass, α = {a:.2f}, under a {light} light'
 
 
+def light_above(kind, x, y):
+    if kind == 'directional':
+        return (f'<emitter type="directional"><vector name="direction" x="{x:.2f}" y="{y:.2f}" z="-1"/>'
+                '<rgb name="irradiance" value="3"/></emitter>')
+    if kind == 'point':
+        return (f'<emitter type="point"><point name="position" x="{3 * x:.2f}" y="{3 * y:.2f}" z="4"/>'
+                '<rgb name="intensity" value="40"/></emitter>')
+    return sphere(0.1, (3 * x, 3 * y, 4), '<bsdf type="diffuse"/>', area(1200))
+
+
+def substance(r, light):
+    """A body that light enters and is scattered in, on a table."""
+    a = alpha(r, 0.05, 0.3) if r.random() < 0.5 else 0
+    surface = rough('roughdielectric', a, '<float name="int_ior" value="1.4"/>') if a else GLASS
+    density, shape, size, turn = r.uniform(2, 8), r.choice(['block', 'ball']), r.uniform(0.8, 1.1), r.uniform(0, 90)
+    medium = (f'<medium type="homogeneous" name="interior"><float name="sigma_t" value="{density:.2f}"/>'
+              f'<rgb name="albedo" value="{rgb(r, 0.8, 0.98)}"/>'
+              f'<phase type="hg"><float name="g" value="{r.uniform(-0.2, 0.7):.2f}"/></phase></medium>')
+    at = (0, 0, size + 0.02)
+    parts = [sensor((r.uniform(-1, 1), -r.uniform(5, 6), r.uniform(2, 3.5)), (0, 0, 0.8), 38, BODY_SIZE),
+             f'<shape type="rectangle">{transform((6, 6, 1), (0, 0, 0))}{diffuse(r, 0.3, 0.7)}</shape>',
+             cube((size,) * 3, at, surface, turn, medium) if shape == 'block' else sphere(size, at, surface, medium),
+             light_above(light, r.uniform(-0.7, 0.7), r.uniform(-0.5, 0.5))]
+    return scene(24, parts), f'{shape}, σt = {density:.1f}, α = {a:.2f}, under a {light} light'
+
+
 def make(seed=SEED):
-    """(name, XML, description, size) of every scene."""
+    """Every scene."""
     made = []
     for i in range(ROOMS):
-        xml, text = room(random.Random(f'{seed}-room-{i}'), i == ROOMS - 1)
-        made.append((f'room-{i + 1}', xml, text, ROOM_SIZE))
+        fog = i == ROOMS - 1
+        xml, text = room(random.Random(f'{seed}-room-{i}'), fog_in if fog else None, 'fog')
+        made.append(Made(f'room-{i + 1}', xml, text, ROOM_SIZE))
+    lights = ('directional', 'point', 'small area')
     for i in range(BODIES):
-        light = ('directional', 'point', 'small area')[i % 3]
-        xml, text = body(random.Random(f'{seed}-body-{i}'), light)
-        made.append((f'body-{i + 1}', xml, text, BODY_SIZE))
+        xml, text = body(random.Random(f'{seed}-body-{i}'), lights[i % 3])
+        made.append(Made(f'body-{i + 1}', xml, text, BODY_SIZE))
+    for i in range(SMOKES):
+        r, file = random.Random(f'{seed}-smoke-{i}'), f'smoke-{i + 1}.vol'
+        density = smoke_density(r)
+        xml, text = room(r, lambda *box: smoke_in(*box, file), 'smoke')
+        made.append(Made(f'smoke-{i + 1}', xml, text, ROOM_SIZE, {file: density}))
+    for i in range(SUBSTANCES):
+        xml, text = substance(random.Random(f'{seed}-substance-{i}'), lights[2 - i])
+        made.append(Made(f'substance-{i + 1}', xml, text, BODY_SIZE))
     return made
 
 
@@ -218,9 +290,9 @@ def main():
     p.add_argument('--seed', type=int, default=SEED)
     o = p.parse_args()
     o.folder.mkdir(parents=True, exist_ok=True)
-    for name, xml, text, _ in make(o.seed):
-        (o.folder / f'{name}.xml').write_text(xml)
-        print(f'{name:8}{text}')
+    for made in make(o.seed):
+        made.write(o.folder)
+        print(f'{made.name:12}{made.text}')
 
 
 if __name__ == '__main__':

@@ -4,7 +4,6 @@
 #include <cstdint>
 #include <string>
 #include <string_view>
-#include <tuple>
 #include <variant>
 #include <vector>
 
@@ -52,19 +51,19 @@ struct PathLimits {
   static constexpr auto limits(const Parameter& max_depth) {
     using namespace parameter_words;
     using L = PathLimits;
-    return std::tuple(field(&L::max_depth, max_depth), field(&L::rr_depth, kRrDepth),
-                      field(&L::hide_emitters, kHideEmitters));
+    return FieldList(field(&L::max_depth, max_depth), field(&L::rr_depth, kRrDepth),
+                     field(&L::hide_emitters, kHideEmitters));
   }
   /// What Mitsuba 3 does not have.
   static constexpr auto own_fields() {
     using namespace parameter_words;
     using L = PathLimits;
-    return std::tuple(
+    return FieldList(
         field(&L::strict_normals, kStrictNormals0x).unwritten(),
         field(&L::light_selection, kLightSelection).words(kLightSelectionNames).unwritten());
   }
   static constexpr auto fields() {
-    return std::tuple_cat(limits(parameter_words::max_depth_parameter()), own_fields());
+    return joined_fields(limits(parameter_words::max_depth_parameter()), own_fields());
   }
   std::vector<std::string> losses() const { return own_losses(strict_normals, light_selection); }
   static std::vector<std::string> own_losses(bool strict, LightSelection selection) {
@@ -80,12 +79,12 @@ struct PathIntegratorDescription : PathLimits {
   bool only_specular = false;
   static constexpr auto fields() {
     using namespace parameter_words;
-    return std::tuple_cat(
+    return joined_fields(
         PathLimits::fields(),
-        std::tuple(field(&PathIntegratorDescription::only_specular,
-                         Parameter{"only_specular", boolean, kInitial,
-                                   "Duet's own: paths go on from smooth surfaces only"})
-                       .unwritten()));
+        FieldList(field(&PathIntegratorDescription::only_specular,
+                        Parameter{"only_specular", boolean, kInitial,
+                                  "Duet's own: paths go on from smooth surfaces only"})
+                      .unwritten()));
   }
   static constexpr const char* method_name() { return "path"; }
   std::vector<std::string> losses() const {
@@ -103,10 +102,10 @@ struct VolumePathIntegratorDescription : PathLimits {
   static constexpr auto fields() {
     using namespace parameter_words;
     using D = VolumePathIntegratorDescription;
-    return std::tuple_cat(
+    return joined_fields(
         limits(max_depth_parameter("longest path in segments; surfaces that light passes straight "
                                    "do not count; -1: no limit")),
-        own_fields(), std::tuple(field(&D::name)));
+        own_fields(), FieldList(field(&D::name)));
   }
   const char* method_name() const {
     return name == VolumePathName::volpath ? "volpath" : "volpathmis";
@@ -120,7 +119,7 @@ struct DirectIntegratorDescription {
     using namespace parameter_words;
     using enum ParameterType;
     using D = DirectIntegratorDescription;
-    return std::tuple(
+    return FieldList(
         field(&D::emitter_samples, Parameter{.name = "emitter_samples",
                                              .type = integer,
                                              .preset = kInitial,
@@ -139,7 +138,7 @@ struct DirectIntegratorDescription {
   }
 };
 struct DepthIntegratorDescription {
-  static constexpr auto fields() { return std::tuple(); }
+  static constexpr auto fields() { return FieldList(); }
   static constexpr const char* method_name() { return "depth"; }
 };
 
@@ -152,7 +151,7 @@ struct OcclusionIntegratorDescription {
     using namespace parameter_words;
     using enum ParameterType;
     using D = OcclusionIntegratorDescription;
-    return std::tuple(
+    return FieldList(
         field(&D::shading_samples, Parameter{"shading_samples", integer, kInitial, "", size}),
         field(&D::ray_length, Parameter{"ray_length", number, "-1",
                                         "not above 0: half the radius of a sphere around the "
@@ -205,7 +204,7 @@ struct BidirectionalIntegratorDescription {
     using enum ParameterType;
     using D = BidirectionalIntegratorDescription;
     constexpr auto reuses = [](const D& d) { return d.is(BidirectionalMethod::reuse); };
-    return std::tuple(
+    return FieldList(
         field(&D::max_eye_depth, Parameter{"max_eye_depth", integer, kInitial,
                                            "longest eye sub-path in segments", not_negative})
             .when(reuses),
@@ -236,8 +235,8 @@ struct BidirectionalIntegratorDescription {
     using D = BidirectionalIntegratorDescription;
     using enum BidirectionalMethod;
     constexpr auto merging = [](const D& d) { return d.merges(); };
-    return std::tuple_cat(
-        std::tuple(
+    return joined_fields(
+        FieldList(
             field(&D::method), field(&D::max_depth, max_depth_parameter()),
             field(&D::rr_depth, kRrDepth), field(&D::hide_emitters, kHideEmitters),
             field(&D::strict_normals, kStrictNormals).when([](const D& d) {
@@ -290,11 +289,11 @@ struct BidirectionalIntegratorDescription {
 struct AutoIntegratorDescription : PathLimits {
   static constexpr auto fields() {
     using namespace parameter_words;
-    return std::tuple_cat(limits(max_depth_parameter()),
-                          std::tuple(field(&PathLimits::strict_normals, kStrictNormals),
-                                     field(&PathLimits::light_selection, kLightSelection)
-                                         .words(kLightSelectionNames)
-                                         .terse()));
+    return joined_fields(limits(max_depth_parameter()),
+                         FieldList(field(&PathLimits::strict_normals, kStrictNormals),
+                                   field(&PathLimits::light_selection, kLightSelection)
+                                       .words(kLightSelectionNames)
+                                       .terse()));
   }
   static constexpr const char* method_name() { return "auto"; }
   static std::vector<std::string> losses() { return {"only Duet reads the integrator \"auto\""}; }

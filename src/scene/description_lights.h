@@ -30,7 +30,7 @@ using LightPointer = std::unique_ptr<Light>;
 struct PointLight {
   Spectrum intensity{1.0f};
   static constexpr auto fields() {
-    return std::tuple(field(&PointLight::intensity, parameter_words::kIntensity));
+    return FieldList(field(&PointLight::intensity, parameter_words::kIntensity));
   }
   static constexpr const char* name() { return "point"; }
   void count(SceneFeatures& f) const;
@@ -49,7 +49,7 @@ struct SpotLight {
     using namespace parameter_words;
     using enum ParameterType;
     using L = SpotLight;
-    return std::tuple(
+    return FieldList(
         field(&L::intensity, kIntensity),
         field(&L::cutoff_angle, Parameter{"cutoff_angle", number, kInitial,
                                           "no light beyond this angle from the axis", degrees}),
@@ -76,10 +76,10 @@ struct ProjectorLight {
     using namespace parameter_words;
     using enum ParameterType;
     using L = ProjectorLight;
-    return std::tuple_cat(
-        std::tuple(field(&L::irradiance, kIrradiance), field(&L::scale, kLightScale)),
+    return joined_fields(
+        FieldList(field(&L::irradiance, kIrradiance), field(&L::scale, kLightScale)),
         fov_fields(&L::fov, &L::fov_axis, "either this or focal_length"),
-        std::tuple(field(&L::is_intensity)));
+        FieldList(field(&L::is_intensity)));
   }
   static constexpr const char* name() { return "projector"; }
   std::vector<std::string> losses() const;
@@ -90,7 +90,7 @@ struct ProjectorLight {
 struct DirectionalLight {
   Spectrum irradiance{1.0f};
   static constexpr auto fields() {
-    return std::tuple(field(&DirectionalLight::irradiance, parameter_words::kIrradiance));
+    return FieldList(field(&DirectionalLight::irradiance, parameter_words::kIrradiance));
   }
   static constexpr const char* name() { return "directional"; }
   void count(SceneFeatures& f) const;
@@ -99,7 +99,7 @@ struct DirectionalLight {
 struct ConstantLight {
   Spectrum radiance{1.0f};
   static constexpr auto fields() {
-    return std::tuple(field(&ConstantLight::radiance, parameter_words::kRadiance));
+    return FieldList(field(&ConstantLight::radiance, parameter_words::kRadiance));
   }
   static constexpr const char* name() { return "constant"; }
   static constexpr bool kIsEnvironment = true;
@@ -126,7 +126,7 @@ struct EnvironmentMapLight {
     using namespace parameter_words;
     using enum ParameterType;
     using L = EnvironmentMapLight;
-    return std::tuple(
+    return FieldList(
         field(&L::file, Parameter{.name = "filename", .type = file, .required = true}).names_data(),
         field(&L::scale, Parameter{.name = "scale",
                                    .type = number,
@@ -167,7 +167,7 @@ struct SkyLight {
     using namespace parameter_words;
     using enum ParameterType;
     using L = SkyLight;
-    return std::tuple(
+    return FieldList(
         field(&L::turbidity, Parameter{"turbidity", number, kInitial, "of the air, from 1 to 10"}),
         field(&L::albedo, Parameter{.name = "albedo",
                                     .type = reflectance,
@@ -202,7 +202,7 @@ struct CollimatedLight {
   static constexpr auto fields() {
     using namespace parameter_words;
     using enum ParameterType;
-    return std::tuple(
+    return FieldList(
         field(&CollimatedLight::power, Parameter{"power", emission, kInitial, "in watts"}));
   }
   static constexpr const char* name() { return "collimated"; }
@@ -218,7 +218,7 @@ struct GoniometricLight {
   static constexpr auto fields() {
     using enum ParameterType;
     using L = GoniometricLight;
-    return std::tuple(
+    return FieldList(
         field(&L::file, Parameter{.name = "filename", .type = ParameterType::file}).names_data(),
         field(&L::scale));
   }
@@ -250,10 +250,10 @@ struct LightDescription {
   std::optional<Portal> portal = std::nullopt;  ///< of an environment
   static constexpr auto fields() {
     using L = LightDescription;
-    return std::tuple(field(&L::where), field(&L::label), field(&L::model), field(&L::to_world),
-                      field(&L::motion),
-                      field(&L::sampling_weight, parameter_words::kSamplingWeight),
-                      field(&L::medium), field(&L::portal));
+    return FieldList(field(&L::where), field(&L::label), field(&L::model), field(&L::to_world),
+                     field(&L::motion),
+                     field(&L::sampling_weight, parameter_words::kSamplingWeight),
+                     field(&L::medium), field(&L::portal));
   }
 };
 

@@ -43,7 +43,7 @@ struct VolumeDescription {
     using enum ParameterType;
     using P = Parameter;
     using V = VolumeDescription;
-    return std::tuple(
+    return FieldList(
         field(&V::file, P{.name = "filename", .type = file, .required = true}).not_compared(),
         field(&V::grid), field(&V::to_world, P{"to_world", transform}),
         field(&V::filter, P{"filter_type", string, kInitial, "trilinear or nearest", any, v3})
@@ -64,7 +64,7 @@ using PhasePointer = std::unique_ptr<PhaseFunction>;
 // (description_textures.h).
 
 struct IsotropicPhase {
-  static constexpr auto fields() { return std::tuple(); }
+  static constexpr auto fields() { return FieldList(); }
   static constexpr const char* name() { return "isotropic"; }
   PhasePointer build(SceneBuilder& b, const SourceLocation& where) const;
 };
@@ -74,15 +74,15 @@ struct HenyeyGreensteinPhase {
   static constexpr auto fields() {
     using namespace parameter_words;
     using enum ParameterType;
-    return std::tuple(field(&HenyeyGreensteinPhase::g,
-                            Parameter{"g", number, kInitial, "mean cosine of the deflection"})
-                          .shown(", g "));
+    return FieldList(field(&HenyeyGreensteinPhase::g,
+                           Parameter{"g", number, kInitial, "mean cosine of the deflection"})
+                         .shown(", g "));
   }
   static constexpr const char* name() { return "hg"; }
   PhasePointer build(SceneBuilder& b, const SourceLocation& where) const;
 };
 struct RayleighPhase {
-  static constexpr auto fields() { return std::tuple(); }
+  static constexpr auto fields() { return FieldList(); }
   static constexpr const char* name() { return "rayleigh"; }
   PhasePointer build(SceneBuilder& b, const SourceLocation& where) const;
 };
@@ -93,7 +93,7 @@ struct TabulatedPhase {
   static constexpr auto fields() {
     using namespace parameter_words;
     using enum ParameterType;
-    return std::tuple(
+    return FieldList(
         field(&TabulatedPhase::values,
               Parameter{.name = "values",
                         .type = string,
@@ -111,12 +111,12 @@ struct SggxPhase {
   static constexpr auto fields() {
     using namespace parameter_words;
     using enum ParameterType;
-    return std::tuple(field(&SggxPhase::matrix, Parameter{.name = "S",
-                                                          .type = volume_only,
-                                                          .note = "6 channels: xx, yy, zz, xy, xz, "
-                                                                  "yz",
-                                                          .required = true})
-                          .read_by_plugin());
+    return FieldList(field(&SggxPhase::matrix, Parameter{.name = "S",
+                                                         .type = volume_only,
+                                                         .note = "6 channels: xx, yy, zz, xy, xz, "
+                                                                 "yz",
+                                                         .required = true})
+                         .read_by_plugin());
   }
   static constexpr const char* name() { return "sggx"; }
   std::vector<std::string> losses() const;
@@ -129,9 +129,9 @@ struct BlendPhase {
   static constexpr auto fields() {
     using namespace parameter_words;
     using enum ParameterType;
-    return std::tuple(field(&BlendPhase::weight, Parameter{"weight", number_or_volume, kInitial,
-                                                           "share of the second phase function"}),
-                      field(&BlendPhase::first), field(&BlendPhase::second));
+    return FieldList(field(&BlendPhase::weight, Parameter{"weight", number_or_volume, kInitial,
+                                                          "share of the second phase function"}),
+                     field(&BlendPhase::first), field(&BlendPhase::second));
   }
   static constexpr const char* name() { return "blendphase"; }
   PhasePointer build(SceneBuilder& b, const SourceLocation& where) const;
@@ -193,7 +193,7 @@ struct MediumDescription {
     using namespace parameter_words;
     using enum ParameterType;
     using M = MediumDescription;
-    return std::tuple(
+    return FieldList(
         field(&M::where), field(&M::label),
         field(&M::sigma_t,
               Parameter{"sigma_t", coefficient, kInitial, "extinction per unit of length"}),

@@ -30,7 +30,7 @@ struct NoiseTextureDescription {
     using enum ParameterType;
     using T = NoiseTextureDescription;
     constexpr auto is_marble = [](const T& t) { return t.kind == NoiseKind::marble; };
-    return std::tuple(
+    return FieldList(
         field(&T::kind, Parameter{"kind", string, kInitial, "fbm, wrinkled, windy or marble"})
             .words(kKinds),
         field(&T::octaves, Parameter{"octaves", integer, kInitial, "", size}),
@@ -52,9 +52,9 @@ struct SolidCheckerboardDescription {
     using namespace parameter_words;
     using enum ParameterType;
     using T = SolidCheckerboardDescription;
-    return std::tuple(field(&T::color0, Parameter{"color0", unbounded, kInitial}).shown(" "),
-                      field(&T::color1, Parameter{"color1", unbounded, kInitial}).shown(" and "),
-                      field(&T::from_world, kFromWorld));
+    return FieldList(field(&T::color0, Parameter{"color0", unbounded, kInitial}).shown(" "),
+                     field(&T::color1, Parameter{"color1", unbounded, kInitial}).shown(" and "),
+                     field(&T::from_world, kFromWorld));
   }
   static constexpr const char* name() { return "solid_checkerboard"; }
   std::unique_ptr<Texture> build(SceneBuilder& b, const SourceLocation& where) const;
@@ -73,7 +73,7 @@ struct MappedTextureDescription {
     using namespace parameter_words;
     using enum ParameterType;
     using T = MappedTextureDescription;
-    return std::tuple(
+    return FieldList(
         field(&T::kind, Parameter{"mapping", string, kInitial, "spherical, cylindrical or planar"})
             .words(kKinds),
         field(&T::from_world, kFromWorld), field(&T::inner));
@@ -91,7 +91,7 @@ struct MixDescription {
     using namespace parameter_words;
     using enum ParameterType;
     using T = MixDescription;
-    return std::tuple(
+    return FieldList(
         field(&T::first, Parameter{"first", unbounded, kInitial}).shown(" "),
         field(&T::second, Parameter{"second", unbounded, kInitial}).shown(" and "),
         field(&T::amount, Parameter{"amount", number_or_texture, kInitial, "share of the second"})
@@ -109,8 +109,8 @@ struct ProductDescription {
     using namespace parameter_words;
     using enum ParameterType;
     using T = ProductDescription;
-    return std::tuple(field(&T::first, Parameter{"first", unbounded, kInitial}).shown(" "),
-                      field(&T::second, Parameter{"second", unbounded, kInitial}).shown(" times "));
+    return FieldList(field(&T::first, Parameter{"first", unbounded, kInitial}).shown(" "),
+                     field(&T::second, Parameter{"second", unbounded, kInitial}).shown(" times "));
   }
   static constexpr const char* name() { return "product"; }
   std::unique_ptr<Texture> build(SceneBuilder& b, const SourceLocation& where) const;
@@ -125,7 +125,7 @@ struct DirectionMixDescription {
     using namespace parameter_words;
     using enum ParameterType;
     using T = DirectionMixDescription;
-    return std::tuple(
+    return FieldList(
         field(&T::first, Parameter{"first", unbounded, kInitial, "along the direction"}).shown(" "),
         field(&T::second, Parameter{"second", unbounded, kInitial, "across it"}).shown(" and "),
         field(&T::x, Parameter{"x", number, kInitial, "of the direction in the world"}),
@@ -147,7 +147,7 @@ struct FunctionDescription {
     using namespace parameter_words;
     using enum ParameterType;
     using T = FunctionDescription;
-    return std::tuple(
+    return FieldList(
         field(&T::function,
               Parameter{"function", string, kInitial,
                         "inverse: 1 - x; root: of x; v3_roughness: pbrt-v3's remapping; "
@@ -168,11 +168,11 @@ struct BilerpDescription {
     using namespace parameter_words;
     using enum ParameterType;
     using T = BilerpDescription;
-    return std::tuple(field(&T::v00, Parameter{"v00", unbounded, kInitial, "constant"}),
-                      field(&T::v01, Parameter{"v01", unbounded, kInitial, "at u = 0, v = 1"}),
-                      field(&T::v10, Parameter{"v10", unbounded, kInitial, "constant"}),
-                      field(&T::v11, Parameter{"v11", unbounded, kInitial, "constant"}),
-                      uv_field(&T::to_uv));
+    return FieldList(field(&T::v00, Parameter{"v00", unbounded, kInitial, "constant"}),
+                     field(&T::v01, Parameter{"v01", unbounded, kInitial, "at u = 0, v = 1"}),
+                     field(&T::v10, Parameter{"v10", unbounded, kInitial, "constant"}),
+                     field(&T::v11, Parameter{"v11", unbounded, kInitial, "constant"}),
+                     uv_field(&T::to_uv));
   }
   static constexpr const char* name() { return "bilerp"; }
   std::unique_ptr<Texture> build(SceneBuilder& b, const SourceLocation& where) const;
@@ -187,9 +187,9 @@ struct DotsDescription {
     using namespace parameter_words;
     using enum ParameterType;
     using T = DotsDescription;
-    return std::tuple(field(&T::inside, Parameter{"inside", unbounded, kInitial}).shown(" "),
-                      field(&T::outside, Parameter{"outside", unbounded, kInitial}).shown(" and "),
-                      uv_field(&T::to_uv));
+    return FieldList(field(&T::inside, Parameter{"inside", unbounded, kInitial}).shown(" "),
+                     field(&T::outside, Parameter{"outside", unbounded, kInitial}).shown(" and "),
+                     uv_field(&T::to_uv));
   }
   static constexpr const char* name() { return "dots"; }
   std::unique_ptr<Texture> build(SceneBuilder& b, const SourceLocation& where) const;

@@ -75,7 +75,7 @@ struct ToneMapping {
     using namespace parameter_words;
     using enum ParameterType;
     using T = ToneMapping;
-    return std::tuple(
+    return FieldList(
         field(&T::reinhard, Parameter{"tonemap_method", string, "gamma", "gamma or reinhard"})
             .read_by_plugin(),
         field(&T::gamma, Parameter{"gamma", number, kInitial, "-1: sRGB"}),
@@ -104,7 +104,7 @@ struct FilmDescription {
     using namespace parameter_words;
     using enum ParameterType;
     using F = FilmDescription;
-    return std::tuple(
+    return FieldList(
         field(&F::where),
         field(&F::width, Parameter{"width", integer, kInitial, "in pixels", size}).read_by_plugin(),
         field(&F::height, Parameter{"height", integer, kInitial, "in pixels", size})
@@ -140,10 +140,10 @@ struct SamplerDescription {
     using namespace parameter_words;
     using enum ParameterType;
     using S = SamplerDescription;
-    return std::tuple(field(&S::name),
-                      field(&S::sample_count,
-                            Parameter{"sample_count", integer, kInitial, "per pixel", positive}),
-                      field(&S::seed, Parameter{"seed", integer, kInitial, "", not_negative}));
+    return FieldList(field(&S::name),
+                     field(&S::sample_count,
+                           Parameter{"sample_count", integer, kInitial, "per pixel", positive}),
+                     field(&S::seed, Parameter{"seed", integer, kInitial, "", not_negative}));
   }
 };
 
@@ -198,9 +198,7 @@ struct SensorDescription {
     constexpr auto with_fov = [](const S& s) { return has_fov(s.kind); };
     constexpr auto pinhole = [](const S& s) { return s.kind == SensorKind::perspective; };
     constexpr auto lens = [](const S& s) { return has_lens(s.kind); };
-    const auto fov_and_axis =
-        fov_fields(&S::fov, &S::fov_axis, "in degrees; either this or focal_length");
-    return std::tuple(
+    const auto before_fov = FieldList(
         field(&S::where), field(&S::label), field(&S::kind),
         field(&S::shutter,
               Parameter{"shutter_open", number, "0", "when light is gathered from what moves"},
@@ -212,8 +210,9 @@ struct SensorDescription {
         }),
         field(&S::motion),
         field(&S::near_clip, Parameter{"near_clip", number, kInitial, "", positive}).when(clips),
-        field(&S::far_clip, Parameter{"far_clip", number, kInitial, "", positive}).when(clips),
-        std::get<0>(fov_and_axis).when(with_fov), std::get<1>(fov_and_axis).when(with_fov),
+        field(&S::far_clip, Parameter{"far_clip", number, kInitial, "", positive}).when(clips));
+    const auto fov = fov_fields(&S::fov, &S::fov_axis, "in degrees; either this or focal_length");
+    const auto after_fov = FieldList(
         field(&S::principal_point_offset_x,
               Parameter{"principal_point_offset_x", number, kInitial, "in image widths"})
             .when(pinhole),
@@ -236,6 +235,7 @@ struct SensorDescription {
                                           "a point or a shape over which radiance is averaged"}),
         field(&S::target_shape), field(&S::parts), field(&S::medium), field(&S::film),
         field(&S::sampler));
+    return joined_fields(before_fov, fov.when(with_fov), after_fov);
   }
   const char* name() const { return sensor_name(kind); }
   std::vector<std::string> losses() const {

@@ -42,24 +42,24 @@ struct MeshShape {
   const std::string& name() const { return source.plugin; }
 };
 struct RectangleShape {
-  static constexpr auto fields() { return std::tuple(); }
+  static constexpr auto fields() { return FieldList(); }
   static constexpr const char* name() { return "rectangle"; }
 };
 struct CubeShape {
-  static constexpr auto fields() { return std::tuple(); }
+  static constexpr auto fields() { return FieldList(); }
   static constexpr const char* name() { return "cube"; }
 };
 /// Unit shapes; a centre, radius or end points are part of `to_world`.
 struct SphereShape {
-  static constexpr auto fields() { return std::tuple(); }
+  static constexpr auto fields() { return FieldList(); }
   static constexpr const char* name() { return "sphere"; }
 };
 struct DiskShape {
-  static constexpr auto fields() { return std::tuple(); }
+  static constexpr auto fields() { return FieldList(); }
   static constexpr const char* name() { return "disk"; }
 };
 struct CylinderShape {
-  static constexpr auto fields() { return std::tuple(); }
+  static constexpr auto fields() { return FieldList(); }
   static constexpr const char* name() { return "cylinder"; }
 };
 /// A surface of zero distance.
@@ -69,11 +69,11 @@ struct SdfGridShape {
   static constexpr auto fields() {
     using namespace parameter_words;
     using enum ParameterType;
-    return std::tuple(field(&SdfGridShape::grid),
-                      field(&SdfGridShape::file, Parameter{"filename", string, "",
-                                                           "a volume with one channel: distances"})
-                          .not_compared()
-                          .shown(" "));
+    return FieldList(field(&SdfGridShape::grid),
+                     field(&SdfGridShape::file, Parameter{"filename", string, "",
+                                                          "a volume with one channel: distances"})
+                         .not_compared()
+                         .shown(" "));
   }
   static constexpr const char* name() { return "sdfgrid"; }
 };
@@ -84,7 +84,7 @@ struct CurvesShape {
   static constexpr auto fields() {
     using namespace parameter_words;
     using enum ParameterType;
-    return std::tuple(
+    return FieldList(
         field(&CurvesShape::curves),
         field(&CurvesShape::file,
               Parameter{.name = "filename",
@@ -116,7 +116,7 @@ struct HeightFieldShape {
     using namespace parameter_words;
     using enum ParameterType;
     using H = HeightFieldShape;
-    return std::tuple(
+    return FieldList(
         field(&H::heights).read_by_plugin(),
         field(&H::scale, Parameter{"scale", number, kInitial, "multiplies the heights"}),
         field(&H::width, Parameter{"width", integer, kInitial,
@@ -150,9 +150,9 @@ struct AreaEmission {
   static constexpr auto fields() {
     using namespace parameter_words;
     using A = AreaEmission;
-    return std::tuple(field(&A::where), field(&A::radiance, kRadiance),
-                      field(&A::sampling_weight, kSamplingWeight).terse(), field(&A::directional),
-                      field(&A::two_sided));
+    return FieldList(field(&A::where), field(&A::radiance, kRadiance),
+                     field(&A::sampling_weight, kSamplingWeight).terse(), field(&A::directional),
+                     field(&A::two_sided));
   }
   const char* name() const { return directional ? "directionalarea" : "area"; }
   std::vector<std::string> losses() const {

@@ -40,7 +40,7 @@ struct BitmapTexture {
     using namespace parameter_words;
     using enum ParameterType;
     using T = BitmapTexture;
-    return std::tuple(
+    return FieldList(
         field(&T::file, Parameter{.name = "filename", .type = file, .required = true})
             .names_data()
             .shown(" "),
@@ -92,9 +92,9 @@ struct CheckerboardTexture {
     using namespace parameter_words;
     using enum ParameterType;
     using T = CheckerboardTexture;
-    return std::tuple(field(&T::color0, Parameter{"color0", reflectance, kInitial}).shown(" "),
-                      field(&T::color1, Parameter{"color1", reflectance, kInitial}).shown(" and "),
-                      field(&T::swap_values), uv_field(&T::to_uv));
+    return FieldList(field(&T::color0, Parameter{"color0", reflectance, kInitial}).shown(" "),
+                     field(&T::color1, Parameter{"color1", reflectance, kInitial}).shown(" and "),
+                     field(&T::swap_values), uv_field(&T::to_uv));
   }
   static constexpr const char* name() { return "checkerboard"; }
   std::unique_ptr<Texture> build(SceneBuilder& b, const SourceLocation& where) const;
@@ -108,7 +108,7 @@ struct MeshAttributeTexture {
     using namespace parameter_words;
     using enum ParameterType;
     using T = MeshAttributeTexture;
-    return std::tuple(
+    return FieldList(
         field(&T::attribute,
               Parameter{
                   .name = "name", .type = string, .note = "vertex_… or face_…", .required = true})
@@ -129,7 +129,7 @@ struct GridLinesTexture {
     using namespace parameter_words;
     using enum ParameterType;
     using T = GridLinesTexture;
-    return std::tuple(
+    return FieldList(
         field(&T::color0, Parameter{"color0", reflectance, kInitial, "of the fields"}).shown(" "),
         field(&T::color1, Parameter{"color1", reflectance, kInitial, "of the lines"})
             .shown(" and "),
@@ -155,7 +155,7 @@ struct WireframeTexture {
     using namespace parameter_words;
     using enum ParameterType;
     using T = WireframeTexture;
-    return std::tuple(
+    return FieldList(
         field(&T::interior, Parameter{"interior_color", unbounded, kInitial, "constant"})
             .shown(" "),
         field(&T::edge, Parameter{"edge_color", unbounded, kInitial, "constant"}).shown(" and "),
@@ -181,7 +181,7 @@ struct CurvatureTexture {
     using namespace parameter_words;
     using enum ParameterType;
     using T = CurvatureTexture;
-    return std::tuple(
+    return FieldList(
         field(&T::shown, Parameter{"curvature", string, kInitial, "gaussian or mean"})
             .words(kKinds),
         field(&T::scale, Parameter{.name = "scale",
@@ -204,12 +204,12 @@ struct ScaledTextureDescription {
     using namespace parameter_words;
     using enum ParameterType;
     using T = ScaledTextureDescription;
-    return std::tuple(field(&T::scale, Parameter{.name = "scale",
-                                                 .type = unbounded,
-                                                 .preset = kInitial,
-                                                 .note = "number or colour",
-                                                 .aliases = "value"}),
-                      field(&T::inner));
+    return FieldList(field(&T::scale, Parameter{.name = "scale",
+                                                .type = unbounded,
+                                                .preset = kInitial,
+                                                .note = "number or colour",
+                                                .aliases = "value"}),
+                     field(&T::inner));
   }
   static constexpr const char* name() { return "scale"; }
   static constexpr bool kOnlyIn0x = true;
@@ -224,7 +224,7 @@ struct VolumeTextureDescription {
     using namespace parameter_words;
     using enum ParameterType;
     using T = VolumeTextureDescription;
-    return std::tuple(field(&T::volume, Parameter{"volume", albedo, kInitial}).shown(" "));
+    return FieldList(field(&T::volume, Parameter{"volume", albedo, kInitial}).shown(" "));
   }
   static constexpr const char* name() { return "volume"; }
   std::unique_ptr<Texture> build(SceneBuilder& b, const SourceLocation& where) const;

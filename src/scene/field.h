@@ -1,7 +1,7 @@
 // The fields of a description as data that code can walk.
 //
 // A struct of plain data states its fields once, in a static function `fields()` that returns a
-// tuple of what field() makes:
+// list of what field() makes:
 //
 //   struct Glow {
 //     ColorInput radiance = Spectrum(1.0f);
@@ -9,7 +9,7 @@
 //     static constexpr auto fields() {
 //       using enum ParameterType;
 //       using enum NumberRange;
-//       return std::tuple(
+//       return FieldList(
 //           field(&Glow::radiance, Parameter{"radiance", emission, "1"}).shown(" "),
 //           field(&Glow::scale, Parameter{"scale", number, "1", "", not_negative}));
 //     }
@@ -23,7 +23,6 @@
 #include <memory>
 #include <span>
 #include <string_view>
-#include <tuple>
 #include <utility>
 
 #include "scene/parameter.h"
@@ -130,10 +129,57 @@ constexpr Field<T, M, sizeof...(Parameters)> field(M T::*member, const Parameter
   return {member, {parameters...}};
 }
 
+template <size_t I, class F>
+struct FieldSlot {
+  F field;
+};
+
+template <class Indices, class... F>
+class FieldSlots;
+
+template <size_t... I, class... F>
+class FieldSlots<std::index_sequence<I...>, F...> : FieldSlot<I, F>... {
+ public:
+  constexpr explicit FieldSlots(const F&... fields) : FieldSlot<I, F>{fields}... {}
+
+  /// visit(fields...), in their order.
+  template <class Visit>
+  constexpr auto apply(Visit&& visit) const {
+    return visit(static_cast<const FieldSlot<I, F>&>(*this).field...);
+  }
+};
+
+/// Fields of different types, one after the other. Every user of a description compiles its list,
+/// and a std::tuple takes the compiler several times as long.
+template <class... F>
+struct FieldList : FieldSlots<std::index_sequence_for<F...>, F...> {
+  using FieldSlots<std::index_sequence_for<F...>, F...>::FieldSlots;
+
+  /// The same fields, whose values mean something only where `condition` holds.
+  template <class Condition>
+  constexpr FieldList when(Condition condition) const {
+    return this->apply([&](const auto&... field) { return FieldList(field.when(condition)...); });
+  }
+};
+template <class... F>
+FieldList(const F&...) -> FieldList<F...>;
+
+/// One list after the other.
+template <class A, class B, class... More>
+constexpr auto joined_fields(const A& first, const B& second, const More&... more) {
+  const auto both = first.apply([&](const auto&... a) {
+    return second.apply([&](const auto&... b) { return FieldList(a..., b...); });
+  });
+  if constexpr (sizeof...(More) > 0)
+    return joined_fields(both, more...);
+  else
+    return both;
+}
+
 /// Fields that nothing is to be said of.
 template <class... T, class... M>
 constexpr auto plain_fields(M T::*... members) {
-  return std::tuple(field(members)...);
+  return FieldList(field(members)...);
 }
 
 /// Plain data that states its fields.
@@ -167,7 +213,7 @@ void for_each_field(Value& value, Visit&& visit) {
     if (facts.terse) facts.initial = same_value(value.*field.member, T{}.*field.member);
     visit(std::as_const(facts), value.*field.member);
   };
-  std::apply([&](const auto&... fields) { (one(fields), ...); }, kFields<T>);
+  kFields<T>.apply([&](const auto&... fields) { (one(fields), ...); });
 }
 
 template <HasFields T>
@@ -175,7 +221,7 @@ bool operator==(const T& a, const T& b) {
   const auto same = [&](const auto& field) {
     return !field.facts.compared || same_value(a.*field.member, b.*field.member);
   };
-  return std::apply([&](const auto&... fields) { return (same(fields) && ...); }, kFields<T>);
+  return kFields<T>.apply([&](const auto&... fields) { return (same(fields) && ...); });
 }
 
 }  // namespace duet

@@ -22,20 +22,20 @@ struct FilterOf : FilterDescription {
     using enum ParameterType;
     using F = FilterDescription;
     if constexpr (kKind == FilterKind::box)
-      return std::tuple(
+      return FieldList(
           field(&F::radius, Parameter{"radius", number, kInitial, "", positive, v0}).unwritten());
     else if constexpr (kKind == FilterKind::tent)
-      return std::tuple(field(&F::radius, Parameter{"radius", number, kInitial, "", positive}));
+      return FieldList(field(&F::radius, Parameter{"radius", number, kInitial, "", positive}));
     else if constexpr (kKind == FilterKind::gaussian)
-      return std::tuple(field(&F::stddev, Parameter{"stddev", number, kInitial, "", positive}));
+      return FieldList(field(&F::stddev, Parameter{"stddev", number, kInitial, "", positive}));
     else if constexpr (kKind == FilterKind::mitchell)
-      return std::tuple(
+      return FieldList(
           field(&F::b, Parameter{.name = "B", .type = number, .preset = "(1/3)", .aliases = "b"}),
           field(&F::c, Parameter{.name = "C", .type = number, .preset = "(1/3)", .aliases = "c"}));
     else if constexpr (kKind == FilterKind::lanczos)
-      return std::tuple(field(&F::lobes, Parameter{"lobes", integer, kInitial, "", positive}));
+      return FieldList(field(&F::lobes, Parameter{"lobes", integer, kInitial, "", positive}));
     else
-      return std::tuple();
+      return FieldList();
   }
   static constexpr const char* name() { return kFilterNames[size_t(kKind)]; }
   std::vector<std::string> losses() const {

@@ -12,7 +12,7 @@ inline constexpr std::string_view kFovAxes[] = {"x", "y", "diagonal", "smaller",
 template <class T>
 constexpr auto fov_fields(double T::*fov, FovAxis T::*axis, std::string_view note) {
   using enum ParameterType;
-  return std::tuple(
+  return FieldList(
       field(fov, Parameter{"fov", number, "", note, NumberRange::degrees}).read_by_plugin(),
       field(axis, Parameter{"fov_axis", string, kInitial, "x, y, diagonal, smaller or larger"},
             Parameter{"focal_length", string, "50mm", "of a lens before 36 mm × 24 mm film"})

@@ -22,14 +22,14 @@ struct Bell {
   static constexpr std::string_view kTones[] = {"low", "high"};
   static constexpr auto fields() {
     using enum ParameterType;
-    return std::tuple(field(&Bell::tone, Parameter{"tone", string, kInitial}).words(kTones),
-                      field(&Bell::size, Parameter{"size", number, kInitial}).terse(),
-                      field(&Bell::strokes, Parameter{"strokes", integer, kInitial},
-                            Parameter{"repeats", integer, "(strokes)"}),
-                      field(&Bell::cracked, Parameter{"cracked", boolean, kInitial}),
-                      field(&Bell::color, Parameter{"color", reflectance, kInitial}),
-                      field(&Bell::weight, Parameter{"weight", number, kInitial}),
-                      field(&Bell::maker, Parameter{"maker", string, kInitial}));
+    return FieldList(field(&Bell::tone, Parameter{"tone", string, kInitial}).words(kTones),
+                     field(&Bell::size, Parameter{"size", number, kInitial}).terse(),
+                     field(&Bell::strokes, Parameter{"strokes", integer, kInitial},
+                           Parameter{"repeats", integer, "(strokes)"}),
+                     field(&Bell::cracked, Parameter{"cracked", boolean, kInitial}),
+                     field(&Bell::color, Parameter{"color", reflectance, kInitial}),
+                     field(&Bell::weight, Parameter{"weight", number, kInitial}),
+                     field(&Bell::maker, Parameter{"maker", string, kInitial}));
   }
 };
 

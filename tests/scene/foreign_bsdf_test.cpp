@@ -55,7 +55,7 @@ struct ChalkMaterial {
 
   static constexpr auto fields() {
     using namespace parameter_words;
-    return std::tuple(
+    return FieldList(
         field(&ChalkMaterial::color, Parameter{"chalk_color", reflectance, kInitial}).shown(" "),
         field(&ChalkMaterial::dust,
               Parameter{"dust", number, kInitial, "share that is absorbed", fraction})

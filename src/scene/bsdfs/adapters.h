@@ -10,9 +10,9 @@ struct TwoSidedMaterial {
 
   static constexpr auto fields() {
     using M = TwoSidedMaterial;
-    return std::tuple(field(&M::front).shown("front "),
-                      field(&M::back).shown("back ").optional().when(
-                          [](const M& m) { return m.back != m.front; }));
+    return FieldList(field(&M::front).shown("front "),
+                     field(&M::back).shown("back ").optional().when(
+                         [](const M& m) { return m.back != m.front; }));
   }
   static constexpr const char* name() { return "twosided"; }
   Scattering scattering() const { return {}; }
@@ -27,7 +27,7 @@ struct MaskMaterial {
     using namespace parameter_words;
     using enum ParameterType;
     using M = MaskMaterial;
-    return std::tuple(
+    return FieldList(
         field(&M::opacity, Parameter{"opacity", number_or_texture, kInitial}).shown(", opacity "),
         field(&M::nested));
   }
@@ -45,10 +45,10 @@ struct BlendMaterial {
     using namespace parameter_words;
     using enum ParameterType;
     using M = BlendMaterial;
-    return std::tuple(field(&M::weight, Parameter{"weight", number_or_texture, kInitial,
-                                                  "share of the second material, from 0 to 1"})
-                          .shown(", weight "),
-                      field(&M::first), field(&M::second));
+    return FieldList(field(&M::weight, Parameter{"weight", number_or_texture, kInitial,
+                                                 "share of the second material, from 0 to 1"})
+                         .shown(", weight "),
+                     field(&M::first), field(&M::second));
   }
   static constexpr const char* name() { return "blendbsdf"; }
   Scattering scattering() const { return {}; }
@@ -60,9 +60,9 @@ struct MixtureMaterial {
   MaterialShares parts;
 
   static constexpr auto fields() {
-    return std::tuple(field(&MixtureMaterial::parts, Parameter{"weights", ParameterType::string, "",
-                                                               "numbers, separated by commas"})
-                          .read_by_plugin());
+    return FieldList(field(&MixtureMaterial::parts, Parameter{"weights", ParameterType::string, "",
+                                                              "numbers, separated by commas"})
+                         .read_by_plugin());
   }
   static constexpr const char* name() { return "mixturebsdf"; }
   Scattering scattering() const { return {}; }
@@ -104,16 +104,16 @@ struct BumpMapMaterial {
     using namespace parameter_words;
     using enum ParameterType;
     using M = BumpMapMaterial;
-    return std::tuple(field(&M::height).shown(" ").read_by_plugin(),
-                      field(&M::scale, Parameter{.name = "scale",
-                                                 .type = number,
-                                                 .preset = kInitial,
-                                                 .note = "multiplies the height",
-                                                 .versions = v3}),
-                      field(&M::flip_invalid_normals, kFlipInvalidNormals),
-                      field(&M::use_shadowing_function, kUseShadowingFunction),
-                      field(&M::drops_leaks, kDropsLeaks).terse(),
-                      field(&M::follows_curvature, kFollowsCurvature).terse(), field(&M::nested));
+    return FieldList(field(&M::height).shown(" ").read_by_plugin(),
+                     field(&M::scale, Parameter{.name = "scale",
+                                                .type = number,
+                                                .preset = kInitial,
+                                                .note = "multiplies the height",
+                                                .versions = v3}),
+                     field(&M::flip_invalid_normals, kFlipInvalidNormals),
+                     field(&M::use_shadowing_function, kUseShadowingFunction),
+                     field(&M::drops_leaks, kDropsLeaks).terse(),
+                     field(&M::follows_curvature, kFollowsCurvature).terse(), field(&M::nested));
   }
   static constexpr const char* name() { return "bumpmap"; }
   Scattering scattering() const { return {.bumps = true}; }
@@ -132,14 +132,14 @@ struct NormalMapMaterial {
     using M = NormalMapMaterial;
     Parameter flip = kFlipInvalidNormals;
     flip.preset_0x = "false";
-    return std::tuple(field(&M::normals, Parameter{.name = "normalmap",
-                                                   .type = reflectance,
-                                                   .note = "(n + 1) / 2; may be nameless in 0.x"})
-                          .shown(" ")
-                          .read_by_plugin(),
-                      field(&M::flip_invalid_normals, flip),
-                      field(&M::use_shadowing_function, kUseShadowingFunction),
-                      field(&M::drops_leaks, kDropsLeaks).terse(), field(&M::nested));
+    return FieldList(field(&M::normals, Parameter{.name = "normalmap",
+                                                  .type = reflectance,
+                                                  .note = "(n + 1) / 2; may be nameless in 0.x"})
+                         .shown(" ")
+                         .read_by_plugin(),
+                     field(&M::flip_invalid_normals, flip),
+                     field(&M::use_shadowing_function, kUseShadowingFunction),
+                     field(&M::drops_leaks, kDropsLeaks).terse(), field(&M::nested));
   }
   static constexpr const char* name() { return "normalmap"; }
   Scattering scattering() const { return {.bumps = true}; }

@@ -37,12 +37,12 @@ struct CoatLayer {
   static constexpr auto layer_fields() {
     using namespace parameter_words;
     using L = CoatLayer;
-    return std::tuple(field(&L::eta, kCoatIndex).shown(", eta "),
-                      field(&L::alpha_u, kCoatAlphaU).shown(", alpha "),
-                      field(&L::alpha_v, kCoatAlphaV).shown(" and "),
-                      field(&L::thickness, kGap).shown(", thickness "),
-                      field(&L::albedo, kGapAlbedo).shown(", albedo "), field(&L::g, kGapG),
-                      field(&L::max_depth, kGapDepth), field(&L::samples, kGapWalks));
+    return FieldList(field(&L::eta, kCoatIndex).shown(", eta "),
+                     field(&L::alpha_u, kCoatAlphaU).shown(", alpha "),
+                     field(&L::alpha_v, kCoatAlphaV).shown(" and "),
+                     field(&L::thickness, kGap).shown(", thickness "),
+                     field(&L::albedo, kGapAlbedo).shown(", albedo "), field(&L::g, kGapG),
+                     field(&L::max_depth, kGapDepth), field(&L::samples, kGapWalks));
   }
   /// Where the roughness is a texture, it is taken for rough.
   bool is_smooth() const;
@@ -55,11 +55,11 @@ struct CoatedDiffuseMaterial : CoatLayer {
   static constexpr auto fields() {
     using namespace parameter_words;
     using enum ParameterType;
-    return std::tuple_cat(std::tuple(field(&CoatedDiffuseMaterial::reflectance,
-                                           Parameter{"reflectance", ParameterType::reflectance,
-                                                     kInitial, "of the base"})
-                                         .shown(" ")),
-                          layer_fields());
+    return joined_fields(FieldList(field(&CoatedDiffuseMaterial::reflectance,
+                                         Parameter{"reflectance", ParameterType::reflectance,
+                                                   kInitial, "of the base"})
+                                       .shown(" ")),
+                         layer_fields());
   }
   static constexpr const char* name() { return "coateddiffuse"; }
   Scattering scattering() const;
@@ -79,8 +79,8 @@ struct CoatedConductorMaterial : CoatLayer {
     using enum ParameterType;
     using M = CoatedConductorMaterial;
     constexpr auto has_index = [](const M& m) { return !m.reflectance; };
-    return std::tuple_cat(
-        std::tuple(
+    return joined_fields(
+        FieldList(
             field(&M::conductor_eta,
                   Parameter{"conductor_eta", unbounded, kInitial, "index of the metal"})
                 .shown(" ")

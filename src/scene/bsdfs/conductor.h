@@ -16,7 +16,7 @@ struct ConductorMaterial {
     using namespace parameter_words;
     using enum ParameterType;
     using M = ConductorMaterial;
-    return std::tuple(
+    return FieldList(
         field(&M::eta, Parameter{"eta", unbounded, "(of the material)", "real part of the index"})
             .read_by_plugin(),
         field(&M::k, Parameter{"k", unbounded, "(of the material)", "imaginary part of the index"})

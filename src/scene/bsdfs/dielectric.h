@@ -14,10 +14,10 @@ struct DielectricMaterial {
   static constexpr auto fields() {
     using namespace parameter_words;
     using M = DielectricMaterial;
-    return std::tuple(field(&M::eta, kGlass, kExterior).shown(", eta "),
-                      field(&M::specular_reflectance, kSpecularReflectance),
-                      field(&M::specular_transmittance, kSpecularTransmittance),
-                      roughness_field(&M::roughness));
+    return FieldList(field(&M::eta, kGlass, kExterior).shown(", eta "),
+                     field(&M::specular_reflectance, kSpecularReflectance),
+                     field(&M::specular_transmittance, kSpecularTransmittance),
+                     roughness_field(&M::roughness));
   }
   const char* name() const { return roughness ? "roughdielectric" : "dielectric"; }
   Scattering scattering() const {
@@ -33,9 +33,9 @@ struct ThinDielectricMaterial {
   static constexpr auto fields() {
     using namespace parameter_words;
     using M = ThinDielectricMaterial;
-    return std::tuple(field(&M::eta, kGlass, kExterior).shown(", eta "),
-                      field(&M::specular_reflectance, kSpecularReflectance),
-                      field(&M::specular_transmittance, kSpecularTransmittance));
+    return FieldList(field(&M::eta, kGlass, kExterior).shown(", eta "),
+                     field(&M::specular_reflectance, kSpecularReflectance),
+                     field(&M::specular_transmittance, kSpecularTransmittance));
   }
   static constexpr const char* name() { return "thindielectric"; }
   Scattering scattering() const { return {.smooth_glass = true}; }

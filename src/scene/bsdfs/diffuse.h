@@ -12,7 +12,7 @@ struct DiffuseMaterial {
   static constexpr auto fields() {
     using namespace parameter_words;
     using enum ParameterType;
-    return std::tuple(
+    return FieldList(
         field(&DiffuseMaterial::reflectance, Parameter{.name = "reflectance",
                                                        .type = ParameterType::reflectance,
                                                        .preset = kInitial,
@@ -33,7 +33,7 @@ struct RoughDiffuseMaterial {
     using namespace parameter_words;
     using enum ParameterType;
     using M = RoughDiffuseMaterial;
-    return std::tuple(
+    return FieldList(
         field(&M::reflectance, Parameter{"reflectance", ParameterType::reflectance, kInitial})
             .shown(" "),
         field(&M::alpha, Parameter{"alpha", number_or_texture, kInitial,
@@ -53,9 +53,9 @@ struct DiffuseTransmitterMaterial {
   static constexpr auto fields() {
     using namespace parameter_words;
     using enum ParameterType;
-    return std::tuple(field(&DiffuseTransmitterMaterial::transmittance,
-                            Parameter{"transmittance", reflectance, kInitial})
-                          .shown(" "));
+    return FieldList(field(&DiffuseTransmitterMaterial::transmittance,
+                           Parameter{"transmittance", reflectance, kInitial})
+                         .shown(" "));
   }
   static constexpr const char* name() { return "difftrans"; }
   Scattering scattering() const { return {.diffuse = true, .translucent = true}; }

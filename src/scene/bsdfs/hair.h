@@ -21,7 +21,7 @@ struct HairMaterial {
     using enum ParameterType;
     using M = HairMaterial;
     constexpr auto pigments = [](const M& m) { return !m.sigma_a; };
-    return std::tuple(
+    return FieldList(
         field(&M::longitudinal_roughness,
               Parameter{"longitudinal_roughness", number, kInitial, "", fraction})
             .shown(", roughness "),

@@ -17,7 +17,7 @@ struct CoatingMaterial {
     using namespace parameter_words;
     using enum ParameterType;
     using M = CoatingMaterial;
-    return std::tuple(
+    return FieldList(
         field(&M::eta, kGlass, kExterior).shown(", eta "), field(&M::thickness, kThickness),
         field(&M::sigma_a, Parameter{"sigma_a", unbounded, kInitial, "absorption per thickness"}),
         field(&M::specular_reflectance, kSpecularReflectance),
@@ -40,7 +40,7 @@ struct ThinLayerMaterial {
     using namespace parameter_words;
     using enum ParameterType;
     using M = ThinLayerMaterial;
-    return std::tuple(
+    return FieldList(
         field(&M::sigma_s, Parameter{"sigma_s", unbounded, "", "scattering coefficient"})
             .shown(", sigma_s ")
             .read_by_plugin(),

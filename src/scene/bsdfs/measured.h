@@ -12,13 +12,13 @@ struct MeasuredMaterial {
 
   static constexpr auto fields() {
     using M = MeasuredMaterial;
-    return std::tuple(field(&M::table), field(&M::file, Parameter{.name = "filename",
-                                                                  .type = ParameterType::file,
-                                                                  .note = "a .bsdf file in RGB",
-                                                                  .required = true})
-                                            .shown(" ")
-                                            .not_compared()
-                                            .read_by_plugin());
+    return FieldList(field(&M::table), field(&M::file, Parameter{.name = "filename",
+                                                                 .type = ParameterType::file,
+                                                                 .note = "a .bsdf file in RGB",
+                                                                 .required = true})
+                                           .shown(" ")
+                                           .not_compared()
+                                           .read_by_plugin());
   }
   static constexpr const char* name() { return "measured"; }
   Scattering scattering() const { return {.rough_reflection = true}; }

@@ -8,7 +8,7 @@
 namespace duet {
 
 struct NullMaterial {
-  static constexpr auto fields() { return std::tuple(); }
+  static constexpr auto fields() { return FieldList(); }
   static constexpr const char* name() { return "null"; }
   Scattering scattering() const { return {.see_through = true}; }
   MaterialPointer build(SceneBuilder& b, const SourceLocation& where) const;
@@ -25,9 +25,9 @@ struct FilterMaterial {
     using namespace parameter_words;
     using enum ParameterType;
     using M = FilterMaterial;
-    return std::tuple(field(&M::kind),
-                      field(&M::transmittance, Parameter{"transmittance", reflectance, kInitial})
-                          .shown(", transmittance "));
+    return FieldList(field(&M::kind),
+                     field(&M::transmittance, Parameter{"transmittance", reflectance, kInitial})
+                         .shown(", transmittance "));
   }
   const char* name() const { return kKinds[size_t(kind)]; }
   Scattering scattering() const { return {.see_through = true}; }

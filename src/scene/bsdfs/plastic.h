@@ -16,13 +16,13 @@ struct PlasticMaterial {
     using namespace parameter_words;
     using enum ParameterType;
     using M = PlasticMaterial;
-    return std::tuple(field(&M::eta, kPolymer, kExterior).shown(", eta "),
-                      field(&M::diffuse_reflectance, kDiffuseBase).shown(", diffuse "),
-                      field(&M::specular_reflectance, kSpecularReflectance),
-                      field(&M::nonlinear, Parameter{"nonlinear", boolean, kInitial,
-                                                     "colour shifts by scattering inside the "
-                                                     "coating"}),
-                      isotropic_roughness_field(&M::roughness));
+    return FieldList(field(&M::eta, kPolymer, kExterior).shown(", eta "),
+                     field(&M::diffuse_reflectance, kDiffuseBase).shown(", diffuse "),
+                     field(&M::specular_reflectance, kSpecularReflectance),
+                     field(&M::nonlinear, Parameter{"nonlinear", boolean, kInitial,
+                                                    "colour shifts by scattering inside the "
+                                                    "coating"}),
+                     isotropic_roughness_field(&M::roughness));
   }
   const char* name() const { return roughness ? "roughplastic" : "plastic"; }
   Scattering scattering() const {
@@ -40,10 +40,10 @@ struct PolarizedPlasticMaterial {
   static constexpr auto fields() {
     using namespace parameter_words;
     using M = PolarizedPlasticMaterial;
-    return std::tuple(field(&M::eta, kPolymer, kExterior).shown(", eta "),
-                      field(&M::diffuse_reflectance, kDiffuseBase).shown(", diffuse "),
-                      field(&M::specular_reflectance, kSpecularReflectance),
-                      roughness_field(&M::interface));
+    return FieldList(field(&M::eta, kPolymer, kExterior).shown(", eta "),
+                     field(&M::diffuse_reflectance, kDiffuseBase).shown(", diffuse "),
+                     field(&M::specular_reflectance, kSpecularReflectance),
+                     roughness_field(&M::interface));
   }
   static constexpr const char* name() { return "pplastic"; }
   Scattering scattering() const { return {.diffuse = true, .rough_reflection = true}; }

@@ -48,7 +48,7 @@ constexpr auto PrincipledMaterial::fields() {
   using namespace parameter_words;
   using enum ParameterType;
   using M = PrincipledMaterial;
-  return std::tuple(
+  return FieldList(
       field(&M::base_color, Parameter{"base_color", reflectance, kInitial}).shown(" "),
       field(&M::roughness, principled_weight("roughness")).shown(", roughness "),
       field(&M::anisotropic, principled_weight("anisotropic")),
@@ -75,7 +75,7 @@ constexpr auto PrincipledThinMaterial::fields() {
   using namespace parameter_words;
   using enum ParameterType;
   using M = PrincipledThinMaterial;
-  return std::tuple(
+  return FieldList(
       field(&M::base_color, Parameter{"base_color", reflectance, kInitial}).shown(" "),
       field(&M::roughness, principled_weight("roughness")).shown(", roughness "),
       field(&M::anisotropic, principled_weight("anisotropic")),

@@ -28,7 +28,7 @@ struct UberMaterial {
     using namespace parameter_words;
     using enum ParameterType;
     using M = UberMaterial;
-    return std::tuple(
+    return FieldList(
         field(&M::diffuse_reflectance, Parameter{"diffuse_reflectance", reflectance, kInitial})
             .shown(", diffuse "),
         field(&M::diffuse_transmittance, Parameter{"diffuse_transmittance", reflectance, kInitial})
@@ -64,7 +64,7 @@ struct SubstrateMaterial {
     using namespace parameter_words;
     using enum ParameterType;
     using M = SubstrateMaterial;
-    return std::tuple(
+    return FieldList(
         field(&M::diffuse_reflectance, Parameter{"diffuse_reflectance", reflectance, kInitial})
             .shown(" "),
         field(&M::specular_reflectance,

@@ -23,10 +23,10 @@ struct PhongMaterial {
     using namespace parameter_words;
     using enum ParameterType;
     using M = PhongMaterial;
-    return std::tuple(field(&M::exponent, Parameter{"exponent", number_or_texture, kInitial})
-                          .shown(", exponent "),
-                      field(&M::diffuse_reflectance, kDiffuseReflectance).shown(", diffuse "),
-                      field(&M::specular_reflectance, kGlossyReflectance).shown(", specular "));
+    return FieldList(field(&M::exponent, Parameter{"exponent", number_or_texture, kInitial})
+                         .shown(", exponent "),
+                     field(&M::diffuse_reflectance, kDiffuseReflectance).shown(", diffuse "),
+                     field(&M::specular_reflectance, kGlossyReflectance).shown(", specular "));
   }
   static constexpr const char* name() { return "phong"; }
   Scattering scattering() const { return {.diffuse = true, .rough_reflection = true}; }
@@ -43,7 +43,7 @@ struct WardMaterial {
     using namespace parameter_words;
     using enum ParameterType;
     using M = WardMaterial;
-    return std::tuple(
+    return FieldList(
         field(&M::variant, Parameter{"variant", string, kInitial, "ward, ward-duer or balanced"})
             .words(kVariants),
         field(&M::alpha_u, Parameter{"alpha_u", number_or_texture, kInitial, "along the tangent"})
