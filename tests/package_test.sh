@@ -20,7 +20,7 @@ rm -rf "$folder/scene" && mkdir "$folder/scene"
 cp -rL scenes/textures/. "$folder/scene/"
 inside() { chroot "$folder" env DEBIAN_FRONTEND=noninteractive "$@"; }
 inside apt-get update -qq
-inside apt-get install -y -qq --no-install-recommends /duet.deb >/dev/null
+inside apt-get install -y -qq --reinstall --no-install-recommends /duet.deb >/dev/null
 cd "$folder"
 # A scene with PNG textures: the module for image formats is found, too.
 inside duet /scene/scene.xml --spp 4 --size 32x32 -o /image.exr -o /image.png -q
