@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "materials/materials.h"
+#include "materials/principled_materials.h"
 #include "materials/wrappers.h"
 #include "math/sampler.h"
 

@@ -3,7 +3,7 @@
 #   app -> evaluate; python -> library -> evaluate -> {integrators, parsers}; integrators -> transport -> scene
 #       -> {materials, lights, media, cameras} -> textures -> {geometry, image} -> math -> base
 #   parsers -> scene/description.h and, of a description, scene/field_parameters.h, scene/filter_fields.h,
-#              scene/texture_uses.h, scene/texture_value.h and scene/texture_texels.h,
+#              scene/parameter_text.h, scene/texture_uses.h, scene/texture_value.h and scene/texture_texels.h,
 #              geometry/mesh.h, geometry/curves.h, materials/measured_table.h, media/volume_grid.h,
 #              math, base and parsers
 # A module may include itself and every module further right; modules in braces do not see each other.
@@ -36,7 +36,7 @@ find src parsers -name '*.h' -o -name '*.cpp' | sort | xargs awk '
       ok = to == "math" || to == "base" || target == "scene/description.h" ||
            target == "scene/field_parameters.h" || target == "scene/filter_fields.h" ||
            target == "scene/texture_uses.h" || target == "scene/texture_value.h" ||
-           target == "scene/texture_texels.h" ||
+           target == "scene/texture_texels.h" || target == "scene/parameter_text.h" ||
            target == "geometry/mesh.h" || target == "geometry/curves.h" ||
            target == "materials/measured_table.h" || target == "media/volume_grid.h"
     if (!ok) { print FILENAME ":" FNR ": " module " must not include " target; bad = 1 }

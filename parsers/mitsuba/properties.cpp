@@ -101,29 +101,9 @@ std::string Properties::expected(const Parameter& p) const {
 
 bool Properties::in_range(std::string_view name, double value) {
   const Parameter& p = parameter(name);
-  const auto check = [&](bool good, std::string_view rule) {
-    if (!good) error(name, "{} must be {}, not {}", expected(p), rule, value);
-    return good;
-  };
-  switch (p.range) {
-    case NumberRange::any:
-      return true;
-    case NumberRange::positive:
-      return check(value > 0, "positive");
-    case NumberRange::not_negative:
-      return check(value >= 0, "at least 0");
-    case NumberRange::size:
-      return check(value >= 1 && value <= 65536, "from 1 to 65536");
-    case NumberRange::depth:
-      return check(value >= -1, "-1 or more");
-    case NumberRange::degrees:
-      return check(value > 0 && value < 180, "between 0 and 180");
-    case NumberRange::fraction:
-      return check(value >= 0 && value <= 1, "from 0 to 1");
-    case NumberRange::probability:
-      return check(value > 0 && value <= 1, "above 0 and at most 1");
-  }
-  return true;
+  const auto rule = broken_rule(p.range, value);
+  if (rule) error(name, "{} must be {}, not {}", expected(p), *rule, value);
+  return !rule;
 }
 
 bool Properties::boolean(std::string_view name) {

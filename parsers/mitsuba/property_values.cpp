@@ -75,13 +75,11 @@ PropertyValue checked_spectrum(const ElementContext& c, const SourceLocation& wh
     c.report.error(where, "a tabulated spectrum needs at least two entries");
     return Broken{};
   }
-  for (size_t i = 1; i < samples.size(); ++i)
-    if (!(samples[i - 1].wavelength < samples[i].wavelength)) {
-      c.report.error(where, "the wavelengths of a spectrum must increase, but {} follows {}",
-                     samples[i].wavelength, samples[i - 1].wavelength);
-      return Broken{};
-    }
-  return samples;
+  const size_t i = first_not_increasing(samples);
+  if (i == 0) return samples;
+  c.report.error(where, "the wavelengths of a spectrum must increase, but {} follows {}",
+                 samples[i].wavelength, samples[i - 1].wavelength);
+  return Broken{};
 }
 
 PropertyValue read_spectrum_file(const ElementContext& c, const Attributes& a) {

@@ -100,7 +100,7 @@ MaterialLibrary* SceneReader::material_library(const std::string& name, const st
     return nullptr;
   }
   folders.insert(folders.begin() + 1, folder_of(*path));
-  const auto materials = from_file(where, [&] {
+  const auto materials = report_.from_file(where, [&] {
     const auto text = access_.read(*path);
     if (!text) throw ReadError(*path + ": cannot be read");
     return parse_mtl(*text, *path);
@@ -128,7 +128,7 @@ void plugins::read_obj_shape(SceneReader& s, Properties& p, ShapeList& out) {
   const SourceLocation where = p.where("filename");
 
   if (given.by_name.empty() && (given.all || !load)) {
-    whole.mesh = s.mesh("obj", whole.source.file, options, where);
+    whole.mesh = s.cache().mesh("obj", whole.source.file, options, where);
     if (!whole.mesh) return;
     if (recenter) shape.to_world = shape.to_world * recentering({whole.mesh.get()});
     shape.material = given.all ? *given.all : s.default_material(p, shape);
@@ -137,8 +137,8 @@ void plugins::read_obj_shape(SceneReader& s, Properties& p, ShapeList& out) {
     return;
   }
 
-  auto read =
-      s.from_file(where, [&] { return s.files().read_obj_parts(whole.source.file, options); });
+  auto read = s.report().from_file(
+      where, [&] { return s.files().read_obj_parts(whole.source.file, options); });
   if (!read) return;
   ObjFile& file = *read;
   if (recenter) {

@@ -6,6 +6,7 @@
 #include <string>
 #include <unordered_map>
 
+#include "files/file_cache.h"
 #include "mitsuba/material_library.h"
 #include "mitsuba/mitsuba.h"
 #include "mitsuba/properties.h"
@@ -17,12 +18,14 @@ namespace duet {
 /// parameter that may be another plugin.
 class SceneReader {
  public:
-  SceneReader(const FileAccess& access, Report& report) : access_(access), report_(report) {}
+  SceneReader(const FileAccess& access, Report& report)
+      : access_(access), report_(report), cache_(access, report) {}
 
   SceneDescription read(const NodeTree& tree, const std::string& file);
 
   SceneDescription& description() { return description_; }
   const FileAccess& files() const { return access_; }
+  FileCache& cache() { return cache_; }
   Report& report() { return report_; }
 
   // ---- Parameters (read_values.cpp) ----
@@ -53,15 +56,7 @@ class SceneReader {
   std::optional<ColorVolume> volume(const Node& node, ColorMeaning meaning);
   PhaseId add_phase(PhaseDescription phase);
   VolumeId add_volume(VolumeDescription volume);
-  /// What `read` returns; nothing, after an error at `where`, if it throws ReadError.
-  template <class Read>
-  std::optional<std::invoke_result_t<Read>> from_file(const SourceLocation& where, Read read);
-  /// The file read once; null after an error.
-  std::shared_ptr<const VolumeGrid> volume_grid(const std::string& file,
-                                                const SourceLocation& where, bool& is_float32);
   std::optional<uint32_t> shape_group(const Node& node);
-  std::shared_ptr<const TriangleMesh> mesh(const std::string& plugin, const std::string& file,
-                                           const MeshOptions& options, const SourceLocation& where);
   /// The library that an OBJ file in `file` names; null, after a warning or an error, if it cannot
   /// be read. `where` is the file's name in the scene.
   MaterialLibrary* material_library(const std::string& name, const std::string& file, Properties& p,
@@ -104,6 +99,7 @@ class SceneReader {
 
   const FileAccess& access_;
   Report& report_;
+  FileCache cache_;
   SceneDescription description_;
   /// Indices of the textures, materials and groups that have been read.
   std::unordered_map<const Node*, std::optional<uint32_t>> ids_;
@@ -115,8 +111,6 @@ class SceneReader {
   std::map<std::optional<float>, MaterialId> shared_materials_;
   /// Volumes that have been read, by the meaning that was asked for.
   std::map<std::pair<const Node*, ColorMeaning>, std::optional<ColorVolume>> volumes_;
-  std::map<std::string, std::shared_ptr<const VolumeFile>> volume_files_;
-  std::map<std::string, std::shared_ptr<const TriangleMesh>> meshes_;
   std::map<std::string, std::unique_ptr<MaterialLibrary>> libraries_;
 
   /// The index in `list` of what the plugin makes of `initial`; it is read once.
@@ -125,17 +119,6 @@ class SceneReader {
   /// Whether the plugin may be read now: it contains neither itself nor too many others.
   bool may_enter(const Node& node);
 };
-
-template <class Read>
-std::optional<std::invoke_result_t<Read>> SceneReader::from_file(const SourceLocation& where,
-                                                                 Read read) {
-  try {
-    return read();
-  } catch (const ReadError& error) {
-    report_.error(where, "{}", error.what());
-    return std::nullopt;
-  }
-}
 
 template <class T>
 bool SceneReader::read_into(const Node& node, T& result) {

@@ -1,7 +1,5 @@
 #include "mitsuba/scene_writer.h"
 
-#include <algorithm>
-
 #include "mitsuba/writer.h"
 
 namespace duet {
@@ -21,17 +19,9 @@ std::string commented(std::string_view text) {
 
 }  // namespace
 
-void SceneWriter::lose(std::string what) {
-  if (std::find(losses_.begin(), losses_.end(), what) == losses_.end())
-    losses_.push_back(std::move(what));
-}
-
 std::string SceneWriter::unique_id(const std::string& wanted, const std::string& otherwise) {
-  const bool usable = !wanted.empty() && wanted.find_first_of("$\\") == wanted.npos;
-  if (usable && ids_.insert(wanted).second) return wanted;
-  std::string id = otherwise;
-  for (int i = 1; !ids_.insert(id).second; ++i) id = fmt::format("{}_{}", otherwise, i);
-  return id;
+  const bool usable = wanted.find_first_of("$\\") == wanted.npos;
+  return ids_.take(usable ? wanted : "", otherwise);
 }
 
 void SceneWriter::name_things() {

@@ -1,12 +1,12 @@
 // The parts of writing a description; use writer.h.
 #pragma once
 
-#include <set>
 #include <string>
 #include <vector>
 
 #include "scene/description.h"
 #include "scene/texture_uses.h"
+#include "values/writing.h"
 #include "xml/xml_printer.h"
 
 namespace duet {
@@ -18,13 +18,13 @@ class SceneWriter {
       : d_(description), texture_uses_(texture_uses(description)) {}
   void write();
   const std::string& text() const { return out_.text(); }
-  const std::vector<std::string>& losses() const { return losses_; }
+  const std::vector<std::string>& losses() const { return losses_.list(); }
 
  private:
   void name_things();
   void material(const MaterialDescription& m, const std::string& id);
   std::string unique_id(const std::string& wanted, const std::string& otherwise);
-  void lose(std::string what);
+  void lose(std::string what) { losses_.add(std::move(what)); }
 
   void texture(size_t index);
   /// The texture; a checkerboard that yields numbers as Mitsuba 3, which exchanges them, has to say
@@ -32,13 +32,12 @@ class SceneWriter {
   TextureDescription exchanged(size_t index);
 
   // write_fields.cpp: the fields of a plugin; what has no name is nested or not written.
-  void fields(const MaterialModel& model);
-  template <HasFields T>
+  template <class T>
   void fields(const T& description);
   template <class M>
   void one_field(const FieldFacts& facts, const M& value);
   /// What is open is the plugin of that description: its fields and what is lost of it.
-  template <HasFields T>
+  template <class T>
   void plugin(std::string_view tag, const T& description);
   void color(std::string_view name, const ColorInput& input);
   void number(std::string_view name, const FloatInput& input);
@@ -104,8 +103,8 @@ class SceneWriter {
   const SceneDescription& d_;
   const std::vector<TextureUse> texture_uses_;
   XmlPrinter out_;
-  std::vector<std::string> losses_;
-  std::set<std::string> ids_;
+  Losses losses_;
+  UniqueNames ids_;
   std::vector<std::string> texture_ids_, material_ids_, medium_ids_, group_ids_;
 };
 
@@ -121,14 +120,14 @@ void SceneWriter::one_field(const FieldFacts& facts, const M& value) {
     field(facts, value);
 }
 
-template <HasFields T>
+template <class T>
 void SceneWriter::fields(const T& description) {
   for_each_field(description, [&](const FieldFacts& facts, const auto& value) {
     if (facts.given && !facts.unwritten && !facts.initial) one_field(facts, value);
   });
 }
 
-template <HasFields T>
+template <class T>
 void SceneWriter::plugin(std::string_view tag, const T& description) {
   fields(description);
   if constexpr (requires { T::kOnlyIn0x; })

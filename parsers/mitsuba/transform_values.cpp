@@ -8,10 +8,7 @@ namespace duet {
 namespace {
 
 /// Numbers are printed with few digits; the last row is exactly affine or not meant to be so.
-bool is_affine(const Matrix4& m) {
-  const auto& last = m[3];
-  return std::abs(last[0]) + std::abs(last[1]) + std::abs(last[2]) + std::abs(last[3] - 1) <= 1e-6;
-}
+constexpr double kFewDigits = 1e-6;
 
 /// One step of a <transform>: its matrix, or nothing after an error.
 class StepReader {
@@ -133,7 +130,7 @@ class StepReader {
     const size_t size = n->size() == 9 ? 3 : 4;
     Matrix4 m;
     for (size_t i = 0; i < n->size(); ++i) m[int(i / size)][i % size] = (*n)[i];
-    if (!c_.version.is_0x() && !is_affine(m)) {
+    if (!c_.version.is_0x() && !m.is_affine(kFewDigits)) {
       c_.report.warning(a_.where("value"),
                         "the last row {} {} {} {} of the matrix has no effect in Mitsuba 3: it is "
                         "taken to be 0 0 0 1",
@@ -164,7 +161,7 @@ PropertyValue read_transform(const ElementContext& c, pugi::xml_node element,
   }
   if (!good) return Broken{};
   const SourceLocation where = c.xml.where(element);
-  if (!is_affine(product)) {
+  if (!product.is_affine(kFewDigits)) {
     const auto& last = product[3];
     c.report.error(where, "the transform is not affine: its last row is {} {} {} {}, not 0 0 0 1",
                    last[0], last[1], last[2], last[3]);
@@ -181,13 +178,9 @@ PropertyValue read_transform(const ElementContext& c, pugi::xml_node element,
     return Broken{};
   }
   // Single precision must hold it as well.
-  for (int i = 0; i < 3; ++i)
-    for (int j = 0; j < 4; ++j)
-      if (!std::isfinite(float(product[i][j])) || !std::isfinite(float((*inverse)[i][j]))) {
-        c.report.error(where, "the transform or its inverse has numbers that are too large");
-        return Broken{};
-      }
-  return product;
+  if (product.fits_floats() && inverse->fits_floats()) return product;
+  c.report.error(where, "the transform or its inverse has numbers that are too large");
+  return Broken{};
 }
 
 Triple orthogonal_vector(const Triple& d, FileVersion version) {

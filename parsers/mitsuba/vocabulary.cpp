@@ -41,16 +41,6 @@ constexpr Parameter kShapeCommon[] = {
     {.name = "silhouette_sampling_weight", .type = number, .versions = v3, .support = inert}};
 constexpr Parameter kTimeout{"timeout", number, "-1", "", any, v3, ignored};
 
-/// Whether `name` is one of the words of `words`.
-bool has_word(std::string_view words, std::string_view name) {
-  while (!words.empty()) {
-    const size_t end = words.find(' ');
-    if (words.substr(0, end) == name) return true;
-    words = end == std::string_view::npos ? std::string_view() : words.substr(end + 1);
-  }
-  return false;
-}
-
 }  // namespace
 
 std::string_view tag_of(PluginKind kind) {
@@ -65,28 +55,6 @@ std::optional<PluginKind> kind_of_tag(std::string_view tag) {
 
 bool may_contain(PluginKind outer, PluginKind inner) {
   return has_word(kElements[size_t(outer)].contents, tag_of(inner));
-}
-
-std::string_view type_name(ParameterType type) {
-  constexpr std::string_view names[] = {"boolean",
-                                        "integer",
-                                        "float",
-                                        "string",
-                                        "point or vector",
-                                        "transform",
-                                        "file name",
-                                        "float or name of a material",
-                                        "texture",
-                                        "float or texture",
-                                        "colour or texture",
-                                        "colour or texture",
-                                        "colour or texture",
-                                        "volume",
-                                        "float or volume",
-                                        "colour or volume",
-                                        "colour or volume"};
-  static_assert(std::size(names) == size_t(ParameterType::coefficient) + 1);
-  return names[size_t(type)];
 }
 
 ParameterList inert_parameters(ParameterType type, std::string_view names, FileVersions versions) {
@@ -147,7 +115,7 @@ const ParameterList& common_parameters(PluginKind kind) {
 const Parameter* find_parameter(PluginKind kind, const Plugin& plugin, std::string_view name) {
   const auto find = [&](const auto& list) -> const Parameter* {
     for (const Parameter& p : list)
-      if (p.name == name || has_word(p.aliases, name)) return &p;
+      if (is_called(p, name)) return &p;
     return nullptr;
   };
   const Parameter* own = find(plugin.parameters);

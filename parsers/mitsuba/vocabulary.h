@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "scene/description.h"
+#include "scene/parameter_text.h"
 #include "values/color.h"
 
 namespace duet {
@@ -41,8 +42,6 @@ std::string_view tag_of(PluginKind kind);
 std::optional<PluginKind> kind_of_tag(std::string_view tag);
 /// Which plugins may stand inside others.
 bool may_contain(PluginKind outer, PluginKind inner);
-
-std::string_view type_name(ParameterType type);
 
 class SceneReader;
 class Properties;

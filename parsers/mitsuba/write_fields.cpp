@@ -94,13 +94,6 @@ void SceneWriter::medium(const MediumDescription& m, const std::string& id) {
   out_.close();
 }
 
-void SceneWriter::fields(const MaterialModel& model) {
-  model.for_each_field([&](const FieldFacts& facts, const FieldValue& value) {
-    if (facts.given && !facts.unwritten && !facts.initial)
-      with_value(value, [&](const auto& v) { one_field(facts, v); });
-  });
-}
-
 void SceneWriter::field(const FieldFacts& facts, double value) {
   out_.number(facts.name(), value);
   if (is_relative_index(facts)) out_.number("ext_ior", 1);

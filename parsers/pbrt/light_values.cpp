@@ -16,12 +16,10 @@ Spectrum scale_of(Values& v) {
 void scale_to_power(Values& v, Spectrum& scale, const BitmapTexture& image,
                     const std::function<double(const TextureTexels&)>& power) {
   if (!v.has("power")) return;
-  try {
-    const double own = power(read_texels(image));
-    if (own > 0) scale *= float(v.not_negative("power") / own);
-  } catch (const ReadError& e) {
-    v.reader().report().error(v.where("filename"), "{}", e.what());
-  }
+  const auto texels =
+      v.reader().report().from_file(v.where("filename"), [&] { return read_texels(image); });
+  const double own = texels ? power(*texels) : 0;
+  if (own > 0) scale *= float(v.not_negative("power") / own);
 }
 
 double mean_number(const TextureTexels& image) {

@@ -1,24 +1,8 @@
 #include "pbrt/scene_writer.h"
 
-#include <algorithm>
-
 #include "pbrt/writer.h"
 
 namespace duet::pbrt {
-
-void SceneWriter::lose(std::string what) {
-  if (std::find(losses_.begin(), losses_.end(), what) == losses_.end())
-    losses_.push_back(std::move(what));
-}
-
-std::string SceneWriter::unique_name(const std::string& wanted, std::string_view otherwise,
-                                     size_t index) {
-  if (!wanted.empty() && names_.insert(wanted).second) return wanted;
-  std::string name = fmt::format("{}{}", otherwise, index);
-  for (int i = 1; !names_.insert(name).second; ++i)
-    name = fmt::format("{}{}_{}", otherwise, index, i);
-  return name;
-}
 
 void SceneWriter::write() {
   for (size_t i = 0; i < d_.media.size(); ++i) medium(i);

@@ -12,6 +12,7 @@
 #include "pbrt/grid_cells.h"
 #include "pbrt/statement.h"
 #include "scene/description.h"
+#include "values/writing.h"
 
 namespace duet::pbrt {
 
@@ -23,11 +24,13 @@ class SceneWriter {
   void write();
   /// What comes before WorldBegin and what follows it.
   std::string text() const;
-  const std::vector<std::string>& losses() const { return losses_; }
+  const std::vector<std::string>& losses() const { return losses_.list(); }
 
  private:
-  void lose(std::string what);
-  std::string unique_name(const std::string& wanted, std::string_view otherwise, size_t index);
+  void lose(std::string what) { losses_.add(std::move(what)); }
+  std::string unique_name(const std::string& wanted, std::string_view otherwise, size_t index) {
+    return names_.take(wanted, fmt::format("{}{}", otherwise, index));
+  }
 
   // write_film.cpp
   void film(const SensorDescription& s, double exposure_time);
@@ -208,8 +211,8 @@ class SceneWriter {
   void place(std::string& out, const Matrix4& to_world, const Motion& motion);
 
   const SceneDescription& d_;
-  std::vector<std::string> losses_;
-  std::set<std::string> names_;
+  Losses losses_;
+  UniqueNames names_;
   std::map<std::pair<MaterialId, bool>, std::string> materials_;
   std::vector<std::string> media_names_, group_names_;
   std::set<std::pair<TextureId, bool>> textures_;

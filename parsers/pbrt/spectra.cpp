@@ -5,6 +5,7 @@
 
 #include "pbrt/lexer.h"
 #include "values/ior.h"
+#include "values/spectrum_text.h"
 
 namespace duet::pbrt {
 
@@ -219,15 +220,12 @@ std::optional<std::vector<SpectrumSample>> spectrum_samples(const std::vector<do
         fmt::format("a spectrum is pairs of wavelength and value, not {} numbers", numbers.size());
     return std::nullopt;
   }
-  for (size_t i = 0; i < numbers.size(); i += 2) {
-    if (i > 0 && !(numbers[i] > numbers[i - 2])) {
-      why = fmt::format("the wavelengths of a spectrum must increase: {} comes after {}",
-                        numbers[i], numbers[i - 2]);
-      return std::nullopt;
-    }
-    samples.push_back({numbers[i], numbers[i + 1]});
-  }
-  return samples;
+  for (size_t i = 0; i < numbers.size(); i += 2) samples.push_back({numbers[i], numbers[i + 1]});
+  const size_t i = first_not_increasing(samples);
+  if (i == 0) return samples;
+  why = fmt::format("the wavelengths of a spectrum must increase: {} comes after {}",
+                    samples[i].wavelength, samples[i - 1].wavelength);
+  return std::nullopt;
 }
 
 std::vector<SpectrumSample> read_spectrum_file(const std::string& path) {

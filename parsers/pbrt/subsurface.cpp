@@ -45,13 +45,10 @@ constexpr Spec kKdSubsurface[] = {{"Kd", kColorTexture, "0.5", "of a thick layer
 /// The texels of a texture that is an image; nothing, with an error, for any other.
 std::optional<TextureTexels> texels_of(Values& v, const char* name, TextureId id) {
   const TextureDescription& t = v.reader().scene().textures[size_t(id)];
-  try {
-    if (const auto* image = std::get_if<BitmapTexture>(&t.model)) return read_texels(*image);
-    v.reader().report().error(v.where(name), "of the textures of \"{}\", only images are supported",
-                              name);
-  } catch (const ReadError& e) {
-    v.reader().report().error(v.where(name), "{}", e.what());
-  }
+  Report& report = v.reader().report();
+  if (const auto* image = std::get_if<BitmapTexture>(&t.model))
+    return report.from_file(v.where(name), [&] { return read_texels(*image); });
+  report.error(v.where(name), "of the textures of \"{}\", only images are supported", name);
   return std::nullopt;
 }
 

@@ -173,7 +173,8 @@ void SceneWriter::shape(const ShapeDescription& s, bool in_group) {
     return;
   }
   if (std::holds_alternative<SdfGridShape>(s.geometry) ||
-      std::holds_alternative<HeightFieldShape>(s.geometry))
+      std::holds_alternative<HeightFieldShape>(s.geometry) ||
+      std::holds_alternative<ForeignShape>(s.geometry))
     return lose(
         fmt::format("a shape is missing: pbrt-v4 has no \"{}\"",
                     std::visit([](const auto& g) { return std::string(g.name()); }, s.geometry)));

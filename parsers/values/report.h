@@ -2,8 +2,10 @@
 #pragma once
 
 #include <algorithm>
+#include <optional>
 #include <set>
 #include <string>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -60,6 +62,17 @@ class Report {
     for (const auto& [key, value] : names) keys.push_back(key);
     std::sort(keys.begin(), keys.end());
     return keys;
+  }
+
+  /// What `read` returns; nothing, after an error at `where`, if it throws ReadError.
+  template <class Read>
+  std::optional<std::invoke_result_t<Read>> from_file(const SourceLocation& where, Read read) {
+    try {
+      return read();
+    } catch (const ReadError& e) {
+      error(where, "{}", e.what());
+      return std::nullopt;
+    }
   }
 
   /// Says how many messages were held back; `file` names the scene.

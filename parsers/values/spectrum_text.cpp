@@ -23,6 +23,12 @@ std::optional<std::array<double, 3>> parse_hex_color(std::string_view text) {
   return color;
 }
 
+size_t first_not_increasing(std::span<const SpectrumSample> samples) {
+  for (size_t i = 1; i < samples.size(); ++i)
+    if (!(samples[i - 1].wavelength < samples[i].wavelength)) return i;
+  return 0;
+}
+
 std::vector<SpectrumSample> parse_spectrum_lines(std::string_view text, const std::string& file) {
   std::vector<SpectrumSample> samples;
   int line_number = 0;

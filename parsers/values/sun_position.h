@@ -2,16 +2,38 @@
 #pragma once
 
 #include <array>
+#include <tuple>
+
+#include "scene/description.h"
 
 namespace duet {
 
 struct SunTime {
   int year = 2010, month = 7, day = 10;
   double hour = 15, minute = 0, second = 0;  ///< of the time zone
+  static constexpr auto fields() {
+    using namespace parameter_words;
+    using T = SunTime;
+    return std::tuple(field(&T::year, Parameter{"year", integer, kInitial}),
+                      field(&T::month, Parameter{"month", integer, kInitial}),
+                      field(&T::day, Parameter{"day", integer, kInitial}),
+                      field(&T::hour, Parameter{"hour", number, kInitial, "of the time zone"}),
+                      field(&T::minute, Parameter{"minute", number, kInitial}),
+                      field(&T::second, Parameter{"second", number, kInitial}));
+  }
 };
 struct SunPlace {
   double latitude = 35.6894, longitude = 139.6917;  ///< degrees, north and east
   double timezone = 9;                              ///< hours ahead of universal time
+  static constexpr auto fields() {
+    using namespace parameter_words;
+    using P = SunPlace;
+    return std::tuple(
+        field(&P::latitude, Parameter{"latitude", number, kInitial, "degrees north"}),
+        field(&P::longitude, Parameter{"longitude", number, kInitial, "degrees east"}),
+        field(&P::timezone,
+              Parameter{"timezone", number, kInitial, "hours ahead of universal time"}));
+  }
 };
 
 /// Angles in radians: from the zenith, and clockwise from north.

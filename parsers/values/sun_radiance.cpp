@@ -83,4 +83,16 @@ Spectrum sun_irradiance_0x(double turbidity, double zenith) {
   return spectrum_to_rgb(radiance, ColorMeaning::emission) * float(solid_angle);
 }
 
+SunDisk sun_disk_0x(const std::array<double, 3>& sun, double turbidity, double stretch) {
+  const auto& [x, y, z] = sun;
+  const double across = std::hypot(x, y), zenith = std::atan2(across, z);
+  SunDisk disk;
+  disk.irradiance = sun_irradiance_0x(turbidity, zenith);
+  if (across > 0) {
+    const double r = std::sin(zenith * stretch) / across;
+    disk.direction = {x * r, y * r, std::cos(zenith * stretch)};
+  }
+  return disk;
+}
+
 }  // namespace duet

@@ -1,7 +1,10 @@
 // How bright the sun of Mitsuba 0.x is.
 #pragma once
 
+#include <array>
+
 #include "math/spectrum.h"
+#include "scene/description.h"
 
 namespace duet {
 
@@ -15,5 +18,9 @@ inline constexpr double kSunAperture0x = 0.5358;
 /// Source: Preetham, Shirley & Smits, "A Practical Analytic Model for Daylight", SIGGRAPH 1999,
 /// appendix 1, with water vapour of 2 cm and 0.35 cm of ozone.
 Spectrum sun_irradiance_0x(double turbidity, double zenith);
+
+/// The disk of the sun in the direction `sun`, which is drawn away from the zenith like the sky is
+/// (z is up); its brightness is that of the true place.
+SunDisk sun_disk_0x(const std::array<double, 3>& sun, double turbidity, double stretch);
 
 }  // namespace duet

@@ -1,7 +1,7 @@
 // The most frequent material, bound without the machinery of all others.
 #pragma once
 
-#include "materials/bsdf.h"
+#include "materials/material.h"
 #include "textures/texture.h"
 
 namespace duet {

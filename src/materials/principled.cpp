@@ -1,6 +1,6 @@
 #include "materials/principled.h"
 
-#include "materials/materials.h"
+#include "materials/principled_materials.h"
 
 namespace duet {
 

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <vector>
 
-#include "materials/bsdf.h"
+#include "materials/material.h"
 #include "textures/texture.h"
 
 namespace duet {

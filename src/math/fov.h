@@ -21,4 +21,11 @@ inline double horizontal_fov(double fov, FovAxis axis, double aspect) {
   return 2 * std::atan(half_width) / kRadians;
 }
 
+/// The diagonal field of view in degrees of a lens of that many millimetres before 36 mm × 24 mm
+/// film.
+inline double diagonal_fov(double focal_length) {
+  const double diagonal = std::sqrt(36.0 * 36 + 24 * 24);
+  return 2 * std::atan(diagonal / (2 * focal_length)) * kDegrees;
+}
+
 }  // namespace duet

@@ -21,8 +21,26 @@ bool Matrix4::is_finite() const {
   return true;
 }
 
-bool Matrix4::is_affine() const {
-  return m[3] == std::array<double, 4>{0, 0, 0, 1};
+bool Matrix4::fits_floats() const {
+  for (const auto& row : m)
+    for (double v : row)
+      if (!std::isfinite(float(v))) return false;
+  return true;
+}
+
+bool Matrix4::is_affine(double tolerance) const {
+  const auto& [x, y, z, w] = m[3];
+  return std::abs(x) + std::abs(y) + std::abs(z) + std::abs(w - 1) <= tolerance;
+}
+
+bool Matrix4::is_rigid() const {
+  constexpr double tolerance = 1e-3;
+  for (size_t i = 0; i < 3; ++i)
+    for (size_t j = i; j < 3; ++j) {
+      const double product = m[i][0] * m[j][0] + m[i][1] * m[j][1] + m[i][2] * m[j][2];
+      if (std::abs(product - (i == j ? 1 : 0)) > tolerance) return false;
+    }
+  return true;
 }
 
 double Matrix4::determinant3() const {

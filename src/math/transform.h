@@ -18,8 +18,12 @@ struct Matrix4 {
   std::array<double, 4>& operator[](int i) { return m[i]; }
   const std::array<double, 4>& operator[](int i) const { return m[i]; }
   bool is_finite() const;
-  /// True if the last row is (0 0 0 1).
-  bool is_affine() const;
+  /// True if single precision can hold all numbers.
+  bool fits_floats() const;
+  /// True if the last row is (0 0 0 1); its numbers may be off by `tolerance` in all.
+  bool is_affine(double tolerance = 0) const;
+  /// True if lengths and angles stay as they are, up to some digits of a file.
+  bool is_rigid() const;
   /// Determinant of the upper left 3×3 block.
   double determinant3() const;
   /// Where it takes a direction or difference of points.

@@ -54,10 +54,8 @@ std::shared_ptr<TriangleMesh> SceneBuilder::world_mesh(ShapeDescription& d) {
     else
       mesh = std::make_shared<TriangleMesh>(*shape->mesh);
     shape->mesh.reset();
-  } else if (std::holds_alternative<CubeShape>(d.geometry)) {
-    mesh = std::make_shared<TriangleMesh>(make_cube());
   } else {
-    mesh = std::make_shared<TriangleMesh>(make_rectangle());
+    mesh = std::make_shared<TriangleMesh>(*own_triangles(d));
   }
   transform_mesh(*mesh, d.to_world);
   // Embree may read 4 bytes beyond the last vertex.

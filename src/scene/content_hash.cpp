@@ -149,11 +149,10 @@ class Hasher {
       if (facts.names_data) return add_file(value);
     if (facts.compared && facts.given) add(value);
   }
-  void add(const MaterialModel& model) {
+  template <class Operations>
+  void add(const Model<Operations>& model) {
     add(model.name());
-    model.for_each_field([&](const FieldFacts& facts, const FieldValue& value) {
-      with_value(value, [&](const auto& v) { field(facts, v); });
-    });
+    for_each_field(model, [&](const FieldFacts& f, const auto& value) { field(f, value); });
   }
   /// `group` is a number, too.
   void add(const InstanceShape& i) { add_once(&scene_.groups[i.group]); }

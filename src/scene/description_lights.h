@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <concepts>
 #include <memory>
 #include <optional>
 #include <string>
@@ -13,6 +14,7 @@
 #include "scene/description_base.h"
 #include "scene/emission_parameters.h"
 #include "scene/fov_fields.h"
+#include "scene/model.h"
 
 namespace duet {
 
@@ -22,6 +24,9 @@ struct LightDescription;
 struct SceneFeatures;
 using LightPointer = std::unique_ptr<Light>;
 
+/// What of a light's transform says where it is.
+enum class LightPose { none, place, direction, both };
+
 // What is known of a light stands in its struct, as for textures (description_textures.h);
 // count() counts it among what decides which method suits a scene. Several environments add up,
 // which Mitsuba has no way to say.
@@ -30,9 +35,10 @@ using LightPointer = std::unique_ptr<Light>;
 struct PointLight {
   Spectrum intensity{1.0f};
   static constexpr auto fields() {
-    return FieldList(field(&PointLight::intensity, parameter_words::kIntensity));
+    return FieldList(field(&PointLight::intensity, parameter_words::kIntensity).shown(": "));
   }
   static constexpr const char* name() { return "point"; }
+  static constexpr LightPose kPose = LightPose::place;
   void count(SceneFeatures& f) const;
   LightPointer build(SceneBuilder& b, const LightDescription& d) const;
 };
@@ -90,18 +96,21 @@ struct ProjectorLight {
 struct DirectionalLight {
   Spectrum irradiance{1.0f};
   static constexpr auto fields() {
-    return FieldList(field(&DirectionalLight::irradiance, parameter_words::kIrradiance));
+    return FieldList(
+        field(&DirectionalLight::irradiance, parameter_words::kIrradiance).shown(": "));
   }
   static constexpr const char* name() { return "directional"; }
+  static constexpr LightPose kPose = LightPose::direction;
   void count(SceneFeatures& f) const;
   LightPointer build(SceneBuilder& b, const LightDescription& d) const;
 };
 struct ConstantLight {
   Spectrum radiance{1.0f};
   static constexpr auto fields() {
-    return FieldList(field(&ConstantLight::radiance, parameter_words::kRadiance));
+    return FieldList(field(&ConstantLight::radiance, parameter_words::kRadiance).shown(": "));
   }
   static constexpr const char* name() { return "constant"; }
+  static constexpr LightPose kPose = LightPose::none;
   static constexpr bool kIsEnvironment = true;
   void count(SceneFeatures& f) const;
   LightPointer build(SceneBuilder& b, const LightDescription& d) const;
@@ -203,9 +212,11 @@ struct CollimatedLight {
     using namespace parameter_words;
     using enum ParameterType;
     return FieldList(
-        field(&CollimatedLight::power, Parameter{"power", emission, kInitial, "in watts"}));
+        field(&CollimatedLight::power, Parameter{"power", emission, kInitial, "in watts"})
+            .shown(": "));
   }
   static constexpr const char* name() { return "collimated"; }
+  static constexpr LightPose kPose = LightPose::both;
   static constexpr bool kOnlyIn0x = true;
   void count(SceneFeatures& f) const;
   LightPointer build(SceneBuilder& b, const LightDescription& d) const;
@@ -218,14 +229,56 @@ struct GoniometricLight {
   static constexpr auto fields() {
     using enum ParameterType;
     using L = GoniometricLight;
-    return FieldList(
-        field(&L::file, Parameter{.name = "filename", .type = ParameterType::file}).names_data(),
-        field(&L::scale));
+    return FieldList(field(&L::file, Parameter{.name = "filename", .type = ParameterType::file})
+                         .names_data()
+                         .shown(": "),
+                     field(&L::scale).shown(", scale "));
   }
   static constexpr const char* name() { return "goniometric"; }
+  static constexpr LightPose kPose = LightPose::both;
   static constexpr bool kOnlyIn0x = true;
   void count(SceneFeatures& f) const;
   LightPointer build(SceneBuilder& b, const LightDescription& d) const;
+};
+
+/// What the struct of a light must have besides its fields and its name. It may also have kPose,
+/// kIsEnvironment and losses(). After an error that build() has reported it returns null.
+template <class T>
+concept LightData = PluginData<T> &&
+    requires(const T& light, SceneBuilder& builder, const LightDescription& d, SceneFeatures& f) {
+  { light.build(builder, d) } -> std::same_as<LightPointer>;
+  light.count(f);
+};
+struct LightOperations {
+  LightPointer (*build)(const void*, SceneBuilder&, const LightDescription&);
+  void (*count)(const void*, SceneFeatures&);
+  std::vector<std::string> (*losses)(const void*);
+  LightPose pose;
+  bool is_environment;
+
+  template <LightData T>
+  static constexpr LightOperations of() {
+    LightOperations o{[](const void* t, SceneBuilder& builder, const LightDescription& d) {
+                        return static_cast<const T*>(t)->build(builder, d);
+                      },
+                      [](const void* t, SceneFeatures& f) { static_cast<const T*>(t)->count(f); },
+                      [](const void*) { return std::vector<std::string>(); }, LightPose::both,
+                      false};
+    if constexpr (requires(const T& light) { light.losses(); })
+      o.losses = [](const void* t) { return static_cast<const T*>(t)->losses(); };
+    if constexpr (requires { T::kPose; }) o.pose = T::kPose;
+    if constexpr (requires { T::kIsEnvironment; }) o.is_environment = T::kIsEnvironment;
+    return o;
+  }
+};
+/// A light of any other plugin: whoever has a struct with a record has a light.
+class ForeignLight : public Model<LightOperations> {
+ public:
+  using Model::Model;
+  LightPointer build(SceneBuilder& b, const LightDescription& d) const;
+  void count(SceneFeatures& f) const { operations().count(data(), f); }
+  std::vector<std::string> losses() const { return operations().losses(data()); }
+  bool is_environment() const { return operations().is_environment; }
 };
 
 /// A rectangle in the world, whatever the light's transform is, by its corners in order: only what
@@ -240,7 +293,7 @@ struct LightDescription {
   SourceLocation where;
   Label label;
   std::variant<PointLight, SpotLight, ProjectorLight, DirectionalLight, ConstantLight,
-               EnvironmentMapLight, SkyLight, CollimatedLight, GoniometricLight>
+               EnvironmentMapLight, SkyLight, CollimatedLight, GoniometricLight, ForeignLight>
       model;
   Matrix4 to_world;
   Motion motion;  ///< as in ShapeDescription; environments only turn
@@ -259,10 +312,13 @@ struct LightDescription {
 
 /// Whether the light surrounds the scene.
 inline bool is_environment(const LightDescription& light) {
-  const auto surrounds = []<class T>(const T&) {
-    return requires {
-      T::kIsEnvironment;
-    };
+  const auto surrounds = []<class T>(const T& model) {
+    if constexpr (requires { model.is_environment(); })
+      return model.is_environment();
+    else
+      return requires {
+        T::kIsEnvironment;
+      };
   };
   return std::visit(surrounds, light.model);
 }

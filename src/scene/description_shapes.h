@@ -1,6 +1,7 @@
 // Shapes as plain data.
 #pragma once
 
+#include <concepts>
 #include <memory>
 #include <optional>
 #include <string>
@@ -15,6 +16,7 @@
 #include "math/transform.h"
 #include "scene/description_base.h"
 #include "scene/emission_parameters.h"
+#include "scene/model.h"
 
 namespace duet {
 
@@ -40,14 +42,22 @@ struct MeshShape {
   MeshSource source;
   static constexpr auto fields() { return plain_fields(&MeshShape::mesh, &MeshShape::source); }
   const std::string& name() const { return source.plugin; }
+  const std::shared_ptr<const TriangleMesh>& triangles() const { return mesh; }
 };
+// A shape that is made of triangles has them in its own space: triangles().
 struct RectangleShape {
   static constexpr auto fields() { return FieldList(); }
   static constexpr const char* name() { return "rectangle"; }
+  static std::shared_ptr<const TriangleMesh> triangles() {
+    return std::make_shared<TriangleMesh>(make_rectangle());
+  }
 };
 struct CubeShape {
   static constexpr auto fields() { return FieldList(); }
   static constexpr const char* name() { return "cube"; }
+  static std::shared_ptr<const TriangleMesh> triangles() {
+    return std::make_shared<TriangleMesh>(make_cube());
+  }
 };
 /// Unit shapes; a centre, radius or end points are part of `to_world`.
 struct SphereShape {
@@ -139,6 +149,27 @@ struct InstanceShape {
   static constexpr const char* name() { return "instance"; }
 };
 
+/// What the struct of a shape must have besides its fields and its name.
+template <class T>
+concept ShapeData = PluginData<T> && requires(const T& shape) {
+  { shape.triangles() } -> std::convertible_to<std::shared_ptr<const TriangleMesh>>;
+};
+struct ShapeOperations {
+  std::shared_ptr<const TriangleMesh> (*triangles)(const void*);
+  template <ShapeData T>
+  static constexpr ShapeOperations of() {
+    return {[](const void* t) -> std::shared_ptr<const TriangleMesh> {
+      return static_cast<const T*>(t)->triangles();
+    }};
+  }
+};
+/// A shape of any other plugin: whoever has a struct with a record, and triangles, has a shape.
+class ForeignShape : public Model<ShapeOperations> {
+ public:
+  using Model::Model;
+  std::shared_ptr<const TriangleMesh> triangles() const { return operations().triangles(data()); }
+};
+
 /// Radiance of a surface that emits.
 struct AreaEmission {
   SourceLocation where;
@@ -165,7 +196,7 @@ struct ShapeDescription {
   SourceLocation where;
   Label label;
   std::variant<MeshShape, RectangleShape, CubeShape, SphereShape, DiskShape, CylinderShape,
-               InstanceShape, SdfGridShape, CurvesShape, HeightFieldShape>
+               InstanceShape, SdfGridShape, CurvesShape, HeightFieldShape, ForeignShape>
       geometry;
   Matrix4 to_world;
   Motion motion;  ///< of what `to_world` has placed
@@ -183,6 +214,18 @@ struct ShapeDescription {
                         &ShapeDescription::interior, &ShapeDescription::exterior);
   }
 };
+
+/// The triangles of a shape that is made of them, in its own space; null for any other.
+inline std::shared_ptr<const TriangleMesh> own_triangles(const ShapeDescription& shape) {
+  return std::visit(
+      [](const auto& g) -> std::shared_ptr<const TriangleMesh> {
+        if constexpr (requires { g.triangles(); })
+          return g.triangles();
+        else
+          return nullptr;
+      },
+      shape.geometry);
+}
 
 struct ShapeGroupDescription {
   SourceLocation where;

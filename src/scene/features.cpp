@@ -101,12 +101,8 @@ class Survey {
       ++features_.area_lights;
       features_.textured_area_lights += std::holds_alternative<TextureId>(s.emission->radiance);
     }
-    if (const auto* mesh = std::get_if<MeshShape>(&s.geometry))
-      add_mesh(*mesh->mesh, s.to_world, bounds);
-    else if (std::holds_alternative<RectangleShape>(s.geometry))
-      add_mesh(make_rectangle(), s.to_world, bounds);
-    else if (std::holds_alternative<CubeShape>(s.geometry))
-      add_mesh(make_cube(), s.to_world, bounds);
+    if (const auto mesh = own_triangles(s))
+      add_mesh(*mesh, s.to_world, bounds);
     else if (std::holds_alternative<HeightFieldShape>(s.geometry))
       add_height_field(s.to_world, bounds);
     else if (const auto* tubes = std::get_if<CurvesShape>(&s.geometry)) {

@@ -204,6 +204,7 @@ bool same_value(const std::shared_ptr<const M>& a, const std::shared_ptr<const M
 
 /// Calls visit(const FieldFacts&, value) with each field, in their order. `value` may be const.
 template <class Value, class Visit>
+requires HasFields<std::remove_const_t<Value>>
 void for_each_field(Value& value, Visit&& visit) {
   using T = std::remove_const_t<Value>;
   const auto one = [&](const auto& field) {

@@ -29,8 +29,8 @@ using FieldValue =
     std::variant<Choice, const bool*, const double*, const std::optional<double>*,
                  const std::string*, const ColorInput*, const std::optional<ColorInput>*,
                  const FloatInput*, const Roughness*, const std::optional<Roughness>*,
-                 const MaterialId*, const MaterialShares*,
-                 const std::shared_ptr<const MeasuredTable>*>;
+                 const Spectrum*, const int*, const std::optional<TextureId>*, const MaterialId*,
+                 const MaterialShares*, const std::shared_ptr<const MeasuredTable>*>;
 
 /// Called with each field of something.
 using FieldVisit = std::function<void(const FieldFacts&, const FieldValue&)>;

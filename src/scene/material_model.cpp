@@ -2,7 +2,7 @@
 
 #include <set>
 
-#include "materials/bsdf.h"
+#include "materials/material.h"
 #include "scene/description.h"
 
 namespace duet {

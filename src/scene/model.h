@@ -78,4 +78,12 @@ class Model {
   std::shared_ptr<const void> plugin_;
 };
 
+/// Calls visit(const FieldFacts&, value) with each field, as for a struct.
+template <class Operations, class Visit>
+void for_each_field(const Model<Operations>& model, Visit&& visit) {
+  model.for_each_field([&](const FieldFacts& facts, const FieldValue& value) {
+    with_value(value, [&](const auto& v) { visit(facts, v); });
+  });
+}
+
 }  // namespace duet

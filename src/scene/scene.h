@@ -10,7 +10,7 @@
 #include "geometry/surface.h"
 #include "lights/direct_picker.h"
 #include "lights/light.h"
-#include "materials/bsdf.h"
+#include "materials/material.h"
 #include "media/medium.h"
 #include "scene/features.h"
 #include "textures/texture.h"

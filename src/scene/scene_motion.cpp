@@ -9,16 +9,6 @@ namespace duet {
 
 namespace {
 
-/// The mesh of a shape that has one, in its own space.
-std::shared_ptr<const TriangleMesh> own_mesh(const ShapeDescription& d) {
-  if (const auto* mesh = std::get_if<MeshShape>(&d.geometry)) return mesh->mesh;
-  if (std::holds_alternative<RectangleShape>(d.geometry))
-    return std::make_shared<TriangleMesh>(make_rectangle());
-  if (std::holds_alternative<CubeShape>(d.geometry))
-    return std::make_shared<TriangleMesh>(make_cube());
-  return nullptr;
-}
-
 /// Makes a shape the only one of a group, and an instance of it what stands in the scene.
 void make_instance_of(ShapeDescription& shape, SceneDescription& description) {
   ShapeDescription instance;
@@ -52,7 +42,7 @@ std::vector<Mover> take_movers(SceneDescription& description, size_t sensor) {
       continue;
     }
     take(Mover::Kind::shape, shapes++, s);
-    if (moves(s)) movers.back().mesh = own_mesh(s);
+    if (moves(s)) movers.back().mesh = own_triangles(s);
   }
   for (const LightDescription& light : description.lights)
     take(Mover::Kind::light, lights++, light);

@@ -17,15 +17,9 @@ class Marker {
     (input(inputs), ...);
   }
 
-  void model(const MaterialModel& m) {
-    m.for_each_field([&](const FieldFacts&, const FieldValue& value) {
-      with_value(value, [&](const auto& v) { input(v); });
-    });
-  }
-
-  template <HasFields T>
-  void model(const T& light) {
-    for_each_field(light, [&](const FieldFacts&, const auto& value) { input(value); });
+  template <class T>
+  void model(const T& plugin) {
+    for_each_field(plugin, [&](const FieldFacts&, const auto& value) { input(value); });
   }
 
  private:
@@ -76,8 +70,7 @@ std::vector<TextureUse> texture_uses(const SceneDescription& scene) {
   for (const LightDescription& l : scene.lights) std::visit(model, l.model);
   const auto shape = [&](const ShapeDescription& s) {
     if (s.emission) marker.mark(s.emission->radiance);
-    if (const auto* field = std::get_if<HeightFieldShape>(&s.geometry))
-      marker.mark(ColorInput(field->heights));
+    std::visit(model, s.geometry);
   };
   for_each_shape(scene, shape);
   for (const SensorDescription& s : scene.sensors)

@@ -3,6 +3,7 @@
 #include "materials/coating.h"
 #include "materials/layered_material.h"
 #include "materials/pbrt_materials.h"
+#include "materials/principled_materials.h"
 #include "materials/special_materials.h"
 
 #include <fstream>

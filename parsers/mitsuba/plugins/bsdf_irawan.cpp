@@ -43,7 +43,7 @@ void read_irawan(SceneReader& s, Properties& p, MaterialDescription& out) {
   if (path.empty()) return;
   WardMaterial m;
   m.alpha_u = m.alpha_v = kClothRoughness;
-  const auto weave = s.from_file(p.where("filename"), [&] {
+  const auto weave = s.report().from_file(p.where("filename"), [&] {
     const auto text = s.files().read(path);
     if (!text) throw ReadError(path + ": cannot be read");
     return parse_weave(*text, path);

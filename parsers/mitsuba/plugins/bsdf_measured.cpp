@@ -8,7 +8,8 @@ namespace {
 void read_measured(SceneReader& s, Properties& p, MaterialDescription& out) {
   const std::string file = s.file(p, "filename");
   if (file.empty()) return;
-  if (auto table = s.from_file(p.where("filename"), [&] { return s.files().read_measured(file); }))
+  if (auto table =
+          s.report().from_file(p.where("filename"), [&] { return s.files().read_measured(file); }))
     out.model = MeasuredMaterial{std::make_shared<MeasuredTable>(std::move(*table)), file};
 }
 

@@ -1,10 +1,8 @@
 // Sun and sky of both Mitsubas.
-#include <cmath>
-#include <numbers>
 #include <span>
 
-#include "mitsuba/plugins/emitters.h"
 #include "mitsuba/plugins/plugin.h"
+#include "mitsuba/plugins/tables.h"
 #include "values/sun_position.h"
 #include "values/sun_radiance.h"
 
@@ -17,19 +15,16 @@ constexpr const char* kTimeAndPlace[] = {"year",   "month",    "day",       "hou
 /// Those that 0.x refuses beside a direction; the others have no effect there.
 constexpr const char* kDayAndPlace[] = {"day", "latitude", "longitude", "timezone"};
 
-SunPlace read_place(Properties& p) {
-  return {p.number("latitude"), p.number("longitude"), p.number("timezone")};
+SunPlace read_place(SceneReader& s, Properties& p) {
+  SunPlace place;
+  read_values(s, p, place);
+  return place;
 }
 
-SunAngles read_time_and_place(Properties& p) {
+SunAngles read_time_and_place(SceneReader& s, Properties& p) {
   SunTime time;
-  time.year = p.integer("year");
-  time.month = p.integer("month");
-  time.day = p.integer("day");
-  time.hour = p.number("hour");
-  time.minute = p.number("minute");
-  time.second = p.number("second");
-  return sun_angles(time, read_place(p));
+  read_values(s, p, time);
+  return sun_angles(time, read_place(s, p));
 }
 
 double limited(Properties& p, std::string_view name, double value, double least, double most) {
@@ -100,26 +95,12 @@ void read_0x(SceneReader& s, Properties& p, SkyLight& sky, LightDescription& out
   if (const auto given = given_direction(p)) {
     y_up_sun = seen_from_sky(*given, out.to_world);
   } else {
-    y_up_sun = sun_direction_0x(read_time_and_place(p));
+    y_up_sun = sun_direction_0x(read_time_and_place(s, p));
   }
   sky.sun = {y_up_sun[0], -y_up_sun[2], y_up_sun[1]};
   if (sky.sun[2] < 0) s.report().error(p.node().where, "the sun is below the horizon");
   out.to_world = out.to_world * y_up();
   read_weight(p, out);
-}
-
-/// The disk of 0.x, which is stretched away from the zenith like the sky; its brightness is that of
-/// the true place.
-SunDisk sun_disk(const SkyLight& sky, double stretch) {
-  const auto& [x, y, z] = sky.sun;
-  const double across = std::hypot(x, y), zenith = std::atan2(across, z);
-  SunDisk disk;
-  disk.irradiance = sun_irradiance_0x(sky.turbidity, zenith);
-  if (across > 0) {
-    const double r = std::sin(zenith * stretch) / across;
-    disk.direction = {x * r, y * r, std::cos(zenith * stretch)};
-  }
-  return disk;
 }
 
 /// A sun without a size, seen from the world; `to_world` is the sky's.
@@ -159,7 +140,7 @@ void read_sun(SceneReader& s, Properties& p, LightDescription& out) {
   read_0x(s, p, sky, out);
   sky.sky_scale = 0;
   sky.sun_scale = p.number("scale");
-  sky.disk = sun_disk(sky, limited(p, "stretch", p.number("stretch"), 1, 2));
+  sky.disk = sun_disk_0x(sky.sun, sky.turbidity, limited(p, "stretch", p.number("stretch"), 1, 2));
   if (const auto aperture = read_sun_aperture(p)) {
     sky.sun_aperture = *aperture;
     out.model = sky;
@@ -175,7 +156,7 @@ void read_sunsky_0x(SceneReader& s, Properties& p, LightDescription& out) {
   const double scale = p.number("scale");
   if (!p.has("sky_scale")) sky.sky_scale = scale;
   if (!p.has("sun_scale")) sky.sun_scale = scale;
-  sky.disk = sun_disk(sky, sky.stretch);
+  sky.disk = sun_disk_0x(sky.sun, sky.turbidity, sky.stretch);
   if (const auto aperture = read_sun_aperture(p)) {
     sky.sun_aperture = *aperture;
   } else {
@@ -195,7 +176,7 @@ void read_sunsky(SceneReader& s, Properties& p, LightDescription& out) {
   if (const auto given = given_direction(p)) {
     sky.sun = seen_from_sky(*given, out.to_world);
   } else {
-    sky.sun = sun_direction_3x(read_time_and_place(p));
+    sky.sun = sun_direction_3x(read_time_and_place(s, p));
   }
   warn_below_horizon(s, p, sky);
   out.model = sky;
@@ -211,7 +192,7 @@ void read_timed_sunsky(SceneReader& s, Properties& p, LightDescription& out) {
   time.month = p.integer("start_month");
   time.day = p.integer("start_day");
   time.hour = limited(p, "window_start_time", p.number("window_start_time"), 0, 24);
-  sky.sun = sun_direction_3x(sun_angles(time, read_place(p)));
+  sky.sun = sun_direction_3x(sun_angles(time, read_place(s, p)));
   s.approximate_loudly(p.node().where,
                        "nothing moves: the sun stands where it is at the start of the time");
   warn_below_horizon(s, p, sky);
@@ -219,13 +200,6 @@ void read_timed_sunsky(SceneReader& s, Properties& p, LightDescription& out) {
 }
 
 constexpr Parameter kToWorld{"to_world", transform};
-constexpr Parameter kTime[] = {
-    {"year", integer, "2010"}, {"month", integer, "7"},
-    {"day", integer, "10"},    {"hour", number, "15", "of the time zone"},
-    {"minute", number, "0"},   {"second", number, "0"}};
-constexpr Parameter kPlace[] = {{"latitude", number, "35.6894", "degrees north"},
-                                {"longitude", number, "139.6917", "degrees east"},
-                                {"timezone", number, "9", "hours ahead of universal time"}};
 constexpr Parameter kComplexSun{"complex_sun", boolean, "false",     "as if it were false",
                                 any,           v3,      approximated};
 constexpr Parameter kSunRadiusScale{
@@ -244,6 +218,7 @@ constexpr Parameter kStart[] = {
 
 std::vector<Plugin> skies() {
   const auto of_sky = [](std::string_view name) { return parameter<SkyLight>(name); };
+  const ParameterList time(parameters_of<SunTime>()), place(parameters_of<SunPlace>());
   const ParameterList air(of_sky("turbidity"), of_sky("albedo"));
   const ParameterList below(of_sky("stretch"), of_sky("extend"));
   const ParameterList scales(of_sky("sun_scale"), of_sky("sky_scale"), of_sky("sun_aperture"),
@@ -252,22 +227,22 @@ std::vector<Plugin> skies() {
   return {
       {"sunsky",
        both,
-       {air, kTime, kPlace, sun, scales, below, kSunRadiusScale, kSkyResolution, scale, kToWorld},
+       {air, time, place, sun, scales, below, kSunRadiusScale, kSkyResolution, scale, kToWorld},
        &read_sunsky,
        "Hosek and Wilkie; in 0.x the sun is that of Preetham, Shirley and Smits"},
       {"timed_sunsky",
        v3,
        {air, kStart, inert_parameters(integer, "end_year end_month end_day"),
         Parameter{"window_start_time", number, "7", "hour of the day"},
-        inert_parameters(number, "window_end_time"), kPlace, scales,
+        inert_parameters(number, "window_end_time"), place, scales,
         inert_parameters(number, "shutter_open shutter_close"), kToWorld},
        &read_timed_sunsky,
        "at the start of the time",
        approximated},
-      {"sky", v0, {air, kTime, kPlace, sun, below, kSkyResolution, scale, kToWorld}, &read_sky},
+      {"sky", v0, {air, time, place, sun, below, kSkyResolution, scale, kToWorld}, &read_sky},
       {"sun",
        v0,
-       {kSunTurbidity, kTime, kPlace, sun, kSunStretch, kSunRadiusScale, kSkyResolution, scale,
+       {kSunTurbidity, time, place, sun, kSunStretch, kSunRadiusScale, kSkyResolution, scale,
         kToWorld},
        &read_sun,
        "Preetham, Shirley and Smits"},

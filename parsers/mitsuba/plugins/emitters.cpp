@@ -1,10 +1,8 @@
 // Lights on surfaces and elsewhere.
-#include "mitsuba/plugins/emitters.h"
 
 #include <cmath>
 
-#include "mitsuba/focal_length.h"
-#include "mitsuba/plugins/plugin.h"
+#include "mitsuba/plugins/emitter.h"
 #include "mitsuba/plugins/tables.h"
 
 namespace duet::plugins {
@@ -21,16 +19,6 @@ void read_area(SceneReader& s, Properties& p, AreaEmission& out) {
   out.directional = kDirectional;
   // Rays that leave a surface know what is beyond it.
   p.child(PluginKind::medium);
-}
-
-/// What its fields say, where it stands, and what all lights that are no surfaces have.
-template <class T>
-void read_light(SceneReader& s, Properties& p, LightDescription& out) {
-  read_model<T>(s, p, out);
-  if constexpr (!std::is_same_v<T, ConstantLight>)
-    out.to_world = p.transform("to_world", out.motion);
-  read_weight(p, out);
-  if (const Node* medium = p.child(PluginKind::medium)) out.medium = s.medium(*medium);
 }
 
 void read_point(SceneReader& s, Properties& p, LightDescription& out) {
@@ -72,15 +60,6 @@ void read_directional(SceneReader& s, Properties& p, LightDescription& out) {
 void read_envmap(SceneReader& s, Properties& p, LightDescription& out) {
   read_light<EnvironmentMapLight>(s, p, out);
   check_gamma(p, std::get<EnvironmentMapLight>(out.model).gamma);
-}
-
-constexpr Parameter kMovablePlace{"to_world", transform, "", kMovable};
-
-/// A light whose place is its last parameter.
-template <class T>
-Plugin light(Plugin row = {}, const ParameterList& more = {}) {
-  if (std::holds_alternative<std::monostate>(row.reader)) row.reader = &read_light<T>;
-  return plugin_of<T, LightDescription>(std::move(row), {more, kMovablePlace});
 }
 
 }  // namespace

@@ -1,6 +1,5 @@
 // Integrators that make layers of the image, and those that hold other integrators.
 #include <algorithm>
-#include <array>
 
 #include "mitsuba/plugins/integrators.h"
 #include "values/text.h"
@@ -46,22 +45,15 @@ void read_layers(Properties& p, AovDescription& out) {
 
 /// The layer that a `field` integrator of 0.6 makes; nothing after an error.
 std::optional<std::string> field_layer(Properties& p) {
-  constexpr std::array<std::pair<std::string_view, std::string_view>, 8> layers{
-      {{"position", "position"},
-       {"distance", "depth"},
-       {"geo_normal", "geo_normal"},
-       {"sh_normal", "sh_normal"},
-       {"uv", "uv"},
-       {"albedo", "albedo"},
-       {"shape_index", "shape_index"},
-       {"prim_index", "prim_index"}}};
+  constexpr std::string_view fields[] = {"position", "distance", "geo_normal",  "sh_normal",
+                                         "uv",       "albedo",   "shape_index", "prim_index"};
   if (!p.find("field")) return std::nullopt;
   const std::string field = p.string("field");
   const std::string name = snake_case(field);
   std::vector<std::string> names;
-  for (const auto& [from, to] : layers) {
-    if (name == from) return std::string(to);
-    names.emplace_back(camel_case(from));
+  for (const std::string_view known : fields) {
+    if (name == known) return name == "distance" ? "depth" : name;
+    names.emplace_back(camel_case(known));
   }
   if (name == "rel_position")
     p.error("field", "positions relative to the camera (\"relPosition\") are not computed");

@@ -1,6 +1,6 @@
 // Sensors that measure.
 #include "mitsuba/plugins/plugin.h"
-#include "mitsuba/plugins/sensors.h"
+#include "mitsuba/plugins/tables.h"
 
 namespace duet::plugins {
 

@@ -1,20 +1,9 @@
 // Cameras, and the other sensors.
-#include "mitsuba/plugins/sensors.h"
-
-#include <cmath>
-
-#include "math/angles.h"
-#include "mitsuba/focal_length.h"
 #include "mitsuba/plugins/plugin.h"
 #include "mitsuba/plugins/tables.h"
 #include "values/text.h"
 
-namespace duet {
-
-double diagonal_fov(double focal_length) {
-  const double diagonal = std::sqrt(36.0 * 36 + 24 * 24);
-  return 2 * std::atan(diagonal / (2 * focal_length)) * kDegrees;
-}
+namespace duet::plugins {
 
 std::pair<double, FovAxis> read_fov(Properties& p) {
   if (p.has("fov")) {
@@ -31,26 +20,13 @@ std::pair<double, FovAxis> read_fov(Properties& p) {
   return {diagonal_fov(length && *length > 0 ? *length : 50), FovAxis::diagonal};
 }
 
-}  // namespace duet
-
-namespace duet::plugins {
-
 namespace {
-
-bool is_rigid(const Matrix4& m) {
-  for (int i = 0; i < 3; ++i)
-    for (int j = i; j < 3; ++j) {
-      const double product = m[i][0] * m[j][0] + m[i][1] * m[j][1] + m[i][2] * m[j][2];
-      if (std::abs(product - (i == j ? 1 : 0)) > 1e-3) return false;
-    }
-  return true;
-}
 
 /// An error if the transform, at any time, does more than turn, mirror and move: cameras have no
 /// size.
 void check_rigid(Properties& p, const SensorDescription& sensor) {
-  bool rigid = is_rigid(sensor.to_world);
-  for (const Keyframe& k : sensor.motion.keyframes()) rigid &= is_rigid(k.pose);
+  bool rigid = sensor.to_world.is_rigid();
+  for (const Keyframe& k : sensor.motion.keyframes()) rigid &= k.pose.is_rigid();
   if (!rigid) p.error("to_world", "the transform of {} must not scale", describe(p.node()));
 }
 

@@ -25,7 +25,7 @@ void read_ellipsoids_shape(SceneReader& s, Properties& p, ShapeList& out) {
     return s.report().error(prototype.emission->where, "{} cannot emit light", describe(p.node()));
   if (file.empty()) return;
   const auto all =
-      s.from_file(p.where("filename"), [&] { return s.files().read_ellipsoids(file); });
+      s.report().from_file(p.where("filename"), [&] { return s.files().read_ellipsoids(file); });
   if (!all) return;
   for (const Matrix4& place : ellipsoid_places(*all, scale, to_world)) {
     prototype.to_world = place;

@@ -26,7 +26,8 @@ void read_mesh(SceneReader& s, Properties& p, ShapeDescription& out) {
   if (shape.source.plugin == "serialized")
     options.shape_index = shape.source.shape_index = p.integer("shape_index");
   if (!shape.source.file.empty())
-    shape.mesh = s.mesh(shape.source.plugin, shape.source.file, options, p.where("filename"));
+    shape.mesh =
+        s.cache().mesh(shape.source.plugin, shape.source.file, options, p.where("filename"));
   out.geometry = std::move(shape);
   s.attach_to_surface(p, out);
 }

@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "mitsuba/plugins/plugin.h"
+#include "mitsuba/plugins/shape.h"
 #include "mitsuba/plugins/tables.h"
 #include "mitsuba/property_values.h"
 #include "values/text.h"
@@ -13,12 +13,6 @@
 namespace duet::plugins {
 
 namespace {
-
-template <class T>
-void read_surface(SceneReader& s, Properties& p, ShapeDescription& out) {
-  out.geometry = T{};
-  s.attach_to_surface(p, out);
-}
 
 void read_sdfgrid(SceneReader& s, Properties& p, ShapeDescription& out) {
   enum class Normals { smooth, analytic };
@@ -32,9 +26,9 @@ void read_sdfgrid(SceneReader& s, Properties& p, ShapeDescription& out) {
   const SourceLocation where = p.where("filename");
   if (is_nanovdb(file)) return p.error("filename", "a grid of distances is a .vol file");
   bool is_float32;
-  const auto volume = s.volume_grid(file, where, is_float32);
+  const auto volume = s.cache().volume_grid(file, where, is_float32);
   if (!volume) return;
-  auto grid = s.from_file(where, [&] { return surface_of(*volume, in_quotes(file)); });
+  auto grid = s.report().from_file(where, [&] { return surface_of(*volume, in_quotes(file)); });
   if (!grid) return;
   grid->smooth_normals = normals == Normals::smooth;
   out.geometry = SdfGridShape{std::make_shared<SdfGrid>(std::move(*grid)), file};
@@ -87,7 +81,7 @@ void set_curves(SceneReader& s, Properties& p, const std::string& file, Read rea
   if (out.emission)
     s.report().error(out.emission->where, "{} cannot emit light", describe(p.node()));
   if (file.empty()) return;
-  if (auto curves = s.from_file(p.where("filename"), read))
+  if (auto curves = s.report().from_file(p.where("filename"), read))
     out.geometry = CurvesShape{std::make_shared<CurveSet>(std::move(*curves)), file};
 }
 
@@ -160,11 +154,6 @@ Parameter flip_normals() {
 }
 
 namespace {
-
-template <class T>
-Plugin surface(const ParameterList& parameters) {
-  return {.name = T::name(), .parameters = parameters, .reader = &read_surface<T>};
-}
 
 Plugin hair_shape() {
   constexpr Parameter threshold{

@@ -1,6 +1,7 @@
 // The textures of Mitsuba 3 that are the same everywhere.
 #include "mitsuba/plugins/plugin.h"
-#include "mitsuba/plugins/textures.h"
+#include "mitsuba/plugins/tables.h"
+#include "values/spectrum_text.h"
 #include "values/text.h"
 
 namespace duet::plugins {
@@ -17,14 +18,10 @@ std::optional<std::vector<SpectrumSample>> samples(Properties& p, std::string_vi
     return std::nullopt;
   }
   std::vector<SpectrumSample> result;
-  for (size_t i = 0; i < values.size(); ++i) {
-    if (i > 0 && !(wavelengths[i - 1] < wavelengths[i])) {
-      p.error(name, "the wavelengths of a spectrum must increase");
-      return std::nullopt;
-    }
-    result.push_back({wavelengths[i], values[i]});
-  }
-  return result;
+  for (size_t i = 0; i < values.size(); ++i) result.push_back({wavelengths[i], values[i]});
+  if (first_not_increasing(result) == 0) return result;
+  p.error(name, "the wavelengths of a spectrum must increase");
+  return std::nullopt;
 }
 
 void read_uniform(SceneReader&, Properties& p, MeantColor& out) {

@@ -1,6 +1,6 @@
 // Images, whose filters, borders and gamma values have several spellings.
 #include "mitsuba/plugins/plugin.h"
-#include "mitsuba/plugins/textures.h"
+#include "mitsuba/plugins/tables.h"
 
 namespace duet::plugins {
 

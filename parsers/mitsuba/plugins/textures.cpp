@@ -1,4 +1,3 @@
-#include "mitsuba/plugins/textures.h"
 
 #include <algorithm>
 

@@ -40,7 +40,7 @@ void read_gridvolume(SceneReader& s, Properties& p, MeantVolume& out) {
   }
   if (v.file.empty()) return;
   v.nodes_on_faces = p.is_0x() || is_nanovdb(v.file);
-  v.grid = s.volume_grid(v.file, p.where("filename"), v.is_float32);
+  v.grid = s.cache().volume_grid(v.file, p.where("filename"), v.is_float32);
   if (!v.grid) return;
   if (own_box)
     v.to_world = v.to_world * box_to_world(box);

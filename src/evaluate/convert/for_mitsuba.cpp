@@ -90,7 +90,7 @@ void brighten(LightDescription& l, double factor) {
       m.irradiance *= f;
     else if constexpr (std::is_same_v<T, GoniometricLight>)
       m.scale *= f;
-    else
+    else if constexpr (!std::is_same_v<T, ForeignLight>)
       m.scale *= factor;
   };
   std::visit(change, l.model);
@@ -103,6 +103,9 @@ void move_exposure_to_lights(SceneDescription& scene) {
       std::holds_alternative<OcclusionIntegratorDescription>(method) ||
       std::holds_alternative<DepthIntegratorDescription>(method))
     return;
+  // How bright a foreign light is only it can say: the response is lost then, which is told.
+  for (const LightDescription& l : scene.lights)
+    if (std::holds_alternative<ForeignLight>(l.model)) return;
   const FilmResponse& r = *scene.sensors[0].film.response;
   const double factor = r[1][1];
   if (r != FilmResponse{{{factor, 0, 0}, {0, factor, 0}, {0, 0, factor}}}) return;

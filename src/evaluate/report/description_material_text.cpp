@@ -32,7 +32,12 @@ std::string DescriptionText::material(MaterialId id) const {
     if (!facts.given) return;
     with_value(value,
                Overloaded{
-                   [&](double v) { show(facts, fmt::format("{:.4g}", v)); },
+                   [&](double v) { show(facts, value_text(v)); },
+                   [&](int v) { show(facts, fmt::to_string(v)); },
+                   [&](const Spectrum& v) { show(facts, value_text(v)); },
+                   [&](const std::optional<TextureId>& v) {
+                     if (v) show(facts, texture_name(*v));
+                   },
                    [&](const std::string& v) {
                      show(facts, std::filesystem::path(v).filename().string());
                    },

@@ -27,6 +27,22 @@ std::string direction(const Matrix4& m) {
   return fmt::format("towards ({:.4g}, {:.4g}, {:.4g})", m[0][2], m[1][2], m[2][2]);
 }
 
+/// Both, or what the light says of them.
+std::string pose(LightPose shown, const Matrix4& m) {
+  std::string text;
+  if (shown == LightPose::place || shown == LightPose::both) text += " " + place(m);
+  if (shown == LightPose::direction || shown == LightPose::both) text += " " + direction(m);
+  return text;
+}
+
+template <class T>
+LightPose pose_of(const T&) {
+  return T::kPose;
+}
+LightPose pose_of(const ForeignLight& light) {
+  return light.operations().pose;
+}
+
 std::string filter_text(const FilterDescription& f) {
   if (f.reach_x) {
     constexpr const char* names[] = {"box",      "tent",       "gaussian",
@@ -181,9 +197,6 @@ std::string DescriptionText::light(const LightDescription& l) const {
   const Matrix4 m = l.motion.at(time) * l.to_world;
   const std::string t = std::visit(
       Overloaded{
-          [&](const PointLight& p) {
-            return fmt::format("point {}: {}", place(m), text(p.intensity));
-          },
           [&](const SpotLight& p) {
             return fmt::format("spot {} {}, {:g} degrees: {}{}", place(m), direction(m),
                                p.cutoff_angle, text(p.intensity),
@@ -193,10 +206,6 @@ std::string DescriptionText::light(const LightDescription& l) const {
             return fmt::format("projector {} {}: {}, scale {:g}", place(m), direction(m),
                                input(p.irradiance), p.scale);
           },
-          [&](const DirectionalLight& p) {
-            return fmt::format("directional {}: {}", direction(m), text(p.irradiance));
-          },
-          [&](const ConstantLight& p) { return "constant: " + text(p.radiance); },
           [&](const EnvironmentMapLight& p) {
             return fmt::format("envmap: {}, scale {:g}", p.file, p.scale);
           },
@@ -205,13 +214,7 @@ std::string DescriptionText::light(const LightDescription& l) const {
                                p.sky_scale, p.sun_scale,
                                p.disk ? ", whose irradiance is " + text(p.disk->irradiance) : "");
           },
-          [&](const CollimatedLight& p) {
-            return fmt::format("collimated {} {}: {}", place(m), direction(m), text(p.power));
-          },
-          [&](const GoniometricLight& p) {
-            return fmt::format("goniometric {} {}: {}, scale {}", place(m), direction(m), p.file,
-                               text(p.scale));
-          },
+          [&](const auto& p) { return p.name() + pose(pose_of(p), m) + shown_fields(p); },
       },
       l.model);
   return t + (l.motion.empty() ? "" : ", moves");

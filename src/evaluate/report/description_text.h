@@ -42,7 +42,7 @@ class DescriptionText {
   std::string value_text(const FloatInput& value) const { return input(value); }
   std::string value_text(const ColorVolume& value) const { return input(value); }
   /// The fields that are shown, each after its prefix.
-  template <HasFields T>
+  template <class T>
   std::string shown_fields(const T& description) const {
     std::string line;
     for_each_field(description, [&]<class M>(const FieldFacts& facts, const M& value) {

@@ -1,6 +1,6 @@
 #include "scene/bsdfs/principled.h"
 
-#include "materials/materials.h"
+#include "materials/principled_materials.h"
 #include "scene/builder.h"
 
 namespace duet {
