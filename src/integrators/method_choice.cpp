@@ -7,6 +7,7 @@
 
 #include "base/percent.h"
 #include "integrators/merge_parts.h"
+#include "integrators/method_candidates.h"
 #include "integrators/method_risk.h"
 #include "integrators/method_rules.h"
 #include "integrators/sample_budget.h"
@@ -38,69 +39,6 @@ PredictedMethod unknown_method() {
   PredictedMethod p;
   p.variance = p.cost = 1;
   return p;
-}
-
-/// Mean over the iterations of the first merging area over theirs: the radius shrinks.
-double mean_shrinkage(double alpha, int iterations) {
-  double sum = 0;
-  int counted = 0;
-  for (int i = 1; i <= iterations; i += 1 + i / 16, ++counted) sum += std::pow(i, 1 - alpha);
-  return sum / std::max(1, counted);
-}
-
-BidirectionalIntegratorDescription bidirectional(const PathLimits& o, BidirectionalMethod method,
-                                                 double light_paths, int connections) {
-  BidirectionalIntegratorDescription d;
-  d.method = method;
-  d.max_depth = o.max_depth;
-  d.rr_depth = o.rr_depth;
-  d.hide_emitters = o.hide_emitters;
-  d.strict_normals = o.strict_normals;
-  d.light_selection = o.light_selection;
-  d.light_paths = light_paths;
-  d.connections = connections;
-  return d;
-}
-
-/// The method whose sub-paths all start at the camera.
-MethodCandidate from_camera(const MethodRules& rules, const PathLimits& o) {
-  if (rules.has_media) return {VolumePathIntegratorDescription{o}, "volpath"};
-  return {PathIntegratorDescription{o}, "path"};
-}
-
-SceneLimits limits_of(const Scene& scene) {
-  return {.media = !scene.media.empty(),
-          .one_way_surfaces = scene.features.one_way_surfaces > 0,
-          .connectible = scene.camera->connectible(),
-          .emissive_media = scene.features.emissive_media > 0};
-}
-
-/// All methods that the scene leaves.
-std::vector<MethodCandidate> candidates(const Scene& scene, const PathLimits& o, int iterations) {
-  using enum BidirectionalMethod;
-  const MethodRules rules = method_rules(scene.features);
-  std::vector<MethodCandidate> list{from_camera(rules, o)};
-  const auto add = [&](BidirectionalMethod method, double light, int connections, double merges) {
-    list.push_back({bidirectional(o, method, light, connections),
-                    fmt::format("{} light_paths={:g}{}", method == vcm ? "vcm" : "bdpt", light,
-                                connections == 0 ? " connections=0" : ""),
-                    light, connections != 0, merges});
-  };
-  for (const double light : {1 / 16.0, 1 / 4.0, 1.0})
-    for (const int connections : {-1, 0}) add(bdpt, light, connections, 0);
-  if (!rules.may_merge) return list;
-  for (const double light : {1 / 4.0, 1.0})
-    for (const int connections : {-1, 0})
-      add(vcm, light, connections, light / mean_shrinkage(0.75, iterations));
-  list.push_back({.method = bidirectional(o, ppm, 1, -1),
-                  .name = "ppm light_paths=1",
-                  .light_paths = 1,
-                  .merges = 1 / mean_shrinkage(2.0 / 3, iterations),
-                  .photons_only = true});
-  std::erase_if(list, [&](const MethodCandidate& c) {
-    return find_obstacle(limits_of(scene), c.method) != Obstacle::none;
-  });
-  return list;
 }
 
 /// Whether most of the scene lies far from what the camera sees.
@@ -142,7 +80,7 @@ void add_partly_merged(MethodPrices& prices) {
 MethodPrices predict_all(const PricingRecord& record, const Scene& scene, const PathLimits& o,
                          int spp, int batches) {
   MethodPrices prices;
-  prices.candidates = candidates(scene, o, std::max(1, spp / batches));
+  prices.candidates = method_candidates(scene, o, std::max(1, spp / batches));
   prices.subpaths = record.subpaths();
   prices.spp = spp;
   for (const MethodCandidate& c : prices.candidates)
@@ -159,7 +97,7 @@ const PredictedMethod& cheapest(const MethodPrices& prices) {
 
 /// The choice where nothing is tried; `why` is one line.
 MethodChoice without_pilot(const MethodRules& rules, const PathLimits& o, const std::string& why) {
-  const MethodCandidate c = from_camera(rules, o);
+  const MethodCandidate c = camera_candidate(rules, o);
   return {c.method, c.name + ": " + why, ""};
 }
 
@@ -284,8 +222,7 @@ MethodChoice choose_method(const Scene& scene, const AutoIntegratorDescription& 
   const MethodRules rules = method_rules(scene.features);
   const auto no_pilot = [&](const char* why) { return without_pilot(rules, options, why); };
   if (!rules.has_lights) return no_pilot("the scene has no lights");
-  const Obstacle obstacle =
-      find_obstacle(limits_of(scene), bidirectional(options, BidirectionalMethod::bdpt, 1, -1));
+  const Obstacle obstacle = obstacle_to_light_subpaths(scene, options);
   if (obstacle == Obstacle::one_way_surfaces)
     return no_pilot("light cannot be followed through tubes from its source");
   if (obstacle == Obstacle::emissive_media)
