@@ -9,7 +9,7 @@ times (user + system CPU seconds of a process). Then the boxes are rendered as i
 200 iterations unless --iterations says otherwise) for the pictures, with their times. The tables replace those
 between <!-- NAME --> and <!-- end --> in docs/thesis.md; the pictures are docs/images/thesis-*.png. --folder
 keeps all images, and a run that was interrupted goes on with what is there. --quick (4 rounds) prints the tables
-and writes nothing. Needs numpy and mitsuba, which reads and writes the images.
+and writes nothing. Needs numpy, the Python package (docs/python.md) and mitsuba, which reads and writes the images.
 """
 import argparse
 import json

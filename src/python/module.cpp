@@ -15,6 +15,7 @@
 #include <tuple>
 
 #include "duet/duet.h"
+#include "math/statistics.h"
 #include "python/plugin_names.h"
 
 namespace nb = nanobind;
@@ -237,6 +238,15 @@ void bind_compare(nb::module_& m) {
   nb::class_<ReferenceVariance>(m, "Variance").def(nb::init<ComparedImage, double, double>());
   m.def("compare", &compare_images, "image"_a, "reference"_a, "variance"_a.none(), "threads"_a = 0,
         nb::call_guard<nb::gil_scoped_release>());
+  m.def(
+      "welch",
+      [](const std::vector<double>& values, double expected, double variance) {
+        const MeanEstimate mean = estimate_mean(values);
+        const WelchTest test = welch_test(mean, {expected, variance, 0});
+        return std::tuple(mean.mean - expected, test.error, test.p,
+                          normal_of_student(test.t, test.dof));
+      },
+      "values"_a, "expected"_a, "variance"_a);
 }
 
 }  // namespace

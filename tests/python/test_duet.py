@@ -283,6 +283,18 @@ class Watching(DuetTest):
 
 
 class Documentation(unittest.TestCase):
+    def test_welch(self):
+        # t = 0.5 / sqrt(5 / 12) with three degrees of freedom; then with the variance known, which adds up.
+        test = duet.welch([1, 2, 3, 4], 2)
+        self.assertAlmostEqual(test.difference, 0.5)
+        self.assertAlmostEqual(test.error, (5 / 12) ** 0.5)
+        self.assertAlmostEqual(test.p, 0.49503, 4)
+        self.assertAlmostEqual(test.z, 0.68233, 4)
+        self.assertAlmostEqual(duet.welch(numpy.ones(9), 2, 0.25).p, 0.0455, 4)
+        self.assertLess(duet.welch([1, 2, 3, 4], 9).p, 0.01)
+        with self.assertRaises(ValueError):
+            duet.welch([1], 2)
+
     def test_the_tutorial_runs(self):
         """The code of docs/python.md, from top to bottom, in an empty folder with the scene that it speaks of."""
         text = (ROOT / "docs" / "python.md").read_text()

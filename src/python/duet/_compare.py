@@ -1,8 +1,9 @@
-"""Comparing images."""
+"""Comparing images, and means of values."""
 from __future__ import annotations
 
 import json
 import os
+import typing
 
 from . import _duet
 from ._image import Image, pixels_of
@@ -21,6 +22,26 @@ def _samples(given, image, what):
     if isinstance(image, Image) and "spp" in image.metadata:
         return float(image.metadata["spp"])
     raise ValueError(f"with a variance, the samples per pixel of the {what} have to be known: {what}_spp")
+
+
+class Welch(typing.NamedTuple):
+    """What Welch's test says of a mean."""
+    difference: float  #: of the mean of the values from what is expected
+    error: float       #: its standard error
+    p: float           #: the probability of a larger difference, if the expected one is zero
+    z: float           #: the normal variate, not negative, that is as improbable
+
+
+def welch(values, expected: float, variance: float = 0.0) -> Welch:
+    """Welch's t-test of whether independent values have the mean `expected`, whose variance is known.
+
+    Source: Welch, "The generalization of Student's problem when several different population variances are
+    involved", Biometrika 34, 1947. Raises ValueError for fewer than two values.
+    """
+    values = [float(v) for v in values]
+    if len(values) < 2:
+        raise ValueError("the variance of fewer than two values is not known")
+    return Welch(*_duet.welch(values, float(expected), float(variance)))
 
 
 def compare(image, reference, *, variance=None, image_spp: float | None = None,
