@@ -67,12 +67,4 @@ double parse_seconds(const std::string& option, const std::string& text) {
   return parse_amount(option, text, {{"", 1}, {"s", 1}, {"m", 60}, {"h", 3600}}, 1e-3, kMaxSeconds);
 }
 
-std::pair<std::string, std::string> parse_assignment(const std::string& option,
-                                                     const std::string& text) {
-  const size_t equals = text.find('=');
-  if (equals == std::string::npos || equals == 0)
-    throw UsageError(fmt::format("{} needs NAME=VALUE, not \"{}\"", option, text));
-  return {text.substr(0, equals), text.substr(equals + 1)};
-}
-
 }  // namespace duet

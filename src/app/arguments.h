@@ -35,8 +35,4 @@ Point2i parse_size(const std::string& option, const std::string& text, int least
 /// A duration in seconds: 90, 90s, 10m, 2h.
 double parse_seconds(const std::string& option, const std::string& text);
 
-/// NAME=VALUE.
-std::pair<std::string, std::string> parse_assignment(const std::string& option,
-                                                     const std::string& text);
-
 }  // namespace duet

@@ -8,15 +8,14 @@
 #include "app/commands.h"
 #include "app/job_display.h"
 #include "app/job_options.h"
-#include "app/output.h"
 #include "app/program.h"
 #include "app/signals.h"
-#include "base/atomic_file.h"
 #include "base/memory_limit.h"
 #include "base/shell.h"
 #include "evaluate/batch/job_arguments.h"
 #include "evaluate/batch/job_queue.h"
 #include "evaluate/batch/reports.h"
+#include "evaluate/render/output.h"
 
 namespace duet {
 
@@ -135,32 +134,9 @@ class BatchCommand {
     const BatchOutcome outcome{options_.list, jobs_, queue.results(), program_.command_line,
                                seconds};
     if (!options_.quiet) fmt::print("{}{}\n", outcome_table(outcome), outcome_summary(outcome));
-    is_good &= write_reports(outcome);
+    is_good &= write_reports(outcome, {options_.csv, options_.junit, options_.report}, log_);
     if (const int code = interrupt_exit_code()) return code;
     return is_good ? kSuccess : kSceneFailed;
-  }
-
-  /// Whether all that were asked for are there.
-  bool write_reports(const BatchOutcome& outcome) const {
-    const auto write = [&](const char* option, const std::string& path, auto contents) {
-      if (path.empty()) return true;
-      try {
-        AtomicFile file(path);
-        contents(file);
-        file.commit();
-        return true;
-      } catch (const std::exception& e) {
-        log_.error("{}: {}", option, e.what());
-        return false;
-      }
-    };
-    bool good =
-        write("--csv", options_.csv, [&](AtomicFile& file) { file.write(outcome_csv(outcome)); });
-    good &= write("--junit", options_.junit,
-                  [&](AtomicFile& file) { file.write(outcome_junit(outcome)); });
-    good &= write("--report", options_.report,
-                  [&](AtomicFile& file) { write_outcome_page(outcome, file); });
-    return good;
   }
 
   const BatchOptions& options_;

@@ -2,21 +2,18 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
-#include <cmath>
 #include <filesystem>
 
 #include "app/chart_options.h"
 #include "app/commands.h"
-#include "app/output.h"
-#include "app/placeholders.h"
 #include "app/program.h"
-#include "app/scene_operand.h"
 #include "app/signals.h"
 #include "base/atomic_file.h"
-#include "base/percent.h"
 #include "evaluate/chart/page.h"
-#include "evaluate/chart/svg.h"
 #include "evaluate/compare/linear_image.h"
+#include "evaluate/render/output.h"
+#include "evaluate/render/placeholders.h"
+#include "evaluate/render/scene_operand.h"
 
 namespace duet {
 
@@ -32,8 +29,8 @@ class ChartCommand {
 
   int run() {
     log_.set_level(o_.quiet ? Log::Level::quiet : Log::Level::normal);
-    program_.standard_input = read_standard_input(o_.read.scenes);
-    check_defines(o_.read, program_);
+    o_.read.standard_input = read_standard_input(o_.read.scenes);
+    check_defines(o_.read);
     install_signal_handlers();
     const std::vector<std::string> names = chart_names(o_.read.scenes);
     make_directory(o_.directory);
@@ -98,7 +95,7 @@ class ChartCommand {
     ChartPlan p;
     p.name = name;
     p.file = o_.read.scenes[index];
-    p.description = load_scene(p.file, o_.read, program_).description;
+    p.description = load_scene(p.file, o_.read, log_).description;
     if (const size_t n = p.description.sensors.size(); o_.sensor >= n)
       throw UsageError(fmt::format("-s {}: there {} sensor{}", o_.sensor,
                                    n == 1 ? "is 1" : fmt::format("are {}", n), n == 1 ? "" : "s"));
@@ -106,7 +103,7 @@ class ChartCommand {
     p.size = o_.size;
     p.methods = o_.methods;
     for (const auto& [external, command] : o_.external)
-      p.external.push_back({external, command, filled_in(command)});
+      p.external.push_back({external, command, external_command(command)});
     if (!o_.references.empty())
       p.reference = reference(index);
     else if (!o_.reference_integrator.empty())
@@ -118,18 +115,6 @@ class ChartCommand {
     p.threads = o_.threads;
     p.cancel = &interrupt_flag();
     return p;
-  }
-
-  static ExternalCommand filled_in(const std::string& command) {
-    return [command](const ExternalRun& run) {
-      return fill_in("--external", command,
-                     {{"spp", fmt::to_string(run.spp)},
-                      {"out", run.output},
-                      {"scene", run.scene},
-                      {"seed", fmt::to_string(run.seed)},
-                      {"width", fmt::to_string(run.width)},
-                      {"height", fmt::to_string(run.height)}});
-    };
   }
 
   ChartReference reference(size_t index) const {
@@ -160,25 +145,9 @@ class ChartCommand {
   }
 
   void write(const ChartScene& scene, const std::string& directory) const {
-    write_file_atomically(in(directory, "chart.csv"), chart_csv(scene));
-    write_file_atomically(in(directory, "chart.svg"), chart_svg(scene, ChartAxis::cpu_seconds));
-    write_file_atomically(in(directory, "chart-spp.svg"), chart_svg(scene, ChartAxis::spp));
-    write_file_atomically(in(directory, "index.html"), chart_page(scene, program_.command_line));
-    for (const ChartLine& line : scene.lines) summarize(scene, line);
+    write_chart(scene, directory, program_.command_line);
+    for (const ChartLine& line : scene.lines) log_.info("{}", line_summary(scene, line));
     log_.info("{}: {}", scene.name, in(directory, "index.html"));
-  }
-
-  void summarize(const ChartScene& scene, const ChartLine& line) const {
-    if (line.points.empty()) return log_.info("{}: {}: no image", scene.name, line.name);
-    const ChartPoint& p = line.points.back();
-    const auto e = efficiency(line);
-    const std::string slope =
-        line.by_time.slope ? fmt::format(", slope {:.2f}", line.by_time.slope->slope) : "";
-    log_.info(
-        "{}: {}: {} spp in {:.3g} CPU s, {}", scene.name, line.name, p.spp, p.cpu_seconds,
-        e ? fmt::format("root of the trimmed relMSE {}, {:.2f} of the best efficiency{}",
-                        percent(std::sqrt(p.trimmed)), e->value / best_efficiency(scene), slope)
-          : "error below the reference's noise");
   }
 
   ChartOptions o_;

@@ -9,9 +9,11 @@
 
 #include "app/arguments.h"
 #include "app/commands.h"
-#include "app/output.h"
-#include "app/scene_operand.h"
+#include "app/read_options.h"
 #include "base/parallel.h"
+#include "evaluate/render/assignment.h"
+#include "evaluate/render/output.h"
+#include "evaluate/render/scene_operand.h"
 
 namespace duet {
 

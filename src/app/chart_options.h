@@ -6,8 +6,8 @@
 #include <utility>
 #include <vector>
 
-#include "app/scene_file.h"
 #include "evaluate/chart/measure.h"
+#include "evaluate/render/scene_file.h"
 
 namespace CLI {
 class App;

@@ -1,7 +1,7 @@
 // The subcommands of the program, one file each.
 #pragma once
 
-#include <stdexcept>
+#include "base/failures.h"
 
 // CLI11 is large: only files that add options include it.
 namespace CLI {
@@ -17,12 +17,6 @@ enum ExitCode : int {
   kWrongUsage = 2,
   kThresholdMissed = 3,
   kTargetMissed = 4,
-};
-
-/// The command line asks for something that does not exist: exit code 2.
-class UsageError : public std::runtime_error {
- public:
-  using std::runtime_error::runtime_error;
 };
 
 struct Program;

@@ -9,18 +9,15 @@
 
 #include "app/arguments.h"
 #include "app/commands.h"
-#include "app/output.h"
 #include "base/diagnostics.h"
 #include "base/log.h"
+#include "evaluate/render/output.h"
 
 namespace duet {
 
 namespace fs = std::filesystem;
 
 namespace {
-
-/// Fewer images of a side than this leave their variance uncertain.
-constexpr size_t kFewImagesOfSet = 8;
 
 bool is_directory_of_images(const std::string& path) {
   std::error_code ignored;
@@ -56,21 +53,6 @@ Requirement parse_requirement(const std::string& text) {
     throw UsageError(fmt::format("--require: there is no figure \"{}\"{}; there are {}", r.figure,
                                  did_you_mean(r.figure, known), fmt::join(known, " ")));
   return r;
-}
-
-std::vector<std::string> set_of_images(const std::string& operand, const char* what, Log& log) {
-  const std::vector<std::string> files = images_of_set(operand);
-  if (files.size() < 2)
-    throw UsageError(
-        fmt::format("--batches: \"{}\" means {}; it must mean two images at least, as a pattern in "
-                    "quotes such as "
-                    "'a-*.exr', a directory, or names with commas between them",
-                    operand, files.empty() ? "no image" : files[0] + " alone"));
-  if (files.size() < kFewImagesOfSet)
-    log.warning(
-        "--batches: {} images of the {} say little about its variance; {} or more are better",
-        files.size(), what, 2 * kFewImagesOfSet);
-  return files;
 }
 
 CompareOptionParser::CompareOptionParser(CLI::App& c) {

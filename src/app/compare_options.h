@@ -12,8 +12,6 @@ class App;
 
 namespace duet {
 
-class Log;
-
 struct CompareOptions {
   CompareSettings settings;
   std::string html, junit;
@@ -42,10 +40,5 @@ class CompareOptionParser {
 
 /// FIGURE<LIMIT or FIGURE>LIMIT. Throws UsageError for what is not like that or names no figure.
 Requirement parse_requirement(const std::string& text);
-
-/// The files that an operand of --batches means: a pattern with * or ?, a directory, or names with
-/// commas between them. Throws UsageError if they are not two at least, and warns of few; `what`
-/// says whose they are.
-std::vector<std::string> set_of_images(const std::string& operand, const char* what, Log& log);
 
 }  // namespace duet

@@ -4,9 +4,8 @@
 #include <memory>
 
 #include "app/commands.h"
+#include "app/environment.h"
 #include "app/program.h"
-#include "base/memory_limit.h"
-#include "evaluate/report/read_scene.h"
 #include "evaluate/shell/command_table.h"
 #include "integrators/make_integrator.h"
 
@@ -52,10 +51,7 @@ CommandTable command_table(const CLI::App& app) {
       app.get_name(), DUET_VERSION, "renders Mitsuba and pbrt scenes", {}, "render", {}};
   for (const CLI::App* c : app.get_subcommands([](const CLI::App*) { return true; }))
     table.commands.push_back(shell_command(*c));
-  table.environment = {
-      {kThreadsVariable, "Number of threads where no option says it; all by default."},
-      {kPathVariable, "Further folders to look for files of scenes, between colons."},
-      {kMemoryLimitVariable, "Bytes of memory that a render may take; less than there is."}};
+  for (const auto& [name, what] : kEnvironment) table.environment.emplace_back(name, what);
   return table;
 }
 

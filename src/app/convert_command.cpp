@@ -1,21 +1,16 @@
 // duet convert: a scene as a file of another format.
 #include <CLI/CLI.hpp>
-#include <filesystem>
-#include <fstream>
-#include <iterator>
 
 #include "app/commands.h"
 #include "app/program.h"
-#include "app/scene_file.h"
-#include "app/scene_operand.h"
+#include "app/read_options.h"
 #include "base/atomic_file.h"
 #include "evaluate/convert/convert_scene.h"
+#include "evaluate/render/scene_operand.h"
 
 namespace duet {
 
 namespace {
-
-namespace fs = std::filesystem;
 
 struct ConvertOptions {
   ReadOptions read;
@@ -23,46 +18,18 @@ struct ConvertOptions {
   bool overwrite = false;
 };
 
-bool is_same_file(const std::string& a, const std::string& b) {
-  std::error_code ignored;
-  return fs::equivalent(a, b, ignored);
-}
-
-/// What can be known to go wrong before the scene is read.
-void check_output(const std::string& in, const std::string& out) {
-  if (!can_convert_to(out))
-    throw UsageError(fmt::format("{}: the file to write must end in .xml or .pbrt", out));
-  if (is_same_file(in, out))
-    throw UsageError(fmt::format("{} is the scene that is read: it is not replaced", out));
-  const fs::path folder = fs::absolute(out).parent_path();
-  std::error_code ignored;
-  if (!fs::is_directory(folder, ignored))
-    throw UsageError(fmt::format("{}: there is no folder {}", out, folder.string()));
-  if (fs::exists(out, ignored) && !fs::is_regular_file(out, ignored))
-    throw UsageError(fmt::format("{} exists and is not a regular file", out));
-}
-
-/// Nothing takes the place of another file by accident: scenes and meshes are often made by hand.
-void check_new_files(const ConvertedScene& converted) {
-  for (const ConvertedFile& file : converted.files) {
-    std::error_code ignored;
-    if (!fs::exists(file.path, ignored)) continue;
-    std::ifstream stream(file.path, std::ios::binary);
-    if (std::string(std::istreambuf_iterator<char>(stream), {}) != file.bytes)
-      throw SceneFailure(fmt::format(
-          "{} exists already, with another content: --overwrite replaces it", file.path));
-  }
-}
-
-int convert(const ConvertOptions& o, Program& program) {
+int convert(ConvertOptions o, Program& program) {
   const std::string& in = o.read.scenes.front();
-  check_output(in, o.out);
-  program.standard_input = read_standard_input(o.read.scenes);
-  check_defines(o.read, program);
+  check_conversion(in, o.out);
+  o.read.standard_input = read_standard_input(o.read.scenes);
+  check_defines(o.read);
   try {
-    const LoadedScene scene = load_scene(in, o.read, program);
+    const LoadedScene scene = load_scene(in, o.read, program.log);
     const ConvertedScene converted = convert_scene(scene.description, o.out);
-    if (!o.overwrite) check_new_files(converted);
+    const std::string taken = o.overwrite ? "" : taken_file(converted);
+    if (!taken.empty())
+      throw SceneFailure(
+          fmt::format("{} exists already, with another content: --overwrite replaces it", taken));
     for (const std::string& loss : converted.losses) program.log.warning("{}: lost: {}", in, loss);
     if (o.read.strict && !converted.losses.empty()) throw SceneFailure(converted.losses[0], true);
     for (const ConvertedFile& file : converted.files) write_file_atomically(file.path, file.bytes);

@@ -13,11 +13,6 @@ namespace {
 
 constexpr const char* kAutomatic = "auto";
 
-std::string exposure_text(const DisplaySettings& s) {
-  if (!s.automatic) return fmt::format("{}", s.exposure);
-  return s.exposure == 0 ? kAutomatic : fmt::format("{}{:+}", kAutomatic, s.exposure);
-}
-
 }  // namespace
 
 void add_display_options(CLI::App& c, std::string& exposure, std::string& tone_map) {
@@ -47,22 +42,6 @@ DisplaySettings parse_display(const std::string& exposure, const std::string& to
   settings.exposure = parse_amount("--exposure", stops, {{"", 1}}, -100, 100);
   if (!tone_map.empty()) settings.curve = tone_curve_of(tone_map);
   return settings;
-}
-
-std::vector<std::string> display_arguments(const DisplaySettings& settings) {
-  std::vector<std::string> arguments;
-  if (settings.exposure != 0 || settings.automatic)
-    arguments.insert(arguments.end(), {"--exposure", exposure_text(settings)});
-  if (settings.curve)
-    arguments.insert(arguments.end(),
-                     {"--tonemap", std::string(kToneCurveNames[size_t(*settings.curve)])});
-  return arguments;
-}
-
-std::string display_text(const DisplaySettings& settings) {
-  std::string text = "exposure " + exposure_text(settings);
-  if (settings.curve) text += fmt::format(" tonemap {}", kToneCurveNames[size_t(*settings.curve)]);
-  return text;
 }
 
 }  // namespace duet

@@ -3,10 +3,10 @@
 #include <nlohmann/json.hpp>
 
 #include "app/commands.h"
-#include "app/output.h"
 #include "app/program.h"
-#include "app/scene_file.h"
-#include "app/scene_operand.h"
+#include "app/read_options.h"
+#include "evaluate/render/output.h"
+#include "evaluate/render/scene_operand.h"
 #include "evaluate/report/scene_json.h"
 #include "evaluate/report/scene_summary.h"
 #include "integrators/make_integrator.h"
@@ -44,13 +44,13 @@ int info(InfoOptions o, Program& program) {
   if (!o.method.empty()) o.read.methods = {o.method};
   if (o.xml && o.read.scenes.size() > 1)
     throw UsageError("--xml writes one scene; several were given");
-  program.standard_input = read_standard_input(o.read.scenes);
-  check_defines(o.read, program);
+  o.read.standard_input = read_standard_input(o.read.scenes);
+  check_defines(o.read);
   bool failed = false;
   nlohmann::ordered_json all = nlohmann::ordered_json::array();
   for (const std::string& file : o.read.scenes) {
     try {
-      LoadedScene scene = load_scene(file, o.read, program);
+      LoadedScene scene = load_scene(file, o.read, log);
       use_method(scene.description, o.method);
       if (o.json)
         all.push_back(scene_json(file, output_names(file).scene, scene));

@@ -6,14 +6,13 @@
 #include <filesystem>
 
 #include "app/commands.h"
-#include "app/output.h"
-#include "app/placeholders.h"
 #include "app/program.h"
 #include "app/render_grammar.h"
-#include "app/scene_operand.h"
 #include "evaluate/batch/job_arguments.h"
+#include "evaluate/batch/job_outputs.h"
 #include "evaluate/batch/manifest.h"
 #include "evaluate/batch/scene_folder.h"
+#include "evaluate/render/scene_operand.h"
 
 namespace duet {
 
@@ -33,29 +32,6 @@ std::string job_option_name(const CLI::Option& option) {
   if (option.get_lnames().empty()) return "";
   const std::string& name = option.get_lnames()[0];
   return name == "help" || name == "output" || batch::is_given_by_batch(name) ? "" : name;
-}
-
-std::string output_of_job(const batch::Job& job, const std::string& pattern,
-                          const std::string& folder) {
-  if (pattern == "-") throw UsageError("-o -: standard output holds one image");
-  const OutputNames names = output_names(job.scene);
-  Placeholders placeholders{{"scene", names.scene}, {"folder", names.folder}};
-  if (!folder.empty())
-    placeholders.emplace_back("subfolder",
-                              fs::path(job.scene)
-                                  .parent_path()
-                                  .lexically_normal()
-                                  .lexically_relative(fs::path(folder).lexically_normal())
-                                  .string());
-  for (const batch::JobOption& option : job.options) {
-    std::string text = fmt::format("{}", fmt::join(option.values, ","));
-    // A value makes no folders.
-    std::replace(text.begin(), text.end(), '/', '_');
-    placeholders.emplace_back(option.name, text);
-  }
-  const std::string format = job.value("format");
-  return output_path(fill_in("-o", pattern, placeholders), names,
-                     "." + (format.empty() ? "exr" : format));
 }
 
 /// Why `duet render` would refuse a job; "" if it would not.
@@ -114,21 +90,6 @@ std::vector<batch::JobOption> options_for_all(const std::vector<std::string>& ar
   return options;
 }
 
-/// Makes paths of the templates of the jobs' outputs.
-void name_outputs(std::vector<batch::Job>& jobs, const std::vector<std::string>& templates,
-                  const std::string& folder, Diagnostics& diagnostics) {
-  for (batch::Job& job : jobs) {
-    if (job.outputs.empty()) job.outputs = templates;
-    if (job.outputs.empty()) job.outputs = {""};
-    try {
-      for (std::string& output : job.outputs) output = output_of_job(job, output, folder);
-    } catch (const UsageError& e) {
-      diagnostics.error(job.where, "{}", e.what());
-      job.outputs.clear();
-    }
-  }
-}
-
 /// Errors for jobs that `duet render` would refuse before it reads the scene.
 void check_jobs(const std::vector<batch::Job>& jobs, Program& program, Diagnostics& diagnostics) {
   for (const batch::Job& job : jobs)
@@ -151,7 +112,7 @@ std::vector<batch::Job> list_jobs(const std::string& list, const std::vector<std
   // Jobs without a scene have been reported, and nothing more can be said about them.
   std::erase_if(jobs, [](const batch::Job& job) { return job.scene.empty(); });
   add_to_all(jobs, options, known);
-  name_outputs(jobs, templates, is_folder ? list : "", diagnostics);
+  batch::name_outputs(jobs, templates, is_folder ? list : "", diagnostics);
   check_outputs_differ(jobs, diagnostics);
   check_jobs(jobs, program, diagnostics);
   return jobs;

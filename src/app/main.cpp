@@ -11,13 +11,14 @@
 #include <string>
 
 #include "app/commands.h"
+#include "app/environment.h"
 #include "app/help.h"
 #include "app/program.h"
 #include "app/standard_streams.h"
-#include "app/version.h"
 #include "base/diagnostics.h"
 #include "base/shell.h"
 #include "evaluate/report/provenance.h"
+#include "evaluate/report/version.h"
 
 namespace duet {
 
@@ -59,12 +60,31 @@ std::vector<std::string> in_full(std::vector<std::string> arguments, const CLI::
   return arguments;
 }
 
+/// A line for each thing that the program is made of.
+std::string version_text() {
+  std::vector<Version> all = versions();
+  all.emplace_back("CLI11", CLI11_VERSION);
+  std::string text;
+  for (const auto& [name, version] : all)
+    text += fmt::format("{}{:<14}{}", text.empty() ? "" : "\n", name, version);
+  return text;
+}
+
 /// Results that did not arrive are a failure.
 int after_output(Program& program, int exit_code) {
   std::cout.flush();
   if (std::cout.good() && std::fflush(stdout) == 0 && !std::ferror(stdout)) return exit_code;
   program.log.error("cannot write to standard output");
   return exit_code == kSuccess ? int(kSceneFailed) : exit_code;
+}
+
+std::string footer() {
+  std::string text =
+      "duet SCENE... is short for duet render SCENE...\n"
+      "duet help COMMAND, or duet COMMAND --help, has its options and examples.\n\n"
+      "Environment:";
+  for (const auto& [name, what] : kEnvironment) text += fmt::format("\n  {:<19} {}", name, what);
+  return text;
 }
 
 int run(std::vector<std::string> arguments, Program& program) {
@@ -78,13 +98,7 @@ int run(std::vector<std::string> arguments, Program& program) {
       "Print the version and exit; with -v that of all libraries, too");
   app.add_flag("-v,--verbose")->group("");
   app.require_subcommand(1);
-  app.footer(
-      "duet SCENE... is short for duet render SCENE...\n"
-      "duet help COMMAND, or duet COMMAND --help, has its options and examples.\n\n"
-      "Environment:\n"
-      "  DUET_THREADS        number of threads where no option says it\n"
-      "  DUET_PATH           further folders to look for files of scenes, between colons\n"
-      "  DUET_MEMORY_LIMIT   bytes of memory that a render may take");
+  app.footer(footer());
   app.formatter(std::make_shared<HelpFormatter>());
   add_render_command(app, program);
   add_batch_command(app, program);

@@ -1,15 +1,14 @@
 // duet merge: raw films in, one image out.
 #include <CLI/CLI.hpp>
-#include <filesystem>
 
 #include "app/arguments.h"
 #include "app/commands.h"
 #include "app/display_options.h"
-#include "app/output.h"
 #include "app/program.h"
 #include "base/diagnostics.h"
+#include "evaluate/raw/expected_slices.h"
 #include "evaluate/raw/merge.h"
-#include "evaluate/raw/slices.h"
+#include "evaluate/render/output.h"
 #include "evaluate/report/render_report.h"
 #include "evaluate/report/statistics.h"
 
@@ -23,51 +22,22 @@ struct MergeOptions {
   bool quiet = false;
 };
 
-/// The films as slices of all samples.
-class ExpectedSlices {
- public:
-  explicit ExpectedSlices(const MergeOptions& o) : command_(o.slice_command) {
-    if (o.slices.empty() != o.spp.empty())
-      throw UsageError("merge: --slices and --spp belong together");
-    if (o.slices.empty() && !command_.empty())
-      throw UsageError("--slice-command: there is no --slices");
-    if (o.slices.empty()) return;
-    spp_ = uint32_t(parse_whole("--spp", o.spp, 1, 1u << 30));
-    count_ = uint32_t(parse_whole("--slices", o.slices, 1, spp_));
-  }
-  bool are_known() const { return count_ > 0; }
+/// What --slices says of the films.
+ExpectedSlices expected_slices(const MergeOptions& o) {
+  if (o.slices.empty() != o.spp.empty())
+    throw UsageError("merge: --slices and --spp belong together");
+  if (o.slices.empty() && !o.slice_command.empty())
+    throw UsageError("--slice-command: there is no --slices");
+  if (o.slices.empty()) return {};
+  const auto spp = uint32_t(parse_whole("--spp", o.spp, 1, 1u << 30));
+  return {uint32_t(parse_whole("--slices", o.slices, 1, spp)), spp, o.slice_command};
+}
 
-  /// Films that are not there are slices that are lost.
-  void leave_out_missing(std::vector<std::string>& films) const {
-    std::error_code ignored;
-    if (are_known())
-      std::erase_if(films,
-                    [&](const auto& path) { return !std::filesystem::exists(path, ignored); });
-  }
-  /// The samples that no film has, of those that are expected.
-  std::vector<SampleInterval> gaps(const MergedFilms& merged) const {
-    if (!are_known()) return merged.gaps;
-    if (merged.state.films.size() > 1)
-      throw std::runtime_error("--slices: a render with --target-error has none");
-    return merged.state.samples.missing_from({0, spp_});
-  }
-  /// Names those that are not complete; returns whether there are any.
-  bool report_incomplete(const SampleIntervals& samples, Log& log) const {
-    const std::vector<IncompleteSlice> lost = incomplete_slices(samples, spp_, count_);
-    for (const auto& [number, missing] : lost) {
-      std::string how = command_;
-      for (size_t at = 0; (at = how.find("{slice}", at)) != std::string::npos;)
-        how.replace(at, 7, std::to_string(number));
-      log.error("slice {}/{} lacks the samples {}{}{}", number, count_, to_string(missing),
-                how.empty() ? "" : "; render them with: ", how);
-    }
-    return !lost.empty();
-  }
-
- private:
-  uint32_t spp_ = 0, count_ = 0;  ///< of slices; 0 if they are not known
-  std::string command_;
-};
+/// Whether there are any.
+bool report(const std::vector<std::string>& incomplete, Log& log) {
+  for (const std::string& slice : incomplete) log.error("{}", slice);
+  return !incomplete.empty();
+}
 
 int merge(MergeOptions o, Program& program) {
   if (o.quiet) program.log.set_level(Log::Level::quiet);
@@ -79,7 +49,7 @@ int merge(MergeOptions o, Program& program) {
     if (image_format(path).empty())
       throw UsageError(fmt::format("-o {}: images are written as .exr, .png or .jpg", path));
   }
-  const ExpectedSlices slices(o);
+  const ExpectedSlices slices = expected_slices(o);
   std::vector<std::string> planned = o.outputs;
   for (const std::string& path : {o.raw, o.stats})
     if (!path.empty()) planned.push_back(path);
@@ -89,7 +59,7 @@ int merge(MergeOptions o, Program& program) {
 
   slices.leave_out_missing(o.films);
   if (o.films.empty()) {
-    slices.report_incomplete({}, program.log);
+    report(slices.incomplete({}), program.log);
     throw std::runtime_error("none of the films is there");
   }
   const MergedFilms merged = merge_raw_films(o.films);
@@ -111,7 +81,7 @@ int merge(MergeOptions o, Program& program) {
   }
   program.log.info("{} films: {} -> {}", merged.films, describe(record, merged.result),
                    fmt::join(planned, " "));
-  return slices.report_incomplete(merged.state.samples, program.log) ? kSceneFailed : kSuccess;
+  return report(slices.incomplete(merged.state.samples), program.log) ? kSceneFailed : kSuccess;
 }
 
 }  // namespace

@@ -11,9 +11,8 @@ namespace duet {
 
 struct Program {
   Log log;
-  std::string command_line;    ///< as it was typed, for the header of images
-  std::string standard_input;  ///< the scene that was read from there
-  int exit_code = 0;           ///< of the command that was run
+  std::string command_line;  ///< as it was typed, for the header of images
+  int exit_code = 0;         ///< of the command that was run
 
   /// All threads that the process may have.
   int threads() {

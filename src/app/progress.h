@@ -3,9 +3,9 @@
 
 #include <string>
 
-#include "app/batch.h"
 #include "app/terminal_bar.h"
 #include "base/log.h"
+#include "evaluate/render/batch.h"
 #include "integrators/pass.h"
 
 namespace duet {

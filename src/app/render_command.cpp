@@ -3,12 +3,12 @@
 #include <filesystem>
 
 #include "app/commands.h"
-#include "app/output.h"
 #include "app/program.h"
 #include "app/render_options.h"
-#include "app/render_scene.h"
-#include "app/scene_operand.h"
 #include "app/signals.h"
+#include "evaluate/render/output.h"
+#include "evaluate/render/render_scene.h"
+#include "evaluate/render/scene_operand.h"
 #include "evaluate/report/statistics.h"
 
 namespace duet {
@@ -18,7 +18,7 @@ namespace {
 /// Renders the scenes of one call, one after the other.
 class RenderCommand {
  public:
-  RenderCommand(RenderOptions options, Program& program)
+  RenderCommand(RenderCommandLine options, Program& program)
       : options_(std::move(options)),
         program_(program),
         log_(program.log),
@@ -28,8 +28,8 @@ class RenderCommand {
   int run() {
     install_signal_handlers();
     set_up_log();
-    program_.standard_input = read_standard_input(options_.read.scenes);
-    check_defines(options_.read, program_);
+    options_.read.standard_input = read_standard_input(options_.read.scenes);
+    check_defines(options_.read);
     for (const std::string& file : options_.read.scenes) {
       if (interrupt_exit_code() != 0) break;
       if (!failures_.empty() && !options_.keep_going) break;
@@ -80,7 +80,14 @@ class RenderCommand {
   bool render(const std::string& file) {
     const Log::Recording messages(log_);
     try {
-      const RenderOutcome outcome = render_scene(file, options_, {batch_, statistics_, program_});
+      const RenderCall call{batch_,
+                            statistics_,
+                            program_.command_line,
+                            log_,
+                            [&](const std::string& scene) { return progress_of(scene); },
+                            interrupt_flag(),
+                            take_snapshot_request};
+      const RenderOutcome outcome = render_scene(file, options_, call);
       missed_ += outcome == RenderOutcome::target_missed;
       return outcome != RenderOutcome::not_rendered;
     } catch (const UsageError& e) {
@@ -97,6 +104,11 @@ class RenderCommand {
     return false;
   }
 
+  ShowProgress progress_of(const std::string& scene) const {
+    const auto display = std::make_shared<ProgressDisplay>(options_.progress, scene, batch_, log_);
+    return [display](const RenderProgress& p) { display->show(p); };
+  }
+
   void fail(const std::string& file, const std::string& reason, bool is_printed = false) {
     if (!is_printed) log_.error("{}: {}", file, reason);
     // Reasons that are places in the file begin with its name.
@@ -109,7 +121,7 @@ class RenderCommand {
     for (const std::string& failure : failures_) log_.write(Log::Level::quiet, "  " + failure);
   }
 
-  RenderOptions options_;
+  RenderCommandLine options_;
   Program& program_;
   Log& log_;
   StatisticsFile statistics_;

@@ -3,16 +3,17 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <limits>
-#include <map>
 
 #include "app/arguments.h"
 #include "app/commands.h"
 #include "app/display_options.h"
-#include "app/live_display.h"
-#include "app/output.h"
 #include "app/program.h"
-#include "app/standard_output.h"
+#include "app/read_options.h"
+#include "app/viewer_option.h"
 #include "base/parallel.h"
+#include "evaluate/render/assignment.h"
+#include "evaluate/render/output.h"
+#include "evaluate/render/output_checks.h"
 
 namespace duet {
 
@@ -88,7 +89,7 @@ void RenderOptionParser::add_image_options(CLI::App& c) {
 }
 
 void RenderOptionParser::add_output_options(CLI::App& c) {
-  RenderOptions& o = options_;
+  RenderCommandLine& o = options_;
   c.option_defaults()->group("Output");
   c.add_option("-o,--output", o.outputs,
                "File, directory or template with {scene} {folder} {integrator} {spp} {seed}; - is "
@@ -207,46 +208,8 @@ void RenderOptionParser::finish_format() {
       throw UsageError(fmt::format("-o {}: --format {} asks for another one", pattern, format_));
 }
 
-void RenderOptionParser::check_standard_output() const {
-  const auto& outputs = options_.outputs;
-  const auto count = std::count(outputs.begin(), outputs.end(), "-");
-  if (count == 0) return;
-  if (count > 1 || options_.read.scenes.size() > 1)
-    throw UsageError("-o -: standard output holds one image");
-  if (options_.denoise)
-    throw UsageError("-o -: standard output holds one image, --denoise makes two");
-  if (options_.skip_existing) throw UsageError("-o -: --skip-existing needs images that can exist");
-  if (const std::string why = standard_output_refusal(); !why.empty())
-    throw UsageError("-o -: " + why);
-}
-
-void RenderOptionParser::check_outputs() const {
-  const RenderOptions& o = options_;
-  std::vector<std::string> patterns = o.outputs;
-  if (!o.raw.empty()) patterns.push_back(o.raw);
-  if (patterns.empty()) patterns.emplace_back();
-  std::map<std::string, std::string> writers;
-  for (const std::string& scene : o.read.scenes)
-    for (const std::string& pattern : patterns) {
-      if (o.skip_existing && !o.budget.spp && (o.budget.seconds || o.budget.target_error) &&
-          pattern.find("{spp}") != std::string::npos)
-        throw UsageError(fmt::format(
-            "-o {}: --skip-existing cannot know {{spp}} before the scene is rendered", pattern));
-      OutputNames names = output_names(scene);
-      // Two scenes that differ only in what they say themselves are too much alike.
-      names.integrator = names.spp = names.seed = "_";
-      const std::string path = output_path(pattern, names, o.extension);
-      const auto [entry, is_new] = writers.try_emplace(path, scene);
-      if (!is_new && o.read.scenes.size() > 1)
-        throw UsageError(fmt::format(
-            "-o {}: {} and {} would be written to one file; use a template with {{scene}} or "
-            "{{folder}}",
-            pattern.empty() ? path : pattern, entry->second, scene));
-    }
-}
-
-RenderOptions RenderOptionParser::finish() {
-  RenderOptions& o = options_;
+RenderCommandLine RenderOptionParser::finish() {
+  RenderCommandLine& o = options_;
   finish_numbers();
   finish_window();
   if (!o.integrator.name.empty()) o.read.methods = {o.integrator.name};
@@ -266,8 +229,7 @@ RenderOptions RenderOptionParser::finish() {
   if (!viewer_.empty()) o.viewer = parse_viewer(viewer_);
   finish_format();
   finish_raw();
-  check_standard_output();
-  check_outputs();
+  check_outputs(o);
   if (!o.stats_file.empty())
     if (const std::string why = prepare_file(o.stats_file); !why.empty())
       throw UsageError(fmt::format("--stats: cannot write {}: {}", o.stats_file, why));

@@ -1,33 +1,28 @@
 #include "app/slurm_plan.h"
 
 #include <algorithm>
-#include <filesystem>
 #include <set>
 
 #include "app/arguments.h"
 #include "app/commands.h"
-#include "app/display_options.h"
 #include "app/job_options.h"
-#include "app/output.h"
 #include "app/program.h"
 #include "app/render_grammar.h"
-#include "app/scene_method.h"
-#include "app/scene_operand.h"
 #include "base/file_names.h"
+#include "base/run_program.h"
 #include "evaluate/batch/job_arguments.h"
+#include "evaluate/render/display_text.h"
+#include "evaluate/render/output.h"
+#include "evaluate/render/scene_method.h"
+#include "evaluate/render/scene_operand.h"
 #include "evaluate/slurm/sbatch.h"
 
 namespace duet {
 
 namespace {
 
-namespace fs = std::filesystem;
-
 /// Guards against slips of the pen.
 constexpr uint64_t kMostTasks = 1000000;
-/// Slurm may send the signal to stop a minute earlier than asked for; some time has to be left.
-constexpr double kLeastSeconds = slurm::kSecondsToStop + 120;
-
 /// Options of `duet render` that its tasks cannot have, and why.
 const std::pair<const char*, const char*> kRefused[] = {
     {"--time",
@@ -47,13 +42,6 @@ const std::pair<const char*, const char*> kRefused[] = {
     {"--log", "all tasks would write this file"},
     {"--display", "no task has an image, and they run elsewhere"},
 };
-
-/// The program that is running, wherever it was found.
-std::string this_program() {
-  std::error_code error;
-  const fs::path path = fs::read_symlink("/proc/self/exe", error);
-  return error ? "duet" : path.string();
-}
 
 /// Makes the jobs of one call.
 class SlurmPlan {
@@ -76,7 +64,7 @@ class SlurmPlan {
  private:
   void read_options() {
     tasks_ = uint32_t(parse_whole("--tasks", options_.tasks, 1, kMostTasks));
-    read_sbatch_options();
+    sbatch_ = slurm::sbatch_options(options_.time, options_.partition, options_.sbatch);
     // Scenes begin with no dash, and of options only those behind -- are operands.
     const auto first = std::find_if(
         options_.operands.begin(), options_.operands.end(),
@@ -94,31 +82,9 @@ class SlurmPlan {
     }
     check_task_options();
     render_options_ = render_.parser.finish();
-    check_defines(render_options_.read, program_);
+    check_defines(render_options_.read);
     if (!render_options_.checkpoint)
       task_options_.insert(task_options_.end(), {"--checkpoint", "60s"});
-  }
-
-  void read_sbatch_options() {
-    if (!options_.time.empty()) {
-      const auto seconds = slurm::time_limit(options_.time);
-      if (!seconds)
-        throw UsageError(fmt::format(
-            "--time: \"{}\" is no time limit of Slurm, which is MINUTES, HOURS:MINUTES:SECONDS or "
-            "DAYS-HOURS",
-            options_.time));
-      if (*seconds < kLeastSeconds)
-        throw UsageError(fmt::format(
-            "--time: \"{}\" are {:g} s; tasks are told to stop up to {} s before their end, and "
-            "need {:g} s at least",
-            options_.time, *seconds, slurm::kSecondsToStop + 60, kLeastSeconds));
-      sbatch_.push_back("--time=" + options_.time);
-    }
-    if (!options_.partition.empty()) sbatch_.push_back("--partition=" + options_.partition);
-    sbatch_.insert(sbatch_.end(), options_.sbatch.begin(), options_.sbatch.end());
-    for (const std::string& line : sbatch_)
-      if (const std::string why = slurm::option_refusal(line); !why.empty())
-        throw UsageError(fmt::format("--sbatch {}: {}", line, why));
   }
 
   void check_task_options() const {
@@ -134,7 +100,7 @@ class SlurmPlan {
 
   slurm::ImageJob plan_job(const std::string& file) {
     if (file == kStandardInput) throw UsageError("-: tasks have no standard input");
-    SceneDescription scene = load_scene(file, render_options_.read, program_).description;
+    SceneDescription scene = load_scene(file, render_options_.read, program_.log).description;
     const SensorDescription& sensor = chosen_sensor(scene, render_options_.sensor, file);
     // What every task would find out.
     chosen_method(scene, sensor, render_options_, program_.log);
@@ -153,7 +119,8 @@ class SlurmPlan {
 
   slurm::ImageJob job_of(const std::string& file, const OutputNames& names, uint32_t spp) const {
     slurm::ImageJob job;
-    job.program = options_.program.empty() ? this_program() : options_.program;
+    const std::string own = own_program();
+    job.program = !options_.program.empty() ? options_.program : own.empty() ? "duet" : own;
     job.scene = file;
     job.spp = spp, job.tasks = tasks_;
     job.render_options = task_options_;
@@ -167,16 +134,7 @@ class SlurmPlan {
       job.merge_options.insert(job.merge_options.end(), {"-o", output_path(pattern, names)});
     for (const std::string& argument : display_arguments(render_options_.display))
       job.merge_options.push_back(argument);
-    const fs::path image = job.merge_options[1];
-    job.name = image.stem().string();
-    job.folder = fs::path(image).replace_extension(".slurm").string();
-    const auto is_odd = [](char c) {
-      return c == '\\' || c == '{' || c == '}' || static_cast<unsigned char>(c) < ' ';
-    };
-    if (std::any_of(job.folder.begin(), job.folder.end(), is_odd))
-      throw UsageError(fmt::format(
-          "-o {}: names in Slurm's scripts have no backslash, brace or control character",
-          image.string()));
+    slurm::name_job(job, job.merge_options[1]);
     job.sbatch_options = sbatch_;
     return job;
   }

@@ -8,11 +8,12 @@
 
 #include "app/arguments.h"
 #include "app/commands.h"
-#include "app/output.h"
 #include "app/program.h"
 #include "app/signals.h"
 #include "base/atomic_file.h"
 #include "base/diagnostics.h"
+#include "base/run_program.h"
+#include "evaluate/render/output.h"
 #include "evaluate/stability/selection.h"
 #include "evaluate/stability/table.h"
 
@@ -33,7 +34,7 @@ std::string catalogue_folder(const std::string& option) {
   if (!option.empty()) return option;
   std::error_code ignored;
   // Packages are built for one place and unpacked in another.
-  const std::filesystem::path program = std::filesystem::read_symlink("/proc/self/exe", ignored);
+  const std::filesystem::path program = own_program();
   const std::string beside = program.parent_path().parent_path() / "share/duet/stability";
   for (const std::string& folder : {std::string(DUET_STABILITY_SOURCE), beside})
     if (std::filesystem::exists(folder + "/catalogue.json", ignored)) return folder;

@@ -1,52 +1,31 @@
 // Messages to the user: all go to standard error, and to a file if one is set.
 #pragma once
 
-#include <fmt/format.h>
-
 #include <functional>
 #include <memory>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "base/messages.h"
+
 namespace duet {
 
-class Log {
+class Log final : public Messages {
  public:
-  enum class Level { quiet, normal, verbose };
-
   Log();
-  ~Log();
+  ~Log() override;
   Log(const Log&) = delete;
   Log& operator=(const Log&) = delete;
 
   void set_level(Level level);
-  Level level() const;
+  Level level() const override;
   /// Messages of every level also go to this file. Throws std::runtime_error if it cannot be
   /// opened. If it cannot be written later on (the disk is full), a warning says so once and the
   /// program goes on without it.
   void open_file(const std::string& path);
 
-  /// Writes a line as it is. Errors and warnings are shown at every level. Never throws: a message
-  /// that cannot be written is no reason to stop.
-  void write(Level needed, std::string_view line) noexcept;
-
-  template <class... Args>
-  void error(fmt::format_string<Args...> text, Args&&... args) {
-    write(Level::quiet, "duet: error: " + fmt::format(text, std::forward<Args>(args)...));
-  }
-  template <class... Args>
-  void warning(fmt::format_string<Args...> text, Args&&... args) {
-    write(Level::quiet, "duet: warning: " + fmt::format(text, std::forward<Args>(args)...));
-  }
-  template <class... Args>
-  void info(fmt::format_string<Args...> text, Args&&... args) {
-    write(Level::normal, fmt::format(text, std::forward<Args>(args)...));
-  }
-  template <class... Args>
-  void detail(fmt::format_string<Args...> text, Args&&... args) {
-    write(Level::verbose, fmt::format(text, std::forward<Args>(args)...));
-  }
+  void write(Level needed, std::string_view line) noexcept override;
 
   /// Keeps the errors and warnings that are written while it exists. One at a time.
   class Recording {

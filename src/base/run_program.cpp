@@ -85,6 +85,11 @@ void read_streams(Pipe& out, Pipe& err, ProgramEnd& end) {
 
 }  // namespace
 
+std::string own_program() {
+  std::error_code ignored;
+  return std::filesystem::read_symlink("/proc/self/exe", ignored).string();
+}
+
 std::string find_program(const std::string& name) {
   const char* const path = std::getenv("PATH");
   std::string_view folders = path ? path : "";

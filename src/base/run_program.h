@@ -12,6 +12,9 @@ struct ProgramEnd {
   std::string out, err;
 };
 
+/// The file of the program that is running, or "" if that cannot be found out.
+std::string own_program();
+
 /// The file of a program that PATH leads to, or "".
 std::string find_program(const std::string& name);
 

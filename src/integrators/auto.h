@@ -25,6 +25,7 @@ class AutoIntegrator final : public Integrator {
   const MethodDecision* decision() const override { return decided_ ? &decision_ : nullptr; }
   std::string bias() const override { return decision_.bias; }
   bool blurs() const override { return chosen_->blurs(); }
+  bool layers_tell_noise() const override { return chosen_->layers_tell_noise(); }
   bool tiles_may_differ() const override { return chosen_->tiles_may_differ(); }
   double memory_bytes(const FilmLayout& film) const override { return chosen_->memory_bytes(film); }
   void prepare(Film& film) const override;

@@ -24,6 +24,7 @@ class BidirectionalIntegrator final : public CameraIntegrator {
 
   std::string bias() const override;
   bool blurs() const override;
+  bool layers_tell_noise() const override { return false; }
   double memory_bytes(const FilmLayout& film) const override;
   void prepare(Film& film) const override;
 

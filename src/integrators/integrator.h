@@ -92,6 +92,9 @@ class Integrator {
   /// Whether the image is blurred, less with every sample, so that its noise is not all of its
   /// error.
   virtual bool blurs() const { return false; }
+  /// Whether the layers of the image tell how noisy it is: not where light sub-paths add to pixels
+  /// that are not theirs. To be asked after begin().
+  virtual bool layers_tell_noise() const { return true; }
   /// Whether tiles may have different numbers of samples.
   virtual bool tiles_may_differ() const { return true; }
   /// What the method keeps in memory besides the film, in bytes, estimated before it is known. To

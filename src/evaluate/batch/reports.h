@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "base/atomic_file.h"
+#include "base/messages.h"
 #include "evaluate/batch/job.h"
 #include "evaluate/batch/job_result.h"
 
@@ -40,5 +41,12 @@ std::string outcome_junit(const BatchOutcome& batch);
 /// A page with a table of all jobs and small images that open the large ones. It is written piece
 /// by piece: of images no more than one is in memory.
 void write_outcome_page(const BatchOutcome& batch, AtomicFile& file);
+
+/// Files for what is above; "" for those that are not wanted.
+struct ReportPaths {
+  std::string csv, junit, page;
+};
+/// Writes them. Whether all are there; a message says of each that is not why.
+bool write_reports(const BatchOutcome& batch, const ReportPaths& paths, Messages& messages);
 
 }  // namespace duet::batch

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/percent.h"
 #include "evaluate/report/csv_field.h"
 
 namespace duet {
@@ -155,6 +156,19 @@ std::string summary_csv(const std::vector<ChartScene>& scenes) {
                          csv_field(scene.reference_source));
     }
   return csv;
+}
+
+std::string line_summary(const ChartScene& scene, const ChartLine& line) {
+  if (line.points.empty()) return fmt::format("{}: {}: no image", scene.name, line.name);
+  const ChartPoint& p = line.points.back();
+  const auto e = efficiency(line);
+  const std::string slope =
+      line.by_time.slope ? fmt::format(", slope {:.2f}", line.by_time.slope->slope) : "";
+  return fmt::format(
+      "{}: {}: {} spp in {:.3g} CPU s, {}", scene.name, line.name, p.spp, p.cpu_seconds,
+      e ? fmt::format("root of the trimmed relMSE {}, {:.2f} of the best efficiency{}",
+                      percent(std::sqrt(p.trimmed)), e->value / best_efficiency(scene), slope)
+        : "error below the reference's noise");
 }
 
 }  // namespace duet

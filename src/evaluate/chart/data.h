@@ -75,6 +75,9 @@ std::vector<size_t> fastest(const ChartScene& scene, double root_trimmed);
 /// largest first and the last one just so.
 std::vector<double> round_errors(const ChartScene& scene);
 
+/// What came of a line, in one line for people.
+std::string line_summary(const ChartScene& scene, const ChartLine& line);
+
 /// The tables as CSV, with a line of names.
 std::string chart_csv(const ChartScene& scene);
 std::string summary_csv(const std::vector<ChartScene>& scenes);

@@ -14,6 +14,7 @@
 
 #include "evaluate/chart/renderers.h"
 #include "evaluate/compare/linear_image.h"
+#include "evaluate/render/placeholders.h"
 
 namespace duet {
 
@@ -107,6 +108,18 @@ void ExternalRenderer::slice(double) {
     return fail(e.what());
   }
   next.spp *= 2;
+}
+
+ExternalCommand external_command(const std::string& pattern) {
+  return [pattern](const ExternalRun& run) {
+    return fill_in("--external", pattern,
+                   {{"spp", fmt::to_string(run.spp)},
+                    {"out", run.output},
+                    {"scene", run.scene},
+                    {"seed", fmt::to_string(run.seed)},
+                    {"width", fmt::to_string(run.width)},
+                    {"height", fmt::to_string(run.height)}});
+  };
 }
 
 }  // namespace duet

@@ -4,7 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 
+#include "base/atomic_file.h"
 #include "base/percent.h"
 #include "base/seconds_text.h"
 #include "evaluate/chart/colours.h"
@@ -194,6 +196,15 @@ std::string chart_page(const ChartScene& scene, const std::string& command_line)
   }
   body += viewer(scene) + methods_list(scene, command_line);
   return web_page(scene.name + ": accuracy against time", body);
+}
+
+void write_chart(const ChartScene& scene, const std::string& folder,
+                 const std::string& command_line) {
+  const std::filesystem::path in = folder;
+  write_file_atomically((in / "chart.csv").string(), chart_csv(scene));
+  write_file_atomically((in / "chart.svg").string(), chart_svg(scene, ChartAxis::cpu_seconds));
+  write_file_atomically((in / "chart-spp.svg").string(), chart_svg(scene, ChartAxis::spp));
+  write_file_atomically((in / "index.html").string(), chart_page(scene, command_line));
 }
 
 }  // namespace duet

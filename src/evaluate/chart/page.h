@@ -10,6 +10,9 @@ namespace duet {
 
 /// Charts, images, table and notes of one scene; mentions the command that made them.
 std::string chart_page(const ChartScene& scene, const std::string& command_line);
+/// The page with its charts and its table as files of their own, in a folder that is there.
+void write_chart(const ChartScene& scene, const std::string& folder,
+                 const std::string& command_line);
 /// The table of all scenes, with links to `NAME/index.html` and their charts; likewise.
 std::string chart_index(const std::vector<ChartScene>& scenes, const std::string& command_line);
 

@@ -81,6 +81,9 @@ struct ExternalRun {
 };
 /// The command of a run, for the shell.
 using ExternalCommand = std::function<std::string(const ExternalRun&)>;
+/// Fills in {spp} {out} {scene} {seed} {width} {height}. It throws UsageError for other
+/// placeholders.
+ExternalCommand external_command(const std::string& pattern);
 
 /// Another program, started anew for 1, 2, 4, … samples per pixel and timed as a whole.
 class ExternalRenderer : public ChartRenderer {

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "base/messages.h"
 #include "evaluate/compare/figures.h"
 #include "evaluate/compare/linear_image.h"
 #include "evaluate/web/page.h"
@@ -94,6 +95,10 @@ std::vector<std::string> images_in(const std::string& directory);
 /// The files that a set of images consists of: a directory, a pattern with * and ? as in a shell,
 /// or names with commas between them.
 std::vector<std::string> images_of_set(const std::string& set);
+/// The same for an operand of --batches. Throws UsageError if they are not two at least, and warns
+/// of few; `what` says whose they are.
+std::vector<std::string> set_of_images(const std::string& operand, const char* what,
+                                       Messages& messages);
 
 /// The outcomes as a page, which mentions the command that made it, and as JUnit's XML, which
 /// continuous integration servers read.

@@ -7,6 +7,7 @@
 #include <iterator>
 #include <map>
 
+#include "base/failures.h"
 #include "evaluate/compare/compare.h"
 #include "image/colours.h"
 
@@ -18,6 +19,9 @@ namespace {
 
 /// Longest side of an image on the page of directories: pages of hundreds of images should open.
 constexpr int kLongestOfMany = 512;
+
+/// Fewer images of a side than this leave their variance uncertain.
+constexpr size_t kFewImagesOfSet = 8;
 
 /// One side of a tile test.
 struct Side {
@@ -159,6 +163,22 @@ std::vector<std::string> images_of_set(const std::string& set) {
     if (to > from) files.push_back(set.substr(from, to - from));
     from = to + 1;
   }
+  return files;
+}
+
+std::vector<std::string> set_of_images(const std::string& operand, const char* what,
+                                       Messages& messages) {
+  const std::vector<std::string> files = images_of_set(operand);
+  if (files.size() < 2)
+    throw UsageError(
+        fmt::format("--batches: \"{}\" means {}; it must mean two images at least, as a pattern in "
+                    "quotes such as "
+                    "'a-*.exr', a directory, or names with commas between them",
+                    operand, files.empty() ? "no image" : files[0] + " alone"));
+  if (files.size() < kFewImagesOfSet)
+    messages.warning(
+        "--batches: {} images of the {} say little about its variance; {} or more are better",
+        files.size(), what, 2 * kFewImagesOfSet);
   return files;
 }
 

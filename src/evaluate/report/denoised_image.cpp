@@ -85,12 +85,6 @@ Image without_channels(const Image& image, const std::vector<std::string>& names
   return out;
 }
 
-bool layers_tell_noise(const std::string& method) {
-  for (const char* name : {"path", "volpath", "volpathmis", "direct", "ao", "depth"})
-    if (method == name) return true;
-  return false;
-}
-
 Image denoised_image(const Denoiser& denoiser, const Image& image, bool tells_noise) {
   NoisyImage noisy{image.width, image.height, triples(image, "R"),
                    triples(image, std::string(kAlbedo) + ".R"),

@@ -19,10 +19,6 @@ std::vector<std::string> add_denoiser_layers(AovDescription& layers,
 /// An image without some of its channels.
 Image without_channels(const Image& image, const std::vector<std::string>& names);
 
-/// Whether the layers tell how noisy the image of a method is: not where light sub-paths add to
-/// pixels that are not theirs.
-bool layers_tell_noise(const std::string& method);
-
 /// The colours without noise, and alpha as it is, of an image that has the layers. If they tell how
 /// noisy it is, the denoiser changes little where there is no noise (denoiser_bias.h). Throws
 /// std::runtime_error if the denoiser fails.

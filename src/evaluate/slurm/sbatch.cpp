@@ -9,9 +9,15 @@
 #include <string_view>
 #include <vector>
 
+#include "base/failures.h"
+#include "evaluate/slurm/scripts.h"
+
 namespace duet::slurm {
 
 namespace {
+
+/// Slurm may send the signal to stop a minute earlier than asked for; some time has to be left.
+constexpr double kLeastSeconds = kSecondsToStop + 120;
 
 /// Whole numbers between colons; empty if there is anything else.
 std::vector<double> numbers_between_colons(std::string_view text) {
@@ -62,6 +68,31 @@ std::string option_refusal(const std::string& line) {
       if (word == own || (word.starts_with(own) && (word[1] != '-' || word.find('=') != word.npos)))
         return fmt::format("{} is what `duet slurm` itself gives", own);
   return "";
+}
+
+std::vector<std::string> sbatch_options(const std::string& time, const std::string& partition,
+                                        const std::vector<std::string>& others) {
+  std::vector<std::string> options;
+  if (!time.empty()) {
+    const auto seconds = time_limit(time);
+    if (!seconds)
+      throw UsageError(fmt::format(
+          "--time: \"{}\" is no time limit of Slurm, which is MINUTES, HOURS:MINUTES:SECONDS or "
+          "DAYS-HOURS",
+          time));
+    if (*seconds < kLeastSeconds)
+      throw UsageError(fmt::format(
+          "--time: \"{}\" are {:g} s; tasks are told to stop up to {} s before their end, and "
+          "need {:g} s at least",
+          time, *seconds, kSecondsToStop + 60, kLeastSeconds));
+    options.push_back("--time=" + time);
+  }
+  if (!partition.empty()) options.push_back("--partition=" + partition);
+  options.insert(options.end(), others.begin(), others.end());
+  for (const std::string& line : options)
+    if (const std::string why = option_refusal(line); !why.empty())
+      throw UsageError(fmt::format("--sbatch {}: {}", line, why));
+  return options;
 }
 
 std::string output_pattern(const std::string& path) {

@@ -3,6 +3,7 @@
 
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace duet::slurm {
 
@@ -14,6 +15,11 @@ std::optional<double> time_limit(const std::string& text);
 /// Why a further option for the scripts cannot be used, as it would stand behind #SBATCH; empty if
 /// it can.
 std::string option_refusal(const std::string& line);
+
+/// The options of sbatch, as they stand behind #SBATCH; `time` and `partition` may be empty. Throws
+/// UsageError for one that cannot be used, and for a time limit that leaves no time to render.
+std::vector<std::string> sbatch_options(const std::string& time, const std::string& partition,
+                                        const std::vector<std::string>& others);
 
 /// A path as the value of --output, in which a percent sign means something else. In a path with a
 /// backslash nothing is replaced: it cannot be had.

@@ -2,6 +2,10 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <filesystem>
+
+#include "base/failures.h"
 #include "base/shell.h"
 #include "evaluate/slurm/sbatch.h"
 
@@ -57,6 +61,18 @@ std::string further_options(const ImageJob& job) {
 }
 
 }  // namespace
+
+void name_job(ImageJob& job, const std::string& image) {
+  const std::filesystem::path path = image;
+  job.name = path.stem().string();
+  job.folder = std::filesystem::path(path).replace_extension(".slurm").string();
+  const auto is_odd = [](char c) {
+    return c == '\\' || c == '{' || c == '}' || static_cast<unsigned char>(c) < ' ';
+  };
+  if (std::any_of(job.folder.begin(), job.folder.end(), is_odd))
+    throw UsageError(fmt::format(
+        "-o {}: names in Slurm's scripts have no backslash, brace or control character", image));
+}
 
 std::string render_script_path(const ImageJob& job) {
   return job.folder + "/render.sh";

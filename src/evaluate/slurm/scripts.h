@@ -25,6 +25,10 @@ struct ImageJob {
   std::vector<std::string> sbatch_options;  ///< of both jobs, as they stand behind #SBATCH
 };
 
+/// Calls the job after its image, beside which its folder is. Throws UsageError if the scripts
+/// could not name that.
+void name_job(ImageJob& job, const std::string& image);
+
 std::string render_script_path(const ImageJob& job);
 std::string merge_script_path(const ImageJob& job);
 

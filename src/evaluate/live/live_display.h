@@ -1,24 +1,20 @@
-// --display: an image that grows, in a viewer.
+// An image that grows, in a viewer.
 #pragma once
 
 #include <chrono>
 #include <optional>
 #include <string>
 
-#include "base/log.h"
+#include "base/messages.h"
 #include "evaluate/live/tev_display.h"
 
 namespace duet {
 
-/// The viewer that --display names: "tev", "tev://host" or "tev://host:port". Throws UsageError,
-/// also if there is no such host; whether somebody listens there is not asked.
-TcpPeer parse_viewer(const std::string& text);
-
 /// Shows the image of one render, as often as that takes less than a hundredth of the time.
 class LiveDisplay {
  public:
-  /// Without a viewer nothing is shown. The log gets one warning if the viewer fails.
-  LiveDisplay(const std::optional<TcpPeer>& viewer, std::string name, Log& log);
+  /// Without a viewer nothing is shown. The messages get one warning if the viewer fails.
+  LiveDisplay(const std::optional<TcpPeer>& viewer, std::string name, Messages& messages);
   /// Gives the last image two seconds to arrive.
   ~LiveDisplay();
   LiveDisplay(const LiveDisplay&) = delete;
@@ -35,7 +31,7 @@ class LiveDisplay {
 
   std::optional<TevDisplay> tev_;
   std::string name_;
-  Log& log_;
+  Messages& messages_;
   Clock::time_point asked_, next_;
 };
 

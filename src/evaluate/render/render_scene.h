@@ -1,11 +1,15 @@
-// One scene of `duet render`, from its file to its images.
+// One scene, from its file to its images.
 #pragma once
 
+#include <atomic>
+#include <functional>
 #include <string>
 
-#include "app/batch.h"
-#include "app/render_options.h"
+#include "base/messages.h"
+#include "evaluate/render/batch.h"
+#include "evaluate/render/render_options.h"
 #include "evaluate/report/statistics.h"
+#include "integrators/pass.h"
 
 namespace duet {
 
@@ -15,11 +19,19 @@ enum class RenderOutcome {
   target_missed,  ///< the image is written, but its error is above --target-error, or not known
 };
 
+using ShowProgress = std::function<void(const RenderProgress&)>;
+
 /// The call that a scene is part of.
 struct RenderCall {
   const Batch& batch;
   StatisticsFile& statistics;
-  Program& program;
+  const std::string& command_line;  ///< for the header of images
+  Messages& messages;
+  /// What shows the progress of a scene of that name, for as long as it lives.
+  std::function<ShowProgress(const std::string& scene)> progress;
+  const std::atomic<bool>& interrupt;  ///< whether rendering is to stop
+  /// Whether the image so far has been asked for since the last call.
+  std::function<bool()> wants_snapshot;
 };
 
 /// Reads, builds and renders a scene and writes its images. Throws SceneFailure, UsageError (the

@@ -1,10 +1,10 @@
-#include "app/scene_denoiser.h"
+#include "evaluate/render/scene_denoiser.h"
 
 #include <algorithm>
 #include <stdexcept>
 
-#include "app/commands.h"
-#include "app/output.h"
+#include "base/failures.h"
+#include "evaluate/render/output.h"
 #include "evaluate/report/denoised_image.h"
 
 namespace duet {
@@ -38,15 +38,15 @@ std::vector<std::string> SceneDenoiser::shown(const std::vector<std::string>& ch
   return all;
 }
 
-std::vector<std::string> SceneDenoiser::write(SceneImages& images, const RenderResult& result,
-                                              const ImageForm& form,
+std::vector<std::string> SceneDenoiser::write(SceneImages& images, const Integrator& method,
+                                              const RenderResult& result, const ImageForm& form,
                                               const HeaderFields& header) const {
   if (!denoiser_) return images.write(result, form, header);
   // The noisy image first: it is safe then whatever becomes of the other.
   RenderResult shown = result;
   shown.image = without_channels(result.image, hidden_);
   std::vector<std::string> written = images.write(shown, form, header);
-  const Image clean = denoised_image(*denoiser_, result.image, layers_tell_noise(method_));
+  const Image clean = denoised_image(*denoiser_, result.image, method.layers_tell_noise());
   for (std::string& path :
        images.write_denoised(clean, result, form, denoised_header(header, denoiser_->name())))
     written.push_back(std::move(path));

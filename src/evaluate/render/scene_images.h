@@ -5,9 +5,9 @@
 #include <string>
 #include <vector>
 
-#include "app/output.h"
-#include "app/render_options.h"
-#include "base/log.h"
+#include "base/messages.h"
+#include "evaluate/render/output.h"
+#include "evaluate/render/render_options.h"
 #include "evaluate/report/fingerprint.h"
 
 namespace duet {
@@ -17,7 +17,7 @@ class SceneImages {
   /// `settings` is the fingerprint of everything that decides the colours of the image;
   /// `planned_spp` are the samples it is to get, as far as that is known.
   SceneImages(const RenderOptions& options, const std::string& scene, const OutputNames& names,
-              const Fingerprint& settings, int planned_spp, Log& log);
+              const Fingerprint& settings, int planned_spp, Messages& messages);
 
   /// The files of a finished image: those of the image itself first, then those of the denoised
   /// one.
@@ -55,7 +55,7 @@ class SceneImages {
   OutputNames names_;
   Fingerprint settings_;
   int planned_spp_;
-  Log& log_;
+  Messages& messages_;
   std::vector<std::string> partial_;  ///< those that this run has written
 };
 

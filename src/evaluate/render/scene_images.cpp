@@ -1,11 +1,11 @@
-#include "app/scene_images.h"
+#include "evaluate/render/scene_images.h"
 
 #include <algorithm>
 #include <filesystem>
 #include <stdexcept>
 
-#include "app/display_options.h"
-#include "app/standard_output.h"
+#include "base/standard_output.h"
+#include "evaluate/render/display_text.h"
 #include "evaluate/report/denoised_image.h"
 #include "evaluate/report/partial_image.h"
 #include "evaluate/report/provenance.h"
@@ -14,13 +14,13 @@ namespace duet {
 
 SceneImages::SceneImages(const RenderOptions& options, const std::string& scene,
                          const OutputNames& names, const Fingerprint& settings, int planned_spp,
-                         Log& log)
+                         Messages& messages)
     : options_(options),
       scene_(host_free(scene)),
       names_(names),
       settings_(settings),
       planned_spp_(planned_spp),
-      log_(log) {}
+      messages_(messages) {}
 
 std::vector<std::string> SceneImages::paths(Kind kind, int spp) const {
   OutputNames names = names_;
@@ -72,7 +72,7 @@ bool SceneImages::are_finished(Kind kind) const {
       finished = false;
     } else if (const std::string why = unfinished_reason(path, settings_hash(kind, path));
                !why.empty()) {
-      log_.info("{} is rendered again: {}", path, why);
+      messages_.info("{} is rendered again: {}", path, why);
       finished = false;
     }
   }

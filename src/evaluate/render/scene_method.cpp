@@ -1,8 +1,8 @@
-#include "app/scene_method.h"
+#include "evaluate/render/scene_method.h"
 
 #include <stdexcept>
 
-#include "app/commands.h"
+#include "base/failures.h"
 #include "evaluate/report/scene_render.h"
 
 namespace duet {
@@ -16,7 +16,7 @@ SensorDescription& chosen_sensor(SceneDescription& scene, size_t number, const s
 }
 
 std::unique_ptr<Integrator> chosen_method(SceneDescription& scene, const SensorDescription& sensor,
-                                          const RenderOptions& options, Log& log) {
+                                          const RenderOptions& options, Messages& messages) {
   std::unique_ptr<Integrator> integrator;
   Diagnostics diagnostics;
   try {
@@ -24,7 +24,7 @@ std::unique_ptr<Integrator> chosen_method(SceneDescription& scene, const SensorD
   } catch (const std::invalid_argument& e) {
     throw UsageError(e.what());
   }
-  report(diagnostics, options.read.strict, log);
+  report(diagnostics, options.read.strict, messages);
   return integrator;
 }
 

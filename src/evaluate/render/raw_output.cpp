@@ -1,12 +1,12 @@
-#include "app/raw_output.h"
+#include "evaluate/render/raw_output.h"
 
 #include <algorithm>
 #include <filesystem>
 #include <stdexcept>
 
-#include "app/commands.h"
-#include "app/standard_output.h"
 #include "base/diagnostics.h"
+#include "base/failures.h"
+#include "base/standard_output.h"
 
 namespace duet {
 
@@ -20,8 +20,8 @@ std::string checkpoint_path(const std::string& image) {
 }  // namespace
 
 RawOutput::RawOutput(const RenderOptions& options, const OutputNames& names,
-                     const std::string& image_path, Log& log)
-    : options_(options), log_(log), is_named_(!options.raw.empty()) {
+                     const std::string& image_path, Messages& messages)
+    : options_(options), messages_(messages), is_named_(!options.raw.empty()) {
   if (is_named_) {
     path_ = output_path(options.raw, names, ".raw.exr");
   } else if (options.checkpoint) {
@@ -55,7 +55,7 @@ std::optional<RawFilm> RawOutput::source() const {
 void RawOutput::set_aside(const std::string& why) const {
   const std::string kept = std::filesystem::path(path_).replace_extension(".old.exr").string();
   std::filesystem::rename(path_, kept);
-  log_.warning("{}; it is kept as {}, and the render begins anew", why, kept);
+  messages_.warning("{}; it is kept as {}, and the render begins anew", why, kept);
 }
 
 void RawOutput::load(const RawFilm& film, const std::optional<SampleInterval>& samples,
@@ -72,7 +72,7 @@ void RawOutput::load(const RawFilm& film, const std::optional<SampleInterval>& s
     return set_aside(why);
   }
   film.add_to(state);
-  log_.info("goes on from {} with {} spp", film.path(), state.spp);
+  messages_.info("goes on from {} with {} spp", film.path(), state.spp);
 }
 
 void RawOutput::after_pass(const RenderState& state) {
@@ -83,11 +83,11 @@ void RawOutput::after_pass(const RenderState& state) {
     write_raw_film(path_, image_, state);
     failure_.clear();
   } catch (const std::exception& e) {
-    if (failure_.empty()) log_.warning("no checkpoint: {}", e.what());
+    if (failure_.empty()) messages_.warning("no checkpoint: {}", e.what());
     failure_ = e.what();
   }
   const std::chrono::duration<double> took = Clock::now() - start;
-  log_.detail("{}: {} spp, written in {:.2f} s", path_, state.spp, took.count());
+  messages_.detail("{}: {} spp, written in {:.2f} s", path_, state.spp, took.count());
   schedule(took.count());
 }
 

@@ -1,20 +1,19 @@
-#include "app/render_scene.h"
+#include "evaluate/render/render_scene.h"
 
 #include <algorithm>
-#include <chrono>
 
-#include "app/commands.h"
-#include "app/live_display.h"
-#include "app/program.h"
-#include "app/raw_output.h"
-#include "app/scene_denoiser.h"
-#include "app/scene_images.h"
-#include "app/scene_method.h"
-#include "app/scene_operand.h"
-#include "app/signals.h"
-#include "app/standard_output.h"
+#include "base/failures.h"
 #include "base/memory_limit.h"
+#include "base/standard_output.h"
+#include "base/stopwatch.h"
+#include "evaluate/live/live_display.h"
 #include "evaluate/raw/identity.h"
+#include "evaluate/render/asked.h"
+#include "evaluate/render/raw_output.h"
+#include "evaluate/render/scene_denoiser.h"
+#include "evaluate/render/scene_images.h"
+#include "evaluate/render/scene_method.h"
+#include "evaluate/render/scene_operand.h"
 #include "evaluate/report/memory_estimate.h"
 #include "evaluate/report/render_report.h"
 #include "evaluate/report/scene_render.h"
@@ -26,42 +25,28 @@ namespace duet {
 
 namespace {
 
-/// Lasts until the next lap.
-class Stopwatch {
- public:
-  double lap() {
-    const auto now = std::chrono::steady_clock::now();
-    const double seconds = std::chrono::duration<double>(now - start_).count();
-    start_ = now;
-    return seconds;
-  }
-
- private:
-  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
-};
-
 class SceneRenderer {
  public:
   SceneRenderer(const std::string& file, const RenderOptions& options, const RenderCall& call)
       : file_(file),
         options_(options),
+        call_(call),
         batch_(call.batch),
         statistics_(call.statistics),
-        program_(call.program),
-        log_(call.program.log) {}
+        messages_(call.messages) {}
 
   RenderOutcome run() {
     read();
     prepare();
     if (options_.skip_existing && images_->are_finished()) {
-      log_.info("{}{}: skipped, {} exists", batch_.label(), file_, images_->planned()[0]);
+      messages_.info("{}{}: skipped, {} exists", batch_.label(), file_, images_->planned()[0]);
       return RenderOutcome::not_rendered;
     }
     if (options_.writes_images) check_outputs(images_->planned());
     if (const std::string why = raw_->obstacle(); !why.empty()) throw SceneFailure(why);
     if (raw_->keeps_state()) scene_hash_ = scene_identity(description_, options_.sensor);
     build();
-    if (interrupt_exit_code() != 0) return give_up();
+    if (call_.interrupt) return give_up();
     const std::optional<RawFilm> source = raw_->source();
     if (source) adopt_decision(*source, scene_hash_, record_, *integrator_);
     decide();
@@ -87,13 +72,13 @@ class SceneRenderer {
 
  private:
   void read() {
-    LoadedScene loaded = load_scene(file_, options_.read, program_);
+    LoadedScene loaded = load_scene(file_, options_.read, messages_);
     description_ = std::move(loaded.description);
     settings_ = loaded.files.fingerprint();
     for (const auto& [name, value] : loaded.parameters) settings_.add(name), settings_.add(value);
     seconds_.parse = watch_.lap();
-    if (log_.level() == Log::Level::verbose)
-      log_.detail("{}: {}", file_, describe(scene_features(description_)));
+    if (messages_.level() == Messages::Level::verbose)
+      messages_.detail("{}: {}", file_, describe(scene_features(description_)));
   }
 
   /// Everything that can be wrong with the command line for this scene shows here.
@@ -105,39 +90,29 @@ class SceneRenderer {
       throw UsageError(fmt::format("--crop: {}", e.what()));
     }
     denoiser_.emplace(options_, description_.integrator);
-    integrator_ = chosen_method(description_, sensor, options_, log_);
+    integrator_ = chosen_method(description_, sensor, options_, messages_);
     denoiser_->load();
     make_request(sensor.sampler);
     record_ = record_of(description_.integrator, *integrator_, request_);
     if (!record_.bias.empty()) warn(record_.bias);
     view_ = opening_view(sensor);
     planned_spp_ = request_.budget.spp.value_or(sensor.sampler.sample_count);
-    choose_samples();
+    request_.samples = asked_samples(options_, planned_spp_);
 
-    record_.command_line = program_.command_line;
+    record_.command_line = call_.command_line;
     record_.scene_file = file_;
     Fingerprint scene;
-    file_ == kStandardInput ? scene.add(program_.standard_input) : scene.add_file(file_);
+    file_ == kStandardInput ? scene.add(options_.read.standard_input) : scene.add_file(file_);
     record_.scene_hash = scene.text();
-    add_settings();
+    add_settings(settings_, record_, request_, options_, layout_,
+                 denoiser_->shown(integrator_->channels()));
     OutputNames names = output_names(file_);
     names.integrator = record_.integrator;
     names.seed = fmt::to_string(record_.seed);
-    images_.emplace(options_, file_, names, settings_, planned_spp_, log_);
+    images_.emplace(options_, file_, names, settings_, planned_spp_, messages_);
     names.spp = fmt::to_string(planned_spp_);
-    raw_.emplace(options_, names, images_->planned()[0], log_);
+    raw_.emplace(options_, names, images_->planned()[0], messages_);
     request_.keeps_state = raw_->keeps_state();
-  }
-
-  /// The samples that the command line asks for.
-  void choose_samples() {
-    request_.samples = options_.samples;
-    if (!options_.slice) return;
-    const auto [number, of] = *options_.slice;
-    if (of > uint32_t(planned_spp_))
-      throw UsageError(fmt::format("--slice {}/{}: {} samples per pixel have no {} parts", number,
-                                   of, planned_spp_, of));
-    request_.samples = slice_of(uint32_t(planned_spp_), number, of);
   }
 
   RawImage image_of_raw_film() const {
@@ -151,23 +126,6 @@ class SceneRenderer {
     return image;
   }
 
-  /// All that decides the image besides the files and the parameters of the scene.
-  void add_settings() {
-    const RenderBudget& budget = request_.budget;
-    const PixelBounds& crop = layout_.crop;
-    settings_.add(fmt::format("{} {}, sensor {}, techniques {}", record_.integrator,
-                              record_.integrator_parameters, options_.sensor,
-                              int(options_.techniques)));
-    for (const std::string& channel : denoiser_->shown(integrator_->channels()))
-      settings_.add(channel);
-    settings_.add(fmt::format("{} spp, {} s, error {}", budget.spp.value_or(0),
-                              budget.seconds.value_or(0), budget.target_error.value_or(0)));
-    if (request_.samples) settings_.add("samples " + to_string(*request_.samples));
-    settings_.add(fmt::format("{} seed {}", record_.sampler, record_.seed));
-    settings_.add(fmt::format("{} {} {} {} {} {} {}", layout_.full.x, layout_.full.y, crop.x0,
-                              crop.y0, crop.x1, crop.y1, layout_.ends_at_crop));
-  }
-
   void make_request(const SamplerDescription& sampler) {
     std::string warning;
     try {
@@ -178,13 +136,13 @@ class SceneRenderer {
       throw UsageError(e.what());
     }
     if (!warning.empty()) warn(warning);
-    request_.cancel = &interrupt_flag();
+    request_.cancel = &call_.interrupt;
   }
 
   /// A warning that --strict makes an error.
   void warn(const std::string& text) const {
     if (options_.read.strict) throw SceneFailure(text + " (an error because of --strict)");
-    log_.warning("{}: {}", file_, text);
+    messages_.warning("{}: {}", file_, text);
   }
 
   /// Finds out before rendering what would be a pity to find out afterwards.
@@ -202,21 +160,22 @@ class SceneRenderer {
     build.layer_needs = integrator_needs(description_.integrator);
     Diagnostics diagnostics;
     scene_ = build_scene(std::move(description_), build, diagnostics);
-    report(diagnostics, options_.read.strict, log_);
+    report(diagnostics, options_.read.strict, messages_);
     seconds_.build = watch_.lap();
-    log_.detail("{}: read in {:.2f} s, built in {:.2f} s", file_, seconds_.parse, seconds_.build);
+    messages_.detail("{}: read in {:.2f} s, built in {:.2f} s", file_, seconds_.parse,
+                     seconds_.build);
   }
 
   /// Lets a method that chooses another one do so.
   void decide() {
     integrator_->begin(*scene_, {layout_.full, planned_spp_, options_.threads});
     const MethodDecision* decision = integrator_->decision();
-    denoiser_->set_method(decision ? decision->method : record_.integrator);
     if (!decision) return;
     record_.decision = *decision;
-    for (const std::string& line : decision->candidates) log_.write(Log::Level::verbose, line);
+    for (const std::string& line : decision->candidates)
+      messages_.write(Messages::Level::verbose, line);
     record_.bias = integrator_->bias();
-    log_.info("{}: auto chose {}", file_, decision->reason);
+    messages_.info("{}: auto chose {}", file_, decision->reason);
   }
 
   /// Refuses an image for which there is no room before it takes what there is.
@@ -225,21 +184,21 @@ class SceneRenderer {
         estimate_memory(*integrator_, layout_, request_.budget,
                         view_.film.component_format == ComponentFormat::half);
     const MemoryLimit limit = memory_limit();
-    log_.detail("{}: {}; the limit is {} ({})", file_, describe(estimate), memory_text(limit.bytes),
-                limit.source);
+    messages_.detail("{}: {}; the limit is {} ({})", file_, describe(estimate),
+                     memory_text(limit.bytes), limit.source);
     const std::string why = memory_refusal(estimate, memory_in_use(), limit);
     if (!why.empty()) throw SceneFailure(why);
   }
 
   RenderResult render_with_progress(RenderState& state) {
-    ProgressDisplay display(options_.progress,
-                            batch_.is_several() ? output_names(file_).scene : file_, batch_, log_);
-    request_.progress = [&](const RenderProgress& p) { display.show(p); };
-    LiveDisplay live(options_.viewer, images_->planned()[0], log_);
+    const ShowProgress show =
+        call_.progress(batch_.is_several() ? output_names(file_).scene : file_);
+    request_.progress = [&](const RenderProgress& p) { show(p); };
+    LiveDisplay live(options_.viewer, images_->planned()[0], messages_);
     bool is_shown = false, is_written = false;
     request_.wants_snapshot = [&, writes = !has_standard_output()] {
       // Standard output takes one image: the last.
-      is_written = writes && take_snapshot_request();
+      is_written = writes && call_.wants_snapshot();
       is_shown = live.wants_image();
       return is_written || is_shown;
     };
@@ -264,21 +223,23 @@ class SceneRenderer {
     so_far.interrupted = true;
     try {
       for (const std::string& path : write(so_far))
-        log_.info("{}: {} spp so far -> {}", file_, so_far.spp, path);
+        messages_.info("{}: {} spp so far -> {}", file_, so_far.spp, path);
     } catch (const std::exception& e) {
-      log_.warning("{}: {}", file_, e.what());
+      messages_.warning("{}: {}", file_, e.what());
     }
   }
 
   std::vector<std::string> write(const RenderResult& result) {
     HeaderFields header = scene_header(record_, view_, layout_.full);
     for (HeaderField& field : samples_header(record_, result)) header.push_back(std::move(field));
-    return denoiser_->write(*images_, result, form_of(view_, layout_, *integrator_), header);
+    return denoiser_->write(*images_, *integrator_, result, form_of(view_, layout_, *integrator_),
+                            header);
   }
 
   /// After an interrupt that came before every pixel had a sample: no file is replaced.
   RenderOutcome give_up() {
-    log_.warning("{}: interrupted before every pixel had a sample; no image is written", file_);
+    messages_.warning("{}: interrupted before every pixel had a sample; no image is written",
+                      file_);
     statistics_.add_failure(file_, {"interrupted before every pixel had a sample"}, true);
     return RenderOutcome::not_rendered;
   }
@@ -286,7 +247,7 @@ class SceneRenderer {
   void summarize(const RenderResult& r, const std::vector<std::string>& written) const {
     std::string text = batch_.label() + file_ + ": " + describe(record_, r);
     for (const std::string& p : written) text += " -> " + p;
-    log_.info("{}", text);
+    messages_.info("{}", text);
     if (r.counters.nonfinite_samples > 0)
       warn(fmt::format("{} of {} samples were not finite, or above {:.0e}, and count as black",
                        r.counters.nonfinite_samples, r.counters.camera_paths, ExactSum::kLargest));
@@ -296,16 +257,16 @@ class SceneRenderer {
   RenderOutcome target_outcome(const RenderResult& r) const {
     const std::string missed = target_miss(record_, r);
     if (missed.empty()) return RenderOutcome::rendered;
-    log_.warning("{}: {}", file_, missed);
+    messages_.warning("{}: {}", file_, missed);
     return RenderOutcome::target_missed;
   }
 
   const std::string& file_;
   const RenderOptions& options_;
+  const RenderCall& call_;
   const Batch& batch_;
   StatisticsFile& statistics_;
-  Program& program_;
-  Log& log_;
+  Messages& messages_;
   Stopwatch watch_;
   PhaseSeconds seconds_;
   SceneDescription description_;

@@ -1,12 +1,12 @@
-// --denoise, for one scene.
+// The denoised image of one scene, if it is asked for.
 #pragma once
 
 #include <optional>
 #include <string>
 #include <vector>
 
-#include "app/render_options.h"
-#include "app/scene_images.h"
+#include "evaluate/render/render_options.h"
+#include "evaluate/render/scene_images.h"
 #include "image/denoiser.h"
 
 namespace duet {
@@ -24,18 +24,16 @@ class SceneDenoiser {
   /// Those that are part of the image.
   std::vector<std::string> shown(const std::vector<std::string>& channels) const;
 
-  /// Sets the method that has rendered the image, once it is known.
-  void set_method(const std::string& name) { method_ = name; }
-  /// Writes the image and then the denoised one; returns the names of the files. Throws
+  /// Writes the image of a method and then the denoised one; returns the names of the files. Throws
   /// std::runtime_error.
-  std::vector<std::string> write(SceneImages& images, const RenderResult& result,
-                                 const ImageForm& form, const HeaderFields& header) const;
+  std::vector<std::string> write(SceneImages& images, const Integrator& method,
+                                 const RenderResult& result, const ImageForm& form,
+                                 const HeaderFields& header) const;
 
  private:
   const RenderOptions& options_;
   std::optional<Denoiser> denoiser_;
   std::vector<std::string> hidden_;
-  std::string method_;
 };
 
 }  // namespace duet

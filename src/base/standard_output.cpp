@@ -1,4 +1,4 @@
-#include "app/standard_output.h"
+#include "base/standard_output.h"
 
 #include <fcntl.h>
 #include <fmt/format.h>

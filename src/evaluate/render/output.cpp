@@ -1,4 +1,4 @@
-#include "app/output.h"
+#include "evaluate/render/output.h"
 
 #include <fmt/format.h>
 #include <unistd.h>
@@ -6,11 +6,11 @@
 #include <filesystem>
 #include <stdexcept>
 
-#include "app/commands.h"
-#include "app/placeholders.h"
-#include "app/scene_operand.h"
-#include "app/standard_output.h"
 #include "base/atomic_file.h"
+#include "base/failures.h"
+#include "base/standard_output.h"
+#include "evaluate/render/placeholders.h"
+#include "evaluate/render/scene_operand.h"
 
 namespace duet {
 

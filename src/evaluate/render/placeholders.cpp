@@ -1,10 +1,10 @@
-#include "app/placeholders.h"
+#include "evaluate/render/placeholders.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 
-#include "app/commands.h"
+#include "base/failures.h"
 
 namespace duet {
 

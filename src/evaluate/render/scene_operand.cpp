@@ -1,4 +1,4 @@
-#include "app/scene_operand.h"
+#include "evaluate/render/scene_operand.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -10,8 +10,8 @@
 #include <filesystem>
 #include <stdexcept>
 
-#include "app/commands.h"
 #include "base/diagnostics.h"
+#include "base/failures.h"
 #include "base/readable.h"
 
 namespace duet {

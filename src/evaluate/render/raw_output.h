@@ -5,10 +5,10 @@
 #include <optional>
 #include <string>
 
-#include "app/output.h"
-#include "app/render_options.h"
-#include "base/log.h"
+#include "base/messages.h"
 #include "evaluate/raw/raw_film.h"
+#include "evaluate/render/output.h"
+#include "evaluate/render/render_options.h"
 
 namespace duet {
 
@@ -17,7 +17,7 @@ class RawOutput {
   /// `image_path` is the first image of the scene, beside which checkpoints lie that have no name.
   /// Throws UsageError if there is no place for them.
   RawOutput(const RenderOptions& options, const OutputNames& names, const std::string& image_path,
-            Log& log);
+            Messages& messages);
 
   /// Whether the render has to keep a state that it can go on from.
   bool keeps_state() const { return !path_.empty() || !options_.resume.empty(); }
@@ -49,7 +49,7 @@ class RawOutput {
   void schedule(double took);
 
   const RenderOptions& options_;
-  Log& log_;
+  Messages& messages_;
   std::string path_;       ///< empty if no raw film is written
   bool is_named_ = false;  ///< by the user: it stays
   RawImage image_;

@@ -1,9 +1,8 @@
-#include "app/version.h"
+#include "evaluate/report/version.h"
 
 #include <fmt/format.h>
 #include <tbb/version.h>
 #include <zlib.h>
-#include <CLI/Version.hpp>
 #include <nlohmann/json.hpp>
 #include <pugixml.hpp>
 
@@ -41,8 +40,8 @@ std::string version_of(int number, int unit) {
 
 }  // namespace
 
-std::string version_text() {
-  const std::string rows[][2] = {
+std::vector<Version> versions() {
+  return {
       {"duet", DUET_VERSION},
       {"compiler", kCompiler},
       {"processor", instruction_set()},
@@ -55,12 +54,7 @@ std::string version_text() {
       {"zlib", zlibVersion()},
       {"nlohmann-json", fmt::format("{}.{}.{}", NLOHMANN_JSON_VERSION_MAJOR,
                                     NLOHMANN_JSON_VERSION_MINOR, NLOHMANN_JSON_VERSION_PATCH)},
-      {"CLI11", CLI11_VERSION},
   };
-  std::string text;
-  for (const auto& [name, version] : rows) text += fmt::format("{:<14}{}\n", name, version);
-  text.pop_back();
-  return text;
 }
 
 }  // namespace duet

@@ -4,8 +4,8 @@
 #include <memory>
 #include <string>
 
-#include "app/render_options.h"
-#include "base/log.h"
+#include "base/messages.h"
+#include "evaluate/render/render_options.h"
 
 namespace duet {
 
@@ -15,6 +15,6 @@ SensorDescription& chosen_sensor(SceneDescription& scene, size_t number, const s
 /// Makes the method, which takes the place of the scene's, and reports what it cannot render.
 /// Throws UsageError for a method or parameters that there are not, and SceneFailure after errors.
 std::unique_ptr<Integrator> chosen_method(SceneDescription& scene, const SensorDescription& sensor,
-                                          const RenderOptions& options, Log& log);
+                                          const RenderOptions& options, Messages& messages);
 
 }  // namespace duet

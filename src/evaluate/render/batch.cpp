@@ -1,4 +1,4 @@
-#include "app/batch.h"
+#include "evaluate/render/batch.h"
 
 #include <fmt/format.h>
 

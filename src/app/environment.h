@@ -1,0 +1,20 @@
+// The environment variables that the program looks at, for `duet --help` and the manual page.
+#pragma once
+
+#include <string_view>
+
+#include "base/memory_limit.h"
+#include "base/parallel.h"
+#include "evaluate/report/read_scene.h"
+
+namespace duet {
+
+struct EnvironmentVariable {
+  std::string_view name, what;
+};
+inline constexpr EnvironmentVariable kEnvironment[] = {
+    {kThreadsVariable, "number of threads where no option says it"},
+    {kPathVariable, "further folders to look for files of scenes, between colons"},
+    {kMemoryLimitVariable, "bytes of memory that a render may take"}};
+
+}  // namespace duet

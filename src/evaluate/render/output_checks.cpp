@@ -1,0 +1,54 @@
+#include "evaluate/render/output_checks.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+
+#include "base/standard_output.h"
+#include "evaluate/render/output.h"
+
+namespace duet {
+
+namespace {
+
+void check_standard_output(const RenderOptions& o) {
+  const auto& outputs = o.outputs;
+  const auto count = std::count(outputs.begin(), outputs.end(), "-");
+  if (count == 0) return;
+  if (count > 1 || o.read.scenes.size() > 1)
+    throw UsageError("-o -: standard output holds one image");
+  if (o.denoise) throw UsageError("-o -: standard output holds one image, --denoise makes two");
+  if (o.skip_existing) throw UsageError("-o -: --skip-existing needs images that can exist");
+  if (const std::string why = standard_output_refusal(); !why.empty())
+    throw UsageError("-o -: " + why);
+}
+
+}  // namespace
+
+void check_outputs(const RenderOptions& o) {
+  check_standard_output(o);
+  std::vector<std::string> patterns = o.outputs;
+  if (!o.raw.empty()) patterns.push_back(o.raw);
+  if (patterns.empty()) patterns.emplace_back();
+  std::map<std::string, std::string> writers;
+  for (const std::string& scene : o.read.scenes)
+    for (const std::string& pattern : patterns) {
+      if (o.skip_existing && !o.budget.spp && (o.budget.seconds || o.budget.target_error) &&
+          pattern.find("{spp}") != std::string::npos)
+        throw UsageError(fmt::format(
+            "-o {}: --skip-existing cannot know {{spp}} before the scene is rendered", pattern));
+      OutputNames names = output_names(scene);
+      // Two scenes that differ only in what they say themselves are too much alike.
+      names.integrator = names.spp = names.seed = "_";
+      const std::string path = output_path(pattern, names, o.extension);
+      const auto [entry, is_new] = writers.try_emplace(path, scene);
+      if (!is_new && o.read.scenes.size() > 1)
+        throw UsageError(fmt::format(
+            "-o {}: {} and {} would be written to one file; use a template with {{scene}} or "
+            "{{folder}}",
+            pattern.empty() ? path : pattern, entry->second, scene));
+    }
+}
+
+}  // namespace duet
