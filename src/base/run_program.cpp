@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 #include <poll.h>
 #include <spawn.h>
+#include <sys/auxv.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -86,8 +87,12 @@ void read_streams(Pipe& out, Pipe& err, ProgramEnd& end) {
 }  // namespace
 
 std::string own_program() {
-  std::error_code ignored;
-  return std::filesystem::read_symlink("/proc/self/exe", ignored).string();
+  std::error_code error;
+  const auto path = std::filesystem::read_symlink("/proc/self/exe", error);
+  if (!error) return path.string();
+  // A bare chroot has no /proc.
+  const auto name = reinterpret_cast<const char*>(getauxval(AT_EXECFN));
+  return name ? std::filesystem::canonical(name, error).string() : "";
 }
 
 std::string find_program(const std::string& name) {

@@ -4,6 +4,8 @@
 
 #include <algorithm>
 
+#include "base/run_program.h"
+
 namespace duet {
 
 namespace fs = std::filesystem;
@@ -21,8 +23,9 @@ std::vector<fs::path> module_directories() {
       add(p.parent_path());
       add(p.parent_path() / "duet");
     }
-  // The name of the program itself may be relative to a directory that has been left since.
-  if (const fs::path p = fs::read_symlink("/proc/self/exe", error); !error) {
+  // The name that the program was called by may be relative to a directory that has been left
+  // since.
+  if (const fs::path p = own_program(); !p.empty()) {
     add(p.parent_path());
     add(p.parent_path().parent_path() / "lib" / "duet");
   }
