@@ -2,7 +2,6 @@
 #pragma once
 
 #include <array>
-#include <tuple>
 
 #include "scene/description.h"
 
@@ -14,12 +13,12 @@ struct SunTime {
   static constexpr auto fields() {
     using namespace parameter_words;
     using T = SunTime;
-    return std::tuple(field(&T::year, Parameter{"year", integer, kInitial}),
-                      field(&T::month, Parameter{"month", integer, kInitial}),
-                      field(&T::day, Parameter{"day", integer, kInitial}),
-                      field(&T::hour, Parameter{"hour", number, kInitial, "of the time zone"}),
-                      field(&T::minute, Parameter{"minute", number, kInitial}),
-                      field(&T::second, Parameter{"second", number, kInitial}));
+    return FieldList(field(&T::year, Parameter{"year", integer, kInitial}),
+                     field(&T::month, Parameter{"month", integer, kInitial}),
+                     field(&T::day, Parameter{"day", integer, kInitial}),
+                     field(&T::hour, Parameter{"hour", number, kInitial, "of the time zone"}),
+                     field(&T::minute, Parameter{"minute", number, kInitial}),
+                     field(&T::second, Parameter{"second", number, kInitial}));
   }
 };
 struct SunPlace {
@@ -28,11 +27,10 @@ struct SunPlace {
   static constexpr auto fields() {
     using namespace parameter_words;
     using P = SunPlace;
-    return std::tuple(
-        field(&P::latitude, Parameter{"latitude", number, kInitial, "degrees north"}),
-        field(&P::longitude, Parameter{"longitude", number, kInitial, "degrees east"}),
-        field(&P::timezone,
-              Parameter{"timezone", number, kInitial, "hours ahead of universal time"}));
+    return FieldList(field(&P::latitude, Parameter{"latitude", number, kInitial, "degrees north"}),
+                     field(&P::longitude, Parameter{"longitude", number, kInitial, "degrees east"}),
+                     field(&P::timezone, Parameter{"timezone", number, kInitial,
+                                                   "hours ahead of universal time"}));
   }
 };
 
