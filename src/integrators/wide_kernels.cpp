@@ -43,24 +43,6 @@ DUET_WIDEST void make_smooth_points(int n, const WideTriangles& triangles, const
   }
 }
 
-DUET_WIDEST void sample_only_light(int n, const ParallelogramLight& light, const WidePoints& points,
-                                   const WideNumbers& numbers, WideLightSamples& samples) {
-  const ParallelogramLight l = light;
-  DUET_LANES
-  for (int i = 0; i < n; ++i) {
-    const ParallelogramLight::Sample s =
-        l.sample(points.position.point(i), {numbers.light_x[i], numbers.light_y[i]});
-    samples.wi.set(i, s.wi);
-    samples.target.set(i, s.target);
-    samples.weight.set(i, l.radiance.r * s.solid_angle, l.radiance.g * s.solid_angle,
-                       l.radiance.b * s.solid_angle);
-    samples.pdf[i] = s.facing > 0 ? s.pdf : -1.0f;
-    samples.probability[i] = 1;
-    samples.finite[i] = 1;
-    samples.delta[i] = 0;
-  }
-}
-
 DUET_WIDEST void evaluate_diffuse(int n, const WidePaths& paths, const WidePoints& points,
                                   WideLightSamples& samples) {
   DUET_LANES

@@ -1,10 +1,9 @@
 // The stages of a batch of paths that are loops over numbers: the same formulas, in the same order,
-// as those of one path at a time (PathIntegrator, PlainDiffuse, AreaLight, make_mesh_surface()), so
+// as those of one path at a time (PathIntegrator, PlainDiffuse, make_mesh_surface()), so
 // that the results are the same bit for bit. All work on the first `n` of a batch.
 #pragma once
 
 #include "integrators/wide_state.h"
-#include "lights/area.h"
 
 namespace duet {
 
@@ -13,9 +12,6 @@ void make_points(int n, const WideTriangles& triangles, const HitBatch& hits, Wi
 /// The same with shading normals.
 void make_smooth_points(int n, const WideTriangles& triangles, const HitBatch& hits,
                         WidePoints& points);
-/// Light samples where the light is the only one.
-void sample_only_light(int n, const ParallelogramLight& light, const WidePoints& points,
-                       const WideNumbers& numbers, WideLightSamples& samples);
 /// What plainly diffuse surfaces make of light samples.
 void evaluate_diffuse(int n, const WidePaths& paths, const WidePoints& points,
                       WideLightSamples& samples);

@@ -15,7 +15,7 @@ bool has_frame_of_normal(const Shape& shape) {
 
 }  // namespace
 
-WideScene::WideScene(const Scene& s) : scene(s) {
+WideScene::WideScene(const Scene& s) : scene(s), lights(s) {
   shapes.reserve(s.shapes.size());
   for (const Shape& shape : s.shapes) {
     WideShape& w = shapes.emplace_back();
@@ -37,8 +37,6 @@ WideScene::WideScene(const Scene& s) : scene(s) {
     w.normals = shape.mesh->normals.data();
     has_normals = true;
   }
-  if (s.lights.size() == 1 && s.lights[0]->kind() == LightKind::area)
-    only_light = static_cast<const AreaLight&>(*s.lights[0]).parallelogram();
 }
 
 }  // namespace duet

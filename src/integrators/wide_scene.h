@@ -3,8 +3,7 @@
 
 #include <vector>
 
-#include "lights/area.h"
-#include "scene/scene.h"
+#include "integrators/wide_lights.h"
 #include "textures/texture.h"
 
 namespace duet {
@@ -27,8 +26,8 @@ struct WideScene {
 
   const Scene& scene;
   std::vector<WideShape> shapes;
-  bool has_normals = false;                        ///< whether any mesh has shading normals
-  const ParallelogramLight* only_light = nullptr;  ///< if it is the only light, and such
+  bool has_normals = false;  ///< whether any mesh has shading normals
+  WideLights lights;
 };
 
 }  // namespace duet

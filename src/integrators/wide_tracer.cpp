@@ -31,7 +31,7 @@ void WideTracer::trace(int n, const BatchSampler& sampler, WideSamples& samples,
       break;
     }
     draw_numbers(n, sampler, depth);
-    sample_lights(n);
+    wide_.lights.sample(n, points_, numbers_, choice_, lights_);
     evaluate_diffuse(n, paths_, points_, lights_);
     sample_diffuse(n, paths_, points_, numbers_, scattering_);
     scatter_one_by_one();
@@ -154,26 +154,6 @@ void WideTracer::draw_numbers(int n, const BatchSampler& sampler, int depth) {
     sampler.numbers_1d(n, paths_.keys, scattering + 2, numbers_.first);
   if (!special_.empty() && has_roulette(depth))
     sampler.numbers_1d(n, paths_.keys, scattering + 3, numbers_.second);
-}
-
-void WideTracer::sample_lights(int n) {
-  if (wide_.only_light) return sample_only_light(n, *wide_.only_light, points_, numbers_, lights_);
-  for (int i = 0; i < n; ++i) lights_.pdf[i] = -1;
-  if (wide_.scene.lights.empty()) return;
-  for (int i = 0; i < n; ++i) {
-    const ChosenLight chosen =
-        choose_light(wide_.scene, points_.position.point(i),
-                     {numbers_.light_x[i], numbers_.light_y[i]}, numbers_.light_choice[i]);
-    if (!chosen.sample) continue;
-    const LightSample& s = *chosen.sample;
-    lights_.wi.set(i, s.wi);
-    lights_.target.set(i, s.target);
-    lights_.weight.set(i, s.weight.r, s.weight.g, s.weight.b);
-    lights_.pdf[i] = s.pdf.value * chosen.probability;
-    lights_.probability[i] = chosen.probability;
-    lights_.finite[i] = s.finite;
-    lights_.delta[i] = s.delta;
-  }
 }
 
 void WideTracer::scatter_one_by_one() {

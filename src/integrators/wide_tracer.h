@@ -39,7 +39,6 @@ class WideTracer {
   void set_reflectance(int i, const Spectrum& r) { points_.reflectance.set(i, r.r, r.g, r.b); }
   void add_emission(WideSamples& samples) const;
   void draw_numbers(int n, const BatchSampler& sampler, int depth);
-  void sample_lights(int n);
   /// At points whose material is not plain: the value for the light sample, and the next direction.
   void scatter_one_by_one();
   void add_light(int n, WideSamples& samples, RenderCounters& counters);
@@ -60,6 +59,7 @@ class WideTracer {
   WideTriangles triangles_{};
   WidePoints points_{};
   WideNumbers numbers_{};
+  WideLightChoice choice_{};
   WideLightSamples lights_{};
   WideShadowRays shadows_{};
   WideScattering scattering_{};

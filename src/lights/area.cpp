@@ -13,7 +13,7 @@ constexpr uint32_t kTrianglesInLeaf = 4;
 
 /// Corner and edges of the parallelogram that two triangles make together, if they do, and shine on
 /// one side of it.
-std::optional<ParallelogramLight> find_parallelogram(const TriangleMesh& m) {
+std::optional<FlatLight> find_parallelogram(const TriangleMesh& m) {
   if (m.triangles.size() != 2) return std::nullopt;
   // Normals that differ would make the emitting side vary.
   for (const Normal3f& n : m.normals)
@@ -28,7 +28,7 @@ std::optional<ParallelogramLight> find_parallelogram(const TriangleMesh& m) {
       if (corner(1, j + 1) != d || corner(1, j + 2) != b) continue;
       const Vector3f u = b - a, v = d - a;
       const float size = std::max(max_abs(u), max_abs(v));
-      if (max_abs((c - d) - u) <= 1e-5f * size) return ParallelogramLight{a, u, v, {}, {}};
+      if (max_abs((c - d) - u) <= 1e-5f * size) return FlatLight{a, u, v, {}, {}};
     }
   return std::nullopt;
 }
@@ -45,6 +45,7 @@ AreaLight::AreaLight(const Shape& shape, const ColorSlot& radiance, bool two_sid
   // Of two sides, either may be the one that is seen.
   if (shape.kind != ShapeKind::mesh) {
     strategy_ = !two_sided && choose_cone() ? Strategy::cone : Strategy::surface;
+    if (shape.kind == ShapeKind::disk && !two_sided && radiance.is_constant()) make_flat_disk();
   } else if (!two_sided && radiance.is_constant() && choose_parallelogram()) {
     strategy_ = Strategy::parallelogram;
   } else {
@@ -78,9 +79,21 @@ bool AreaLight::choose_parallelogram() {
   // Normals that lean would darken a part of the directions.
   if (!(dot(first.ng, first.ns) > 0.9999f)) return false;
   const Vector3f off = Vector3f(first.ng) * std::max(first.offset, second.offset);
-  parallelogram_ = {p->corner + off, p->edge_u,          p->edge_v,
-                    first.ng,        radiance_.constant, float(area_)};
+  flat_ = {p->origin + off, p->edge_u, p->edge_v, first.ng, radiance_.constant, float(area_)};
   return true;
+}
+
+void AreaLight::make_flat_disk() {
+  const auto& rows = shape_.to_world.rows();
+  const auto column = [&](size_t j) { return Vector3f(rows[0][j], rows[1][j], rows[2][j]); };
+  const ShapePoint center = sample_analytic(shape_, {0.5f, 0.5f});
+  flat_ = {center.position + Vector3f(center.ng) * center.offset,
+           column(0),
+           column(1),
+           center.ng,
+           radiance_.constant,
+           1 / center.pdf.value,
+           1};
 }
 
 double AreaLight::power(double) const {
@@ -242,8 +255,8 @@ ShapePoint AreaLight::sample_point(const Point2f& u) const {
     return p;
   }
   ShapePoint p{};
-  const ParallelogramLight& l = parallelogram_;
-  p.position = l.corner + (l.edge_u * u.x + l.edge_v * u.y);
+  const FlatLight& l = flat_;
+  p.position = l.origin + (l.edge_u * u.x + l.edge_v * u.y);
   p.ng = p.ns = l.normal;
   p.pdf = uniform_;
   return p;

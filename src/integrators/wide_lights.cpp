@@ -1,0 +1,139 @@
+#include "integrators/wide_lights.h"
+
+#include "base/instruction_sets.h"
+#include "lights/area.h"
+#include "transport/light_choice.h"
+
+namespace duet {
+
+namespace {
+
+constexpr int kFlatNumbers = sizeof(FlatLight) / sizeof(float);
+static_assert(kFlatNumbers == 17);
+
+/// Gathers what stands in memory as a FlatLight from `f` on: compilers make
+/// gathers of 32-bit numbers of elements, not of addresses.
+[[gnu::always_inline]] inline FlatLight flat_light_at(const float* f, int i) {
+  FlatLight l;
+  l.origin = Point3f(f[i], f[i + 1], f[i + 2]);
+  l.edge_u = Vector3f(f[i + 3], f[i + 4], f[i + 5]);
+  l.edge_v = Vector3f(f[i + 6], f[i + 7], f[i + 8]);
+  l.normal = Normal3f(f[i + 9], f[i + 10], f[i + 11]);
+  l.radiance = Spectrum(f[i + 12], f[i + 13], f[i + 14]);
+  l.area = f[i + 15];
+  l.round = f[i + 16];
+  return l;
+}
+
+[[gnu::always_inline]] inline void set_sample(int i, const FlatLight& l, const FlatLight::Sample& s,
+                                              float probability, WideLightSamples& samples) {
+  samples.wi.set(i, s.wi);
+  samples.target.set(i, s.target);
+  samples.weight.set(i, l.radiance.r * s.solid_angle, l.radiance.g * s.solid_angle,
+                     l.radiance.b * s.solid_angle);
+  samples.pdf[i] = s.facing > 0 ? s.pdf * probability : -1.0f;
+  samples.probability[i] = probability;
+  samples.finite[i] = 1;
+  samples.delta[i] = 0;
+}
+
+DUET_WIDEST void sample_only_light(int n, const FlatLight& light, const WidePoints& points,
+                                   const WideNumbers& numbers, WideLightSamples& samples) {
+  const FlatLight l = light;
+  DUET_LANES
+  for (int i = 0; i < n; ++i)
+    set_sample(i, l,
+               l.sample_at(points.position.point(i), {numbers.light_x[i], numbers.light_y[i]}), 1,
+               samples);
+}
+
+template <bool kRound>
+[[gnu::always_inline]] inline void sample_flat(int n, const float* lights, const WidePoints& points,
+                                               const WideNumbers& numbers,
+                                               const WideLightChoice& choice,
+                                               WideLightSamples& samples) {
+  DUET_LANES
+  for (int i = 0; i < n; ++i) {
+    const FlatLight l = flat_light_at(lights, int32_t(choice.light[i]) * kFlatNumbers);
+    float x = numbers.light_x[i], y = numbers.light_y[i];
+    if constexpr (kRound) {
+      const Point2f disk = square_to_disk({x, y});
+      x = l.round > 0 ? disk.x : x, y = l.round > 0 ? disk.y : y;
+    }
+    set_sample(i, l, l.sample_at(points.position.point(i), {x, y}), choice.probability[i], samples);
+  }
+}
+
+DUET_WIDEST void sample_parallelograms(int n, const float* lights, const WidePoints& points,
+                                       const WideNumbers& numbers, const WideLightChoice& choice,
+                                       WideLightSamples& samples) {
+  sample_flat<false>(n, lights, points, numbers, choice, samples);
+}
+
+DUET_WIDEST void sample_flat_lights(int n, const float* lights, const WidePoints& points,
+                                    const WideNumbers& numbers, const WideLightChoice& choice,
+                                    WideLightSamples& samples) {
+  sample_flat<true>(n, lights, points, numbers, choice, samples);
+}
+
+void set_sample(int i, const std::optional<LightSample>& sample, float probability,
+                WideLightSamples& samples) {
+  samples.pdf[i] = -1;
+  if (!sample) return;
+  samples.wi.set(i, sample->wi);
+  samples.target.set(i, sample->target);
+  samples.weight.set(i, sample->weight.r, sample->weight.g, sample->weight.b);
+  samples.pdf[i] = sample->pdf.value * probability;
+  samples.probability[i] = probability;
+  samples.finite[i] = sample->finite;
+  samples.delta[i] = sample->delta;
+}
+
+}  // namespace
+
+WideLights::WideLights(const Scene& scene) : scene_(scene) {
+  for (const auto& light : scene.lights) {
+    const auto* flat =
+        light->kind() == LightKind::area ? static_cast<const AreaLight&>(*light).flat() : nullptr;
+    flat_.push_back(flat ? *flat : FlatLight{});
+    has_flat_ |= flat != nullptr;
+    has_round_ |= flat && flat->round > 0;
+  }
+  if (flat_.size() == 1 && has_flat_ && !has_round_) only_ = flat_.data();
+}
+
+void WideLights::choose(int n, const WidePoints& points, const WideNumbers& numbers,
+                        WideLightChoice& choice) const {
+  for (int i = 0; i < n; ++i) {
+    const LightPicker::Pick pick =
+        has_light_choice(scene_)
+            ? scene_.direct_picker.pick(numbers.light_choice[i],
+                                        {numbers.light_x[i], numbers.light_y[i]},
+                                        points.position.point(i))
+            : LightPicker::Pick{0, 1};
+    choice.light[i] = pick.light;
+    choice.probability[i] = pick.probability;
+  }
+}
+
+void WideLights::sample(int n, const WidePoints& points, const WideNumbers& numbers,
+                        WideLightChoice& choice, WideLightSamples& samples) const {
+  if (only_) return sample_only_light(n, *only_, points, numbers, samples);
+  if (flat_.empty()) {
+    for (int i = 0; i < n; ++i) samples.pdf[i] = -1;
+    return;
+  }
+  choose(n, points, numbers, choice);
+  if (has_flat_)
+    (has_round_ ? sample_flat_lights : sample_parallelograms)(n, &flat_.data()->origin.x, points,
+                                                              numbers, choice, samples);
+  for (int i = 0; i < n; ++i) {
+    if (flat_[choice.light[i]].area > 0) continue;
+    set_sample(i,
+               scene_.lights[choice.light[i]]->sample_direct(
+                   points.position.point(i), {numbers.light_x[i], numbers.light_y[i]}),
+               choice.probability[i], samples);
+  }
+}
+
+}  // namespace duet

@@ -1,0 +1,38 @@
+// Light samples of a batch of paths.
+#pragma once
+
+#include "integrators/wide_state.h"
+#include "lights/flat_light.h"
+#include "scene/scene.h"
+
+namespace duet {
+
+/// The lights that are chosen for the points of a batch.
+struct WideLightChoice {
+  BatchArray<uint32_t> light;
+  BatchArray<float> probability;
+};
+
+/// A scene's lights as batches of paths see them: choose_light() for many points at once, with the
+/// same results bit for bit. Flat lights are sampled in loops over all paths, the others one by
+/// one.
+class WideLights {
+ public:
+  /// `scene` must outlive this and stand still.
+  explicit WideLights(const Scene& scene);
+
+  /// `choice` is room for what is chosen.
+  void sample(int n, const WidePoints& points, const WideNumbers& numbers, WideLightChoice& choice,
+              WideLightSamples& samples) const;
+
+ private:
+  void choose(int n, const WidePoints& points, const WideNumbers& numbers,
+              WideLightChoice& choice) const;
+
+  const Scene& scene_;
+  std::vector<FlatLight> flat_;  ///< by light; of area 0 for those that are none
+  bool has_flat_ = false, has_round_ = false;
+  const FlatLight* only_ = nullptr;  ///< the only light, if it is a parallelogram
+};
+
+}  // namespace duet
