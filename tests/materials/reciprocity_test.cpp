@@ -2,6 +2,7 @@
 //
 // Source of the relations: Veach, "Robust Monte Carlo Methods for Light Transport Simulation",
 // 1997, section 5.2.
+#include "materials/principled_materials.h"
 #include "support/bsdf_checks.h"
 
 using namespace duet;
