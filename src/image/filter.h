@@ -1,7 +1,6 @@
 // Reconstruction filters: how much a sample at some distance counts for a pixel.
 #pragma once
 
-#include <array>
 #include <optional>
 
 namespace duet {
@@ -39,10 +38,20 @@ class FilterProfile {
     const float f = x - float(i);
     return table_[i] * (1 - f) + table_[i + 1] * f;
   }
+  /// The same bits without a branch, for loops over many distances.
+  float weight_in_lanes(float distance) const {
+    const float x = (distance < 0 ? -distance : distance) * scale_;
+    // Beyond the end there are zeros.
+    const float in_table = x < float(kResolution) ? x : float(kResolution + 1);
+    const int i = int(in_table);
+    const float f = in_table - float(i);
+    return table_[i] * (1 - f) + table_[i + 1] * f;
+  }
 
  private:
   static constexpr int kResolution = 512;
-  std::array<float, kResolution + 1> table_;
+  /// No std::array, whose indices are of 64 bits: compilers do not gather by such.
+  float table_[kResolution + 3] = {};
   float radius_, scale_;
 };
 

@@ -7,6 +7,7 @@
 #include <cstdio>
 #include <cstring>
 #include <memory>
+#include <optional>
 #include <stdexcept>
 #include <string_view>
 
@@ -14,6 +15,7 @@
 #include "base/file_names.h"
 #include "image/codecs.h"
 #include "image/exr_io.h"
+#include "image/plain_png.h"
 
 namespace duet {
 
@@ -117,6 +119,8 @@ ImageFile read_image(const std::string& path) {
   if (kind == std::string_view("jpeg") && !is_complete_jpeg(bytes))
     throw ReadError(path + ": the file ends in the middle of the image");
   try {
+    if (kind == std::string_view("png"))
+      if (std::optional<ImageFile> file = read_plain_png(bytes)) return std::move(*file);
     return decode_with_module(kind, bytes);
   } catch (const std::bad_alloc&) {
     throw ReadError(path + ": is too large for the memory");

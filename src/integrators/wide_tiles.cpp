@@ -1,6 +1,10 @@
 #include "integrators/wide_tiles.h"
 
-#include "image/sample_adder.h"
+#include <array>
+#include <cmath>
+
+#include "base/instruction_sets.h"
+#include "image/batch_adder.h"
 
 namespace duet {
 
@@ -30,7 +34,13 @@ struct WideTiles::Workspace {
   void enter(const PixelBounds& pixels, int width);
   /// Begins the paths of a sample; returns how many there are.
   int start_paths(uint32_t index);
-  void add_to(SampleAdder& sums, const PixelBounds& bounds, RenderCounters& counters);
+  /// Weights samples by the camera's weights, and makes those black that no film can add.
+  void weight_samples(const PixelBounds& bounds, RenderCounters& counters);
+  void add_to(BatchAdder& sums) const {
+    sums.add({x, y, samples.r, samples.g, samples.b, samples.alpha});
+  }
+  /// One by one.
+  void add_to(SampleAdder& sums, const PixelBounds& bounds) const;
 
   const Camera& camera;
   WideTracer tracer;
@@ -79,21 +89,35 @@ int WideTiles::Workspace::start_paths(uint32_t index) {
   return n;
 }
 
-void WideTiles::Workspace::add_to(SampleAdder& sums, const PixelBounds& bounds,
-                                  RenderCounters& counters) {
+void WideTiles::Workspace::weight_samples(const PixelBounds& bounds, RenderCounters& counters) {
+  const auto is_large = [](float v) {
+    return std::abs(v) <= float(ExactSum::kLargest) ? 0 : 1;  // also what is not a number
+  };
+  int large = 0;
+  DUET_LANES
+  for (int id = 0; id < count; ++id) {
+    const float r = samples.r[id] * weight[id], g = samples.g[id] * weight[id],
+                b = samples.b[id] * weight[id];
+    samples.r[id] = r, samples.g[id] = g, samples.b[id] = b;
+    large |= is_large(r) | is_large(g) | is_large(b) | is_large(samples.alpha[id]);
+  }
+  if (large == 0) return;
+  for (int id = 0; id < count; ++id) {
+    const float values[]{samples.r[id], samples.g[id], samples.b[id], samples.alpha[id]};
+    if (film_can_add(std::span<const float>(values))) continue;
+    samples.r[id] = samples.g[id] = samples.b[id] = samples.alpha[id] = 0;
+    counters.nonfinite_samples +=
+        bounds.contains(square.x0 + id % square.width(), square.y0 + id / square.width());
+  }
+}
+
+void WideTiles::Workspace::add_to(SampleAdder& sums, const PixelBounds& bounds) const {
   int id = 0;
   for (int py = square.y0; py < square.y1; ++py)
-    for (int px = square.x0; px < square.x1; ++px, ++id) {
-      if (!bounds.contains(px, py)) continue;
-      const float w = weight[id];
-      std::array<float, 4> values{samples.r[id] * w, samples.g[id] * w, samples.b[id] * w,
-                                  samples.alpha[id]};
-      if (!film_can_add(std::span<const float, 4>(values))) {
-        ++counters.nonfinite_samples;
-        values = {};
-      }
-      sums.add(px, py, {x[id], y[id]}, values);
-    }
+    for (int px = square.x0; px < square.x1; ++px, ++id)
+      if (bounds.contains(px, py))
+        sums.add(px, py, {x[id], y[id]},
+                 std::array{samples.r[id], samples.g[id], samples.b[id], samples.alpha[id]});
 }
 
 WideTiles::WideTiles(const Scene& scene, const PathLimits& limits, const Film& film,
@@ -118,11 +142,20 @@ void WideTiles::render(FilmTile& tile, const TileSamples& samples, RenderCounter
   std::unique_ptr<Workspace> workspace = take_workspace();
   workspace->enter(whole_square(film_, tile), film_.full_size().x);
   const PixelBounds& bounds = tile.sampled();
-  SampleAdder sums(film_, tile);
-  for (uint32_t i = samples.first; i < samples.first + samples.count; ++i) {
-    const int n = workspace->start_paths(i);
-    workspace->tracer.trace(n, workspace->sampler, workspace->samples, counters);
-    workspace->add_to(sums, bounds, counters);
+  const auto trace = [&](auto&& add) {
+    for (uint32_t i = samples.first; i < samples.first + samples.count; ++i) {
+      const int n = workspace->start_paths(i);
+      workspace->tracer.trace(n, workspace->sampler, workspace->samples, counters);
+      workspace->weight_samples(bounds, counters);
+      add();
+    }
+  };
+  if (BatchAdder::suits(film_)) {
+    BatchAdder sums(film_, tile, workspace->square);
+    trace([&] { workspace->add_to(sums); });
+  } else {
+    SampleAdder sums(film_, tile);
+    trace([&] { workspace->add_to(sums, bounds); });
   }
   tile.count_samples(samples.count);
   counters.camera_paths += uint64_t(bounds.width()) * uint64_t(bounds.height()) * samples.count;

@@ -158,12 +158,16 @@ TEST_CASE("HDR and PFM are linear floats") {
 }
 
 // Runs in a process of its own, with DUET_IMAGE_MODULE set to a name that does not exist.
-TEST_CASE("without the module, EXR works, other formats say what is missing" * doctest::skip()) {
+TEST_CASE("without the module, EXR and plain PNG files work, other formats say what is missing" *
+          doctest::skip()) {
   TemporaryDirectory directory;
   const std::string module = std::getenv("DUET_IMAGE_MODULE");
   Image image(2, 2, {"R", "G", "B"});
   write_exr(directory.path("a.exr"), image, {});
   CHECK(read_image(directory.path("a.exr")).image.data == image.data);
+  const std::string row("\0\x64\xc8\x32", 4);
+  CHECK(read_image(directory.write("read.png", png(1, 1, 8, 2, row))).bytes ==
+        std::vector<uint8_t>{0x64, 0xc8, 0x32});
   const std::string path = directory.write("a.bmp", bmp(1, 1, std::string("abc\0", 4)));
   CHECK_THROWS_WITH_AS(read_image(path),
                        (path +
