@@ -1,6 +1,6 @@
 #include "integrators/wide_scene.h"
 
-#include "materials/plain_diffuse.h"
+#include <algorithm>
 
 namespace duet {
 
@@ -13,22 +13,49 @@ bool has_frame_of_normal(const Shape& shape) {
   return shape.kind == ShapeKind::mesh || !shape.needs.uv;
 }
 
+/// The texture if the processor is likely to wait for its texels, or null.
+const Texture* if_large(const Texture* texture) {
+  constexpr int64_t kSmall = 1 << 18;  // texels, in a cache near by
+  if (!texture) return nullptr;
+  const Point2i size = texture->resolution();
+  return int64_t(size.x) * size.y > kSmall ? texture : nullptr;
+}
+
 }  // namespace
+
+void WideScene::set_model(WideShape& w, const Shape& shape) {
+  const Material& material = *scene.materials[shape.material];
+  const auto set_reflectance = [&](const ColorSlot& slot) {
+    w.reflectance = slot.constant;
+    if (slot.is_constant()) return;
+    w.textured = &slot;
+    w.prefetched = if_large(slot.texture);
+  };
+  const bool by_normal = has_frame_of_normal(shape);
+  if (const auto diffuse = by_normal ? as_diffuse(material) : std::nullopt) {
+    w.model = WideModel::diffuse;
+    w.two_sided = diffuse->two_sided;
+    set_reflectance(diffuse->reflectance);
+  } else if (const auto plastic = by_normal ? as_rough_plastic(material) : std::nullopt) {
+    w.model = WideModel::plastic;
+    const auto known =
+        std::find(plastic_materials.begin(), plastic_materials.end(), shape.material);
+    w.plastic = int32_t(known - plastic_materials.begin());
+    set_reflectance(plastic->base);
+    if (known != plastic_materials.end()) return;
+    plastics.push_back(*plastic);
+    plastic_materials.push_back(shape.material);
+  } else {
+    w.prefetched = if_large(material.main_texture());
+  }
+}
 
 WideScene::WideScene(const Scene& s) : scene(s), lights(s) {
   shapes.reserve(s.shapes.size());
   for (const Shape& shape : s.shapes) {
     WideShape& w = shapes.emplace_back();
-    const Material& material = *s.materials[shape.material];
     w.emits = shape.light != kNone;
-    const auto diffuse = has_frame_of_normal(shape) ? as_diffuse(material) : std::nullopt;
-    if (!diffuse) w.prefetched = material.main_texture();
-    if (diffuse) {
-      w.diffuse = true;
-      w.two_sided = diffuse->two_sided;
-      w.reflectance = diffuse->reflectance.constant;
-      if (!diffuse->reflectance.is_constant()) w.textured = &diffuse->reflectance;
-    }
+    set_model(w, shape);
     if (shape.kind != ShapeKind::mesh) continue;
     w.positions = shape.mesh->positions.data();
     w.triangles = shape.mesh->triangles.data();

@@ -4,20 +4,30 @@
 #include <vector>
 
 #include "integrators/wide_lights.h"
+#include "materials/plain_diffuse.h"
 #include "textures/texture.h"
 
 namespace duet {
 
+/// How points of a shape scatter.
+enum class WideModel : uint8_t {
+  diffuse,  ///< DiffuseSurface
+  plastic,  ///< RoughPlasticSurface
+  other,    ///< path by path, by the code for one
+};
+
 struct alignas(64) WideShape {
   const Point3f* positions = nullptr;  ///< null if points are made by Scene::surface() alone
   const std::array<uint32_t, 3>* triangles = nullptr;
-  const Normal3f* normals = nullptr;        ///< or null
-  const Texture* prefetched = nullptr;      ///< Material::main_texture() if not `diffuse`
-  const ColorSlot* textured = nullptr;      ///< the reflectance if it depends on the point, or null
-  Spectrum reflectance;                     ///< otherwise
-  float sign = 1;                           ///< −1 if the normals are to be turned
-  bool diffuse = false, two_sided = false;  ///< see DiffuseSurface
+  const Normal3f* normals = nullptr;    ///< or null
+  const Texture* prefetched = nullptr;  ///< what is waited for, or null
+  const ColorSlot* textured = nullptr;  ///< the reflectance if it depends on the point, or null
+  Spectrum reflectance;                 ///< otherwise
+  float sign = 1;                       ///< −1 if the normals are to be turned
+  WideModel model = WideModel::other;
+  bool two_sided = false;  ///< see DiffuseSurface
   bool emits = false;
+  int32_t plastic = 0;  ///< its number in WideScene::plastics, if it is one
 };
 
 /// A scene, which must outlive this and stand still, as batches of paths see it.
@@ -26,8 +36,13 @@ struct WideScene {
 
   const Scene& scene;
   std::vector<WideShape> shapes;
-  bool has_normals = false;  ///< whether any mesh has shading normals
+  std::vector<RoughPlasticSurface> plastics;
+  std::vector<uint32_t> plastic_materials;  ///< numbers of their materials
+  bool has_normals = false;                 ///< whether any mesh has shading normals
   WideLights lights;
+
+ private:
+  void set_model(WideShape& w, const Shape& shape);
 };
 
 }  // namespace duet

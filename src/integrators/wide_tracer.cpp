@@ -32,8 +32,10 @@ void WideTracer::trace(int n, const BatchSampler& sampler, WideSamples& samples,
     }
     draw_numbers(n, sampler, depth);
     wide_.lights.sample(n, points_, numbers_, choice_, lights_);
+    look_up_textures();
     evaluate_diffuse(n, paths_, points_, lights_);
     sample_diffuse(n, paths_, points_, numbers_, scattering_);
+    scatter_plastics();
     scatter_one_by_one();
     add_light(n, samples, counters);
     for (int i = 0; i < n; ++i)
@@ -76,9 +78,9 @@ void WideTracer::find_points(int n) {
     points_.offset[i] = s.offset;
     const WideShape& shape = wide_.shapes[hits_.shape[i]];
     if (shape.textured) set_reflectance(i, (*shape.textured)(s));
-    if (shape.prefetched) shape.prefetched->prefetch(s);
+    if (!shape.textured && shape.prefetched) shape.prefetched->prefetch(s);
   }
-  look_up_textures();
+  prefetch_textures();
 }
 
 /// What textures look up, without normals and tangents.
@@ -95,13 +97,22 @@ static Surface textured_point(const Shape& shape, const Point3f& position, const
   return textured_point(shape, p);
 }
 
-// One after the other with little between them, so that the processor waits for several at once.
-void WideTracer::look_up_textures() {
-  for (const int i : textured_) {
+void WideTracer::prefetch_textures() {
+  textured_points_.resize(textured_.size());
+  for (size_t k = 0; k < textured_.size(); ++k) {
+    const int i = textured_[k];
     const uint32_t shape = hits_.shape[i];
-    const Surface s =
+    textured_points_[k] =
         textured_point(wide_.scene.shapes[shape], points_.position.point(i), hit_at(hits_, i));
-    set_reflectance(i, (*wide_.shapes[shape].textured)(s));
+    const Texture* const texture = wide_.shapes[shape].prefetched;
+    if (texture) texture->prefetch(textured_points_[k]);
+  }
+}
+
+void WideTracer::look_up_textures() {
+  for (size_t k = 0; k < textured_.size(); ++k) {
+    const int i = textured_[k];
+    set_reflectance(i, (*wide_.shapes[hits_.shape[i]].textured)(textured_points_[k]));
   }
 }
 
@@ -109,12 +120,18 @@ void WideTracer::fetch(int n) {
   special_.clear();
   emitting_.clear();
   textured_.clear();
+  for (std::vector<int>& points : plastic_points_) points.clear();
+  has_plastic_points_ = false;
   for (int i = 0; i < n; ++i) {
     const WideShape& shape = wide_.shapes[hits_.shape[i]];
     if (shape.emits) emitting_.push_back(i);
     set_reflectance(i, shape.reflectance);
     points_.two_sided[i] = shape.two_sided;
-    if (!shape.diffuse || !shape.positions || hits_.instance[i] != kNone) {
+    if (shape.model == WideModel::plastic) {
+      plastic_points_[size_t(shape.plastic)].push_back(i);
+      has_plastic_points_ = true;
+    }
+    if (shape.model == WideModel::other || !shape.positions || hits_.instance[i] != kNone) {
       special_.push_back(i);
       continue;
     }
@@ -150,17 +167,42 @@ void WideTracer::draw_numbers(int n, const BatchSampler& sampler, int depth) {
   if (has_light_choice(wide_.scene))
     sampler.numbers_1d(n, paths_.keys, light + 2, numbers_.light_choice);
   sampler.numbers_2d(n, paths_.keys, scattering, numbers_.x, numbers_.y);
-  if (!special_.empty() || has_roulette(depth))
+  const bool chooses = !special_.empty() || has_plastic_points_;
+  if (chooses || has_roulette(depth))
     sampler.numbers_1d(n, paths_.keys, scattering + 2, numbers_.first);
-  if (!special_.empty() && has_roulette(depth))
+  if (chooses && has_roulette(depth))
     sampler.numbers_1d(n, paths_.keys, scattering + 3, numbers_.second);
+}
+
+void WideTracer::scatter_plastics() {
+  const WideVertices vertices{paths_, points_, numbers_};
+  WidePlastics& p = plastics_;
+  for (size_t number = 0; number < plastic_points_.size(); ++number) {
+    const std::vector<int>& points = plastic_points_[number];
+    if (points.empty()) continue;
+    const int count = int(points.size());
+    std::copy(points.begin(), points.end(), p.at.begin());
+    evaluate_plastic(count, wide_.plastics[number], vertices, lights_.wi, p);
+    sample_plastic(count, wide_.plastics[number], vertices, p);
+    for (int k = 0; k < count; ++k) {
+      const int i = p.at[k];
+      lights_.value.set(i, p.value.vector(k));
+      lights_.bsdf_pdf[i] = p.value_pdf[k];
+      scattering_.wi.set(i, p.wi.vector(k));
+      scattering_.weight.set(i, p.weight.vector(k));
+      scattering_.pdf[i] = p.pdf[k];
+      scattering_.roulette[i] = p.roulette[k];
+      scattering_.alive[i] = p.alive[k];
+      // sample_diffuse() has set the rest.
+    }
+  }
 }
 
 void WideTracer::scatter_one_by_one() {
   for (size_t k = 0; k < special_.size(); ++k) {
     const int i = special_[k];
     const Surface& surface = surfaces_[k];
-    if (wide_.shapes[hits_.shape[i]].diffuse) continue;
+    if (wide_.shapes[hits_.shape[i]].model != WideModel::other) continue;
     const Bsdf bsdf = wide_.scene.materials[surface.shape->material]->bind(
         surface, -paths_.ray.direction.vector(i));
     BsdfEval f;

@@ -86,12 +86,13 @@ class AreaLight final : public SurfaceLight {
   PdfA uniform_;  ///< 1 / area
   std::optional<TriangleCells> cells_;
   std::unique_ptr<const LightTree> tree_;  ///< over the triangles of a mesh, or null
-  FlatLight flat_;  ///< of area 0 if the light is none
-  Point3f center_;  ///< of the sphere
+  FlatLight flat_;                         ///< of area 0 if the light is none
+  Point3f center_;                         ///< of the sphere
   float radius_ = 0;
 };
 
-// The most frequent lights are looked into by whoever asks them: the sample then stays in registers.
+// The most frequent lights are looked into by whoever asks them: the sample then stays in
+// registers.
 [[gnu::always_inline]] inline std::optional<LightSample> AreaLight::sample_flat(
     const Point3f& from, const Point2f& u) const {
   const FlatLight::Sample s = flat_.sample(from, u);

@@ -9,7 +9,7 @@ namespace duet {
 /// A light that is a parallelogram or an ellipse and shines on one side, the same everywhere. Its
 /// light samples have a closed form without branches, which is also that of many points at once.
 struct FlatLight {
-  Point3f origin;  ///< a corner, or the centre of the ellipse; just off its surface
+  Point3f origin;           ///< a corner, or the centre of the ellipse; just off its surface
   Vector3f edge_u, edge_v;  ///< from the corner; from the centre to the rim
   Normal3f normal;
   Spectrum radiance;

@@ -9,6 +9,14 @@
 
 namespace duet {
 
+/// Reflectance where light passes, too: `g` is η cos θ_t. Amplitudes a/b across and c/d in the
+/// plane of incidence, with one division for both.
+[[gnu::always_inline]] inline float transmitting_reflectance(float cos_i, float eta2, float g) {
+  const float a = cos_i - g, b = cos_i + g;
+  const float c = eta2 * cos_i - g, d = eta2 * cos_i + g;
+  return std::min(0.5f * (sqr(a * d) + sqr(b * c)) / sqr(b * d), 1.0f);
+}
+
 /// Unpolarised reflection at a dielectric interface and the direction of refraction.
 struct DielectricFresnel {
   float reflectance;
@@ -23,10 +31,15 @@ inline DielectricFresnel fresnel_dielectric(float cos_i, float eta) {
   const float g2 = eta2 - (1 - cos_i * cos_i);
   if (!(g2 > 0 && cos_i > 0)) return {1, safe_sqrt(g2) / eta};
   const float g = std::sqrt(g2);  // η cos θ_t
-  // Amplitudes a/b across and c/d in the plane of incidence, with one division for both.
-  const float a = cos_i - g, b = cos_i + g;
-  const float c = eta2 * cos_i - g, d = eta2 * cos_i + g;
-  return {std::min(0.5f * (sqr(a * d) + sqr(b * c)) / sqr(b * d), 1.0f), g / eta};
+  return {transmitting_reflectance(cos_i, eta2, g), g / eta};
+}
+
+/// The same reflectance, for eta ≠ 1, without branches: for loops over many points.
+[[gnu::always_inline]] inline float dielectric_reflectance(float cos_i, float eta) {
+  const float eta2 = eta * eta;
+  const float g2 = eta2 - (1 - cos_i * cos_i);
+  const float transmitting = transmitting_reflectance(cos_i, eta2, safe_sqrt(g2));
+  return std::min(g2, cos_i) > 0 ? transmitting : 1.0f;
 }
 
 /// Unpolarised reflection at a conductor with the complex index eta + i k (relative to the

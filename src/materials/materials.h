@@ -164,6 +164,9 @@ class RoughPlastic final : public SingleModelMaterial<RoughPlastic> {
  public:
   RoughPlastic(const PlasticOptions& options, const RoughnessOptions& roughness);
   RoughPlasticModel model(const Surface& s) const;
+  /// The plastic without its base, if the rest is the same everywhere.
+  std::optional<UniformRoughPlastic> uniform() const;
+  const ColorSlot& base() const { return options_.diffuse_reflectance; }
   SurfaceNeeds needs() const override;
   bool transmits() const override { return false; }
   Spectrum local_albedo(const Surface& s, const Vector3f&) const override {

@@ -33,6 +33,7 @@ class Microfacet {
         visible_(sample_visible) {}
 
   bool samples_visible() const { return visible_; }
+  bool is_visible_ggx() const { return ggx_ && visible_ && !correlated_; }
   float alpha_u() const { return alpha_u_; }
   float alpha_v() const { return alpha_v_; }
   /// Along x or y.
@@ -89,19 +90,23 @@ class Microfacet {
     float value, density, cosine;
   };
   Reflection reflection(const Vector3f& o, const Vector3f& i) const {
+    if (is_visible_ggx()) return visible_ggx_reflection(o, i);
     const Vector3f sum = o + i;
-    const float length2 = length_squared(sum), length = std::sqrt(length2);
-    if (!(ggx_ && visible_) || correlated_) {
-      const Core c = core(o, i, sum * (1 / length));
-      return {0.25f * c.value, 0.25f * c.density, 0.5f * length};
-    }
-    // The same with two divisions made one.
+    const float length = std::sqrt(length_squared(sum));
+    const Core c = core(o, i, sum * (1 / length));
+    return {0.25f * c.value, 0.25f * c.density, 0.5f * length};
+  }
+  /// The same for visible GGX facets without correlation, with two divisions made one.
+  [[gnu::always_inline]] Reflection visible_ggx_reflection(const Vector3f& o,
+                                                           const Vector3f& i) const {
+    const Vector3f sum = o + i;
+    const float length2 = length_squared(sum);
     const float x = sum.x * inv_u_, y = sum.y * inv_v_;
     const float far = sqr(x * x + y * y + sum.z * sum.z) * (o.z + stretched_length(o));
     const float near = i.z + stretched_length(i);
     const float inverse = 1 / (far * near);
     const float density = 0.5f * kInvPi * inv_u_ * inv_v_ * sqr(length2) * near * inverse;
-    return {density * (2 * i.z * far * inverse), density, 0.5f * length};
+    return {density * (2 * i.z * far * inverse), density, 0.5f * std::sqrt(length2)};
   }
 
   /// A facet normal seen from o. Visible normals have the density G₁(o) D(m) (o·m)⁺ / o.z, others
@@ -110,6 +115,7 @@ class Microfacet {
     if (!visible_) return sample_all(u);
     return ggx_ ? sample_visible_ggx(o, u) : sample_visible_beckmann(o, u);
   }
+  Vector3f sample_visible_ggx(const Vector3f& o, const Point2f& u) const;
 
   /// The distribution from which a rough dielectric samples if it does not sample visible normals:
   /// somewhat wider, so that no weight becomes very large.
@@ -123,12 +129,11 @@ class Microfacet {
   }
 
  private:
-  float stretched_length(const Vector3f& v) const {
+  [[gnu::always_inline]] float stretched_length(const Vector3f& v) const {
     return std::sqrt(sqr(alpha_u_ * v.x) + sqr(alpha_v_ * v.y) + v.z * v.z);
   }
   Core beckmann_core(float d, const Vector3f& o, const Vector3f& i) const;
   Vector3f sample_all(const Point2f& u) const;
-  Vector3f sample_visible_ggx(const Vector3f& o, const Point2f& u) const;
   Vector3f sample_visible_beckmann(const Vector3f& o, const Point2f& u) const;
 
   float alpha_u_, alpha_v_, inv_u_, inv_v_;
@@ -138,7 +143,8 @@ class Microfacet {
 /// Source: Dupuy & Benyoub, "Sampling Visible GGX Normals with Spherical Caps", 2023. The
 /// reflections about the facets of a (stretched) hemisphere fill a spherical cap evenly. Here the
 /// sphere has the radius to which o is stretched, which saves to normalise it.
-inline Vector3f Microfacet::sample_visible_ggx(const Vector3f& o, const Point2f& u) const {
+[[gnu::always_inline]] inline Vector3f Microfacet::sample_visible_ggx(const Vector3f& o,
+                                                                      const Point2f& u) const {
   const float radius = stretched_length(o);
   // r² of a point on the disk is uniform and gives the height on the cap.
   const Point2f p = square_to_disk(u);

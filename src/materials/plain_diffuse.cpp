@@ -5,16 +5,35 @@
 
 namespace duet {
 
+namespace {
+
+/// A material without the wrapper that makes it that of both sides.
+struct Unwrapped {
+  const Material* material;  ///< null if the sides differ
+  bool two_sided;
+};
+
+Unwrapped unwrapped(const Material& material) {
+  const auto* two_sided = dynamic_cast<const TwoSided*>(&material);
+  return two_sided ? Unwrapped{two_sided->of_both_sides(), true} : Unwrapped{&material, false};
+}
+
+}  // namespace
+
 std::optional<DiffuseSurface> as_diffuse(const Material& material) {
-  if (const auto* two_sided = dynamic_cast<const TwoSided*>(&material)) {
-    const Material* const nested = two_sided->of_both_sides();
-    const auto* diffuse = nested ? dynamic_cast<const Diffuse*>(nested) : nullptr;
-    if (!diffuse) return std::nullopt;
-    return DiffuseSurface{diffuse->reflectance(), true};
-  }
-  if (const auto* diffuse = dynamic_cast<const Diffuse*>(&material))
-    return DiffuseSurface{diffuse->reflectance(), false};
-  return std::nullopt;
+  const Unwrapped bare = unwrapped(material);
+  const auto* diffuse = dynamic_cast<const Diffuse*>(bare.material);
+  if (!diffuse) return std::nullopt;
+  return DiffuseSurface{diffuse->reflectance(), bare.two_sided};
+}
+
+std::optional<RoughPlasticSurface> as_rough_plastic(const Material& material) {
+  const Unwrapped bare = unwrapped(material);
+  const auto* plastic = dynamic_cast<const RoughPlastic*>(bare.material);
+  const auto uniform = plastic ? plastic->uniform() : std::nullopt;
+  if (!uniform || !uniform->microfacet.is_visible_ggx()) return std::nullopt;
+  if (!(uniform->specular_reflectance.mean() > 0) || uniform->eta == 1) return std::nullopt;
+  return RoughPlasticSurface{plastic->base(), *uniform, bare.two_sided};
 }
 
 }  // namespace duet

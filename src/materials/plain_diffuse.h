@@ -65,4 +65,14 @@ struct DiffuseSurface {
 /// The material as such, if it is one.
 std::optional<DiffuseSurface> as_diffuse(const Material& material);
 
+/// A material that is nothing but a rough plastic on one or both sides, with visible GGX facets and
+/// a coat that is the same everywhere, reflects anything and has an index that is not 1.
+struct RoughPlasticSurface {
+  const ColorSlot& base;
+  UniformRoughPlastic plastic;
+  bool two_sided;
+};
+/// The material as such, if it is one.
+std::optional<RoughPlasticSurface> as_rough_plastic(const Material& material);
+
 }  // namespace duet

@@ -4,26 +4,6 @@
 
 namespace duet {
 
-namespace {
-
-/// Probability of the specular lobe, of which the coat reflects the share `f`.
-float lobe_probability(float f, float specular_weight, float diffuse_weight) {
-  const float s = f * specular_weight, d = (1 - f) * diffuse_weight;
-  return s + d > 0 ? s / (s + d) : 0.0f;
-}
-
-}  // namespace
-
-Spectrum coated_reflectance(const Spectrum& base, float internal_reflectance, float eta,
-                            bool nonlinear) {
-  // A base that reflects more than it receives would otherwise end in a series without a sum.
-  const auto coated = [&](float b) {
-    const float lost = 1 - (nonlinear ? b : 1.0f) * internal_reflectance;
-    return b / (std::max(lost, 1e-3f) * eta * eta);
-  };
-  return {coated(base.r), coated(base.g), coated(base.b)};
-}
-
 ModelEval PlasticModel::eval(const Vector3f& wo, const Vector3f& wi, Transport) const {
   if (!(wo.z > 0 && wi.z > 0)) return {};
   const float fo = fresnel_dielectric(wo.z, eta).reflectance;
@@ -52,19 +32,10 @@ float RoughPlasticModel::nearly_specular_share() const {
   return lobe_probability(normal_reflectance(eta), specular_weight, diffuse_weight);
 }
 
-float RoughPlasticModel::specular_probability(float transmitted) const {
-  return lobe_probability(1 - transmitted, specular_weight, diffuse_weight);
-}
-
 ModelEval RoughPlasticModel::eval(const Vector3f& wo, const Vector3f& wi, Transport) const {
   if (!(wo.z > kMinCosine && wi.z > kMinCosine)) return {};
   const Microfacet::Reflection r = microfacet.reflection(wo, wi);
-  const float f = fresnel_dielectric(r.cosine, eta).reflectance;
-  const float to = transmittance(wo.z), ti = transmittance(wi.z);
-  const float p = specular_probability(to);
-  const float cosine = wi.z * kInvPi;
-  return {specular_reflectance * (f * r.value) + coated_base * (cosine * to * ti),
-          p * r.density + (1 - p) * cosine};
+  return eval_above(wo, wi, r, fresnel_dielectric(r.cosine, eta).reflectance);
 }
 
 std::optional<ModelSample> RoughPlasticModel::sample(const Vector3f& wo, float u, const Point2f& v,
@@ -125,13 +96,24 @@ RoughPlasticModel RoughPlastic::model(const Surface& s) const {
   const Spectrum specular = options_.specular_reflectance(s);
   const float alpha = roughness_.alpha_u(s);
   const RoughTransmittance::Lookup t = tables_(alpha);
-  return {Microfacet(roughness_.distribution, alpha, alpha, roughness_.sample_visible),
-          options_.eta,
-          specular,
-          coated_reflectance(base, t.internal_reflectance, options_.eta, options_.nonlinear),
-          specular.mean(),
-          base.mean(),
-          t.external};
+  const UniformRoughPlastic plastic{
+      Microfacet(roughness_.distribution, alpha, alpha, roughness_.sample_visible),
+      options_.eta,
+      specular,
+      t.external,
+      t.internal_reflectance,
+      options_.nonlinear};
+  return plastic.model(base);
+}
+
+std::optional<UniformRoughPlastic> RoughPlastic::uniform() const {
+  if (!all_constant(options_.specular_reflectance, roughness_.alpha_u)) return std::nullopt;
+  const float alpha = roughness_.alpha_u.constant;
+  const Microfacet microfacet(roughness_.distribution, alpha, alpha, roughness_.sample_visible);
+  const RoughTransmittance::Lookup t = tables_(alpha);
+  return UniformRoughPlastic{
+      microfacet, options_.eta,           options_.specular_reflectance.constant,
+      t.external, t.internal_reflectance, options_.nonlinear};
 }
 
 SurfaceNeeds RoughPlastic::needs() const {

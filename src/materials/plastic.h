@@ -15,8 +15,25 @@ namespace duet {
 /// reflectance from inside. ρ' is ρ itself if colours may be shifted by the reflections between
 /// coat and base
 /// (`nonlinear`), or else 1. What is left out is the transmittance of the coat in both directions.
-Spectrum coated_reflectance(const Spectrum& base, float internal_reflectance, float eta,
-                            bool nonlinear);
+[[gnu::always_inline]] inline Spectrum coated_reflectance(const Spectrum& base,
+                                                          float internal_reflectance, float eta,
+                                                          bool nonlinear) {
+  // A base that reflects more than it receives would otherwise end in a series without a sum.
+  const float by_base = nonlinear ? internal_reflectance : 0.0f,
+              by_all = nonlinear ? 0.0f : internal_reflectance;
+  const auto coated = [&](float b) {
+    const float lost = 1 - (b * by_base + by_all);
+    return b / (std::max(lost, 1e-3f) * eta * eta);
+  };
+  return {coated(base.r), coated(base.g), coated(base.b)};
+}
+
+/// Probability of the specular lobe, of which the coat reflects the share `f`.
+[[gnu::always_inline]] inline float lobe_probability(float f, float specular_weight,
+                                                     float diffuse_weight) {
+  const float s = f * specular_weight, d = (1 - f) * diffuse_weight;
+  return s + d > 0 ? s / (s + d) : 0.0f;
+}
 
 /// A smooth coat: a delta lobe and the base. `eta` is the coat's index over the outside's.
 struct PlasticModel {
@@ -50,9 +67,39 @@ struct RoughPlasticModel {
 
   ModelEval eval(const Vector3f& wo, const Vector3f& wi, Transport) const;
   std::optional<ModelSample> sample(const Vector3f& wo, float u, const Point2f& v, Transport) const;
+  /// eval() of directions above the horizon, where the facets reflect `r`, of which the coat has
+  /// the reflectance `f`. Without branches, for loops over many points, too.
+  [[gnu::always_inline]] ModelEval eval_above(const Vector3f& wo, const Vector3f& wi,
+                                              const Microfacet::Reflection& r, float f) const {
+    const float to = transmittance(wo.z), ti = transmittance(wi.z);
+    const float p = specular_probability(to);
+    const float cosine = wi.z * kInvPi;
+    return {specular_reflectance * (f * r.value) + coated_base * (cosine * to * ti),
+            p * r.density + (1 - p) * cosine};
+  }
+  [[gnu::always_inline]] float specular_probability(float transmitted) const {
+    return lobe_probability(1 - transmitted, specular_weight, diffuse_weight);
+  }
+};
 
- private:
-  float specular_probability(float transmitted) const;
+/// A rough plastic of which only the base differs from point to point.
+struct UniformRoughPlastic {
+  Microfacet microfacet;
+  float eta;
+  Spectrum specular_reflectance;
+  TransmittanceRow transmittance;
+  float internal_reflectance;
+  bool nonlinear;
+
+  [[gnu::always_inline]] RoughPlasticModel model(const Spectrum& base) const {
+    return {microfacet,
+            eta,
+            specular_reflectance,
+            coated_reflectance(base, internal_reflectance, eta, nonlinear),
+            specular_reflectance.mean(),
+            base.mean(),
+            transmittance};
+  }
 };
 
 }  // namespace duet

@@ -172,11 +172,13 @@ int quadrature_size(float eta) {
 RoughTransmittance::RoughTransmittance(MicrofacetDistribution distribution, float eta,
                                        float alpha) {
   add_row(distribution, eta, alpha);
+  external_.push_back(external_.back());
 }
 
 RoughTransmittance::RoughTransmittance(MicrofacetDistribution distribution, float eta) {
   for (int k = 0; k < kRows; ++k)
     add_row(distribution, eta, kLargestAlpha * sqr(float(k) / float(kRows - 1)));
+  external_.push_back(external_.back());
 }
 
 void RoughTransmittance::add_row(MicrofacetDistribution distribution, float eta, float alpha) {

@@ -14,13 +14,17 @@ class TransmittanceRow {
   static constexpr int kSize = 64;
 
   TransmittanceRow() = default;
-  /// `values` is followed by the row of the next roughness if `blend` is not zero.
+  /// `values` is followed by the row of the next roughness if `blend` is not zero, and in any case
+  /// by another value, which counts for nothing.
   TransmittanceRow(const float* values, float blend) : values_(values), blend_(blend) {}
 
+  /// The first of the two rows: the same where nothing is blended.
+  [[gnu::always_inline]] TransmittanceRow first() const { return {values_, 0}; }
   /// For a cosine in [0, 1] outside.
-  float operator()(float cosine) const {
+  [[gnu::always_inline]] float operator()(float cosine) const {
     const float x = cosine * float(kSize - 1);
-    const int i = x < float(kSize - 2) ? int(x) : kSize - 2;
+    // Within the table whatever the cosine: loops over many points look up what they do not use.
+    const int i = int(x) & (kSize - 1);
     const float f = x - float(i);
     const float t = values_[i] + f * (values_[i + 1] - values_[i]);
     if (blend_ == 0) return t;

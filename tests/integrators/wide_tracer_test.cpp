@@ -14,6 +14,33 @@ const std::string kEnvironment =
 const std::string kPlastic =
     "<bsdf type='roughplastic'><float name='alpha' value='0.2'/>"
     "<rgb name='diffuse_reflectance' value='0.2,0.5,0.3'/></bsdf>";
+/// Rough plastic with the usual facets, which batches scatter in lanes.
+std::string ggx_plastic(const std::string& parameters, bool two_sided = true) {
+  const std::string plastic =
+      "<bsdf type='roughplastic'><string name='distribution' value='ggx'/>" + parameters +
+      "</bsdf>";
+  return two_sided ? "<bsdf type='twosided'>" + plastic + "</bsdf>" : plastic;
+}
+const std::string kVarnishedCheckers = ggx_plastic(
+    "<boolean name='nonlinear' value='true'/><texture type='checkerboard' "
+    "name='diffuse_reflectance'><rgb name='color0' value='0.8,0.3,0.2'/>"
+    "<rgb name='color1' value='0,0,0'/><transform name='to_uv'><scale x='5' y='7'/></transform>"
+    "</texture>");
+const std::string kTinted = ggx_plastic(
+    "<float name='alpha' value='0.02'/><float name='int_ior' value='1.9'/>"
+    "<rgb name='specular_reflectance' value='0.9,0.5,0.2'/>",
+    false);
+/// Inside denser than outside: total reflection.
+const std::string kBubble =
+    ggx_plastic("<float name='int_ior' value='1'/><float name='ext_ior' value='1.4'/>");
+
+std::string emitter(const std::string& type, const std::string& transform) {
+  return "<shape type='" + type + "'><transform name='to_world'>" + transform +
+         "</transform><emitter type='area'><rgb name='radiance' value='5,7,4'/></emitter></shape>";
+}
+const std::string kDiskLamp =
+    emitter("disk", "<scale x='0.3' y='0.2'/><rotate x='1' angle='170'/><translate z='1.9'/>");
+
 const std::string kGlass = "<bsdf type='dielectric'/>";
 const std::string kCheckers =
     "<bsdf type='twosided'><bsdf type='diffuse'><texture type='checkerboard' name='reflectance'>"
@@ -52,6 +79,26 @@ const Case kCases[] = {
          "<shape type='cube'><transform name='to_world'><scale value='0.2'/><rotate z='1' "
          "angle='30'/><translate y='-0.5' z='1.2'/></transform>" +
          kMask + "</shape>"},
+    {"a round lamp", camera() + room_xml(grey("0.6")) + kDiskLamp},
+    {"lamps of many kinds",
+     camera() + room_xml(grey("0.6")) + kLamp + kDiskLamp +
+         emitter("rectangle",
+                 "<scale value='0.1'/><rotate y='1' angle='90'/>"
+                 "<translate x='-0.9' z='1'/>") +
+         emitter("disk",
+                 "<scale value='0.1'/><rotate y='1' angle='-80'/>"
+                 "<translate x='0.9' z='0.5'/>") +
+         emitter("cube", "<scale value='0.05'/><translate x='0.3' z='0.3'/>") +
+         emitter("sphere", "<scale value='0.05'/><translate x='-0.3' z='0.4'/>")},
+    {"rough plastics in lanes",
+     camera() + room_xml(kVarnishedCheckers) + kLamp + sphere_xml("-0.4,0.2,0.4", "0.35", kTinted) +
+         sphere_xml("0.5,-0.3,0.3", "0.25", kBubble) +
+         "<shape type='sphere'><boolean name='flip_normals' value='true'/>"
+         "<point name='center' value='0.5,0.3,1.2'/><float name='radius' value='0.3'/>" +
+         kTinted + "</shape>" +
+         "<shape type='cube'><transform name='to_world'><scale value='0.2'/><rotate z='1' "
+         "angle='30'/><translate y='-0.5' z='1.2'/></transform>" +
+         ggx_plastic("<rgb name='diffuse_reflectance' value='0.2,0.5,0.3'/>", false) + "</shape>"},
     {"textures on meshes and analytic shapes",
      camera() + room_xml(kCheckers) + kLamp + sphere_xml("-0.4,0.2,0.4", "0.35", kCheckers) +
          "<shape type='disk'><transform name='to_world'><scale value='0.3'/>"
