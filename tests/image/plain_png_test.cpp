@@ -98,6 +98,10 @@ TEST_CASE("what else is in a plain PNG file changes no pixel") {
   for (size_t i = 0; i < stream.size(); i += 7)
     pieces += chunk("IDAT" + stream.substr(i, 7)) + chunk("IDAT");
   CHECK(is_as_by_the_module(with_body(file, pieces + chunk("IEND"))));
+  // More than the pixels need.
+  for (const std::string& more : {chunk("IDAT" + deflate(rows + "x")), chunk("IDAT" + stream + "x"),
+                                  chunk("IDAT" + stream) + chunk("IDATx")})
+    CHECK(is_as_by_the_module(with_body(file, more + chunk("IEND"))));
 }
 
 TEST_CASE("PNG files of rarer kinds are left to OpenImageIO") {
@@ -128,10 +132,7 @@ TEST_CASE("damaged PNG files are left to OpenImageIO") {
   }
   const std::string end = chunk("IEND"), stream = deflate(rows);
   const auto body = [&](const std::string& chunks) { return with_body(file, chunks + end); };
-  CHECK(is_left_to_the_module(body(chunk("IDAT" + deflate(rows + "x")))));
   CHECK(is_left_to_the_module(body(chunk("IDAT" + deflate(rows.substr(1))))));
-  CHECK(is_left_to_the_module(body(chunk("IDAT" + stream + "x"))));
-  CHECK(is_left_to_the_module(body(chunk("IDAT" + stream) + chunk("IDATx"))));
   CHECK(is_left_to_the_module(body(chunk("IDAT" + stream.substr(0, stream.size() - 1)))));
   CHECK(is_left_to_the_module(body("")));
   CHECK(is_left_to_the_module(body(chunk("ABCD") + chunk("IDAT" + stream))));
