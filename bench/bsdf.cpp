@@ -158,6 +158,6 @@ int main(int argc, char** argv) {
   run("principledthin", PrincipledThin({}));
   run("mask of diffuse", Mask({0.5f}, diffuse));
   run("blend of diffuse and mirror", Blend({0.5f}, diffuse, mirror));
-  run("bumpmap on diffuse", BumpMap({0, &texture}, 1, {}, diffuse));
-  run("bumpmap on roughplastic", BumpMap({0, &texture}, 1, {}, plastic));
+  run("bumpmap on diffuse", BumpMap({0, &texture}, 1, false, {}, diffuse));
+  run("bumpmap on roughplastic", BumpMap({0, &texture}, 1, false, {}, plastic));
 }
