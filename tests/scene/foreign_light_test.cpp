@@ -7,11 +7,10 @@
 #include "math/frame.h"
 #include "math/warp.h"
 #include "mitsuba/plugins/emitter.h"
-#include "mitsuba/writer.h"
 #include "pbrt/writer.h"
 #include "scene/builder.h"
 #include "scene/content_hash.h"
-#include "support/memory_scene.h"
+#include "support/foreign_plugin.h"
 #include "support/transport_scene.h"
 
 using namespace duet;
@@ -79,26 +78,13 @@ struct GlowLight {
   }
 };
 
-const Vocabulary& vocabulary() {
-  static const Vocabulary v = [] {
-    Vocabulary all = Vocabulary::built_in();
-    all.add(PluginKind::emitter, plugins::light<GlowLight>({.note = "made up"}));
-    return all;
-  }();
-  return v;
-}
-
-ReadResult read_glow(const std::string& text) {
-  MitsubaOptions options;
-  options.vocabulary = &vocabulary();
-  return read_with(options, text);
+const ForeignPlugin& glow_reader() {
+  static const ForeignPlugin p(PluginKind::emitter, plugins::light<GlowLight>({.note = "made up"}));
+  return p;
 }
 
 SceneDescription good(const std::string& version, const std::string& light) {
-  ReadResult r = read_glow(scene_text(version, light));
-  REQUIRE_MESSAGE(r.scene, r.messages());
-  CHECK(r.messages() == "");
-  return r.description();
+  return glow_reader().good(scene_text(version, light));
 }
 
 std::string lamp(const std::string& parameters) {
@@ -121,13 +107,14 @@ TEST_CASE("a foreign light is read by its fields, with their defaults, ranges an
   CHECK(good("0.6.0", lamp(kRed)) == d);
   CHECK(!(good("3.0.0", lamp("")) == d));
   CHECK(
-      read_glow(scene_text("3.0.0", lamp("<float name='dimming' value='2'/>")))
+      glow_reader()
+          .read(scene_text("3.0.0", lamp("<float name='dimming' value='2'/>")))
           .has("the parameter \"dimming\" of <emitter type=\"glow\"> must be from 0 to 1, not 2"));
   CHECK(!read_scene("3.0.0", "<emitter type='glow'/>").scene);
 }
 
 TEST_CASE("a foreign light is listed, written, printed, counted and hashed") {
-  const std::string table = compatibility_section(PluginKind::emitter, vocabulary());
+  const std::string table = compatibility_section(PluginKind::emitter, glow_reader().vocabulary());
   CHECK(table.find("| `glow` | 0.x, 3.x | done | made up |") != table.npos);
   CHECK(table.find("| `dimming` | float | `0` | 0.x, 3.x | done | share that is lost |") !=
         table.npos);
@@ -137,12 +124,7 @@ TEST_CASE("a foreign light is listed, written, printed, counted and hashed") {
   CHECK(scene_features(d).point_lights == 1);
   CHECK(!is_environment(d.lights[0]));
 
-  const MitsubaXml xml = write_mitsuba_xml(d);
-  CHECK(xml.losses.empty());
-  const ReadResult again = read_glow(xml.text);
-  REQUIRE_MESSAGE(again.scene, again.messages());
-  CHECK(again.description() == d);
-  CHECK(content_hash(again.description()) == content_hash(d));
+  glow_reader().round_trip(d);
   CHECK(content_hash(good("3.0.0", lamp(""))) != content_hash(d));
   const auto lost = pbrt::write_pbrt(d).losses;
   CHECK(std::find(lost.begin(), lost.end(), "the light \"glow\" is missing") != lost.end());
@@ -151,7 +133,7 @@ TEST_CASE("a foreign light is listed, written, printed, counted and hashed") {
 TEST_CASE("a foreign light is rendered by all methods") {
   // Camera and light look along y from the middle of a ball, whose inside is seen in the light that
   // meets it across.
-  ReadResult r = read_glow(
+  ReadResult r = glow_reader().read(
       "<scene version='3.0.0'>" + lamp(kRed) + camera_xml("0,0,0", "0,1,0", 4) +
       "<shape type='sphere'><float name='radius' value='2'/><boolean name='flip_normals' "
       "value='true'/><bsdf type='diffuse'><rgb name='reflectance' value='0.5 0.5 0.5'/></bsdf>"

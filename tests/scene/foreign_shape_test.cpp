@@ -5,11 +5,10 @@
 #include "evaluate/report/vocabulary_text.h"
 #include "mitsuba/plugins/shape.h"
 #include "mitsuba/plugins/shapes.h"
-#include "mitsuba/writer.h"
 #include "pbrt/writer.h"
 #include "scene/builder.h"
 #include "scene/content_hash.h"
-#include "support/memory_scene.h"
+#include "support/foreign_plugin.h"
 #include "support/transport_scene.h"
 
 using namespace duet;
@@ -37,26 +36,14 @@ struct PyramidShape {
   }
 };
 
-const Vocabulary& vocabulary() {
-  static const Vocabulary v = [] {
-    Vocabulary all = Vocabulary::built_in();
-    all.add(PluginKind::shape, plugins::surface<PyramidShape>(plugins::flip_normals()));
-    return all;
-  }();
-  return v;
-}
-
-ReadResult read_pyramid(const std::string& text) {
-  MitsubaOptions options;
-  options.vocabulary = &vocabulary();
-  return read_with(options, text);
+const ForeignPlugin& pyramid_reader() {
+  static const ForeignPlugin p(PluginKind::shape,
+                               plugins::surface<PyramidShape>(plugins::flip_normals()));
+  return p;
 }
 
 SceneDescription good(const std::string& version, const std::string& content) {
-  ReadResult r = read_pyramid(scene_text(version, "<emitter type='constant'/>" + content));
-  REQUIRE_MESSAGE(r.scene, r.messages());
-  CHECK(r.messages() == "");
-  return r.description();
+  return pyramid_reader().good(scene_text(version, "<emitter type='constant'/>" + content));
 }
 
 const std::string kSteep =
@@ -73,14 +60,15 @@ TEST_CASE("a foreign shape is read by its fields, with their defaults, ranges an
   CHECK(good("3.0.0", "<shape type='pyramid'><boolean name='flip_normals' value='true'/></shape>")
             .shapes[0]
             .flip_normals);
-  CHECK(read_pyramid(
-            scene_text("3.0.0", "<shape type='pyramid'><float name='height' value='0'/></shape>"))
+  CHECK(pyramid_reader()
+            .read(scene_text("3.0.0",
+                             "<shape type='pyramid'><float name='height' value='0'/></shape>"))
             .has("the parameter \"height\" of <shape type=\"pyramid\"> must be positive, not 0"));
   CHECK(!read_scene("3.0.0", "<shape type='pyramid'/>").scene);
 }
 
 TEST_CASE("a foreign shape is listed, written, printed, counted and hashed") {
-  const std::string table = compatibility_section(PluginKind::shape, vocabulary());
+  const std::string table = compatibility_section(PluginKind::shape, pyramid_reader().vocabulary());
   CHECK(table.find("| `pyramid` | 0.x, 3.x | done |") != table.npos);
   CHECK(table.find("| `height` | float | `1` | 0.x, 3.x | done | of the tip |") != table.npos);
   const SceneDescription d = good("3.0.0", kSteep);
@@ -90,12 +78,7 @@ TEST_CASE("a foreign shape is listed, written, printed, counted and hashed") {
   CHECK(features.triangles == 6);
   CHECK(features.bounds.upper.z == 2);
 
-  const MitsubaXml xml = write_mitsuba_xml(d);
-  CHECK(xml.losses.empty());
-  const ReadResult again = read_pyramid(xml.text);
-  REQUIRE_MESSAGE(again.scene, again.messages());
-  CHECK(again.description() == d);
-  CHECK(content_hash(again.description()) == content_hash(d));
+  pyramid_reader().round_trip(d);
   CHECK(content_hash(good("3.0.0", "<shape type='pyramid'><bsdf type='diffuse'/></shape>")) !=
         content_hash(d));
   const auto lost = pbrt::write_pbrt(d).losses;
@@ -120,7 +103,7 @@ TEST_CASE("a foreign shape is rendered by all methods, as it stands, moves and s
       "<transform time='1'><translate z='0.1'/></transform></animation>";
   const auto check = [](const std::string& text, std::initializer_list<const char*> methods,
                         double expected) {
-    ReadResult r = read_pyramid(text);
+    ReadResult r = pyramid_reader().read(text);
     REQUIRE_MESSAGE(r.scene, r.messages());
     const TransportScene scene(std::move(r.scene->description));
     for (const char* method : methods) {
