@@ -5,10 +5,10 @@
 #include <fmt/format.h>
 
 #include <cstdlib>
-#include <ctime>
 #include <string>
 #include <vector>
 
+#include "cpu_time.h"
 #include "materials/principled_materials.h"
 #include "materials/wrappers.h"
 #include "math/sampler.h"
@@ -45,13 +45,6 @@ struct Inputs {
 /// Results go here, so that the compiler cannot leave out the work.
 volatile float sink;
 
-/// Time that this thread has spent computing, in nanoseconds.
-double cpu_time() {
-  timespec t;
-  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &t);
-  return double(t.tv_sec) * 1e9 + double(t.tv_nsec);
-}
-
 /// Nanoseconds per call: the fastest of a few rounds, so that other programs count less.
 template <class F>
 double time_calls(int calls, const F& f) {
@@ -60,9 +53,10 @@ double time_calls(int calls, const F& f) {
   double best = 1e300;
   for (int round = 0; round < kRounds; ++round) {
     float sum = 0;
-    const double start = cpu_time();
+    const double start = cpu_seconds(CLOCK_THREAD_CPUTIME_ID);
     for (int i = 0; i < per_round; ++i) sum += f(size_t(i) % kInputs);
-    best = std::min(best, (cpu_time() - start) / per_round);
+    const double seconds = cpu_seconds(CLOCK_THREAD_CPUTIME_ID) - start;
+    best = std::min(best, seconds * 1e9 / per_round);
     sink = sum;
   }
   return best;

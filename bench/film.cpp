@@ -9,10 +9,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <ctime>
 #include <memory>
 #include <string>
 
+#include "cpu_time.h"
 #include "image/batch_adder.h"
 #include "integrators/make_integrator.h"
 #include "integrators/pass.h"
@@ -23,12 +23,6 @@
 using namespace duet;
 
 namespace {
-
-double cpu_seconds() {
-  timespec t;
-  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &t);
-  return double(t.tv_sec) + 1e-9 * double(t.tv_nsec);
-}
 
 /// Nanoseconds of processor time per sample: the least that was seen.
 struct Least {

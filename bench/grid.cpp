@@ -7,10 +7,10 @@
 #include <bit>
 #include <chrono>
 #include <cstdlib>
-#include <ctime>
 #include <numeric>
 #include <vector>
 
+#include "cpu_time.h"
 #include "math/sampler.h"
 #include "math/warp.h"
 #include "transport/vertex_grid.h"
@@ -110,11 +110,8 @@ volatile float sink;
 double wall_time() {
   return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
 }
-/// Time that this thread has spent computing, in seconds.
 double cpu_time() {
-  timespec t;
-  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &t);
-  return double(t.tv_sec) + double(t.tv_nsec) * 1e-9;
+  return cpu_seconds(CLOCK_THREAD_CPUTIME_ID);
 }
 
 /// The smallest of a few measurements, so that other programs count less.

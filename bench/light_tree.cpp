@@ -8,18 +8,14 @@
 #include <fmt/format.h>
 
 #include <cstdlib>
-#include <ctime>
 
+#include "cpu_time.h"
 #include "lights/area.h"
 #include "math/hash.h"
 
 using namespace duet;
 
 namespace {
-
-double cpu_seconds() {
-  return double(std::clock()) / CLOCKS_PER_SEC;
-}
 
 /// A rough field of n x n squares, each of two triangles.
 Shape field(uint32_t n) {

@@ -6,13 +6,13 @@
 // the camera, and a hash of the image: by it two programs are seen to make the same one. `singly`
 // has `path` trace its paths in batches and one by one, in turn, and prints the ratio, too.
 #include <fmt/format.h>
-#include <time.h>
 
 #include <bit>
 #include <cstdio>
 #include <cstdlib>
 #include <string>
 
+#include "cpu_time.h"
 #include "integrators/make_integrator.h"
 #include "integrators/pass.h"
 #include "integrators/path.h"
@@ -22,12 +22,6 @@
 namespace {
 
 using namespace duet;
-
-double cpu_seconds() {
-  timespec t;
-  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &t);
-  return double(t.tv_sec) + 1e-9 * double(t.tv_nsec);
-}
 
 uint64_t hash_of(const Image& image) {
   uint64_t hash = 0;

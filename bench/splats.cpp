@@ -5,22 +5,16 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <ctime>
 #include <vector>
 
 #include "base/parallel.h"
+#include "cpu_time.h"
 #include "image/film.h"
 #include "math/hash.h"
 
 using namespace duet;
 
 namespace {
-
-double cpu_seconds() {
-  timespec t;
-  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &t);
-  return double(t.tv_sec) + 1e-9 * double(t.tv_nsec);
-}
 
 std::vector<Splat> make_splats(size_t count, Point2i film) {
   std::vector<Splat> splats;
