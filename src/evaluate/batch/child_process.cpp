@@ -13,13 +13,27 @@
 #include <stdexcept>
 #include <utility>
 
+#include "base/run_program.h"
+
 namespace duet::batch {
 
 namespace {
 
 /// Of the messages of a process so much is kept.
 constexpr size_t kMostMessageBytes = 16384;
-constexpr const char* kProgram = "/proc/self/exe";
+
+/// What starts this program again. Through /proc that is the file that is running, even where
+/// another one has taken its name since.
+std::string program_file() {
+  constexpr const char* kRunning = "/proc/self/exe";
+  return access(kRunning, X_OK) == 0 ? kRunning : own_program();
+}
+
+/// What a new process becomes.
+struct Program {
+  const char* file;
+  char *const *arguments, *const *environment;
+};
 
 /// The texts as exec() wants them.
 std::vector<char*> pointers(std::vector<std::string>& texts) {
@@ -59,8 +73,7 @@ void handle_no_signals() {
 }
 
 /// What the new process does before it becomes the program; only async-signal-safe calls.
-[[noreturn]] void become_program(int stream, pid_t parent, char* const* arguments,
-                                 char* const* environment) {
+[[noreturn]] void become(const Program& program, int stream, pid_t parent) {
   setpgid(0, 0);
   prctl(PR_SET_PDEATHSIG, SIGTERM);
   if (getppid() != parent) _exit(127);
@@ -69,7 +82,7 @@ void handle_no_signals() {
       dup2(stream, STDERR_FILENO) < 0)
     _exit(127);
   if (nothing > STDERR_FILENO) close(nothing);
-  execve(kProgram, arguments, environment);
+  execve(program.file, program.arguments, program.environment);
   constexpr char text[] = "duet: error: the program cannot be started again\n";
   [[maybe_unused]] const ssize_t written = write(STDERR_FILENO, text, sizeof text - 1);
   _exit(127);
@@ -84,6 +97,7 @@ ChildProcess::ChildProcess(const std::vector<std::string>& arguments,
   std::vector<std::string> variables = environment;
   // The first of two with one name counts.
   for (char** variable = environ; *variable; ++variable) variables.emplace_back(*variable);
+  const std::string file = program_file();
   const std::vector<char*> argv = pointers(texts), envp = pointers(variables);
   const auto fail = [] {
     throw std::runtime_error(fmt::format("no process can be started: {}", std::strerror(errno)));
@@ -96,7 +110,7 @@ ChildProcess::ChildProcess(const std::vector<std::string>& arguments,
   if (id_ == 0) {
     handle_no_signals();
     signals.end();
-    become_program(ends[1], parent, argv.data(), envp.data());
+    become({file.c_str(), argv.data(), envp.data()}, ends[1], parent);
   }
   close(ends[1]);
   stream_ = ends[0];
