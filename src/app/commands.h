@@ -31,6 +31,7 @@ void add_merge_command(CLI::App& app, Program& program);
 void add_slurm_command(CLI::App& app, Program& program);
 void add_compare_command(CLI::App& app, Program& program);
 void add_chart_command(CLI::App& app, Program& program);
+void add_view_command(CLI::App& app, Program& program);
 void add_plugins_command(CLI::App& app, Program& program);
 void add_stability_command(CLI::App& app, Program& program);
 /// Tells of all commands that were added.

@@ -108,6 +108,7 @@ int run(std::vector<std::string> arguments, Program& program) {
   add_slurm_command(app, program);
   add_compare_command(app, program);
   add_chart_command(app, program);
+  add_view_command(app, program);
   add_plugins_command(app, program);
   add_stability_command(app, program);
   add_completion_command(app);

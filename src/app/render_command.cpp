@@ -30,6 +30,7 @@ class RenderCommand {
     set_up_log();
     options_.read.standard_input = read_standard_input(options_.read.scenes);
     check_defines(options_.read);
+    open_page();
     for (const std::string& file : options_.read.scenes) {
       if (interrupt_exit_code() != 0) break;
       if (!failures_.empty() && !options_.keep_going) break;
@@ -64,6 +65,16 @@ class RenderCommand {
     }
   }
 
+  void open_page() {
+    if (!options_.live_port) return;
+    try {
+      page_.emplace(*options_.live_port);
+    } catch (const std::system_error& e) {
+      throw UsageError(fmt::format("--live: port {}: {}", *options_.live_port, e.what()));
+    }
+    log_.info("the image as it grows: {}", page_->url());
+  }
+
   /// Whether the statistics are where they should be.
   bool write_statistics() const {
     if (options_.stats_file.empty()) return true;
@@ -86,7 +97,8 @@ class RenderCommand {
                             log_,
                             [&](const std::string& scene) { return progress_of(scene); },
                             interrupt_flag(),
-                            take_snapshot_request};
+                            take_snapshot_request,
+                            page_ ? &*page_ : nullptr};
       const RenderOutcome outcome = render_scene(file, options_, call);
       missed_ += outcome == RenderOutcome::target_missed;
       return outcome != RenderOutcome::not_rendered;
@@ -126,6 +138,7 @@ class RenderCommand {
   Log& log_;
   StatisticsFile statistics_;
   Batch batch_;
+  std::optional<LivePage> page_;  ///< --live
   size_t tried_ = 0;
   std::vector<std::string> failures_;  ///< each a scene and the first reason
   size_t missed_ = 0;                  ///< whose error is above --target-error

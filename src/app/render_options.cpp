@@ -115,6 +115,8 @@ void RenderOptionParser::add_output_options(CLI::App& c) {
   c.add_option("--display", viewer_,
                "Show the image as it grows in a viewer: tev, tev://HOST or tev://HOST:PORT "
                "(default: 127.0.0.1:14158)");
+  c.add_flag("--live", live_, "Serve a page of this machine that shows the image as it grows");
+  c.add_option("--live-port", live_port_, "Its port, from 1 to 65535 (default: any that is free)");
   c.add_option("--log", o.log_file, "Write all messages to this file, too");
 }
 
@@ -208,6 +210,14 @@ void RenderOptionParser::finish_format() {
       throw UsageError(fmt::format("-o {}: --format {} asks for another one", pattern, format_));
 }
 
+void RenderOptionParser::finish_live() {
+  if (live_) options_.live_port = 0;
+  if (live_port_.empty()) return;
+  if (!live_) throw UsageError("--live-port: there is no --live");
+  options_.live_port =
+      uint16_t(parse_whole("--live-port", live_port_, 1, std::numeric_limits<uint16_t>::max()));
+}
+
 RenderCommandLine RenderOptionParser::finish() {
   RenderCommandLine& o = options_;
   finish_numbers();
@@ -227,6 +237,7 @@ RenderCommandLine RenderOptionParser::finish() {
   if (o.require_target && !o.budget.target_error)
     throw UsageError("--require-target: there is no --target-error");
   if (!viewer_.empty()) o.viewer = parse_viewer(viewer_);
+  finish_live();
   finish_format();
   finish_raw();
   check_outputs(o);

@@ -20,6 +20,7 @@ struct RenderCommandLine : RenderOptions {
   std::string stats_file, log_file;
   bool quiet = false, verbose = false;
   ProgressStyle progress = ProgressStyle::automatic;
+  std::optional<uint16_t> live_port;  ///< of the page that shows the image; 0: any
 };
 
 /// Adds the options to a command; `finish` is to be called once they are parsed and throws
@@ -38,12 +39,14 @@ class RenderOptionParser {
   void finish_window();
   void finish_format();
   void finish_raw();
+  void finish_live();
 
   Program& program_;
   RenderCommandLine options_;
   std::string spp_, time_, target_, size_, crop_,
       exposure_ = "0", tone_map_, threads_, seed_, sensor_, progress_ = "auto", techniques_,
-      format_, light_selection_, checkpoint_, samples_, slice_, viewer_;
+      format_, light_selection_, checkpoint_, samples_, slice_, viewer_, live_port_;
+  bool live_ = false;
   std::vector<std::string> integrator_parameters_, layers_;
 };
 

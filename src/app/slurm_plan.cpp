@@ -41,6 +41,8 @@ const std::pair<const char*, const char*> kRefused[] = {
     {"--stats", "all tasks would write this file"},
     {"--log", "all tasks would write this file"},
     {"--display", "no task has an image, and they run elsewhere"},
+    {"--live", "no task has an image, and they run elsewhere"},
+    {"--live-port", "no task has an image, and they run elsewhere"},
 };
 
 /// Makes the jobs of one call.

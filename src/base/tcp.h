@@ -1,4 +1,4 @@
-// TCP connections to other programs, which may be slow or gone. The only file that opens sockets.
+// TCP connections to other programs, which may be slow or gone. Servers are base/http_server.h.
 #pragma once
 
 #include <atomic>

@@ -45,18 +45,28 @@ std::string browser() {
       "DUET_BROWSER=none to do without the tests of pages");
 }
 
-DrivenPage drive_page(const std::string& browser, std::string page, const std::string& script,
-                      const std::string& folder) {
+std::string with_script(std::string page, const std::string& script) {
   const size_t end = page.rfind("</body>");
   if (end == std::string::npos) throw std::runtime_error("the page has no </body>");
   page.insert(end, std::string("<script>") + kHelpers + script + "</script>");
+  return page;
+}
+
+DrivenPage drive_page(const std::string& browser, std::string page, const std::string& script,
+                      const std::string& folder) {
+  const std::string driven = std::filesystem::absolute(folder) / "driven.html";
+  std::ofstream(driven) << with_script(std::move(page), script);
+  return drive_url(browser, "file://" + driven, folder);
+}
+
+DrivenPage drive_url(const std::string& browser, const std::string& url,
+                     const std::string& folder) {
   const std::filesystem::path root = std::filesystem::absolute(folder);
-  const std::string driven = root / "driven.html", dom = root / "dom.html", log = root / "log.txt";
-  std::ofstream(driven) << page;
-  const int status = std::system(("timeout 300 '" + browser + "'" + kOptions +
-                                  " --user-data-dir='" + (root / "profile").string() +
-                                  "' 'file://" + driven + "' >'" + dom + "' 2>'" + log + "'")
-                                     .c_str());
+  const std::string dom = root / "dom.html", log = root / "log.txt";
+  const int status =
+      std::system(("timeout 300 '" + browser + "'" + kOptions + " --user-data-dir='" +
+                   (root / "profile").string() + "' '" + url + "' >'" + dom + "' 2>'" + log + "'")
+                      .c_str());
   if (status != 0) throw std::runtime_error("the browser failed: " + read_file(log));
   const std::string text = read_file(dom);
   const size_t from = text.find("<title>") + 7;

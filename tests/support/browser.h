@@ -25,5 +25,8 @@ struct DrivenPage {
 /// Throws std::runtime_error with the browser's log if finish() was not called within five minutes.
 DrivenPage drive_page(const std::string& browser, std::string page, const std::string& script,
                       const std::string& folder);
+/// The page with such a script at its end, and one that is opened from where it is served.
+std::string with_script(std::string page, const std::string& script);
+DrivenPage drive_url(const std::string& browser, const std::string& url, const std::string& folder);
 
 }  // namespace duet::test

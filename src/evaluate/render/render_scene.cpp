@@ -194,7 +194,7 @@ class SceneRenderer {
     const ShowProgress show =
         call_.progress(batch_.is_several() ? output_names(file_).scene : file_);
     request_.progress = [&](const RenderProgress& p) { show(p); };
-    LiveDisplay live(options_.viewer, images_->planned()[0], messages_);
+    LiveDisplay live(options_.viewer, call_.page, images_->planned()[0], messages_);
     bool is_shown = false, is_written = false;
     request_.wants_snapshot = [&, writes = !has_standard_output()] {
       // Standard output takes one image: the last.
@@ -203,12 +203,12 @@ class SceneRenderer {
       return is_written || is_shown;
     };
     request_.snapshot = [&](RenderResult so_far) {
-      if (is_shown) live.show(so_far.image);
+      if (is_shown) live.show(so_far);
       if (is_written) write_snapshot(std::move(so_far));
     };
     request_.after_pass = [&](const RenderState& so_far) { raw_->after_pass(so_far); };
     RenderResult result = render(*scene_, *integrator_, layout_, request_, state);
-    if (result.spp > 0) live.show(result.image);
+    if (result.spp > 0) live.show_last(result);
     return result;
   }
 

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "base/messages.h"
+#include "evaluate/live/live_page.h"
 #include "evaluate/render/batch.h"
 #include "evaluate/render/render_options.h"
 #include "evaluate/report/statistics.h"
@@ -32,6 +33,7 @@ struct RenderCall {
   const std::atomic<bool>& interrupt;  ///< whether rendering is to stop
   /// Whether the image so far has been asked for since the last call.
   std::function<bool()> wants_snapshot;
+  LivePage* page;  ///< that shows the image as it grows, or null
 };
 
 /// Reads, builds and renders a scene and writes its images. Throws SceneFailure, UsageError (the

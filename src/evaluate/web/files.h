@@ -3,6 +3,7 @@
 
 namespace duet::web_files {
 
+extern const char* const live_js;
 extern const char* const page_css;
 extern const char* const table_js;
 extern const char* const viewer_js;

@@ -72,11 +72,13 @@ WebFlip web_flip(const FlipResult& flip, int width, int longest) {
   return {base64(bytes), flip.mean};
 }
 
-std::string viewer_html(const std::vector<ViewedImage>& images, size_t reference) {
+nlohmann::ordered_json viewer_data(const std::vector<ViewedImage>& images,
+                                   std::optional<size_t> reference) {
   nlohmann::ordered_json data;
-  data["width"] = images.at(reference).image.width;
-  data["height"] = images.at(reference).image.height;
-  data["reference"] = reference;
+  const WebImage& first = images.at(reference.value_or(0)).image;
+  data["width"] = first.width;
+  data["height"] = first.height;
+  if (reference) data["reference"] = *reference;
   data["images"] = nlohmann::ordered_json::array();
   for (const ViewedImage& i : images) {
     data["images"].push_back({{"name", i.name}, {"note", i.note}, {"half", i.image.half}});
@@ -84,18 +86,24 @@ std::string viewer_html(const std::vector<ViewedImage>& images, size_t reference
     data["images"].back()["flip"] = i.flip.bytes;
     data["images"].back()["mean_flip"] = i.flip.mean;
   }
+  return data;
+}
+
+std::string viewer_html(const std::vector<ViewedImage>& images, std::optional<size_t> reference) {
   // A name may not end the script that it stands in.
-  std::string text = data.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
+  std::string text =
+      viewer_data(images, reference).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
   for (size_t at = 0; (at = text.find("</", at)) != std::string::npos; at += 3)
     text.insert(at + 1, "\\");
   return "<div class=\"viewer\"><script type=\"application/json\">" + text + "</script></div>\n";
 }
 
-std::string viewer_keys() {
-  return "<p class=\"soft\">Keys of the viewer: <kbd>1</kbd>–<kbd>9</kbd> choose an image, "
-         "<kbd>space</kbd> toggles between it and the one before, <kbd>e</kbd> shows the error, "
-         "<kbd>f</kbd> shows FLIP, <kbd>r</kbd> resets; drag to move, and the wheel zooms once the "
-         "viewer was clicked.</p>\n";
+std::string viewer_keys(bool has_reference) {
+  return fmt::format(
+      "<p class=\"soft\">Keys of the viewer: <kbd>1</kbd>–<kbd>9</kbd> choose an image, "
+      "<kbd>space</kbd> toggles between it and the one before, {}<kbd>r</kbd> resets; drag to "
+      "move, and the wheel zooms once the viewer was clicked.</p>\n",
+      has_reference ? "<kbd>e</kbd> shows the error, <kbd>f</kbd> shows FLIP, " : "");
 }
 
 std::string web_page_start(const std::string& title) {

@@ -1,6 +1,8 @@
 // The frame of the reports: one HTML file that opens from disk and needs nothing else.
 #pragma once
 
+#include <nlohmann/json_fwd.hpp>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -36,12 +38,15 @@ struct ViewedImage {
   WebImage image;
   WebFlip flip;  ///< against the reference
 };
-/// A viewer for images of one size, one of which is the reference of the false-colour error and of
-/// FLIP.
-std::string viewer_html(const std::vector<ViewedImage>& images, size_t reference);
+/// What the viewer reads: images of one size, one of which may be the reference of the false-colour
+/// error and of FLIP.
+nlohmann::ordered_json viewer_data(const std::vector<ViewedImage>& images,
+                                   std::optional<size_t> reference);
+/// A viewer for them.
+std::string viewer_html(const std::vector<ViewedImage>& images, std::optional<size_t> reference);
 
-/// A paragraph about the keys of the viewer.
-std::string viewer_keys();
+/// A paragraph about the keys of a viewer.
+std::string viewer_keys(bool has_reference = true);
 
 /// A complete page. `body` is HTML, `title` plain text.
 std::string web_page(const std::string& title, const std::string& body);

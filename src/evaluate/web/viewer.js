@@ -2,6 +2,7 @@
 // A viewer of high dynamic range images that are to be compared: toggle, zoom, exposure, error, FLIP.
 // Each <div class="viewer"> holds a <script type="application/json"> with
 //   {width, height, reference, images: [{name, note, half, flip, mean_flip}]},
+// or {width, height, images} where no image is a reference,
 // where half is base64 of three little-endian binary16 numbers per pixel, rows from the top, and
 // flip, if it is there, base64 of one byte per pixel: FLIP against the reference from 0 to 255.
 (() => {
@@ -24,6 +25,9 @@
   };
 
   const bytes = (base64) => Uint8Array.from(atob(base64), (c) => c.charCodeAt(0));
+
+  const read_image = (i) =>
+    ({...i, pixels: decode(i.half), flip: i.flip ? bytes(i.flip) : null});
 
   const to_srgb = (v) => {
     if (!(v > 0)) return 0;
@@ -49,18 +53,11 @@
     constructor(root) {
       this.root = root;
       const data = JSON.parse(root.querySelector("script").textContent);
-      Object.assign(this, {width: data.width, height: data.height, reference: data.reference});
-      this.images = data.images.map((i) =>
-        ({...i, pixels: decode(i.half), flip: i.flip ? bytes(i.flip) : null}));
-      const ref = this.images[this.reference].pixels;
-      let sum = 0, count = 0;
-      for (let i = 0; i < ref.length; i += 3) {
-        const y = luminance(ref, i);
-        if (Number.isFinite(y)) { sum += y; ++count; }
-      }
-      this.floor = 0.01 * sum / Math.max(1, count);
+      Object.assign(this, {width: data.width, height: data.height, reference: data.reference ?? -1});
+      this.images = data.images.map(read_image);
+      if (this.has_reference()) this.floor = 0.01 * this.mean_of_reference();
       this.shown = this.reference === 0 && this.images.length > 1 ? 1 : 0;
-      this.before = this.reference;
+      this.before = this.has_reference() ? this.reference : Math.min(1, this.images.length - 1);
       this.exposure = 0;
       this.map = "";  // or "error" or "flip": what is shown in false colours
       this.zoom = 1;
@@ -85,7 +82,7 @@
       bar.append(this.toggle_button);
       this.map_buttons = {};
       for (const [kind, name] of [["error", "error"], ["flip", "FLIP"]]) {
-        if (kind === "flip" && !this.has_flip()) continue;
+        if (kind === "flip" ? !this.has_flip() : !this.has_reference()) continue;
         const b = element("button", {type: "button", textContent: name, title: `key ${kind[0]}`});
         b.addEventListener("click", () => this.toggle_map(kind));
         this.map_buttons[kind] = b;
@@ -121,7 +118,7 @@
         if (e.ctrlKey || e.metaKey || e.altKey) return;
         const n = Number(e.key) - 1;
         if (e.key === " ") { if (e.target.tagName === "BUTTON") return; this.show(this.before); }
-        else if (e.key === "e") this.toggle_map("error");
+        else if (e.key === "e" && this.has_reference()) this.toggle_map("error");
         else if (e.key === "f" && this.has_flip()) this.toggle_map("flip");
         else if (e.key === "r") this.reset();
         else if (n >= 0 && n < this.images.length) this.show(n);
@@ -156,6 +153,21 @@
       new ResizeObserver(() => requestAnimationFrame(() => this.resize())).observe(c);
     }
 
+    mean_of_reference() {
+      const p = this.images[this.reference].pixels;
+      let sum = 0, count = 0;
+      for (let i = 0; i < p.length; i += 3) {
+        const y = luminance(p, i);
+        if (Number.isFinite(y)) { sum += y; ++count; }
+      }
+      return sum / Math.max(1, count);
+    }
+
+    /// Takes newer images in the place of these; what is looked at, and how, stays.
+    update(images) {
+      this.images = images.map(read_image);
+      this.render();
+    }
     show(i) {
       if (i === this.shown) return;
       this.before = this.shown;
@@ -164,6 +176,7 @@
     }
     set_exposure(v) { this.exposure = v; this.slider.value = v; this.render(); }
     toggle_map(kind) { this.map = this.map === kind ? "" : kind; this.render(); }
+    has_reference() { return this.reference >= 0; }
     has_flip() { return this.images.some((i) => i.flip); }
     reset() {
       this.zoom = 1;
@@ -183,7 +196,7 @@
 
     /// Fills the canvas that has the image's own pixels.
     render() {
-      const p = this.images[this.shown].pixels, r = this.images[this.reference].pixels;
+      const p = this.images[this.shown].pixels, r = this.images[this.reference]?.pixels;
       const flip = this.images[this.shown].flip;
       const context = this.source.getContext("2d");
       const out = context.createImageData(this.width, this.height), d = out.data;
@@ -212,6 +225,7 @@
       for (const [kind, b] of Object.entries(this.map_buttons))
         b.setAttribute("aria-pressed", String(this.map === kind));
       this.toggle_button.textContent = `toggle to ${this.images[this.before].name}`;
+      this.toggle_button.hidden = this.images.length < 2;
       this.stops.textContent = (this.exposure > 0 ? "+" : "") + this.exposure.toFixed(2);
       const flip = image.flip ? `mean FLIP ${image.mean_flip.toPrecision(3)}` : "";
       this.note.textContent = [image.note, flip].filter((t) => t).join("; ");
@@ -266,12 +280,13 @@
       const i = 3 * (y * this.width + x);
       const text = (p) => [p[i], p[i + 1], p[i + 2]].map((v) => v.toPrecision(3)).join(" ");
       let line = `${x}, ${y}: ${text(this.images[this.shown].pixels)}`;
-      if (this.shown !== this.reference) line += ` (reference ${text(this.images[this.reference].pixels)})`;
+      if (this.has_reference() && this.shown !== this.reference) line += ` (reference ${text(this.images[this.reference].pixels)})`;
       const flip = this.images[this.shown].flip;
       if (flip) line += `, FLIP ${(flip[i / 3] / 255).toFixed(3)}`;
       this.readout.textContent = line;
     }
   }
 
-  for (const root of document.querySelectorAll(".viewer")) root.viewer = new Viewer(root);
+  window.make_viewer = (root) => { root.viewer = new Viewer(root); };
+  document.querySelectorAll(".viewer").forEach(window.make_viewer);
 })();
