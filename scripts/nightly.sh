@@ -43,12 +43,17 @@ run_clang() {
 
 run_bench() {
   cmake --preset release -DDUET_BUILD_BENCH=ON
-  scripts/build.sh release rays duet_bench grid_bench splats
+  scripts/build.sh release benchmarks
   build/rays scenes/cornell-box/scene.xml 64x64 1 1
+  build/paths scenes/cornell-box/scene.xml 64x64 4 1
   build/duet_bench 1000
   build/grid_bench 10000
+  build/calibrate_compare scenes/cornell-box/scene.xml reference/cornell-box path sobol 1 2 4
+  build/calibrate_batches 10
   build/splats
-  echo "4 of 4 ran"
+  build/light_tree 0.1
+  build/film scenes/thesis-empty/scene.xml 8 4
+  echo "9 of 9 ran"
 }
 
 run_slurm() {

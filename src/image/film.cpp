@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/parallel.h"
+
 namespace duet {
 
 namespace {
@@ -88,8 +90,7 @@ double Film::layer_bytes(const FilmLayout& layout) const {
   return 2 * splats + pixels * double(3 * sizeof(ExactSum)) + tile_bytes(layout, channels_.size());
 }
 
-void Film::add_means(std::span<const Film> films, std::vector<double>& sums) const {
-  const size_t stride = channels_.size() + 1;
+std::vector<double> Film::tile_scales(std::span<const Film> films) const {
   std::vector<double> filled(tiles_.size());  // films that have samples in the tile
   double most = 0;
   for (size_t k = 0; k < tiles_.size(); ++k) {
@@ -100,47 +101,78 @@ void Film::add_means(std::span<const Film> films, std::vector<double>& sums) con
     }
     most = std::max(most, total);
   }
-  for (size_t k = 0; k < tiles_.size(); ++k) {
-    const PixelBounds& b = tiles_[k].stored();
+  std::vector<double> scales;
+  scales.reserve(tiles_.size() * films.size());
+  for (size_t k = 0; k < tiles_.size(); ++k)
     for (const Film& f : films) {
-      const FilmTile& tile = f.tiles_[k];
-      if (filled[k] > 0 && tile.samples() == 0) continue;
+      const auto samples = double(f.tiles_[k].samples());
       // As if the tile had the most samples, in films that count the same. Samples that nobody has
       // counted are all there are.
-      const double scale = filled[k] > 0 ? most / (filled[k] * double(tile.samples())) : 1.0;
-      const ExactSum* from = tile.sums().data();
-      for (int y = b.y0; y < b.y1; ++y) {
-        double* to = &sums[window_pixel(b.x0, y) * stride];
+      scales.push_back(filled[k] == 0 ? 1 : samples > 0 ? most / (filled[k] * samples) : 0);
+    }
+  return scales;
+}
+
+void Film::add_means(std::span<const Film> films, std::span<const double> scales, Rows rows,
+                     std::vector<double>& sums) const {
+  const size_t stride = channels_.size() + 1;
+  const int y0 = crop().y0 + rows.first, y1 = crop().y0 + rows.end;
+  // Tiles stand row by row.
+  const auto begin = std::partition_point(tiles_.begin(), tiles_.end(),
+                                          [&](const FilmTile& t) { return t.stored().y1 <= y0; });
+  for (auto k = size_t(begin - tiles_.begin()); k < tiles_.size(); ++k) {
+    const PixelBounds& b = tiles_[k].stored();
+    if (b.y0 >= y1) break;
+    for (size_t f = 0; f < films.size(); ++f) {
+      const double scale = scales[k * films.size() + f];
+      if (scale == 0) continue;
+      const FilmTile& tile = films[f].tiles_[k];
+      for (int y = std::max(b.y0, y0); y < std::min(b.y1, y1); ++y) {
+        const ExactSum* from = &tile.sums()[tile.index(b.x0, y)];
+        const size_t pixel = window_pixel(b.x0, y) - pixels_of(rows).first;
+        double* to = &sums[pixel * stride];
         for (size_t i = 0; i < size_t(b.width()) * stride; ++i) *to++ += scale * from++->value();
       }
     }
   }
 }
 
-Image Film::develop(std::span<const Film> films) {
+Image Film::develop(std::span<const Film> films, int threads) {
   const Film& first = films[0];
-  const size_t n = first.channels_.size();
   Image image(first.crop().width(), first.crop().height(), first.channels_);
-  std::vector<double> sums(size_t(image.width) * size_t(image.height) * (n + 1));
-  first.add_means(films, sums);
-  float* out = image.data.data();
+  const std::vector<double> scales = first.tile_scales(films);
+  parallel_for(size_t(first.splat_bands()), threads, [&](size_t band) {
+    const int from = int(band) * kTileSize;
+    first.develop(films, scales, {from, std::min(from + kTileSize, image.height)}, image);
+  });
+  return image;
+}
+
+void Film::develop(std::span<const Film> films, std::span<const double> scales, Rows rows,
+                   Image& image) const {
+  const size_t n = channels_.size();
+  const auto [begin, end] = pixels_of(rows);
+  std::vector<double> sums((end - begin) * (n + 1));
+  add_means(films, scales, rows, sums);
+  float* out = image.data.data() + begin * n;
   for (size_t i = 0; i < sums.size(); i += n + 1) {
     const double w = sums[i];
     for (size_t c = 1; c <= n; ++c) *out++ = w != 0 ? float(sums[i + c] / w) : 0.0f;
   }
-  first.add_splat_means(films, image);
-  first.respond(image);
-  first.add_squares(films, image);
-  first.compute_statistics(films, image);
-  return image;
+  add_splat_means(films, rows, image);
+  respond(rows, image);
+  add_squares(films, rows, image);
+  compute_statistics(films, rows, image);
 }
 
-void Film::compute_statistics(std::span<const Film> films, Image& image) const {
+void Film::compute_statistics(std::span<const Film> films, Rows rows, Image& image) const {
   if (statistics_.empty() || tiles_.empty()) return;
   double spp = 0;
   for (const Film& f : films) spp += double(f.tiles_[0].samples());
+  const size_t n = channels_.size();
+  const auto [begin, end] = pixels_of(rows);
   for (const FilmStatistic& s : statistics_)
-    for (size_t i = 0; i < image.data.size(); i += channels_.size()) {
+    for (size_t i = begin * n; i < end * n; i += n) {
       const float* colour = &image.data[i];
       float* out = &image.data[i + s.channel];
       if (s.kind == FilmStatistic::Kind::samples) {
@@ -152,10 +184,11 @@ void Film::compute_statistics(std::span<const Film> films, Image& image) const {
     }
 }
 
-void Film::respond(Image& image) const {
+void Film::respond(Rows rows, Image& image) const {
   const size_t n = channels_.size();
   if (!layout_.response || !has_colours()) return;
-  for (size_t i = 0; i < image.data.size(); i += n) {
+  const auto [begin, end] = pixels_of(rows);
+  for (size_t i = begin * n; i < end * n; i += n) {
     const std::array<float, 3> from{image.data[i], image.data[i + 1], image.data[i + 2]};
     for (size_t c = 0; c < 3; ++c) {
       const auto& row = (*layout_.response)[c];
@@ -170,10 +203,11 @@ void Film::add_moments(size_t first_channel) {
   squares_.resize(3 * size_t(crop().width()) * size_t(crop().height()));
 }
 
-void Film::add_squares(std::span<const Film> films, Image& image) const {
+void Film::add_squares(std::span<const Film> films, Rows rows, Image& image) const {
   const double filled = count_filled(films);
+  const auto [begin, end] = pixels_of(rows);
   for (const size_t first : moment_channels_)
-    for (size_t i = 0; i < squares_.size(); ++i) {
+    for (size_t i = 3 * begin; i < 3 * end; ++i) {
       double sum = 0;
       for (const Film& f : films)
         if (f.passes_ > 0) sum += f.squares_[i].value() / f.passes_;

@@ -8,6 +8,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "image/film_tile.h"
@@ -145,10 +146,10 @@ class Film {
   /// The weighted means of the window's pixels, with splats; a pixel that nothing reached is zero.
   /// Where tiles have samples of different numbers, each tile counts for a pixel between them as
   /// much as its share of the filter, however many samples it has.
-  Image develop() const { return develop(std::span(this, 1)); }
+  Image develop(int threads = 1) const { return develop(std::span(this, 1), threads); }
   /// The mean of films of the same layout. Each that has samples in a tile counts the same there,
   /// so that numbers of samples which depend on other films leave the mean unbiased.
-  static Image develop(std::span<const Film> films);
+  static Image develop(std::span<const Film> films, int threads = 1);
 
  private:
   struct SplatLayer {
@@ -162,12 +163,27 @@ class Film {
   bool has_colours() const;
   /// How many of them have passes.
   static double count_filled(std::span<const Film> films);
-  void add_means(std::span<const Film> films, std::vector<double>& sums) const;
-  void add_splat_means(std::span<const Film> films, Image& image) const;
-  void add_squares(std::span<const Film> films, Image& image) const;
-  void compute_statistics(std::span<const Film> films, Image& image) const;
-  /// Applies the response to a developed image.
-  void respond(Image& image) const;
+  /// Of each tile, film by film: what its sums count for.
+  std::vector<double> tile_scales(std::span<const Film> films) const;
+  /// Some rows of the window, from its top.
+  struct Rows {
+    int first, end;
+  };
+  /// Each does its part of these rows of an image.
+  void develop(std::span<const Film> films, std::span<const double> scales, Rows rows,
+               Image& image) const;
+  void add_means(std::span<const Film> films, std::span<const double> scales, Rows rows,
+                 std::vector<double>& sums) const;
+  void add_splat_means(std::span<const Film> films, Rows rows, Image& image) const;
+  void add_squares(std::span<const Film> films, Rows rows, Image& image) const;
+  void compute_statistics(std::span<const Film> films, Rows rows, Image& image) const;
+  /// Applies the response to what has been developed.
+  void respond(Rows rows, Image& image) const;
+  /// Where the rows are among the pixels of the window.
+  std::pair<size_t, size_t> pixels_of(Rows rows) const {
+    const auto width = size_t(crop().width());
+    return {size_t(rows.first) * width, size_t(rows.end) * width};
+  }
   /// The number of a pixel of the window, row by row.
   size_t window_pixel(int x, int y) const {
     return size_t(y - crop().y0) * size_t(crop().width()) + size_t(x - crop().x0);

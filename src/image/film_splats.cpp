@@ -85,11 +85,11 @@ double Film::splat_mean(size_t layer, int x, int y, int channel) const {
   return filter > 0 ? sum.value() / filter : 0.0;
 }
 
-void Film::add_splat_means(std::span<const Film> films, Image& image) const {
+void Film::add_splat_means(std::span<const Film> films, Rows rows, Image& image) const {
   const double filled = count_filled(films);
   for (size_t k = 0; k < splats_.size(); ++k) {
-    float* pixel = image.data.data() + splats_[k].first_channel;
-    for (int y = crop().y0; y < crop().y1; ++y)
+    float* pixel = &image.data[pixels_of(rows).first * channels_.size() + splats_[k].first_channel];
+    for (int y = crop().y0 + rows.first; y < crop().y0 + rows.end; ++y)
       for (int x = crop().x0; x < crop().x1; ++x, pixel += channels_.size())
         for (int c = 0; c < 3; ++c) {
           double sum = 0;

@@ -16,7 +16,12 @@ FilmTile::FilmTile(const PixelBounds& sampled, const PixelBounds& stored, size_t
 
 void FilmTile::add(const FilmTile& o) {
   samples_ += o.samples_;
-  for (size_t i = 0; i < sums_.size(); ++i) sums_[i].add(o.sums_[i]);
+  const PixelBounds& b = o.stored_;
+  for (int y = b.y0; y < b.y1; ++y) {
+    const ExactSum* from = &o.sums_[o.index(b.x0, y)];
+    ExactSum* to = &sums_[index(b.x0, y)];
+    for (size_t i = 0; i < size_t(b.width()) * stride_; ++i) to[i].add(from[i]);
+  }
 }
 
 void FilmTile::clear() {

@@ -57,7 +57,7 @@ class FilmTile {
   size_t index(int x, int y) const {
     return (size_t(y - stored_.y0) * size_t(stored_.width()) + size_t(x - stored_.x0)) * stride_;
   }
-  /// Adds the samples of a tile of the same pixels and channels.
+  /// Adds the samples of a tile that stores some of these pixels, with the same channels.
   void add(const FilmTile& o);
   /// Removes all samples.
   void clear();

@@ -157,6 +157,7 @@ void BidirectionalIntegrator::render_samples(const Scene& scene, Film& film,
     PassControl whole = part;
     // Eye and light sub-paths belong together: an iteration that has begun is finished.
     whole.cancelled = [] { return false; };
+    whole.is_finished = true;
     iteration(scene, film, one, whole, counters);
   });
 }

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "image/sample_adder.h"
+#include "integrators/tile_work.h"
 
 namespace duet {
 
@@ -111,16 +112,17 @@ void CameraIntegrator::sample(const Scene& scene, const CameraPath& path, Sample
 
 void CameraIntegrator::render_samples(const Scene& scene, Film& film, const SampleRange& samples,
                                       const PassControl& control, RenderCounters& counters) {
-  for_each_tile(film, control, counters, [&](FilmTile& tile, RenderCounters& c) {
-    SampleRange own = samples;
-    const TileSamples s = samples_of_tile(samples, size_t(&tile - film.tiles().data()));
-    own.first = s.first, own.count = s.count;
-    if (own.count == 0) return;
-    if (looks_at_next_rays_)
-      render_tile<true>(scene, film, tile, own, c);
-    else
-      render_tile<false>(scene, film, tile, own, c);
-  });
+  const TileSplit split =
+      control.is_finished ? TileSplit::by_samples_and_rows : TileSplit::by_samples;
+  for_each_tile(film, samples, control, split, counters,
+                [&](FilmTile& tile, const TileSamples& part, RenderCounters& c) {
+                  SampleRange own = samples;
+                  own.first = part.first, own.count = part.count;
+                  if (looks_at_next_rays_)
+                    render_tile<true>(scene, film, tile, own, c);
+                  else
+                    render_tile<false>(scene, film, tile, own, c);
+                });
 }
 
 template <bool kWithNextRays>
@@ -160,7 +162,6 @@ void CameraIntegrator::render_tile(const Scene& scene, const Film& film, FilmTil
         sums.add(x, y, position, values);
       }
     }
-  tile.count_samples(range.count);
   counters.camera_paths += uint64_t(b.width()) * uint64_t(b.height()) * range.count;
 }
 

@@ -1,9 +1,7 @@
 #include "integrators/integrator.h"
 
 #include <algorithm>
-#include <atomic>
 
-#include "base/parallel.h"
 #include "integrators/motion_blur.h"
 #include "scene/scene_motion.h"
 
@@ -22,19 +20,6 @@ SampleRange part_of(const SampleRange& range, uint32_t done, uint32_t count,
   }
   part.tiles = tiles;
   return part;
-}
-
-void for_each_tile(Film& film, const PassControl& control, RenderCounters& counters,
-                   const std::function<void(FilmTile&, RenderCounters&)>& work) {
-  std::vector<FilmTile>& tiles = film.tiles();
-  std::vector<RenderCounters> of_tile(tiles.size());
-  std::atomic<size_t> done{0};
-  parallel_for(tiles.size(), control.threads, [&](size_t i) {
-    if (control.cancelled()) return;
-    work(tiles[i], of_tile[i]);
-    control.report(double(++done) / double(tiles.size()));
-  });
-  for (const RenderCounters& c : of_tile) counters.add(c);
 }
 
 void Integrator::begin(const Scene& scene, const RenderOutlook& outlook) {

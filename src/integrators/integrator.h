@@ -46,14 +46,11 @@ struct PassControl {
   int threads = 1;
   /// Whether to stop as soon as the film is fit to be developed.
   std::function<bool()> cancelled = [] { return false; };
+  /// Whether it is finished in any case: cancelled() is false then.
+  bool is_finished = false;
   /// Takes the share of the pass that is done, from any thread.
   std::function<void(double)> report = [](double) {};
 };
-
-/// Runs `work` on every tile of a film that is not cancelled before its turn, in parallel, and adds
-/// up what the tiles count.
-void for_each_tile(Film& film, const PassControl& control, RenderCounters& counters,
-                   const std::function<void(FilmTile&, RenderCounters&)>& work);
 
 /// What is known of a render before its first pass. The first limit that is reached ends it.
 struct RenderOutlook {

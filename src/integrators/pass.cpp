@@ -142,7 +142,7 @@ class Renderer {
   }
 
   void note_part(PartialMeans& parts) {
-    parts.add_part(state_.films[0]);
+    parts.add_part(state_.films[0], request_.threads);
     state_.variance = parts.variance();
     if (const auto e = parts.relative_rmse()) relative_rmse_ = e;
   }
@@ -187,7 +187,7 @@ class Renderer {
   /// Between rounds: whether there is to be another. Sets how many samples it adds.
   bool plan_round(SampleAllocation& allocation, double target) {
     BatchRounds& rounds = state_.rounds;
-    relative_rmse_ = batch_relative_rmse(state_.films);
+    relative_rmse_ = batch_relative_rmse(state_.films, request_.threads);
     const bool goes_on = relative_rmse_ ? *relative_rmse_ > target : rounds.length < kBlackSamples;
     if (goes_on) {
       if (!allocation.is_spread() && knows_tiles(rounds.length, target)) allocation.spread();
@@ -282,7 +282,7 @@ class Renderer {
   }
 
   RenderResult result() const {
-    RenderResult r = develop(state_);
+    RenderResult r = develop(state_, request_.threads);
     r.seconds = seconds();
     r.interrupted = cancelled() && !is_complete_;
     r.relative_rmse = relative_rmse_;
@@ -320,10 +320,10 @@ RenderResult render(const Scene& scene, Integrator& integrator, const FilmLayout
   return Renderer(scene, integrator, layout, request, state).run();
 }
 
-RenderResult develop(const RenderState& state) {
+RenderResult develop(const RenderState& state, int threads) {
   RenderResult r;
   r.spp = state.spp;
-  if (r.spp > 0) r.image = Film::develop(state.films);
+  if (r.spp > 0) r.image = Film::develop(state.films, threads);
   r.counters = state.counters;
   r.seconds = state.seconds;
   return r;

@@ -82,6 +82,6 @@ RenderResult render(const Scene& scene, Integrator& integrator, const FilmLayout
 RenderResult render(const Scene& scene, Integrator& integrator, const FilmLayout& layout,
                     const RenderRequest& request, RenderState& state);
 /// What a state has come to, without taking more samples.
-RenderResult develop(const RenderState& state);
+RenderResult develop(const RenderState& state, int threads = 1);
 
 }  // namespace duet

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "integrators/next_event.h"
+#include "integrators/tile_work.h"
 #include "integrators/wide_tiles.h"
 #include "materials/plain_diffuse.h"
 #include "transport/roulette.h"
@@ -38,10 +39,10 @@ void PathIntegrator::render_samples(const Scene& scene, Film& film, const Sample
   if (!takes_batches(scene))
     return CameraIntegrator::render_samples(scene, film, samples, control, counters);
   WideTiles wide(scene, options_, film, samples);
-  for_each_tile(film, control, counters, [&](FilmTile& tile, RenderCounters& c) {
-    const TileSamples own = samples_of_tile(samples, size_t(&tile - film.tiles().data()));
-    if (own.count > 0) wide.render(tile, own, c);
-  });
+  for_each_tile(film, samples, control, TileSplit::by_samples, counters,
+                [&](FilmTile& tile, const TileSamples& part, RenderCounters& c) {
+                  wide.render(tile, part, c);
+                });
 }
 
 Spectrum PathIntegrator::radiance(const Scene& scene, const CameraPath& start, Sampler& sampler,

@@ -157,7 +157,6 @@ void WideTiles::render(FilmTile& tile, const TileSamples& samples, RenderCounter
     SampleAdder sums(film_, tile);
     trace([&] { workspace->add_to(sums, bounds); });
   }
-  tile.count_samples(samples.count);
   counters.camera_paths += uint64_t(bounds.width()) * uint64_t(bounds.height()) * samples.count;
   const std::lock_guard lock(mutex_);
   idle_.push_back(std::move(workspace));

@@ -12,11 +12,17 @@ namespace {
 
 /// Sub-paths that one task traces, and tasks whose results are held at a time: some for every
 /// thread, since they do not all take as long.
-constexpr uint32_t kSubpathsPerBlock = 1024;
+constexpr uint32_t kFewestPerBlock = 64, kSubpathsPerBlock = 1024;
 constexpr uint32_t kFewestBlocks = 16, kTasksPerThread = 4;
 
 uint32_t blocks_at_a_time(int threads) {
   return std::max(kFewestBlocks, kTasksPerThread * uint32_t(std::max(1, threads)));
+}
+
+/// Sub-paths of a block: fewer where there would not be enough blocks for all threads.
+uint32_t block_size(const LightPassPlan& plan) {
+  const uint32_t tasks = kTasksPerThread * uint32_t(std::max(1, plan.threads));
+  return std::clamp(plan.subpaths / tasks, kFewestPerBlock, kSubpathsPerBlock);
 }
 
 /// Makes room at the end of a list for the blocks' parts of it; returns where each begins.
@@ -155,14 +161,14 @@ void LightPass::run(const Scene& scene, const LightPassPlan& plan, const TakeSpl
   pdf_lists_.clear();
   pdf_ends_.clear();
   end_pdfs_.clear();
-  const uint32_t at_a_time = blocks_at_a_time(plan.threads);
+  const uint32_t at_a_time = blocks_at_a_time(plan.threads), size = block_size(plan);
   blocks_.resize(at_a_time);
-  for (uint32_t wave = 0; wave < plan.subpaths; wave += kSubpathsPerBlock * at_a_time) {
-    const uint32_t left = (plan.subpaths - wave + kSubpathsPerBlock - 1) / kSubpathsPerBlock;
+  for (uint32_t wave = 0; wave < plan.subpaths; wave += size * at_a_time) {
+    const uint32_t left = (plan.subpaths - wave + size - 1) / size;
     const uint32_t count = std::min(left, at_a_time);
     parallel_for(count, plan.threads, [&](size_t i) {
-      const uint32_t first = wave + uint32_t(i) * kSubpathsPerBlock;
-      const uint32_t end = std::min(first + kSubpathsPerBlock, plan.subpaths);
+      const uint32_t first = wave + uint32_t(i) * size;
+      const uint32_t end = std::min(first + size, plan.subpaths);
       Block& block = blocks_[i];
       if (scene.media.empty())
         trace<PathVertex>(scene, plan, {first, end}, block);

@@ -1,4 +1,5 @@
 #include "integrators/pass.h"
+#include "integrators/tile_work.h"
 
 #include <doctest/doctest.h>
 
@@ -26,8 +27,12 @@ class FakeIntegrator final : public Integrator {
                       const PassControl& control, RenderCounters& counters) override {
     pass_start = std::chrono::steady_clock::now();
     passes.push_back(samples.count);
-    for_each_tile(film, control, counters,
-                  [&](FilmTile& tile, RenderCounters& c) { render_tile(film, tile, samples, c); });
+    for_each_tile(film, samples, control, TileSplit::by_samples, counters,
+                  [&](FilmTile& tile, const TileSamples& part, RenderCounters& c) {
+                    SampleRange own = samples;
+                    own.first = part.first, own.count = part.count;
+                    render_tile(film, tile, own, c);
+                  });
   }
 
   std::chrono::steady_clock::time_point pass_start;  ///< of the last pass
@@ -49,7 +54,6 @@ class FakeIntegrator final : public Integrator {
           const float values[3] = {v * brightness_, v * u.x * brightness_, brightness_};
           sums.add(x, y, {float(x) + u.x, float(y) + u.y}, values);
         }
-    tile.count_samples(range.count);
     counters.camera_paths += uint64_t(b.width()) * b.height() * range.count;
   }
 

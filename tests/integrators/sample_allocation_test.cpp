@@ -6,6 +6,7 @@
 
 #include "image/sample_adder.h"
 #include "integrators/pass.h"
+#include "integrators/tile_work.h"
 
 using namespace duet;
 
@@ -19,10 +20,7 @@ class Sparks final : public Integrator {
   std::vector<std::string> channels() const override { return {"R", "G", "B"}; }
   void render_samples(const Scene&, Film& film, const SampleRange& samples,
                       const PassControl& control, RenderCounters& counters) override {
-    for_each_tile(film, control, counters, [&](FilmTile& tile, RenderCounters& c) {
-      TileSamples own{samples.first, samples.count};
-      if (!samples.tiles.empty()) own = samples.tiles[size_t(&tile - film.tiles().data())];
-      tile.count_samples(own.count);
+    const auto work = [&](FilmTile& tile, const TileSamples& own, RenderCounters& c) {
       SampleAdder sums(film, tile);
       const float p = tile.sampled().x0 < from_ ? 0.5f : p_;
       for (int x = tile.sampled().x0; x < tile.sampled().x1; ++x)
@@ -34,7 +32,8 @@ class Sparks final : public Integrator {
           sums.add(x, 0, {float(x) + 0.5f, 0.5f}, values);
         }
       c.camera_paths += uint64_t(tile.sampled().width()) * own.count;
-    });
+    };
+    for_each_tile(film, samples, control, TileSplit::by_samples, counters, work);
   }
 
  private:
