@@ -13,6 +13,19 @@ bool has_frame_of_normal(const Shape& shape) {
   return shape.kind == ShapeKind::mesh || !shape.needs.uv;
 }
 
+struct GlossySurface {
+  WideGlossyMaterial material;
+  const ColorSlot& reflectance;  ///< which may depend on the point
+};
+
+std::optional<GlossySurface> as_glossy(const Material& material) {
+  if (const auto plastic = as_rough_plastic(material))
+    return GlossySurface{*plastic, plastic->base};
+  if (const auto conductor = as_rough_conductor(material))
+    return GlossySurface{*conductor, conductor->reflectance};
+  return std::nullopt;
+}
+
 /// The texture if the processor is likely to wait for its texels, or null.
 const Texture* if_large(const Texture* texture) {
   constexpr int64_t kSmall = 1 << 18;  // texels, in a cache near by
@@ -36,15 +49,14 @@ void WideScene::set_model(WideShape& w, const Shape& shape) {
     w.model = WideModel::diffuse;
     w.two_sided = diffuse->two_sided;
     set_reflectance(diffuse->reflectance);
-  } else if (const auto plastic = by_normal ? as_rough_plastic(material) : std::nullopt) {
-    w.model = WideModel::plastic;
-    const auto known =
-        std::find(plastic_materials.begin(), plastic_materials.end(), shape.material);
-    w.plastic = int32_t(known - plastic_materials.begin());
-    set_reflectance(plastic->base);
-    if (known != plastic_materials.end()) return;
-    plastics.push_back(*plastic);
-    plastic_materials.push_back(shape.material);
+  } else if (const auto surface = by_normal ? as_glossy(material) : std::nullopt) {
+    w.model = WideModel::glossy;
+    const auto known = std::find(glossy_materials.begin(), glossy_materials.end(), shape.material);
+    w.glossy = int32_t(known - glossy_materials.begin());
+    set_reflectance(surface->reflectance);
+    if (known != glossy_materials.end()) return;
+    glossy.push_back(surface->material);
+    glossy_materials.push_back(shape.material);
   } else {
     w.prefetched = if_large(material.main_texture());
   }

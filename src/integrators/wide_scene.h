@@ -1,6 +1,7 @@
 // What a batch of paths looks up for each hit, in one cache line per shape.
 #pragma once
 
+#include <variant>
 #include <vector>
 
 #include "integrators/wide_lights.h"
@@ -12,9 +13,12 @@ namespace duet {
 /// How points of a shape scatter.
 enum class WideModel : uint8_t {
   diffuse,  ///< DiffuseSurface
-  plastic,  ///< RoughPlasticSurface
+  glossy,   ///< WideGlossyMaterial
   other,    ///< path by path, by the code for one
 };
+
+/// A material whose points are scattered in a loop of their own.
+using WideGlossyMaterial = std::variant<RoughPlasticSurface, RoughConductorSurface>;
 
 struct alignas(64) WideShape {
   const Point3f* positions = nullptr;  ///< null if points are made by Scene::surface() alone
@@ -27,7 +31,7 @@ struct alignas(64) WideShape {
   WideModel model = WideModel::other;
   bool two_sided = false;  ///< see DiffuseSurface
   bool emits = false;
-  int32_t plastic = 0;  ///< its number in WideScene::plastics, if it is one
+  int32_t glossy = 0;  ///< its number in WideScene::glossy, if it is that
 };
 
 /// A scene, which must outlive this and stand still, as batches of paths see it.
@@ -36,9 +40,9 @@ struct WideScene {
 
   const Scene& scene;
   std::vector<WideShape> shapes;
-  std::vector<RoughPlasticSurface> plastics;
-  std::vector<uint32_t> plastic_materials;  ///< numbers of their materials
-  bool has_normals = false;                 ///< whether any mesh has shading normals
+  std::vector<WideGlossyMaterial> glossy;
+  std::vector<uint32_t> glossy_materials;  ///< their numbers in the scene
+  bool has_normals = false;                ///< whether any mesh has shading normals
   WideLights lights;
 
  private:

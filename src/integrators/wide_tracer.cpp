@@ -1,6 +1,8 @@
 #include "integrators/wide_tracer.h"
 
 #include "integrators/next_event.h"
+#include "integrators/wide_conductor.h"
+#include "integrators/wide_plastic.h"
 #include "materials/bsdf.h"
 
 namespace duet {
@@ -35,7 +37,7 @@ void WideTracer::trace(int n, const BatchSampler& sampler, WideSamples& samples,
     look_up_textures();
     evaluate_diffuse(n, paths_, points_, lights_);
     sample_diffuse(n, paths_, points_, numbers_, scattering_);
-    scatter_plastics();
+    scatter_glossy();
     scatter_one_by_one();
     add_light(n, samples, counters);
     for (int i = 0; i < n; ++i)
@@ -120,16 +122,16 @@ void WideTracer::fetch(int n) {
   special_.clear();
   emitting_.clear();
   textured_.clear();
-  for (std::vector<int>& points : plastic_points_) points.clear();
-  has_plastic_points_ = false;
+  for (std::vector<int>& points : glossy_points_) points.clear();
+  has_glossy_points_ = false;
   for (int i = 0; i < n; ++i) {
     const WideShape& shape = wide_.shapes[hits_.shape[i]];
     if (shape.emits) emitting_.push_back(i);
     set_reflectance(i, shape.reflectance);
     points_.two_sided[i] = shape.two_sided;
-    if (shape.model == WideModel::plastic) {
-      plastic_points_[size_t(shape.plastic)].push_back(i);
-      has_plastic_points_ = true;
+    if (shape.model == WideModel::glossy) {
+      glossy_points_[size_t(shape.glossy)].push_back(i);
+      has_glossy_points_ = true;
     }
     if (shape.model == WideModel::other || !shape.positions || hits_.instance[i] != kNone) {
       special_.push_back(i);
@@ -167,23 +169,26 @@ void WideTracer::draw_numbers(int n, const BatchSampler& sampler, int depth) {
   if (has_light_choice(wide_.scene))
     sampler.numbers_1d(n, paths_.keys, light + 2, numbers_.light_choice);
   sampler.numbers_2d(n, paths_.keys, scattering, numbers_.x, numbers_.y);
-  const bool chooses = !special_.empty() || has_plastic_points_;
+  const bool chooses = !special_.empty() || has_glossy_points_;
   if (chooses || has_roulette(depth))
     sampler.numbers_1d(n, paths_.keys, scattering + 2, numbers_.first);
   if (chooses && has_roulette(depth))
     sampler.numbers_1d(n, paths_.keys, scattering + 3, numbers_.second);
 }
 
-void WideTracer::scatter_plastics() {
+void WideTracer::scatter_glossy() {
   const WideVertices vertices{paths_, points_, numbers_};
-  WidePlastics& p = plastics_;
-  for (size_t number = 0; number < plastic_points_.size(); ++number) {
-    const std::vector<int>& points = plastic_points_[number];
+  WideGlossy& p = glossy_;
+  for (size_t number = 0; number < glossy_points_.size(); ++number) {
+    const std::vector<int>& points = glossy_points_[number];
     if (points.empty()) continue;
     const int count = int(points.size());
     std::copy(points.begin(), points.end(), p.at.begin());
-    evaluate_plastic(count, wide_.plastics[number], vertices, lights_.wi, p);
-    sample_plastic(count, wide_.plastics[number], vertices, p);
+    const auto scatter = [&](const auto& material) {
+      evaluate_glossy(count, material, vertices, lights_.wi, p);
+      sample_glossy(count, material, vertices, p);
+    };
+    std::visit(scatter, wide_.glossy[number]);
     for (int k = 0; k < count; ++k) {
       const int i = p.at[k];
       lights_.value.set(i, p.value.vector(k));

@@ -3,8 +3,8 @@
 
 #include "integrators/camera_integrator.h"
 #include "integrators/wide_gaps.h"
+#include "integrators/wide_glossy.h"
 #include "integrators/wide_kernels.h"
-#include "integrators/wide_plastic.h"
 #include "integrators/wide_scene.h"
 #include "scene/description_integrators.h"
 
@@ -19,13 +19,13 @@ struct WideSamples {
 /// one path: with the same random numbers every path is the same bit for bit, unless it meets two
 /// surfaces that are equally near or, by rounding, the edge of one. What is rare goes through the
 /// code for one path within the same stages: surfaces that are no plain meshes, materials other
-/// than diffuse ones and usual rough plastics, lights that are not flat.
+/// than diffuse ones and usual rough plastics and conductors, lights that are not flat.
 /// Source: Laine et al., "Megakernels Considered Harmful: Wavefront Path Tracing on GPUs", 2013;
 /// Lee et al., "Vectorized Production Path Tracing", 2017.
 class WideTracer {
  public:
   WideTracer(const WideScene& scene, const PathLimits& limits)
-      : wide_(scene), limits_(limits), plastic_points_(scene.plastics.size()) {}
+      : wide_(scene), limits_(limits), glossy_points_(scene.glossy.size()) {}
 
   /// Where paths begin: set by the caller, who fills ray, throughput, id and keys.
   WidePaths& paths() { return paths_; }
@@ -43,8 +43,8 @@ class WideTracer {
   void set_reflectance(int i, const Spectrum& r) { points_.reflectance.set(i, r.r, r.g, r.b); }
   void add_emission(WideSamples& samples) const;
   void draw_numbers(int n, const BatchSampler& sampler, int depth);
-  /// At points of rough plastics: the value for the light sample, and the next direction.
-  void scatter_plastics();
+  /// At points of glossy materials: the value for the light sample, and the next direction.
+  void scatter_glossy();
   /// The same at points that the code for one path has to look at.
   void scatter_one_by_one();
   void add_light(int n, WideSamples& samples, RenderCounters& counters);
@@ -71,9 +71,9 @@ class WideTracer {
   WideScattering scattering_{};
   WideGaps gaps_;
   std::vector<int> emitting_, textured_;
-  std::vector<std::vector<int>> plastic_points_;  ///< by WideShape::plastic
-  bool has_plastic_points_ = false;
-  WidePlastics plastics_{};
+  std::vector<std::vector<int>> glossy_points_;  ///< by WideShape::glossy
+  bool has_glossy_points_ = false;
+  WideGlossy glossy_{};
   /// Numbers of the points that Scene::surface() makes, and those surfaces.
   std::vector<int> special_;
   std::vector<Surface> surfaces_;

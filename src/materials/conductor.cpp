@@ -68,6 +68,14 @@ RoughConductorModel RoughConductor::model(const Surface& s) const {
           eta.is_black()};
 }
 
+std::optional<RoughConductorModel> RoughConductor::uniform() const {
+  if (!all_constant(options_.eta, options_.k, roughness_.alpha_u, roughness_.alpha_v))
+    return std::nullopt;
+  const Spectrum eta = bounded_index(options_.eta.constant);
+  return RoughConductorModel{roughness_({}), eta, bounded_index(options_.k.constant), Spectrum(1),
+                             eta.is_black()};
+}
+
 SurfaceNeeds RoughConductor::needs() const {
   return roughness_.needs() | SurfaceNeeds{.uv = needs_uv(options_)};
 }

@@ -36,10 +36,13 @@ struct RoughConductorModel {
   ModelEval eval(const Vector3f& wo, const Vector3f& wi, Transport) const;
   std::optional<ModelSample> sample(const Vector3f& wo, float, const Point2f& v, Transport) const;
 
- private:
+  /// For the cosine of the angle to a facet.
   Spectrum reflectance(float cosine) const {
-    return perfect ? specular_reflectance
-                   : specular_reflectance * fresnel_conductor(cosine, eta, k);
+    return perfect ? specular_reflectance : by_index(cosine);
+  }
+  /// The same without a branch: for eta = 0 the Fresnel equations give exactly one.
+  [[gnu::always_inline]] Spectrum by_index(float cosine) const {
+    return specular_reflectance * fresnel_conductor(cosine, eta, k);
   }
 };
 

@@ -44,8 +44,8 @@ inline DielectricFresnel fresnel_dielectric(float cos_i, float eta) {
 
 /// Unpolarised reflection at a conductor with the complex index eta + i k (relative to the
 /// outside). Source: Möller, "Optics", 1988; Lazányi & Szirmay-Kalos, "Fresnel Term Approximations
-/// for Metals", 2005, give the same terms.
-inline float fresnel_conductor(float cos_i, float eta, float k) {
+/// for Metals", 2005, give the same terms. Without branches: for loops over many points, too.
+[[gnu::always_inline]] inline float fresnel_conductor(float cos_i, float eta, float k) {
   const float cos2 = cos_i * cos_i, sin2 = 1 - cos2;
   const float t = eta * eta - k * k - sin2;
   const float a2b2 = std::sqrt(t * t + 4 * eta * eta * k * k);
@@ -55,12 +55,14 @@ inline float fresnel_conductor(float cos_i, float eta, float k) {
   // Across the plane of incidence (s1 − s2) / (s1 + s2); the other is that times (p1 − p2) / (p1 +
   // p2).
   const float across = s1 + s2, along = p1 + p2;
-  if (!(across > 0)) return 1;
-  if (!(along > 0)) return (s1 - s2) / across;
-  return std::clamp((s1 - s2) * p1 / (across * along), 0.0f, 1.0f);
+  // At normal incidence on what has no index both may vanish.
+  const float reflected = along > 0 ? p1 : 1.0f, met = along > 0 ? along : 1.0f;
+  const float r = std::min(std::max((s1 - s2) * reflected / (across * met), 0.0f), 1.0f);
+  return across > 0 ? r : 1.0f;
 }
 
-inline Spectrum fresnel_conductor(float cos_i, const Spectrum& eta, const Spectrum& k) {
+[[gnu::always_inline]] inline Spectrum fresnel_conductor(float cos_i, const Spectrum& eta,
+                                                         const Spectrum& k) {
   return {fresnel_conductor(cos_i, eta.r, k.r), fresnel_conductor(cos_i, eta.g, k.g),
           fresnel_conductor(cos_i, eta.b, k.b)};
 }

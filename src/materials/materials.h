@@ -88,6 +88,10 @@ class RoughConductor final : public SingleModelMaterial<RoughConductor> {
  public:
   RoughConductor(const ConductorOptions& options, const RoughnessOptions& roughness);
   RoughConductorModel model(const Surface& s) const;
+  /// The conductor without its specular reflectance, which is 1 here, if the rest is the same
+  /// everywhere.
+  std::optional<RoughConductorModel> uniform() const;
+  const ColorSlot& specular_reflectance() const { return options_.specular_reflectance; }
   SurfaceNeeds needs() const override;
   bool transmits() const override { return false; }
 

@@ -6,9 +6,8 @@
 // "Understanding the Masking-Shadowing Function in Microfacet-Based BRDFs", JCGT 3(2), 2014.
 #pragma once
 
+#include "materials/beckmann.h"
 #include "materials/microfacet_kind.h"
-#include "math/frame.h"
-#include "math/warp.h"
 
 namespace duet {
 
@@ -34,30 +33,21 @@ class Microfacet {
 
   bool samples_visible() const { return visible_; }
   bool is_visible_ggx() const { return ggx_ && visible_ && !correlated_; }
+  bool is_visible_beckmann() const { return !ggx_ && visible_; }
+  /// The facets if they are Beckmann's.
+  [[gnu::always_inline]] BeckmannFacets beckmann() const {
+    return {alpha_u_, alpha_v_, inv_u_, inv_v_};
+  }
   float alpha_u() const { return alpha_u_; }
   float alpha_v() const { return alpha_v_; }
   /// Along x or y.
   bool is_nearly_specular() const { return std::min(alpha_u_, alpha_v_) < float(kNearlySpecular); }
 
   /// Area of facets with normal m per surface area and solid angle.
-  float density(const Vector3f& m) const {
-    const float x = m.x * inv_u_, y = m.y * inv_v_, z2 = m.z * m.z;
-    const float slope = x * x + y * y;
-    if (ggx_) return kInvPi * inv_u_ * inv_v_ / sqr(slope + z2);
-    // Facets this steep do not matter, but would divide zero by zero.
-    if (!(slope < 80 * z2)) return 0;
-    return kInvPi * inv_u_ * inv_v_ * std::exp(-slope / z2) / (z2 * z2);
-  }
+  float density(const Vector3f& m) const { return ggx_ ? ggx_density(m) : beckmann().density(m); }
 
-  /// Smith's masking function: the share of facets facing v that v sees. For Beckmann this is the
-  /// rational approximation (0.35 %) of Walter et al. that Mitsuba's BSDFs are defined with.
-  float masking(const Vector3f& v) const {
-    const float z = std::abs(v.z), across2 = sqr(alpha_u_ * v.x) + sqr(alpha_v_ * v.y);
-    if (ggx_) return 2 * z / (z + std::sqrt(z * z + across2));
-    if (z * z >= sqr(1.6f) * across2) return 1;
-    const float a = z / std::sqrt(across2);
-    return a * (3.535f + 2.181f * a) / (1 + a * (2.276f + 2.577f * a));
-  }
+  /// Smith's masking function: the share of facets facing v that v sees.
+  float masking(const Vector3f& v) const { return ggx_ ? ggx_masking(v) : beckmann().masking(v); }
 
   /// The share of facets that i sees of those that o sees: masking(i), or G₂ / G₁(o) if the two are
   /// correlated.
@@ -70,18 +60,21 @@ class Microfacet {
   /// What value and density of reflection and refraction have in common: for a half vector h,
   ///   value   = D(h) G₁(o) G₁(i) / o.z, or D(h) G₂(o, i) / o.z,
   ///   density = the density of h when sampled from o, over (o·h).
-  struct Core {
-    float value, density;
-  };
+  using Core = BeckmannFacets::Core;
   Core core(const Vector3f& o, const Vector3f& i, const Vector3f& h) const {
-    const float d = density(h);
-    if (!visible_) return {d * masking(o) * shadowing(o, i) / o.z, d * h.z / dot(o, h)};
-    if (ggx_) {
-      // The same as D G₁(o) / o.z, without dividing by a vanishing cosine.
-      const float seen = 2 * d / (o.z + stretched_length(o));
-      return {seen * shadowing(o, i), seen};
+    if (!visible_) {
+      const float d = density(h);
+      return {d * masking(o) * shadowing(o, i) / o.z, d * h.z / dot(o, h)};
     }
-    return beckmann_core(d, o, i);
+    if (!ggx_) return beckmann_core(o, i, h);
+    const float seen = seen_ggx(o, h);
+    return {seen * shadowing(o, i), seen};
+  }
+  /// The same for visible GGX facets without correlation.
+  [[gnu::always_inline]] Core visible_ggx_core(const Vector3f& o, const Vector3f& i,
+                                               const Vector3f& h) const {
+    const float seen = seen_ggx(o, h);
+    return {seen * ggx_masking(i), seen};
   }
 
   /// Reflection from o to i: a quarter of the core's value and density, both per solid angle of i,
@@ -91,9 +84,15 @@ class Microfacet {
   };
   Reflection reflection(const Vector3f& o, const Vector3f& i) const {
     if (is_visible_ggx()) return visible_ggx_reflection(o, i);
+    return reflection_by(o, i, [&](const Vector3f& h) { return core(o, i, h); });
+  }
+  /// The same, given the core of a half vector.
+  template <class F>
+  [[gnu::always_inline]] static Reflection reflection_by(const Vector3f& o, const Vector3f& i,
+                                                         F&& core_of) {
     const Vector3f sum = o + i;
     const float length = std::sqrt(length_squared(sum));
-    const Core c = core(o, i, sum * (1 / length));
+    const Core c = core_of(sum * (1 / length));
     return {0.25f * c.value, 0.25f * c.density, 0.5f * length};
   }
   /// The same for visible GGX facets without correlation, with two divisions made one.
@@ -132,7 +131,20 @@ class Microfacet {
   [[gnu::always_inline]] float stretched_length(const Vector3f& v) const {
     return std::sqrt(sqr(alpha_u_ * v.x) + sqr(alpha_v_ * v.y) + v.z * v.z);
   }
-  Core beckmann_core(float d, const Vector3f& o, const Vector3f& i) const;
+  [[gnu::always_inline]] float ggx_density(const Vector3f& m) const {
+    const float x = m.x * inv_u_, y = m.y * inv_v_, z2 = m.z * m.z;
+    return kInvPi * inv_u_ * inv_v_ / sqr(x * x + y * y + z2);
+  }
+  [[gnu::always_inline]] float ggx_masking(const Vector3f& v) const {
+    const float z = std::abs(v.z), across2 = sqr(alpha_u_ * v.x) + sqr(alpha_v_ * v.y);
+    return 2 * z / (z + std::sqrt(z * z + across2));
+  }
+  /// The same as D(h) G₁(o) / o.z, without dividing by a vanishing cosine.
+  [[gnu::always_inline]] float seen_ggx(const Vector3f& o, const Vector3f& h) const {
+    return 2 * ggx_density(h) / (o.z + stretched_length(o));
+  }
+  // Not inlined: there is much of it.
+  Core beckmann_core(const Vector3f& o, const Vector3f& i, const Vector3f& h) const;
   Vector3f sample_all(const Point2f& u) const;
   Vector3f sample_visible_beckmann(const Vector3f& o, const Point2f& u) const;
 

@@ -18,6 +18,10 @@ Unwrapped unwrapped(const Material& material) {
   return two_sided ? Unwrapped{two_sided->of_both_sides(), true} : Unwrapped{&material, false};
 }
 
+bool has_visible_facets(const Microfacet& m) {
+  return m.is_visible_ggx() || m.is_visible_beckmann();
+}
+
 }  // namespace
 
 std::optional<DiffuseSurface> as_diffuse(const Material& material) {
@@ -31,9 +35,17 @@ std::optional<RoughPlasticSurface> as_rough_plastic(const Material& material) {
   const Unwrapped bare = unwrapped(material);
   const auto* plastic = dynamic_cast<const RoughPlastic*>(bare.material);
   const auto uniform = plastic ? plastic->uniform() : std::nullopt;
-  if (!uniform || !uniform->microfacet.is_visible_ggx()) return std::nullopt;
+  if (!uniform || !has_visible_facets(uniform->microfacet)) return std::nullopt;
   if (!(uniform->specular_reflectance.mean() > 0) || uniform->eta == 1) return std::nullopt;
   return RoughPlasticSurface{plastic->base(), *uniform, bare.two_sided};
+}
+
+std::optional<RoughConductorSurface> as_rough_conductor(const Material& material) {
+  const Unwrapped bare = unwrapped(material);
+  const auto* conductor = dynamic_cast<const RoughConductor*>(bare.material);
+  const auto uniform = conductor ? conductor->uniform() : std::nullopt;
+  if (!uniform || !has_visible_facets(uniform->microfacet)) return std::nullopt;
+  return RoughConductorSurface{conductor->specular_reflectance(), *uniform, bare.two_sided};
 }
 
 }  // namespace duet

@@ -65,8 +65,9 @@ struct DiffuseSurface {
 /// The material as such, if it is one.
 std::optional<DiffuseSurface> as_diffuse(const Material& material);
 
-/// A material that is nothing but a rough plastic on one or both sides, with visible GGX facets and
-/// a coat that is the same everywhere, reflects anything and has an index that is not 1.
+/// A material that is nothing but a rough plastic on one or both sides, with visible facets (GGX
+/// without correlation, or Beckmann) and a coat that is the same everywhere, reflects anything and
+/// has an index that is not 1.
 struct RoughPlasticSurface {
   const ColorSlot& base;
   UniformRoughPlastic plastic;
@@ -74,5 +75,15 @@ struct RoughPlasticSurface {
 };
 /// The material as such, if it is one.
 std::optional<RoughPlasticSurface> as_rough_plastic(const Material& material);
+
+/// A material that is nothing but a rough conductor on one or both sides, with such facets and an
+/// index that is the same everywhere.
+struct RoughConductorSurface {
+  const ColorSlot& reflectance;
+  RoughConductorModel conductor;  ///< its specular reflectance is 1
+  bool two_sided;
+};
+/// The material as such, if it is one.
+std::optional<RoughConductorSurface> as_rough_conductor(const Material& material);
 
 }  // namespace duet

@@ -34,6 +34,24 @@ const std::string kTinted = ggx_plastic(
 const std::string kBubble =
     ggx_plastic("<float name='int_ior' value='1'/><float name='ext_ior' value='1.4'/>");
 
+/// Rough metal, which batches scatter in lanes, too.
+std::string conductor(const std::string& parameters, bool two_sided = true) {
+  const std::string metal = "<bsdf type='roughconductor'>" + parameters + "</bsdf>";
+  return two_sided ? "<bsdf type='twosided'>" + metal + "</bsdf>" : metal;
+}
+const std::string kPatternedMetal = conductor(
+    "<string name='distribution' value='ggx'/><string name='material' value='Cu'/>"
+    "<texture type='checkerboard' name='specular_reflectance'>"
+    "<rgb name='color0' value='0.8,0.3,0.9'/><rgb name='color1' value='0,0,0'/>"
+    "<transform name='to_uv'><scale x='5' y='7'/></transform></texture>");
+const std::string kAluminium =
+    conductor("<string name='material' value='Al'/><float name='alpha' value='0.05'/>", false);
+const std::string kMirrorFacets =
+    conductor("<string name='material' value='none'/><float name='alpha' value='0.5'/>");
+const std::string kBrushed = conductor(
+    "<string name='material' value='Au'/><float name='alpha_u' value='0.1'/>"
+    "<float name='alpha_v' value='0.4'/>");
+
 std::string emitter(const std::string& type, const std::string& transform) {
   return "<shape type='" + type + "'><transform name='to_world'>" + transform +
          "</transform><emitter type='area'><rgb name='radiance' value='5,7,4'/></emitter></shape>";
@@ -99,6 +117,21 @@ const Case kCases[] = {
          "<shape type='cube'><transform name='to_world'><scale value='0.2'/><rotate z='1' "
          "angle='30'/><translate y='-0.5' z='1.2'/></transform>" +
          ggx_plastic("<rgb name='diffuse_reflectance' value='0.2,0.5,0.3'/>", false) + "</shape>"},
+    {"rough metals in lanes",
+     camera() + room_xml(kPatternedMetal) + kLamp + sphere_xml("-0.4,0.2,0.4", "0.35", kAluminium) +
+         sphere_xml("0.5,-0.3,0.3", "0.25", kMirrorFacets) +
+         "<shape type='sphere'><boolean name='flip_normals' value='true'/>"
+         "<point name='center' value='0.5,0.3,1.2'/><float name='radius' value='0.3'/>" +
+         kAluminium + "</shape>" +
+         "<shape type='cube'><transform name='to_world'><scale value='0.2'/><rotate z='1' "
+         "angle='30'/><translate y='-0.5' z='1.2'/></transform>" +
+         kBrushed + "</shape>"},
+    {"Beckmann plastics and metals in lanes",
+     camera() + room_xml("<bsdf type='twosided'>" + kPlastic + "</bsdf>") + kLamp +
+         sphere_xml("-0.4,0.2,0.4", "0.35", kPlastic) +
+         "<shape type='cube'><transform name='to_world'><scale value='0.2'/><rotate z='1' "
+         "angle='30'/><translate y='-0.5' z='1.2'/></transform>" +
+         kAluminium + "</shape>"},
     {"textures on meshes and analytic shapes",
      camera() + room_xml(kCheckers) + kLamp + sphere_xml("-0.4,0.2,0.4", "0.35", kCheckers) +
          "<shape type='disk'><transform name='to_world'><scale value='0.3'/>"

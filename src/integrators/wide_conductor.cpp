@@ -1,0 +1,103 @@
+#include "integrators/wide_conductor.h"
+
+#include "base/instruction_sets.h"
+
+namespace duet {
+
+namespace {
+
+/// The conductor at a point: as its index is the same everywhere, only the reflectance differs.
+[[gnu::always_inline]] inline RoughConductorModel model_at(RoughConductorModel conductor,
+                                                           const WidePoints& points, int i) {
+  conductor.specular_reflectance = reflectance_at(points, i);
+  return conductor;
+}
+
+/// See RoughConductorModel::eval().
+template <class Facets>
+[[gnu::always_inline]] inline void evaluate_all(int n, const RoughConductorSurface& surface,
+                                                const WideVertices& vertices,
+                                                const BatchTriples& light, WideGlossy& out) {
+  const RoughConductorModel conductor = surface.conductor;
+  const Facets facets(conductor.microfacet);
+  const bool two_sided = surface.two_sided;
+  const WideVertices v = vertices;
+  DUET_LANES
+  for (int k = 0; k < n; ++k) {
+    const int i = out.at[k];
+    const LocalPoint at = local_point(v, i, two_sided);
+    const Vector3f wi = at.to_local(light.vector(i));
+    const Microfacet::Reflection r = facets.reflection(above_horizon(at.wo), above_horizon(wi));
+    const Spectrum reflected = model_at(conductor, v.points, i).by_index(r.cosine) * r.value;
+    const ModelEval e = if_above(at.wo, wi, {reflected, r.density});
+    out.value.set(k, e.value.r, e.value.g, e.value.b);
+    out.value_pdf[k] = e.pdf;
+  }
+}
+
+/// See RoughConductorModel::sample().
+template <class Facets>
+[[gnu::always_inline]] inline void sample_all(int n, const RoughConductorSurface& surface,
+                                              const WideVertices& vertices, WideGlossy& out) {
+  const RoughConductorModel conductor = surface.conductor;
+  const Facets facets(conductor.microfacet);
+  const bool two_sided = surface.two_sided;
+  const WideVertices v = vertices;
+  DUET_LANES
+  for (int k = 0; k < n; ++k) {
+    const int i = out.at[k];
+    const LocalPoint at = local_point(v, i, two_sided);
+    const Vector3f o = above_horizon(at.wo);
+    const Vector3f m = facets.sample(o, {v.numbers.x[i], v.numbers.y[i]});
+    const float cosine = dot(o, m);
+    const Vector3f wi = reflect(o, m);
+    const Microfacet::Core core = facets.core(o, above_horizon(wi), m);
+    const Spectrum weight =
+        model_at(conductor, v.points, i).by_index(cosine) * (core.value / core.density);
+    out.wi.set(k, at.to_world(wi));
+    out.weight.set(k, weight.r, weight.g, weight.b);
+    out.pdf[k] = 0.25f * core.density;
+    out.roulette[k] = v.numbers.first[i];
+    const int32_t facing = cosine > 0 ? (core.density > 0 ? 1 : 0) : 0;
+    out.alive[k] = std::min(at.wo.z, wi.z) > kMinCosine ? facing : 0;
+  }
+}
+
+DUET_WIDEST void evaluate_ggx_conductor(int n, const RoughConductorSurface& surface,
+                                        const WideVertices& vertices, const BatchTriples& light,
+                                        WideGlossy& out) {
+  evaluate_all<WideGgx>(n, surface, vertices, light, out);
+}
+
+DUET_WIDEST void evaluate_beckmann_conductor(int n, const RoughConductorSurface& surface,
+                                             const WideVertices& vertices,
+                                             const BatchTriples& light, WideGlossy& out) {
+  evaluate_all<WideBeckmann>(n, surface, vertices, light, out);
+}
+
+DUET_WIDEST void sample_ggx_conductor(int n, const RoughConductorSurface& surface,
+                                      const WideVertices& vertices, WideGlossy& out) {
+  sample_all<WideGgx>(n, surface, vertices, out);
+}
+
+DUET_WIDEST void sample_beckmann_conductor(int n, const RoughConductorSurface& surface,
+                                           const WideVertices& vertices, WideGlossy& out) {
+  sample_all<WideBeckmann>(n, surface, vertices, out);
+}
+
+}  // namespace
+
+void evaluate_glossy(int n, const RoughConductorSurface& surface, const WideVertices& vertices,
+                     const BatchTriples& light, WideGlossy& out) {
+  const bool beckmann = surface.conductor.microfacet.is_visible_beckmann();
+  (beckmann ? evaluate_beckmann_conductor : evaluate_ggx_conductor)(n, surface, vertices, light,
+                                                                    out);
+}
+
+void sample_glossy(int n, const RoughConductorSurface& surface, const WideVertices& vertices,
+                   WideGlossy& out) {
+  const bool beckmann = surface.conductor.microfacet.is_visible_beckmann();
+  (beckmann ? sample_beckmann_conductor : sample_ggx_conductor)(n, surface, vertices, out);
+}
+
+}  // namespace duet

@@ -1,0 +1,154 @@
+// Glossy materials in lanes give what their Bsdf gives, bit for bit.
+#include <doctest/doctest.h>
+
+#include "integrators/wide_conductor.h"
+#include "integrators/wide_plastic.h"
+#include "math/sampler.h"
+#include "support/test_material.h"
+
+using namespace duet;
+using namespace duet::test;
+
+namespace {
+
+const char* const kPlastics[] = {
+    R"({"type": "roughplastic", "distribution": "ggx", "alpha": 0.3})",
+    R"({"type": "roughplastic", "alpha": 0.1, "diffuse_reflectance": [0.2, 0.5, 0.8]})",
+    R"({"type": "roughplastic", "alpha": 0.6, "nonlinear": true, "int_ior": 1.9})",
+    R"({"type": "roughplastic", "alpha": 0.02, "int_ior": 1.0, "ext_ior": 1.4})",
+    R"({"type": "roughplastic", "diffuse_reflectance": [0, 0, 0]})",
+};
+const char* const kConductors[] = {
+    R"({"type": "roughconductor", "distribution": "ggx", "alpha": 0.3, "eta": [0.2, 0.9, 1.4],
+        "k": [3.9, 2.4, 2.1]})",
+    R"({"type": "roughconductor", "alpha": 0.1, "eta": [0.2, 0.9, 1.4], "k": [3.9, 2.4, 2.1],
+        "specular_reflectance": [0.9, 0.5, 0.2]})",
+    R"({"type": "roughconductor", "alpha": 0.9, "eta": [0, 0.9, 0], "k": [0, 0, 2]})",
+    R"({"type": "roughconductor", "alpha": 0.0001, "eta": [0, 0, 0], "k": [1, 1, 1]})",
+    R"({"type": "roughconductor", "distribution": "ggx", "eta": [0, 0, 0], "k": [0, 0, 0]})",
+};
+
+std::string two_sided(const std::string& bsdf) {
+  return R"({"type": "twosided", "nested": [)" + bsdf + "]}";
+}
+
+/// Points of one material with directions to where paths come from, to lights and random numbers.
+struct Points {
+  WidePaths paths{};
+  WidePoints points{};
+  WideNumbers numbers{};
+  BatchTriples light{};
+  WideGlossy out{};
+  int count = 0;
+
+  Points(const Spectrum& reflectance, uint64_t seed) {
+    Sampler sampler(SampleSequence::independent, seed, 0, 0);
+    // Every third point is left out, and those seen along their normals are among them.
+    for (int i = 0; i < kBatch; ++i) {
+      sampler.start_sample(uint32_t(i));
+      const Vector3f n = square_to_sphere(sampler.next_2d());
+      const Vector3f wo = square_to_sphere(sampler.next_2d());
+      points.ns.set(i, n);
+      paths.ray.direction.set(i, i % 16 == 0 ? -n : -wo);
+      light.set(i, square_to_sphere(sampler.next_2d()));
+      points.reflectance.set(i, reflectance.r, reflectance.g, reflectance.b);
+      const Point2f v = sampler.next_2d();
+      numbers.x[i] = v.x, numbers.y[i] = v.y;
+      numbers.first[i] = sampler.next_1d(), numbers.second[i] = sampler.next_1d();
+      if (i % 3 != 0) out.at[count++] = i;
+    }
+    numbers.x[16] = numbers.y[16] = 0;
+    numbers.x[17] = numbers.y[17] = kBelowOne;
+  }
+};
+
+/// Checks the k-th of what was made. Returns whether a path goes on from it.
+bool check_point(const Material& material, const Points& p, int k) {
+  const int i = p.out.at[k];
+  CAPTURE(i);
+  Surface surface = flat_surface();
+  surface.shading = Frame(p.points.ns.normal(i));
+  const Bsdf bsdf = material.bind(surface, -p.paths.ray.direction.vector(i));
+  const BsdfEval e = bsdf.eval(p.light.vector(i), Transport::radiance);
+  CHECK(e.value == Spectrum(p.out.value.x[k], p.out.value.y[k], p.out.value.z[k]));
+  CHECK(e.pdf.value == p.out.value_pdf[k]);
+  const bool chooses = bsdf.needs_choice();
+  const auto s = bsdf.sample(chooses ? p.numbers.first[i] : 0.5f, {p.numbers.x[i], p.numbers.y[i]},
+                             Transport::radiance);
+  CHECK(p.out.roulette[k] == (chooses ? p.numbers.second[i] : p.numbers.first[i]));
+  CHECK(s.has_value() == (p.out.alive[k] != 0));
+  if (!s || !p.out.alive[k]) return false;
+  CHECK(s->wi == p.out.wi.vector(k));
+  CHECK(s->weight == Spectrum(p.out.weight.x[k], p.out.weight.y[k], p.out.weight.z[k]));
+  CHECK(s->pdf.value == p.out.pdf[k]);
+  return true;
+}
+
+/// `as_surface` makes a material that which is scattered in lanes; `reflectance_of` what of that
+/// may depend on the point.
+template <class AsSurface, class ReflectanceOf>
+void compare(const std::string& description, AsSurface&& as_surface,
+             ReflectanceOf&& reflectance_of) {
+  CAPTURE(description);
+  const TestMaterial material(nlohmann::json::parse(description));
+  const auto surface = as_surface(*material);
+  REQUIRE(surface);
+  int alive = 0;
+  for (uint64_t seed = 0; seed < 20; ++seed) {
+    CAPTURE(seed);
+    Points p(reflectance_of(*surface).constant, seed);
+    const WideVertices vertices{p.paths, p.points, p.numbers};
+    evaluate_glossy(p.count, *surface, vertices, p.light, p.out);
+    sample_glossy(p.count, *surface, vertices, p.out);
+    for (int k = 0; k < p.count; ++k) alive += check_point(*material, p, k);
+  }
+  CHECK(alive > 500);
+}
+
+void compare_plastic(const std::string& description) {
+  compare(description, as_rough_plastic,
+          [](const RoughPlasticSurface& s) -> const ColorSlot& { return s.base; });
+}
+
+void compare_conductor(const std::string& description) {
+  compare(description, as_rough_conductor,
+          [](const RoughConductorSurface& s) -> const ColorSlot& { return s.reflectance; });
+}
+
+}  // namespace
+
+TEST_CASE("rough plastics in lanes are what their Bsdf is") {
+  for (const std::string bsdf : kPlastics) {
+    compare_plastic(bsdf);
+    compare_plastic(two_sided(bsdf));
+  }
+}
+
+TEST_CASE("rough conductors in lanes are what their Bsdf is") {
+  for (const std::string bsdf : kConductors) {
+    compare_conductor(bsdf);
+    compare_conductor(two_sided(bsdf));
+  }
+}
+
+TEST_CASE("what has other facets or an index from a texture is not scattered in lanes") {
+  for (const char* description :
+       {R"({"type": "roughconductor", "sample_visible": false})", R"({"type": "conductor"})",
+        R"({"type": "roughplastic"})", R"({"type": "diffuse"})"})
+    CHECK(!as_rough_conductor(*TestMaterial(description)));
+  for (const char* description : {R"({"type": "roughplastic", "sample_visible": false})",
+                                  R"({"type": "plastic"})", R"({"type": "roughconductor"})"})
+    CHECK(!as_rough_plastic(*TestMaterial(description)));
+  const FlatTexture eta(Spectrum(0.5f));
+  ConductorOptions options;
+  options.eta.texture = &eta;
+  CHECK(!as_rough_conductor(RoughConductor(options, {})));
+  const FlatTexture alpha(Spectrum(0.5f));
+  RoughnessOptions rough;
+  rough.alpha_u.texture = rough.alpha_v.texture = &alpha;
+  CHECK(!as_rough_conductor(RoughConductor({}, rough)));
+  RoughnessOptions correlated;
+  correlated.distribution = MicrofacetDistribution::ggx_correlated;
+  CHECK(!as_rough_conductor(RoughConductor({}, correlated)));
+  CHECK(as_rough_conductor(RoughConductor({}, {})));
+}
