@@ -3,7 +3,7 @@
 
 #include "app/arguments.h"
 #include "app/commands.h"
-#include "app/display_options.h"
+#include "app/file_options.h"
 #include "app/program.h"
 #include "base/diagnostics.h"
 #include "evaluate/raw/expected_slices.h"
@@ -18,7 +18,8 @@ namespace {
 
 struct MergeOptions {
   std::vector<std::string> films, outputs;
-  std::string png, raw, stats, exposure = "0", tone_map, slices, spp, slice_command;
+  std::string png, raw, stats, slices, spp, slice_command;
+  FileOptions files;
   bool quiet = false;
 };
 
@@ -42,7 +43,7 @@ bool report(const std::vector<std::string>& incomplete, Log& log) {
 int merge(MergeOptions o, Program& program) {
   if (o.quiet) program.log.set_level(Log::Level::quiet);
   if (!o.png.empty()) o.outputs.push_back(o.png);
-  const DisplaySettings display = parse_display(o.exposure, o.tone_map);
+  const FileSettings files = parse_file_settings(o.files);
   if (o.outputs.empty() && o.raw.empty())
     throw UsageError("merge: -o, --png or --raw has to name a file");
   for (const std::string& path : o.outputs) {
@@ -64,7 +65,7 @@ int merge(MergeOptions o, Program& program) {
   }
   const MergedFilms merged = merge_raw_films(o.films);
   if (merged.result.spp == 0) throw std::runtime_error("the films have no samples");
-  check_formats(o.outputs, merged.image.contents.channels);
+  check_formats(o.outputs, merged.image.contents.channels, files);
   RenderRecord record = record_of(merged);
   record.command_line = program.command_line;
   record.threads = program.threads();
@@ -73,7 +74,7 @@ int merge(MergeOptions o, Program& program) {
   if (!o.raw.empty()) write_raw_film(o.raw, merged.image, merged.state);
   const HeaderFields header = header_of(merged, record, gaps);
   for (const std::string& path : o.outputs)
-    write_image(path, merged.result.image, merged.image.form, header, display);
+    write_image(path, merged.result.image, merged.image.form, header, files);
   if (!o.stats.empty()) {
     StatisticsFile statistics(o.stats);
     statistics.add(record, merged.result, {.render = merged.result.seconds}, {});
@@ -94,7 +95,7 @@ void add_merge_command(CLI::App& app, Program& program) {
       ->allow_extra_args(false);
   c->add_option("--png", o->png, "Image for display");
   c->add_option("--raw", o->raw, "All of them as one raw film, to go on from");
-  add_display_options(*c, o->exposure, o->tone_map);
+  add_file_options(*c, o->files);
   c->add_option("--stats", o->stats, "Write statistics as JSON to this file");
   c->add_option("--slices", o->slices,
                 "The films are this many slices, as of duet render --slice, of all samples; those "

@@ -6,7 +6,7 @@
 
 #include "app/arguments.h"
 #include "app/commands.h"
-#include "app/display_options.h"
+#include "app/file_options.h"
 #include "app/program.h"
 #include "app/read_options.h"
 #include "app/viewer_option.h"
@@ -85,7 +85,7 @@ void RenderOptionParser::add_image_options(CLI::App& c) {
       "--denoise", options_.denoise,
       "Write NAME.denoised.exr, too: the image without most of its noise, but biased, by Open "
       "Image Denoise if that is found (DUET_OIDN_LIBRARY)");
-  add_display_options(c, exposure_, tone_map_);
+  add_file_options(c, files_);
 }
 
 void RenderOptionParser::add_output_options(CLI::App& c) {
@@ -177,7 +177,7 @@ void RenderOptionParser::finish_numbers() {
   if (!time_.empty()) budget.seconds = parse_seconds("--time", time_);
   if (!target_.empty())
     budget.target_error = parse_amount("--target-error", target_, {{"", 1}, {"%", 0.01}}, 1e-6, 1);
-  options_.display = parse_display(exposure_, tone_map_);
+  options_.files = parse_file_settings(files_);
   options_.threads = program_.threads();
   if (!threads_.empty()) {
     const int wanted = int(parse_whole("--threads", threads_, 1, kMaxThreads));

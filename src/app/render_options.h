@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "app/file_options.h"
 #include "app/progress.h"
 #include "evaluate/render/render_options.h"
 
@@ -43,11 +44,12 @@ class RenderOptionParser {
 
   Program& program_;
   RenderCommandLine options_;
-  std::string spp_, time_, target_, size_, crop_,
-      exposure_ = "0", tone_map_, threads_, seed_, sensor_, progress_ = "auto", techniques_,
-      format_, light_selection_, checkpoint_, samples_, slice_, viewer_, live_port_;
+  std::string spp_, time_, target_, size_, crop_, threads_, seed_, sensor_,
+      progress_ = "auto", techniques_, format_, light_selection_, checkpoint_, samples_, slice_,
+      viewer_, live_port_;
   bool live_ = false;
   std::vector<std::string> integrator_parameters_, layers_;
+  FileOptions files_;
 };
 
 }  // namespace duet

@@ -11,7 +11,7 @@
 #include "base/file_names.h"
 #include "base/run_program.h"
 #include "evaluate/batch/job_arguments.h"
-#include "evaluate/render/display_text.h"
+#include "evaluate/render/file_settings_text.h"
 #include "evaluate/render/output.h"
 #include "evaluate/render/scene_method.h"
 #include "evaluate/render/scene_operand.h"
@@ -134,7 +134,7 @@ class SlurmPlan {
     if (patterns.empty()) patterns.emplace_back();
     for (const std::string& pattern : patterns)
       job.merge_options.insert(job.merge_options.end(), {"-o", output_path(pattern, names)});
-    for (const std::string& argument : display_arguments(render_options_.display))
+    for (const std::string& argument : file_arguments(render_options_.files))
       job.merge_options.push_back(argument);
     slurm::name_job(job, job.merge_options[1]);
     job.sbatch_options = sbatch_;

@@ -10,7 +10,7 @@ extern "C" {
 #endif
 
 /// Changes whenever anything below does.
-#define DUET_CODEC_VERSION 2
+#define DUET_CODEC_VERSION 3
 #define DUET_CODEC_SYMBOL "duet_codecs"
 
 /// An image handed out by the module. `pixels` are uint8_t or float, rows from the top, channels
@@ -22,10 +22,11 @@ struct DuetDecodedImage {
   void* pixels;
 };
 
-/// An image for the module: bytes, rows from the top, channels interleaved.
+/// An image for the module: integers of 8 or 16 bits, rows from the top, channels interleaved.
 struct DuetPixels {
   int width, height, channels;
-  const uint8_t* bytes;
+  int bits;  ///< 8: `values` are uint8_t; 16: uint16_t
+  const void* values;
 };
 
 /// Bytes handed out by the module, to be given back to `release`.

@@ -8,7 +8,6 @@
 #include <stdexcept>
 
 #include "base/parallel.h"
-#include "image/codec_module.h"
 #include "image/module_paths.h"
 
 namespace duet {
@@ -99,12 +98,10 @@ ImageFile decode_with_module(const char* kind, const std::vector<uint8_t>& bytes
   return file;
 }
 
-std::vector<uint8_t> encode_with_module(const char* kind, int width, int height, int channels,
-                                        const std::vector<uint8_t>& pixels) {
+std::vector<uint8_t> encode_with_module(const char* kind, const DuetPixels& pixels) {
   DuetEncodedImage encoded{};
   char error[1024] = "";
-  const DuetPixels image{width, height, channels, pixels.data()};
-  if (!codecs().encode(kind, &image, &encoded, error, sizeof(error)))
+  if (!codecs().encode(kind, &pixels, &encoded, error, sizeof(error)))
     throw std::runtime_error(error);
   const std::unique_ptr<void, Release> memory(encoded.bytes);
   return {encoded.bytes, encoded.bytes + encoded.size};

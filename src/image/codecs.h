@@ -6,13 +6,13 @@
 #include <string>
 #include <vector>
 
+#include "image/codec_module.h"
 #include "image/image_io.h"
 
 namespace duet {
 
 /// `kind` as in codec_module.h. Throws std::runtime_error, also if the library is not found.
 ImageFile decode_with_module(const char* kind, const std::vector<uint8_t>& bytes);
-std::vector<uint8_t> encode_with_module(const char* kind, int width, int height, int channels,
-                                        const std::vector<uint8_t>& pixels);
+std::vector<uint8_t> encode_with_module(const char* kind, const DuetPixels& pixels);
 
 }  // namespace duet

@@ -8,12 +8,10 @@
 #include <OpenEXR/ImfFrameBuffer.h>
 #include <OpenEXR/ImfHeader.h>
 #include <OpenEXR/ImfIO.h>
-#include <OpenEXR/ImfInputFile.h>
 #include <OpenEXR/ImfInputPart.h>
 #include <OpenEXR/ImfIntAttribute.h>
 #include <OpenEXR/ImfMatrixAttribute.h>
 #include <OpenEXR/ImfMultiPartInputFile.h>
-#include <OpenEXR/ImfOutputFile.h>
 #include <OpenEXR/ImfPartType.h>
 #include <OpenEXR/ImfStdIO.h>
 #include <OpenEXR/ImfStringAttribute.h>
@@ -24,7 +22,6 @@
 #include <stdexcept>
 
 #include "image/exr_sizes.h"
-#include "image/half.h"
 #include "image/image_limits.h"
 
 namespace duet {
@@ -49,25 +46,6 @@ class MemoryInput : public Imf::IStream {
   const std::vector<uint8_t>& bytes_;
   uint64_t position_ = 0;
 };
-
-class MemoryOutput : public Imf::OStream {
- public:
-  MemoryOutput() : OStream("memory") {}
-  void write(const char source[], int count) override {
-    if (position_ + uint64_t(count) > bytes.size()) bytes.resize(position_ + uint64_t(count));
-    std::memcpy(bytes.data() + position_, source, size_t(count));
-    position_ += uint64_t(count);
-  }
-  uint64_t tellp() override { return position_; }
-  void seekp(uint64_t position) override { position_ = position; }
-
-  std::vector<uint8_t> bytes;
-
- private:
-  uint64_t position_ = 0;
-};
-
-// ---- Reading ----------------------------------------------------------------------------------
 
 /// "layer.R" → ("layer.", R's place among R, G, B, A and others).
 std::pair<std::string, int> channel_order(const std::string& name) {
@@ -127,6 +105,24 @@ uint64_t check_part(const Imf::Header& header) {
   return uint64_t(width) * uint64_t(height) * channels * sizeof(float);
 }
 
+/// Whether the last lines of a part are there.
+bool is_complete(Imf::MultiPartInputFile& input, int part) {
+  if (!input.partComplete(part)) return false;
+  const Imf::Header& header = input.header(part);
+  if (header.hasTileDescription() || (header.hasType() && Imf::isDeepData(header.type())))
+    return true;
+  // The table of where lines are comes before them: whether the last ones are there shows when
+  // they are read.
+  try {
+    const char* data = nullptr;
+    int size = 0;
+    Imf::InputPart(input, part).rawPixelData(header.dataWindow().max.y, data, size);
+    return true;
+  } catch (const std::exception&) {
+    return false;
+  }
+}
+
 }  // namespace
 
 bool is_exr(const std::vector<uint8_t>& bytes) {
@@ -150,7 +146,9 @@ ImageFile decode_exr(const std::string& path, const std::vector<uint8_t>& bytes)
       if (header.dataWindow() != window)
         throw std::runtime_error("parts of different size cannot be read");
       const std::string prefix = p == 0 ? "" : header.name() + ".";
-      for (const std::string& name : ordered_channels(header)) names.push_back(prefix + name);
+      // Most programs repeat the name of the part in those of its channels.
+      for (const std::string& name : ordered_channels(header))
+        names.push_back(name.starts_with(prefix) ? name : prefix + name);
     }
     if (!is_plausible_size(image_bytes, bytes.size()))
       throw std::runtime_error(fmt::format(
@@ -187,96 +185,14 @@ ImageFacts exr_facts(const std::string& path) {
   try {
     Imf::StdIFStream stream(path.c_str());
     check_sizes(stream);
-    Imf::InputFile input(stream, 0);
-    facts.fields = read_attributes(input.header());
-    facts.is_complete = input.isComplete();
-    if (!facts.is_complete || input.header().hasTileDescription()) return facts;
-    // The table of where lines are comes before them: whether the last ones are there shows when
-    // they are read.
-    try {
-      const char* data = nullptr;
-      int size = 0;
-      input.rawPixelData(input.header().dataWindow().max.y, data, size);
-    } catch (const std::exception&) {
-      facts.is_complete = false;
-    }
+    Imf::MultiPartInputFile input(stream, 0);
+    facts.fields = read_attributes(input.header(0));
+    facts.is_complete = true;
+    for (int p = 0; p < input.parts(); ++p) facts.is_complete &= is_complete(input, p);
   } catch (const std::exception& e) {
     throw ReadError(fmt::format("{}: {}", path, e.what()));
   }
   return facts;
-}
-
-// ---- Writing ----------------------------------------------------------------------------------
-
-namespace {
-
-struct InsertAttribute {
-  Imf::Header& header;
-  const std::string& name;
-  void operator()(const std::string& v) const { header.insert(name, Imf::StringAttribute(v)); }
-  void operator()(float v) const { header.insert(name, Imf::FloatAttribute(v)); }
-  void operator()(int v) const { header.insert(name, Imf::IntAttribute(v)); }
-  void operator()(const std::array<float, 16>& v) const {
-    Imath::M44f m;
-    for (size_t i = 0; i < 16; ++i) m[int(i / 4)][int(i % 4)] = v[i];
-    header.insert(name, Imf::M44fAttribute(m));
-  }
-};
-
-half to_half(float x) {
-  return half(half::FromBits, half_bits(x));
-}
-
-}  // namespace
-
-std::vector<uint8_t> encode_exr(const Image& image, const ExrOptions& options) {
-  const size_t channels = image.channels.size();
-  if (image.width <= 0 || image.height <= 0 || channels == 0)
-    throw std::runtime_error("the image is empty");
-  const Point2i full = options.full_size == Point2i{0, 0} ? Point2i{options.origin.x + image.width,
-                                                                    options.origin.y + image.height}
-                                                          : options.full_size;
-  const Imath::Box2i window(
-      {options.origin.x, options.origin.y},
-      {options.origin.x + image.width - 1, options.origin.y + image.height - 1});
-  Imf::Header header({{0, 0}, {full.x - 1, full.y - 1}}, window, options.pixel_aspect, {0, 0}, 1,
-                     Imf::INCREASING_Y, Imf::ZIP_COMPRESSION);
-  std::vector<bool> is_half;
-  for (const std::string& name : image.channels) {
-    if (header.channels().findChannel(name))
-      throw std::runtime_error(fmt::format("there are two channels \"{}\"", name));
-    const auto& exact = options.full_precision;
-    is_half.push_back(options.half && std::find(exact.begin(), exact.end(), name) == exact.end());
-    header.channels().insert(name, Imf::Channel(is_half.back() ? Imf::HALF : Imf::FLOAT));
-  }
-  for (const auto& [name, value] : options.header) std::visit(InsertAttribute{header, name}, value);
-
-  MemoryOutput stream;
-  {
-    Imf::OutputFile output(stream, header, 0);
-    // Converted and written by blocks of lines: no second image.
-    constexpr int kLines = 16;
-    const size_t row = size_t(image.width) * channels;
-    std::vector<half> halves(options.half ? kLines * row : 0);
-    for (int y = 0; y < image.height; y += kLines) {
-      const int lines = std::min(kLines, image.height - y);
-      const float* source = image.pixel(0, y);
-      if (options.half)
-        std::transform(source, source + size_t(lines) * row, halves.data(), to_half);
-      Imf::FrameBuffer buffer;
-      const auto insert = [&](size_t c, Imf::PixelType type, const auto* base) {
-        constexpr size_t sample = sizeof(*base);
-        buffer.insert(image.channels[c],
-                      Imf::Slice::Make(type, base + c, {window.min.x, window.min.y + y},
-                                       image.width, lines, channels * sample, row * sample));
-      };
-      for (size_t c = 0; c < channels; ++c)
-        is_half[c] ? insert(c, Imf::HALF, halves.data()) : insert(c, Imf::FLOAT, source);
-      output.setFrameBuffer(buffer);
-      output.writePixels(lines);
-    }
-  }
-  return std::move(stream.bytes);
 }
 
 }  // namespace duet

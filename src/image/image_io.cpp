@@ -6,6 +6,7 @@
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <stdexcept>
@@ -138,24 +139,33 @@ void write_exr(const std::string& path, const Image& image, const ExrOptions& op
   write_file_atomically(path, exr_bytes(path, image, options));
 }
 
+template <class Value>
 std::vector<uint8_t> display_image_bytes(const std::string& path, int width, int height,
-                                         int channels, const std::vector<uint8_t>& bytes,
+                                         int channels, const std::vector<Value>& values,
                                          const TextFields& fields) {
+  constexpr int kBits = std::numeric_limits<Value>::digits;
   const std::string extension = extension_of(path);
   const bool png = extension == ".png", jpeg = extension == ".jpg" || extension == ".jpeg";
   if (!png && !jpeg)
     throw std::runtime_error(
         fmt::format("{} cannot be written: only .png and .jpg are display images", path));
   if (width <= 0 || height <= 0 || channels < 1 || channels > 4 ||
-      bytes.size() != size_t(width) * size_t(height) * size_t(channels))
+      values.size() != size_t(width) * size_t(height) * size_t(channels))
     throw std::invalid_argument("write_display_image: size and data do not match");
   if (jpeg && (channels == 2 || channels == 4))
     throw std::runtime_error(fmt::format("{} cannot be written: JPEG has no alpha", path));
+  if (jpeg && kBits != 8)
+    throw std::runtime_error(fmt::format("{} cannot be written: JPEG has 8 bits", path));
   std::vector<uint8_t> file =
-      encode_with_module(png ? "png" : "jpeg", width, height, channels, bytes);
+      encode_with_module(png ? "png" : "jpeg", {width, height, channels, kBits, values.data()});
   png ? add_png_text(file, fields) : add_jpeg_comment(file, fields);
   return file;
 }
+
+template std::vector<uint8_t> display_image_bytes(const std::string&, int, int, int,
+                                                  const std::vector<uint8_t>&, const TextFields&);
+template std::vector<uint8_t> display_image_bytes(const std::string&, int, int, int,
+                                                  const std::vector<uint16_t>&, const TextFields&);
 
 void write_display_image(const std::string& path, int width, int height, int channels,
                          const std::vector<uint8_t>& bytes, const TextFields& fields) {

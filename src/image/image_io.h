@@ -35,7 +35,7 @@ struct ImageFile {
 /// contents (TGA, which has no mark, by its extension). Throws ReadError if the file is missing,
 /// damaged or of a kind that is not understood: deep and subsampled EXR files are not. Of EXR files
 /// with several parts, the channels of the first keep their names and those of the others are
-/// "part.R".
+/// "part.R", whether the file says it or not.
 ImageFile read_image(const std::string& path);
 
 /// Text, numbers, or a 4×4 matrix for row vectors.
@@ -50,6 +50,8 @@ struct ExrOptions {
   Point2i origin{0, 0};
   Point2i full_size{0, 0};
   float pixel_aspect = 1;
+  /// Whether each layer is a part of its own, with the layer's name (channel_names.h).
+  bool parts = false;
   std::vector<std::pair<std::string, HeaderValue>> header;
 };
 
@@ -57,12 +59,14 @@ struct ExrOptions {
 /// Throws std::runtime_error, which names `path`.
 std::vector<uint8_t> exr_bytes(const std::string& path, const Image& image,
                                const ExrOptions& options);
-/// A PNG or JPEG file (quality 95, all chroma samples), by the extension. `bytes` has
-/// width × height × channels sRGB values; 1 channel is grey, 3 are colours, and PNG takes an alpha
-/// that is not multiplied in as channel 2 or 4. `fields` become text chunks or the comment
-/// (text_fields.h). Throws std::runtime_error, which names `path`.
+/// A PNG or JPEG file (quality 95, all chroma samples), by the extension. `values` are
+/// width × height × channels sRGB values, uint8_t or, for PNG, uint16_t, from 0 to the greatest of
+/// the type; 1 channel is grey, 3 are colours, and PNG takes an alpha that is not multiplied in as
+/// channel 2 or 4. `fields` become text chunks or the comment (text_fields.h). Throws
+/// std::runtime_error, which names `path`.
+template <class Value>
 std::vector<uint8_t> display_image_bytes(const std::string& path, int width, int height,
-                                         int channels, const std::vector<uint8_t>& bytes,
+                                         int channels, const std::vector<Value>& values,
                                          const TextFields& fields = {});
 
 /// Write such files. The file is replaced as a whole (see base/atomic_file.h). Throw

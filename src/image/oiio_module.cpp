@@ -133,14 +133,15 @@ int encode(const char* kind, const DuetPixels* pixels, DuetEncodedImage* image, 
     auto output = OIIO::ImageOutput::create(kind);
     if (!output || !output->set_ioproxy(&target)) fail(output);
     const int channels = pixels->channels;
-    OIIO::ImageSpec spec(pixels->width, pixels->height, channels, OIIO::TypeDesc::UINT8);
+    const OIIO::TypeDesc type = pixels->bits == 16 ? OIIO::TypeDesc::UINT16 : OIIO::TypeDesc::UINT8;
+    OIIO::ImageSpec spec(pixels->width, pixels->height, channels, type);
     spec.alpha_channel = channels == 2 || channels == 4 ? channels - 1 : -1;
     spec.attribute("oiio:UnassociatedAlpha", 1);
     spec.attribute("oiio:ColorSpace", "sRGB");
     spec.attribute("compression", std::string(kind) == "jpeg" ? "jpeg:95" : "zip");
     spec.attribute("jpeg:subsampling", "4:4:4");
     if (!output->open(std::string("memory.") + kind, spec) ||
-        !output->write_image(OIIO::TypeDesc::UINT8, pixels->bytes) || !output->close())
+        !output->write_image(type, pixels->values) || !output->close())
       fail(output);
     auto bytes = allocate(buffer.size());
     std::memcpy(bytes.get(), buffer.data(), buffer.size());

@@ -23,6 +23,7 @@ struct DisplaySettings {
   bool automatic =
       false;  ///< the geometric mean of luminance becomes middle grey, 0.18, before that
   std::optional<ToneCurve> curve = {};  ///< instead of what the film says
+  int png_depth = 8;                    ///< bits of a value in PNG files: 8 or 16
 };
 
 /// Display-encoded sRGB, each from 0 to 1, of linear sRGB, by a curve other than reinhard, which

@@ -7,7 +7,6 @@
 
 #include "base/atomic_file.h"
 #include "evaluate/report/image_file.h"
-#include "image/tone_curve.h"
 #include "library/contents.h"
 
 namespace duet {
@@ -15,13 +14,24 @@ namespace duet {
 namespace {
 
 DisplaySettings settings_of(const DisplayForm& display) {
-  DisplaySettings settings{display.exposure, display.automatic_exposure, {}};
+  if (display.png_depth != 8 && display.png_depth != 16)
+    throw std::invalid_argument(
+        fmt::format("PNG files have 8 or 16 bits, not {}", display.png_depth));
+  DisplaySettings settings{display.exposure, display.automatic_exposure, {}, display.png_depth};
   if (display.tone_map.empty()) return settings;
   settings.curve = tone_curve_of(display.tone_map);
   if (!settings.curve)
     throw std::invalid_argument(fmt::format("there is no tone mapping \"{}\"; there are {}",
                                             display.tone_map, fmt::join(kToneCurveNames, " ")));
   return settings;
+}
+
+FileSettings settings_of(const DisplayForm& display, const ExrForm& exr) {
+  const std::optional<AovNames> names = aov_names_of(exr.aov_names);
+  if (!names)
+    throw std::invalid_argument(fmt::format("there are no names \"{}\"; there are {}",
+                                            exr.aov_names, fmt::join(kAovNames, " ")));
+  return {settings_of(display), *names, exr.parts};
 }
 
 }  // namespace
@@ -62,7 +72,8 @@ bool RenderedImage::interrupted() const {
   return contents_->interrupted;
 }
 
-void RenderedImage::save(const std::string& path, const DisplayForm& display) const {
+void RenderedImage::save(const std::string& path, const DisplayForm& display,
+                         const ExrForm& exr) const {
   if (image_format(path).empty())
     throw std::invalid_argument(fmt::format("{}: images are written as .exr, .png or .jpg", path));
   const auto& [image, form, header, interrupted] = *contents_;
@@ -70,7 +81,7 @@ void RenderedImage::save(const std::string& path, const DisplayForm& display) co
     throw std::invalid_argument(
         fmt::format("{}: the image has layers only, which .exr files can hold", path));
   const std::vector<uint8_t> bytes =
-      image_file_bytes(path, image, form, header, settings_of(display));
+      image_file_bytes(path, image, form, header, settings_of(display, exr));
   try {
     write_file_atomically(path, bytes);
   } catch (const std::runtime_error& e) {
@@ -82,7 +93,7 @@ std::vector<uint8_t> RenderedImage::png(const DisplayForm& display) const {
   const auto& [image, form, header, interrupted] = *contents_;
   if (image.channels[0] != "R")
     throw std::invalid_argument("the image has layers only, no colours to show");
-  return image_file_bytes("image.png", image, form, header, settings_of(display));
+  return image_file_bytes("image.png", image, form, header, settings_of(display, {}));
 }
 
 }  // namespace duet

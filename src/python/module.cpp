@@ -202,6 +202,21 @@ void bind_render(nb::module_& m) {
 }
 
 void bind_image(nb::module_& m) {
+  nb::class_<DisplayForm>(m, "DisplayForm")
+      .def(
+          "__init__",
+          [](DisplayForm* self, double exposure, bool automatic, const std::string& tone_map,
+             int png_depth) {
+            new (self) DisplayForm{exposure, automatic, tone_map, png_depth};
+          },
+          "exposure"_a, "automatic"_a, "tone_map"_a, "png_depth"_a);
+  nb::class_<ExrForm>(m, "ExrForm")
+      .def(
+          "__init__",
+          [](ExrForm* self, const std::string& aov_names, bool parts) {
+            new (self) ExrForm{aov_names, parts};
+          },
+          "aov_names"_a, "parts"_a);
   nb::class_<RenderedImage>(m, "Image")
       .def_static("from_rgba",
                   [](const Pixels& p) {
@@ -213,12 +228,9 @@ void bind_image(nb::module_& m) {
       .def("pixels", &pixels)
       .def(
           "save",
-          [](const RenderedImage& i, const std::string& path, double exposure, bool automatic,
-             const std::string& tone_map) {
-            i.save(path, {exposure, automatic, tone_map});
-          },
-          "path"_a, "exposure"_a, "automatic"_a, "tone_map"_a,
-          nb::call_guard<nb::gil_scoped_release>())
+          [](const RenderedImage& i, const std::string& path, const DisplayForm& display,
+             const ExrForm& exr) { i.save(path, display, exr); },
+          "path"_a, "display"_a, "exr"_a, nb::call_guard<nb::gil_scoped_release>())
       .def("png", [](const RenderedImage& i) {
         const std::vector<uint8_t> bytes = i.png();
         return nb::bytes(bytes.data(), bytes.size());

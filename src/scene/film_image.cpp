@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "math/spectrum.h"
 
@@ -57,8 +58,10 @@ bool is_grey(PixelFormat f) {
   return f == PixelFormat::luminance || f == PixelFormat::luminance_alpha;
 }
 
-DisplayImage to_display(const Image& image, const DisplayOptions& options, bool grey,
-                        bool with_alpha) {
+template <class Value>
+DisplayImage<Value> to_display(const Image& image, const DisplayOptions& options, bool grey,
+                               bool with_alpha) {
+  constexpr double kGreatest = std::numeric_limits<Value>::max();
   const DisplaySettings& settings = options.settings;
   ToneMapping tone = options.tone_mapping.value_or(ToneMapping{});
   if (settings.curve) {
@@ -72,15 +75,17 @@ DisplayImage to_display(const Image& image, const DisplayOptions& options, bool 
   if (settings.automatic && !tone.reinhard) scale *= kMiddleGrey / log_average(image);
   std::optional<Reinhard> reinhard;
   if (tone.reinhard) reinhard.emplace(image, tone.key, tone.burn);
-  const auto byte = [](double v) { return uint8_t(std::lround(255 * std::clamp(v, 0.0, 1.0))); };
-  const auto encode = [&](double v) {
-    if (!(v > 0)) return uint8_t(0);
-    v = std::min(v, 1.0);
-    return byte(tone.gamma > 0 ? std::pow(v, 1 / tone.gamma) : linear_to_srgb(float(v)));
+  const auto rounded = [](double v) {
+    return Value(std::lround(kGreatest * std::clamp(v, 0.0, 1.0)));
   };
-  DisplayImage out;
+  const auto encode = [&](double v) {
+    if (!(v > 0)) return Value(0);
+    v = std::min(v, 1.0);
+    return rounded(tone.gamma > 0 ? std::pow(v, 1 / tone.gamma) : linear_to_srgb(float(v)));
+  };
+  DisplayImage<Value> out;
   out.channels = (grey ? 1 : 3) + with_alpha;
-  out.bytes.reserve(n * size_t(out.channels));
+  out.values.reserve(n * size_t(out.channels));
   for (size_t i = 0; i < n; ++i) {
     const float* p = &image.data[i * stride];
     double s = scale * (reinhard ? reinhard->factor(p) : 1.0);
@@ -88,16 +93,19 @@ DisplayImage to_display(const Image& image, const DisplayOptions& options, bool 
     if (is_film) {
       const Spectrum rgb = Spectrum(p[0], p[1], p[2]) * float(s);
       const Spectrum c = displayed(grey ? Spectrum(rgb.luminance()) : rgb, *settings.curve);
-      for (int k = 0; k < (grey ? 1 : 3); ++k) out.bytes.push_back(byte(double(c[k])));
+      for (int k = 0; k < (grey ? 1 : 3); ++k) out.values.push_back(rounded(double(c[k])));
     } else if (grey) {
-      out.bytes.push_back(encode(Spectrum(p[0], p[1], p[2]).luminance() * s));
+      out.values.push_back(encode(Spectrum(p[0], p[1], p[2]).luminance() * s));
     } else {
-      for (int c = 0; c < 3; ++c) out.bytes.push_back(encode(p[c] * s));
+      for (int c = 0; c < 3; ++c) out.values.push_back(encode(p[c] * s));
     }
-    if (with_alpha) out.bytes.push_back(byte(p[3]));
+    if (with_alpha) out.values.push_back(rounded(p[3]));
   }
   return out;
 }
+
+template DisplayImage<uint8_t> to_display(const Image&, const DisplayOptions&, bool, bool);
+template DisplayImage<uint16_t> to_display(const Image&, const DisplayOptions&, bool, bool);
 
 Image in_pixel_format(const Image& image, PixelFormat format) {
   if (image.channels[0] != "R") return image;

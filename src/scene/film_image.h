@@ -27,15 +27,17 @@ struct DisplayOptions {
   TextFields fields = {};                   ///< what the file says about the image
 };
 
-/// Bytes for a display, channels interleaved.
+/// Values for a display, from 0 to the greatest of the type, channels interleaved.
+template <class Value>
 struct DisplayImage {
   int channels = 3;  ///< grey, grey and alpha, colours, colours and alpha
-  std::vector<uint8_t> bytes;
+  std::vector<Value> values;
 };
 
-/// Display values of the colours of an image with channels R, G, B, A first; alpha, which is
-/// multiplied into these colours, is divided out.
-DisplayImage to_display(const Image& image, const DisplayOptions& options, bool grey,
-                        bool with_alpha);
+/// Display values, uint8_t or uint16_t, of the colours of an image with channels R, G, B, A first;
+/// alpha, which is multiplied into these colours, is divided out.
+template <class Value>
+DisplayImage<Value> to_display(const Image& image, const DisplayOptions& options, bool grey,
+                               bool with_alpha);
 
 }  // namespace duet

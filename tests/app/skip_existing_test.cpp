@@ -105,6 +105,18 @@ TEST_SUITE("program") {
     CHECK(contains(brighter.err, "a.png is rendered again"));
     CHECK(!contains(brighter.err, "a.exr is rendered again"));
     CHECK(!is_skipped({}));
+    // The form of a kind of file concerns that kind alone.
+    for (const auto& [options, changed, kept] :
+         {std::tuple<Texts, const char*, const char*>{{"--png-depth", "16"}, "a.png", "a.exr"},
+          {{"--aov-names", "blender"}, "a.exr", "a.png"},
+          {{"--exr-parts"}, "a.exr", "a.png"}}) {
+      CAPTURE(options[0]);
+      const Outcome other = place.run(arguments + options);
+      CHECK(contains(other.err, std::string(changed) + " is rendered again"));
+      CHECK(!contains(other.err, std::string(kept) + " is rendered again"));
+      CHECK(is_skipped(options));
+      CHECK(!is_skipped({}));
+    }
     // So is what is in the files.
     place.write("mesh.obj", mesh + "v 1 1 1\n");
     CHECK(!is_skipped({}));

@@ -4,6 +4,9 @@
 #include <OpenEXR/ImfDeepScanLineOutputFile.h>
 #include <OpenEXR/ImfFrameBuffer.h>
 #include <OpenEXR/ImfHeader.h>
+#include <OpenEXR/ImfInputPart.h>
+#include <OpenEXR/ImfIntAttribute.h>
+#include <OpenEXR/ImfMultiPartInputFile.h>
 #include <OpenEXR/ImfMultiPartOutputFile.h>
 #include <OpenEXR/ImfOutputFile.h>
 #include <OpenEXR/ImfOutputPart.h>
@@ -114,6 +117,62 @@ TEST_CASE("EXR: single floats come back as they were, with layers in order") {
   CHECK(file.origin == Point2i{0, 0});
   CHECK(file.display_size == Point2i{19, 35});
   CHECK(field(file, "pixelAspectRatio") == "1");
+}
+
+TEST_CASE("EXR: each layer can be a part of its own") {
+  TemporaryDirectory directory;
+  const std::string path = directory.path("a.exr");
+  const Image image =
+      random_image(19, 35, {"R", "G", "B", "A", "dd.y.T", "normal.X", "normal.Y", "normal.Z"});
+  ExrOptions options;
+  options.full_precision = {"dd.y.T"};
+  options.origin = {3, 2};
+  options.full_size = {40, 50};
+  options.header = {{"spp", 7}};
+  write_exr(directory.path("single.exr"), image, options);
+  options.parts = true;
+  write_exr(path, image, options);
+  {
+    Imf::MultiPartInputFile file(path.c_str());
+    const std::pair<const char*, std::vector<std::string>> parts[] = {
+        {"rgba", {"A", "B", "G", "R"}},
+        {"dd.y", {"dd.y.T"}},
+        {"normal", {"normal.X", "normal.Y", "normal.Z"}}};
+    REQUIRE(file.parts() == 3);
+    for (int p = 0; p < 3; ++p) {
+      const Imf::Header& header = file.header(p);
+      CHECK(header.name() == parts[p].first);
+      CHECK(header.dataWindow().min == Imath::V2i(3, 2));
+      CHECK((header.findTypedAttribute<Imf::IntAttribute>("spp") != nullptr) == (p == 0));
+      std::vector<std::string> channels;
+      for (auto c = header.channels().begin(); c != header.channels().end(); ++c) {
+        channels.emplace_back(c.name());
+        CHECK(c.channel().type == (p == 1 ? Imf::FLOAT : Imf::HALF));
+      }
+      CHECK(channels == parts[p].second);
+    }
+    // The last pixel of the last part.
+    Imf::FrameBuffer buffer;
+    Imf::InputPart part(file, 2);
+    std::vector<float> line(19);
+    buffer.insert("normal.Z", Imf::Slice::Make(Imf::FLOAT, line.data(), {3, 2 + 34}, 19, 1));
+    part.setFrameBuffer(buffer);
+    part.readPixels(2 + 34);
+    const float wanted = image.pixel(18, 34)[7];
+    CHECK(line[18] == doctest::Approx(wanted).epsilon(1e-3));
+  }
+  const ImageFile single = read_image(directory.path("single.exr")), parts = read_image(path);
+  REQUIRE(parts.image.channels.size() == single.image.channels.size());
+  for (size_t c = 0; c < parts.image.channels.size(); ++c) {
+    const int other = single.image.find_channel(parts.image.channels[c]);
+    REQUIRE(other >= 0);
+    for (size_t i = 0; i < 19 * 35; ++i)
+      CHECK(parts.image.data[8 * i + c] == single.image.data[8 * i + size_t(other)]);
+  }
+  CHECK(field(parts, "spp") == "7");
+  CHECK(parts.origin == Point2i{3, 2});
+  write_exr(directory.path("again.exr"), image, options);
+  CHECK(read_file(directory.path("again.exr")) == read_file(path));
 }
 
 TEST_CASE("EXR: halves are rounded to nearest and do not overflow") {

@@ -46,11 +46,15 @@ TEST_CASE("a file that has been cut off anywhere is not complete") {
   ExrOptions exr;
   exr.header = {{"program", "Duet"}, {"spp", 7}};
   write_exr(directory.path("a.exr"), image, exr);
+  exr.parts = true;
+  Image layers(10, 40, {"R", "G", "B", "depth.T", "normal.X"});
+  for (size_t i = 0; i < layers.data.size(); ++i) layers.data[i] = float(i % 977);
+  write_exr(directory.path("parts.exr"), layers, exr);
   const TextFields fields{{"program", "Duet"}, {"spp", "7"}};
   const std::vector<uint8_t> pixels(40 * 50 * 3, 9);
   for (const char* name : {"a.png", "a.jpg"})
     write_display_image(directory.path(name), 40, 50, 3, pixels, fields);
-  for (const char* name : {"a.exr", "a.png", "a.jpg"}) {
+  for (const char* name : {"a.exr", "parts.exr", "a.png", "a.jpg"}) {
     const ImageFacts facts = read_image_facts(directory.path(name));
     CHECK(facts.is_complete);
     CHECK(facts.field("program") == "Duet");

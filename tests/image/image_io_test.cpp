@@ -45,6 +45,25 @@ TEST_CASE("PNG: bytes come back as they were, alpha included") {
   CHECK(directory.count() == 1);
 }
 
+TEST_CASE("PNG: values of 16 bits come back as they were, alpha included") {
+  TemporaryDirectory directory;
+  std::mt19937 generator(2);
+  for (int channels = 1; channels <= 4; ++channels) {
+    std::vector<uint16_t> values(size_t(13 * 7 * channels));
+    for (uint16_t& v : values) v = uint16_t(generator());
+    const auto bytes = display_image_bytes("a.png", 13, 7, channels, values, {{"spp", "7"}});
+    const std::string path = directory.write("a.png", std::string(bytes.begin(), bytes.end()));
+    const ImageFile file = read_image(path);
+    CHECK(file.display_encoded);
+    CHECK(file.image.channel_count() == channels);
+    REQUIRE(file.image.data.size() == values.size());
+    for (size_t i = 0; i < values.size(); ++i)
+      CHECK(std::lround(65535 * double(file.image.data[i])) == values[i]);
+  }
+  CHECK_THROWS_WITH_AS(display_image_bytes("a.jpg", 1, 1, 1, std::vector<uint16_t>{7}),
+                       "a.jpg cannot be written: JPEG has 8 bits", std::runtime_error);
+}
+
 TEST_CASE("JPEG: smooth images come back nearly as they were, also in their colours") {
   TemporaryDirectory directory;
   for (const char* name : {"a.jpg", "b.JPEG"}) {

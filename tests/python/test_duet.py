@@ -151,6 +151,16 @@ class Images(DuetTest):
             self.assertGreater((self.folder / name).stat().st_size, 100)
         image.save(self.folder / "agx.png", exposure="auto", tonemap="agx")
         self.assertNotEqual((self.folder / "agx.png").read_bytes(), (self.folder / "a.png").read_bytes())
+        image.save(self.folder / "deep.png", png_depth=16)
+        self.assertEqual((self.folder / "a.png").read_bytes()[24], 8)  # the bit depth in the IHDR chunk
+        self.assertEqual((self.folder / "deep.png").read_bytes()[24], 16)
+        with self.assertRaisesRegex(ValueError, "8 or 16 bits, not 12"):
+            image.save(self.folder / "a.png", png_depth=12)
+        image.save(self.folder / "blender.exr", aov_names="blender", exr_parts=True)
+        self.assertIn(b"ViewLayer.Combined", (self.folder / "blender.exr").read_bytes())
+        self.assertEqual(duet.compare(self.folder / "blender.exr", self.folder / "a.exr")["rmse"], 0)
+        with self.assertRaisesRegex(ValueError, "there are duet blender nuke mitsuba"):
+            image.save(self.folder / "a.exr", aov_names="houdini")
         with self.assertRaisesRegex(ValueError, "there are srgb aces agx reinhard"):
             image.save(self.folder / "a.png", tonemap="filmic")
         self.assertEqual(image._repr_png_(), (self.folder / "a.png").read_bytes())

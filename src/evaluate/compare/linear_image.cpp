@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "evaluate/report/aov_names.h"
 #include "image/colours.h"
 #include "image/image_io.h"
 #include "math/spectrum.h"
@@ -14,6 +15,7 @@ LinearImage load_linear(const std::string& path) {
   ImageFile file = read_image(path);
   LinearImage linear;
   linear.image = std::move(file.image);
+  take_combined_as_colours(linear.image.channels);
   linear.display_encoded = file.display_encoded;
   for (const auto& [name, value] : file.header) {
     if (name == "spp") linear.spp = value;

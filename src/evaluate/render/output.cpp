@@ -35,8 +35,8 @@ OutputNames output_names(const std::string& scene_file) {
   return {says_nothing ? folder : path.stem().string(), folder, "", "", ""};
 }
 
-void check_formats(const std::vector<std::string>& paths,
-                   const std::vector<std::string>& channels) {
+void check_formats(const std::vector<std::string>& paths, const std::vector<std::string>& channels,
+                   const FileSettings& settings) {
   const bool keeps_layers = !std::all_of(paths.begin(), paths.end(), is_display_format);
   for (const std::string& path : paths) {
     if (is_display_format(path) && channels[0] != "R")
@@ -47,6 +47,11 @@ void check_formats(const std::vector<std::string>& paths,
       throw UsageError(
           fmt::format("-o {}: only .exr files can hold the other layers ({}{}); write one, too",
                       path, channels[4], channels.size() > 5 ? ", …" : ""));
+  }
+  try {
+    if (keeps_layers) channels_in(settings.aov_names, channels);
+  } catch (const std::invalid_argument& e) {
+    throw UsageError(fmt::format("--aov-names: {}", e.what()));
   }
 }
 
@@ -93,9 +98,9 @@ std::string prepare_file(const std::string& path) {
 }
 
 void write_image(const std::string& path, const Image& image, const ImageForm& form,
-                 const HeaderFields& header, const DisplaySettings& display) {
+                 const HeaderFields& header, const FileSettings& settings) {
   const auto write = [&](const std::string& to) {
-    const std::vector<uint8_t> bytes = image_file_bytes(to, image, form, header, display);
+    const std::vector<uint8_t> bytes = image_file_bytes(to, image, form, header, settings);
     if (is_standard_output(to)) return write_standard_output(bytes);
     // The number of samples may be part of its name, and is known only now.
     std::error_code ignored;

@@ -29,8 +29,9 @@ std::string output_path(const std::string& pattern, const OutputNames& names,
                         const std::string& extension = ".exr");
 
 /// Throws UsageError if files cannot hold what an image has: formats for display no image without
-/// colours, and they alone no further layers.
-void check_formats(const std::vector<std::string>& paths, const std::vector<std::string>& channels);
+/// colours, and they alone no further layers; EXR files no two channels of one name.
+void check_formats(const std::vector<std::string>& paths, const std::vector<std::string>& channels,
+                   const FileSettings& settings);
 
 /// Makes a directory and those above it. Whether it is there now; the current one has an empty
 /// name.
@@ -44,6 +45,6 @@ std::string prepare_file(const std::string& path);
 /// fails the image is saved as EXR in the temporary directory instead. Throws std::runtime_error
 /// with both facts.
 void write_image(const std::string& path, const Image& image, const ImageForm& form,
-                 const HeaderFields& header, const DisplaySettings& display);
+                 const HeaderFields& header, const FileSettings& settings);
 
 }  // namespace duet

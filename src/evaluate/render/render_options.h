@@ -7,7 +7,7 @@
 
 #include "base/tcp.h"
 #include "evaluate/render/scene_file.h"
-#include "image/tone_curve.h"
+#include "evaluate/report/file_settings.h"
 #include "integrators/make_integrator.h"
 #include "integrators/pass.h"
 
@@ -17,7 +17,7 @@ struct RenderOptions {
   ReadOptions read;
   std::vector<std::string> outputs;
   std::string extension = ".exr";  ///< of images whose names have none
-  DisplaySettings display;
+  FileSettings files;
   bool skip_existing = false;
   bool keep_partial_name = false;
   bool denoise = false;  ///< whether there is a denoised image beside each image

@@ -150,7 +150,7 @@ class SceneRenderer {
     for (const std::string& path : planned)
       if (const std::string why = prepare_file(path); !why.empty())
         throw SceneFailure(fmt::format("cannot write {}: {}", path, why));
-    check_formats(planned, denoiser_->shown(integrator_->channels()));
+    check_formats(planned, denoiser_->shown(integrator_->channels()), options_.files);
   }
 
   void build() {

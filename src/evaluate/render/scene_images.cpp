@@ -5,7 +5,7 @@
 #include <stdexcept>
 
 #include "base/standard_output.h"
-#include "evaluate/render/display_text.h"
+#include "evaluate/render/file_settings_text.h"
 #include "evaluate/report/denoised_image.h"
 #include "evaluate/report/partial_image.h"
 #include "evaluate/report/provenance.h"
@@ -54,7 +54,8 @@ std::string SceneImages::settings_hash(Kind kind, const std::string& path) const
   Fingerprint all = settings_;
   if (kind == Kind::denoised) all.add("denoised");
   // What the film says about tones is part of the scene.
-  if (is_display_format(path)) all.add(display_text(options_.display));
+  if (const std::string text = file_settings_text(path, options_.files); !text.empty())
+    all.add(text);
   return all.text();
 }
 
@@ -89,7 +90,7 @@ std::vector<std::string> SceneImages::write_files(Kind kind, const Image& image,
     HeaderFields fields = header;
     fields.emplace_back("settingsHash", settings_hash(kind, path));
     try {
-      write_image(path, image, form, fields, options_.display);
+      write_image(path, image, form, fields, options_.files);
       if (!result.interrupted) remove_partial(path, scene_);
     } catch (const std::exception& e) {
       failures += (failures.empty() ? "" : "; ") + std::string(e.what());

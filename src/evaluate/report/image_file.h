@@ -5,10 +5,10 @@
 #include <string>
 #include <vector>
 
+#include "evaluate/report/file_settings.h"
 #include "evaluate/report/header.h"
 #include "evaluate/report/image_form.h"
 #include "image/image.h"
-#include "image/tone_curve.h"
 
 namespace duet {
 
@@ -19,10 +19,10 @@ std::string image_format(const std::string& path);
 bool is_display_format(const std::string& path);
 
 /// An image (channels R, G, B, A first, if it has colours) as the file whose name is `path`, which
-/// must have a format. `display` is for formats of displays. Throws
-/// std::runtime_error, which names `path`.
+/// must have a format. Throws std::runtime_error, which names `path`, and std::invalid_argument as
+/// channels_in() does.
 std::vector<uint8_t> image_file_bytes(const std::string& path, const Image& image,
                                       const ImageForm& form, const HeaderFields& header,
-                                      const DisplaySettings& display = {});
+                                      const FileSettings& settings = {});
 
 }  // namespace duet

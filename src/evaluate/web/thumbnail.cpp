@@ -34,10 +34,10 @@ Image reduced_colours(const Image& image, int longest) {
 std::string thumbnail_uri(const std::string& file, int longest) {
   try {
     const Image small = reduced_colours(load_linear(file).image, longest);
-    const DisplayImage shown = to_display(small, {}, false, false);
+    const auto shown = to_display<uint8_t>(small, {}, false, false);
     return "data:image/jpeg;base64," +
            base64(display_image_bytes("thumbnail.jpg", small.width, small.height, shown.channels,
-                                      shown.bytes));
+                                      shown.values));
   } catch (const std::exception&) {
     // A report without this picture is better than none.
     return "";

@@ -19,6 +19,13 @@ struct DisplayForm {
   double exposure = 0;              ///< stops
   bool automatic_exposure = false;  ///< the mean of luminance becomes middle grey before that
   std::string tone_map;             ///< "srgb", "aces", "agx", "reinhard"; "": as the scene says
+  int png_depth = 8;                ///< bits of a value in PNG files: 8 or 16
+};
+
+/// How EXR files hold layers.
+struct ExrForm {
+  std::string aov_names = "duet";  ///< or "blender", "nuke", "mitsuba" (docs/layers.md)
+  bool parts = false;              ///< whether each layer is a part of its own
 };
 
 /// Linear values of height × width × channels, float32. It never changes; copies share the pixels.
@@ -40,9 +47,12 @@ class [[gnu::visibility("default")]] RenderedImage {
 
   /// Writes a file as a whole, in the format of the path's extension: .exr (linear, all layers),
   /// .png or .jpg (sRGB, as `display` says). Throws std::invalid_argument for other extensions,
-  /// and for images without colours in formats for display, and FileError.
-  void save(const std::string& path, const DisplayForm& display = {}) const;
-  /// The bytes of a PNG file. Throws std::invalid_argument for images without colours.
+  /// for forms that there are not, for images without colours in formats for display, and if two
+  /// channels would have one name; and FileError.
+  void save(const std::string& path, const DisplayForm& display = {}, const ExrForm& exr = {})
+      const;
+  /// The bytes of a PNG file. Throws std::invalid_argument for images without colours and for forms
+  /// that there are not.
   std::vector<uint8_t> png(const DisplayForm& display = {}) const;
 
   /// The library's own.

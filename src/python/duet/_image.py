@@ -7,7 +7,7 @@ from collections.abc import Sequence
 import numpy
 from numpy.lib.mixins import NDArrayOperatorsMixin
 
-from ._duet import Image as _Pixels
+from ._duet import DisplayForm as _DisplayForm, ExrForm as _ExrForm, Image as _Pixels
 
 _CHANNELS = {1: ["Y"], 3: ["R", "G", "B"], 4: ["R", "G", "B", "A"]}
 
@@ -87,14 +87,18 @@ class Image(NDArrayOperatorsMixin):
         arrays = [i._pixels.pixels() if isinstance(i, Image) else i for i in inputs]
         return getattr(function, method)(*arrays, **kwargs)
 
-    def save(self, path: str | os.PathLike, exposure: float | str = 0.0, tonemap: str | None = None) -> None:
+    def save(self, path: str | os.PathLike, exposure: float | str = 0.0, tonemap: str | None = None, png_depth: int = 8,
+             aov_names: str = "duet", exr_parts: bool = False) -> None:
         """Writes an image file: .exr (linear, all layers), .png or .jpg (for display). Files are replaced as a whole.
 
         `exposure` is in stops, or "auto": the mean of luminance becomes middle grey. `tonemap` is "srgb", "aces", "agx" or
-        "reinhard"; by default as the scene says. Raises ValueError for other names and OSError if it cannot be written.
+        "reinhard"; by default as the scene says. `png_depth` is the bits of a value in .png, 8 or 16. In .exr the layers
+        have the names of "duet", "blender", "nuke" or "mitsuba" (`aov_names`), and with `exr_parts` each is a part of its
+        own. Raises ValueError for others and OSError if it cannot be written.
         """
         automatic = exposure == "auto"
-        self._pixels.save(os.fspath(path), 0.0 if automatic else exposure, automatic, tonemap or "")
+        display = _DisplayForm(0.0 if automatic else exposure, automatic, tonemap or "", png_depth)
+        self._pixels.save(os.fspath(path), display, _ExrForm(aov_names, exr_parts))
 
     def _repr_png_(self) -> bytes | None:
         return self._pixels.png() if self.channels[0] == "R" else None
