@@ -5,6 +5,8 @@
 #include <numbers>
 #include <numeric>
 
+#include "image/flip.h"
+
 namespace duet {
 
 namespace {

@@ -121,6 +121,26 @@ TEST_SUITE("program") {
       CHECK(contains(page, "\n\n" + indented(example(name))));
   }
 
+  TEST_CASE("slurm: the merge writes files in the form that is asked for") {
+    const Cluster place;
+    const std::vector<std::string> plain{"room.xml", "--tasks", "2", "--dry-run", "--"};
+    std::vector<std::string> formed = plain;
+    formed.insert(formed.end(),
+                  {"--tonemap", "agx", "--png-depth", "16", "--aov-names", "nuke", "--exr-parts"});
+    const auto merge_line = [&](const std::vector<std::string>& arguments) {
+      const Outcome o = place.submit(arguments);
+      REQUIRE_MESSAGE(o.code == 0, o.err);
+      const size_t at = o.out.find(" merge ");
+      REQUIRE(at != std::string::npos);
+      return o.out.substr(at, o.out.find("\n\n", at) - at);
+    };
+    const std::string line = merge_line(formed);
+    for (const char* option :
+         {"--tonemap agx", "--png-depth 16", "--aov-names nuke", "--exr-parts"})
+      CHECK(contains(line, option));
+    CHECK(!contains(merge_line(plain), "--exr-parts"));
+  }
+
   TEST_CASE("slurm: without sbatch, or with one that fails, nothing is left") {
     const Cluster place;
     const size_t files = place.count();
