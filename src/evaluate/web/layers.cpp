@@ -5,17 +5,22 @@
 #include <algorithm>
 #include <array>
 
+#include "image/channel_names.h"
+
 namespace duet {
 
 namespace {
 
 using Triple = std::array<int, 3>;
 
-/// The channels R, G and B of a layer, or what it has in their place.
-Triple colours_of(const Image& image, const std::string& layer) {
-  for (const char* letters : {"RGB", "XYZ", "rgb", "xyz"}) {
+/// The channels R, G and B of a layer, or what it has in their place; `prefix` is what stands
+/// before their own names.
+Triple colours_of(const Image& image, const std::string& prefix) {
+  constexpr std::array<const char*, 3> kNames[] = {
+      {"R", "G", "B"}, {"X", "Y", "Z"}, {"r", "g", "b"}, {"x", "y", "z"}, {"red", "green", "blue"}};
+  for (const auto& names : kNames) {
     Triple found{};
-    for (size_t i = 0; i < 3; ++i) found[i] = image.find_channel(layer + letters[i]);
+    for (size_t i = 0; i < 3; ++i) found[i] = image.find_channel(prefix + names[i]);
     if (std::all_of(found.begin(), found.end(), [](int c) { return c >= 0; })) return found;
   }
   return {-1, -1, -1};
@@ -35,10 +40,9 @@ std::vector<ViewedImage> viewed_layers(const Image& image, int longest) {
   std::vector<ViewedImage> views;
   for (int c = 0; c < image.channel_count(); ++c) {
     const std::string& channel = image.channels[size_t(c)];
-    const size_t dot = channel.rfind('.');
-    const std::string layer = dot == channel.npos ? "" : channel.substr(0, dot + 1);
-    Triple channels = colours_of(image, layer);
-    std::string name = layer.empty() ? "colours" : layer.substr(0, layer.size() - 1);
+    const std::string layer = layer_of(channel);
+    Triple channels = colours_of(image, layer.empty() ? "" : layer + ".");
+    std::string name = layer.empty() ? "colours" : layer;
     if (std::find(channels.begin(), channels.end(), c) == channels.end())
       channels = {c, c, c}, name = channel;
     else if (*std::min_element(channels.begin(), channels.end()) != c)

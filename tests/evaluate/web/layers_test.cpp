@@ -24,13 +24,13 @@ std::string pixel(float r, float g, float b) {
 TEST_CASE("the channels of an image become the layers of a viewer") {
   Image image(1, 1,
               {"A", "B", "G", "R", "albedo.R", "albedo.G", "albedo.B", "depth.T", "nn.X", "nn.Y",
-               "nn.Z", "P.x", "P.y", "P.z", "odd.R", "odd.G"});
+               "nn.Z", "P.x", "P.y", "P.z", "odd.R", "odd.G", "N.red", "N.green", "N.blue"});
   for (size_t c = 0; c < image.channels.size(); ++c) image.data[c] = float(c);
   const std::vector<ViewedImage> layers = viewed_layers(image, 16);
   const std::pair<const char*, std::string> expected[] = {
-      {"A", pixel(0, 0, 0)},        {"colours", pixel(3, 2, 1)}, {"albedo", pixel(4, 5, 6)},
-      {"depth.T", pixel(7, 7, 7)},  {"nn", pixel(8, 9, 10)},     {"P", pixel(11, 12, 13)},
-      {"odd.R", pixel(14, 14, 14)}, {"odd.G", pixel(15, 15, 15)}};
+      {"A", pixel(0, 0, 0)},        {"colours", pixel(3, 2, 1)},  {"albedo", pixel(4, 5, 6)},
+      {"depth.T", pixel(7, 7, 7)},  {"nn", pixel(8, 9, 10)},      {"P", pixel(11, 12, 13)},
+      {"odd.R", pixel(14, 14, 14)}, {"odd.G", pixel(15, 15, 15)}, {"N", pixel(16, 17, 18)}};
   REQUIRE(layers.size() == std::size(expected));
   for (size_t i = 0; i < layers.size(); ++i) {
     CHECK(layers[i].name == expected[i].first);
