@@ -14,7 +14,8 @@ const std::string kEnvironment =
 const std::string kPlastic =
     "<bsdf type='roughplastic'><float name='alpha' value='0.2'/>"
     "<rgb name='diffuse_reflectance' value='0.2,0.5,0.3'/></bsdf>";
-/// Rough plastic with the usual facets, which batches scatter in lanes.
+const std::string kTwoSidedPlastic = "<bsdf type='twosided'>" + kPlastic + "</bsdf>";
+/// Rough plastic with the other facets, which batches scatter in lanes.
 std::string ggx_plastic(const std::string& parameters, bool two_sided = true) {
   const std::string plastic =
       "<bsdf type='roughplastic'><string name='distribution' value='ggx'/>" + parameters +
@@ -58,6 +59,12 @@ std::string emitter(const std::string& type, const std::string& transform) {
 }
 const std::string kDiskLamp =
     emitter("disk", "<scale x='0.3' y='0.2'/><rotate x='1' angle='170'/><translate z='1.9'/>");
+
+/// A sphere whose normals point inwards.
+std::string hollow_xml(const std::string& center, const std::string& radius,
+                       const std::string& bsdf) {
+  return sphere_xml(center, radius, "<boolean name='flip_normals' value='true'/>" + bsdf);
+}
 
 const std::string kGlass = "<bsdf type='dielectric'/>";
 const std::string kCheckers =
@@ -110,25 +117,20 @@ const Case kCases[] = {
          emitter("sphere", "<scale value='0.05'/><translate x='-0.3' z='0.4'/>")},
     {"rough plastics in lanes",
      camera() + room_xml(kVarnishedCheckers) + kLamp + sphere_xml("-0.4,0.2,0.4", "0.35", kTinted) +
-         sphere_xml("0.5,-0.3,0.3", "0.25", kBubble) +
-         "<shape type='sphere'><boolean name='flip_normals' value='true'/>"
-         "<point name='center' value='0.5,0.3,1.2'/><float name='radius' value='0.3'/>" +
-         kTinted + "</shape>" +
+         sphere_xml("0.5,-0.3,0.3", "0.25", kBubble) + hollow_xml("0.5,0.3,1.2", "0.3", kTinted) +
          "<shape type='cube'><transform name='to_world'><scale value='0.2'/><rotate z='1' "
          "angle='30'/><translate y='-0.5' z='1.2'/></transform>" +
          ggx_plastic("<rgb name='diffuse_reflectance' value='0.2,0.5,0.3'/>", false) + "</shape>"},
     {"rough metals in lanes",
      camera() + room_xml(kPatternedMetal) + kLamp + sphere_xml("-0.4,0.2,0.4", "0.35", kAluminium) +
-         sphere_xml("0.5,-0.3,0.3", "0.25", kMirrorFacets) +
-         "<shape type='sphere'><boolean name='flip_normals' value='true'/>"
-         "<point name='center' value='0.5,0.3,1.2'/><float name='radius' value='0.3'/>" +
-         kAluminium + "</shape>" +
+         hollow_xml("0.5,-0.3,0.3", "0.25", kMirrorFacets) +
+         hollow_xml("0.5,0.3,1.2", "0.3", kAluminium) +
          "<shape type='cube'><transform name='to_world'><scale value='0.2'/><rotate z='1' "
          "angle='30'/><translate y='-0.5' z='1.2'/></transform>" +
          kBrushed + "</shape>"},
     {"Beckmann plastics and metals in lanes",
-     camera() + room_xml("<bsdf type='twosided'>" + kPlastic + "</bsdf>") + kLamp +
-         sphere_xml("-0.4,0.2,0.4", "0.35", kPlastic) +
+     camera() + room_xml(kTwoSidedPlastic) + kLamp + sphere_xml("-0.4,0.2,0.4", "0.35", kPlastic) +
+         hollow_xml("0.5,-0.3,0.3", "0.25", kTwoSidedPlastic) +
          "<shape type='cube'><transform name='to_world'><scale value='0.2'/><rotate z='1' "
          "angle='30'/><translate y='-0.5' z='1.2'/></transform>" +
          kAluminium + "</shape>"},
