@@ -15,8 +15,8 @@ constexpr double kSlack = 1.05;
 
 /// Bytes for each pixel of images with the channels of a method.
 struct PixelBytes {
-  double sums;       ///< in doubles, while a film is developed (Film::develop)
-  double image;      ///< in floats
+  double sums;   ///< in doubles, while a film is developed (Film::develop), if all rows are at once
+  double image;  ///< in floats
   double converted;  ///< to the pixel format of the file, in floats
   double encoded;    ///< as a file; it grows by copying, and not everything can be compressed
 };
