@@ -97,7 +97,7 @@ MUTATIONS = [
      "{tile_rates(films_.subspan(half)), tile_rates", "{tile_rates(films_.first(half)), tile_rates",
      "a film's samples have no say*"),
     ("films weigh as much as they have samples", "src/image/film.cpp",
-     "most / (filled[k] * double(tile.samples()))", "1.0",
+     "most / (filled[k] * samples)", "1.0",
      "each film counts the same*"),
     ("an exact sum loses what one word carries to the other", "src/image/exact_sum.h",
      "high_ += high + (low_ < low);", "high_ += high;", "an exact sum is the sum"),

@@ -44,7 +44,7 @@ TEST_SUITE("program") {
     const std::set<std::string> commands =
         names_in_help(help.substr(help.find("Subcommands:")), "[a-z]+");
     REQUIRE(commands.contains("render"));
-    REQUIRE(commands.size() == 11);
+    REQUIRE(commands.size() == 12);
     int options = 0;
     for (const std::string shell : {"bash", "zsh", "fish", "man"}) {
       CAPTURE(shell);
