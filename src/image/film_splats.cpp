@@ -100,6 +100,10 @@ void Film::add_splat_means(std::span<const Film> films, Rows rows, Image& image)
 }
 
 void Film::add_splats(size_t layer, std::span<const Splat> splats, float scale) {
+  // More at a time would be read from memory, in the order of their bands, and not from caches.
+  constexpr size_t kAtATime = 1 << 16;
+  for (; splats.size() > kAtATime; splats = splats.subspan(kAtATime))
+    add_splats(layer, splats.first(kAtATime), scale);
   std::vector<ExactSum>& sums = splats_[layer].sums;
   const FilterProfile& along_y = filter_.along_y();
   const auto rows = [&](const Splat& s) {
