@@ -73,9 +73,13 @@ bool measure(const std::string& method, const Scene& scene, IntegratorDescriptio
   // One worker needs as many times as long for what they all do in a pass.
   request.pass_seconds *= loops.workers;
   loops.work = loops.duration = 0;
-  const double start = thread_seconds();
+  const double start = thread_seconds(), others = cpu_seconds() - start;
   const RenderResult result = render(scene, *integrator, layout, request);
   const double total = thread_seconds() - start, serial = total - loops.work;
+  if (cpu_seconds() - thread_seconds() - others > 0.001 * total) {
+    fmt::print(stderr, "{}: other threads computed, so not all loops came here\n", method);
+    return false;
+  }
   fmt::print("{:>8}: {:6.2f} s, serial {:.2f} %, {:.1f} times as fast with {} workers\n", method,
              total, 100 * serial / total, total / (serial + loops.duration), loops.workers);
   return result.spp == spp && serial < 0.01 * total;
