@@ -53,7 +53,7 @@ run_bench() {
   build/splats
   build/light_tree 0.1
   build/film scenes/thesis-empty/scene.xml 8 4
-  build/scaling scenes/thesis-empty/scene.xml 512x512 32 64 path bdpt vcm
+  build/scaling scenes/thesis-empty/scene.xml 512x512 64 64 path bdpt vcm
   echo "10 of 10 ran"
 }
 
