@@ -63,41 +63,23 @@ template <class Facets>
   }
 }
 
-DUET_WIDEST void evaluate_ggx_conductor(int n, const RoughConductorSurface& surface,
-                                        const WideVertices& vertices, const BatchTriples& light,
-                                        WideGlossy& out) {
-  evaluate_all<WideGgx>(n, surface, vertices, light, out);
-}
-
-DUET_WIDEST void evaluate_beckmann_conductor(int n, const RoughConductorSurface& surface,
-                                             const WideVertices& vertices,
-                                             const BatchTriples& light, WideGlossy& out) {
-  evaluate_all<WideBeckmann>(n, surface, vertices, light, out);
-}
-
-DUET_WIDEST void sample_ggx_conductor(int n, const RoughConductorSurface& surface,
-                                      const WideVertices& vertices, WideGlossy& out) {
-  sample_all<WideGgx>(n, surface, vertices, out);
-}
-
-DUET_WIDEST void sample_beckmann_conductor(int n, const RoughConductorSurface& surface,
-                                           const WideVertices& vertices, WideGlossy& out) {
-  sample_all<WideBeckmann>(n, surface, vertices, out);
-}
-
 }  // namespace
 
-void evaluate_glossy(int n, const RoughConductorSurface& surface, const WideVertices& vertices,
-                     const BatchTriples& light, WideGlossy& out) {
-  const bool beckmann = surface.conductor.microfacet.is_visible_beckmann();
-  (beckmann ? evaluate_beckmann_conductor : evaluate_ggx_conductor)(n, surface, vertices, light,
-                                                                    out);
+DUET_WIDEST void evaluate_glossy(int n, const RoughConductorSurface& surface,
+                                 const WideVertices& vertices, const BatchTriples& light,
+                                 WideGlossy& out) {
+  if (surface.conductor.microfacet.is_visible_beckmann())
+    evaluate_all<WideBeckmann>(n, surface, vertices, light, out);
+  else
+    evaluate_all<WideGgx>(n, surface, vertices, light, out);
 }
 
-void sample_glossy(int n, const RoughConductorSurface& surface, const WideVertices& vertices,
-                   WideGlossy& out) {
-  const bool beckmann = surface.conductor.microfacet.is_visible_beckmann();
-  (beckmann ? sample_beckmann_conductor : sample_ggx_conductor)(n, surface, vertices, out);
+DUET_WIDEST void sample_glossy(int n, const RoughConductorSurface& surface,
+                               const WideVertices& vertices, WideGlossy& out) {
+  if (surface.conductor.microfacet.is_visible_beckmann())
+    sample_all<WideBeckmann>(n, surface, vertices, out);
+  else
+    sample_all<WideGgx>(n, surface, vertices, out);
 }
 
 }  // namespace duet
