@@ -1,5 +1,6 @@
 #include <cmath>
 
+#include "math/orthogonal.h"
 #include "mitsuba/property_values.h"
 #include "values/text.h"
 
@@ -184,17 +185,7 @@ PropertyValue read_transform(const ElementContext& c, pugi::xml_node element,
 }
 
 Triple orthogonal_vector(const Triple& d, FileVersion version) {
-  const auto [x, y, z] = d;
-  if (!version.is_0x()) {
-    // Duff et al., "Building an Orthonormal Basis, Revisited", 2017.
-    const double sign = std::copysign(1.0, z), a = -1 / (sign + z);
-    return {sign * x * x * a + 1, sign * x * y * a, -sign * x};
-  }
-  // The other coordinate axis: orthogonal to d in the plane of its two larger components.
-  const bool flat = std::abs(x) > std::abs(y);
-  const double length = flat ? std::hypot(x, z) : std::hypot(y, z);
-  const Triple t = flat ? Triple{z / length, 0, -x / length} : Triple{0, z / length, -y / length};
-  return {t[1] * z - t[2] * y, t[2] * x - t[0] * z, t[0] * y - t[1] * x};
+  return version.is_0x() ? axis_orthogonal(d) : duff_orthogonal(d);
 }
 
 }  // namespace duet

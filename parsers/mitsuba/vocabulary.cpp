@@ -57,13 +57,6 @@ bool may_contain(PluginKind outer, PluginKind inner) {
   return has_word(kElements[size_t(outer)].contents, tag_of(inner));
 }
 
-ParameterList inert_parameters(ParameterType type, std::string_view names, FileVersions versions) {
-  std::vector<Parameter> list;
-  for (const std::string_view name : split_list(names))
-    list.push_back({.name = name, .type = type, .versions = versions, .support = Support::inert});
-  return list;
-}
-
 std::vector<Plugin> plugins::joined(std::initializer_list<std::vector<Plugin>> lists) {
   std::vector<Plugin> all;
   for (const std::vector<Plugin>& list : lists) all.insert(all.end(), list.begin(), list.end());

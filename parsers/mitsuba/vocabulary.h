@@ -5,7 +5,6 @@
 
 #include <array>
 #include <cstdint>
-#include <memory>
 #include <optional>
 #include <span>
 #include <string>
@@ -16,6 +15,7 @@
 #include "scene/description.h"
 #include "scene/parameter_text.h"
 #include "values/color.h"
+#include "values/parameter_list.h"
 
 namespace duet {
 
@@ -70,34 +70,6 @@ using PluginReader =
                  ReadInto<MediumDescription>, ReadInto<PhaseDescription>, ReadInto<MeantVolume>,
                  ReadInto<FilmDescription>, ReadInto<FilterDescription>,
                  ReadInto<SamplerDescription>, ReadInto<IntegratorDescription>>;
-
-/// The parameters of a plugin, in the order in which they are listed. Copies share them.
-class ParameterList {
- public:
-  ParameterList() = default;
-  /// Of single parameters and of lists of them.
-  template <class... Parts>
-  ParameterList(const Parts&... parts) {
-    std::vector<Parameter> list;
-    (add(list, parts), ...);
-    list_ = std::make_shared<const std::vector<Parameter>>(std::move(list));
-  }
-  const Parameter* begin() const { return list_ ? list_->data() : nullptr; }
-  const Parameter* end() const { return list_ ? list_->data() + list_->size() : nullptr; }
-  bool empty() const { return begin() == end(); }
-
- private:
-  static void add(std::vector<Parameter>& list, const Parameter& p) { list.push_back(p); }
-  template <class List>
-  static void add(std::vector<Parameter>& list, const List& more) {
-    list.insert(list.end(), std::begin(more), std::end(more));
-  }
-  std::shared_ptr<const std::vector<Parameter>> list_;
-};
-
-/// Parameters that change nothing, by their names, which are separated by spaces.
-ParameterList inert_parameters(ParameterType type, std::string_view names,
-                               FileVersions versions = FileVersions::all);
 
 struct Plugin {
   std::string_view name = "";

@@ -95,4 +95,20 @@ SunDisk sun_disk_0x(const std::array<double, 3>& sun, double turbidity, double s
   return disk;
 }
 
+Matrix4 y_up_sky() {
+  Matrix4 m;
+  m[0] = {1, 0, 0, 0};
+  m[1] = {0, 0, 1, 0};
+  m[2] = {0, -1, 0, 0};
+  return m;
+}
+
+LightDescription directional_sun(const SunDisk& disk, double scale, const LightDescription& sky) {
+  const auto [x, y, z] = sky.to_world.turned(disk.direction);
+  LightDescription out = sky;
+  out.model = DirectionalLight{disk.irradiance * float(scale)};
+  out.to_world = Matrix4::look_along({}, {-x, -y, -z}).value_or(Matrix4{});
+  return out;
+}
+
 }  // namespace duet

@@ -23,4 +23,10 @@ Spectrum sun_irradiance_0x(double turbidity, double zenith);
 /// (z is up); its brightness is that of the true place.
 SunDisk sun_disk_0x(const std::array<double, 3>& sun, double turbidity, double stretch);
 
+/// The place of the sky's model, whose +z is up, in the world of 0.x, where +y is.
+Matrix4 y_up_sky();
+
+/// A sun without a size, seen from the world; the sky's transform is that of `sky`.
+LightDescription directional_sun(const SunDisk& disk, double scale, const LightDescription& sky);
+
 }  // namespace duet

@@ -26,4 +26,12 @@ VolumeFile read_volume(const std::string& file) {
   return out;
 }
 
+Matrix4 box_to_world(const VolumeGrid& grid) {
+  const auto& a = grid.lower;
+  const auto& b = grid.upper;
+  return Matrix4::translate(double(a[0]), double(a[1]), double(a[2])) *
+         Matrix4::scale(double(b[0]) - double(a[0]), double(b[1]) - double(a[1]),
+                        double(b[2]) - double(a[2]));
+}
+
 }  // namespace duet

@@ -15,4 +15,7 @@ bool is_nanovdb(const std::string& file);
 /// read as a .vol file. Throws ReadError "file: message".
 VolumeFile read_volume(const std::string& file);
 
+/// From the unit cube to the box that the file says the grid fills.
+Matrix4 box_to_world(const VolumeGrid& grid);
+
 }  // namespace duet

@@ -190,4 +190,12 @@ Weave parse_weave(std::string_view text, const std::string& file) {
   return Parser(text, file).run();
 }
 
+std::vector<float> Weave::shares() const {
+  std::vector<size_t> cells(yarns.size());
+  for (const uint32_t yarn : pattern) ++cells[yarn];
+  std::vector<float> shares;
+  for (const size_t count : cells) shares.push_back(float(double(count) / double(pattern.size())));
+  return shares;
+}
+
 }  // namespace duet

@@ -24,6 +24,9 @@ struct Yarn {
 struct Weave {
   std::vector<Yarn> yarns;
   std::vector<uint32_t> pattern;  ///< indices of yarns, one for each cell
+
+  /// How much of the cloth each yarn is.
+  std::vector<float> shares() const;
 };
 
 /// Reads `weave { name = value, …, pattern { n, … }, yarn { … }, … }`, where comments are as in C

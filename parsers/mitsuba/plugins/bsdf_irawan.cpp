@@ -50,12 +50,10 @@ void read_irawan(SceneReader& s, Properties& p, MaterialDescription& out) {
   });
   if (!weave) return;
   Spectrum diffuse, specular;
-  std::vector<size_t> cells(weave->yarns.size());
-  for (const uint32_t yarn : weave->pattern) ++cells[yarn];
-  for (size_t i = 0; i < cells.size(); ++i) {
-    const float share = float(double(cells[i]) / double(weave->pattern.size()));
-    diffuse += cloth_color(p, weave->yarns[i].diffuse) * share;
-    specular += cloth_color(p, weave->yarns[i].specular) * share;
+  const std::vector<float> shares = weave->shares();
+  for (size_t i = 0; i < shares.size(); ++i) {
+    diffuse += cloth_color(p, weave->yarns[i].diffuse) * shares[i];
+    specular += cloth_color(p, weave->yarns[i].specular) * shares[i];
   }
   m.diffuse_reflectance = diffuse, m.specular_reflectance = specular;
   conserve_energy(s, p, m.diffuse_reflectance, m.specular_reflectance);

@@ -79,15 +79,6 @@ void read_sky_3x(SceneReader& s, Properties& p, SkyLight& sky) {
                          "the disk of the sun has the same radiance everywhere");
 }
 
-/// In 0.x +y is up; the model's +z.
-Matrix4 y_up() {
-  Matrix4 m;
-  m[0] = {1, 0, 0, 0};
-  m[1] = {0, 0, 1, 0};
-  m[2] = {0, -1, 0, 0};
-  return m;
-}
-
 /// What "sky", "sun" and "sunsky" of 0.6 have in common.
 void read_0x(SceneReader& s, Properties& p, SkyLight& sky, LightDescription& out) {
   out.to_world = p.transform("to_world");
@@ -99,17 +90,8 @@ void read_0x(SceneReader& s, Properties& p, SkyLight& sky, LightDescription& out
   }
   sky.sun = {y_up_sun[0], -y_up_sun[2], y_up_sun[1]};
   if (sky.sun[2] < 0) s.report().error(p.node().where, "the sun is below the horizon");
-  out.to_world = out.to_world * y_up();
+  out.to_world = out.to_world * y_up_sky();
   read_weight(p, out);
-}
-
-/// A sun without a size, seen from the world; `to_world` is the sky's.
-LightDescription directional_sun(const SunDisk& disk, double scale, const LightDescription& sky) {
-  const auto [x, y, z] = sky.to_world.turned(disk.direction);
-  LightDescription out = sky;
-  out.model = DirectionalLight{disk.irradiance * float(scale)};
-  out.to_world = Matrix4::look_along({}, {-x, -y, -z}).value_or(Matrix4{});
-  return out;
 }
 
 /// How wide the sun of 0.x is; nothing if it is a directional light.

@@ -7,14 +7,6 @@ namespace duet::plugins {
 
 namespace {
 
-Matrix4 box_to_world(const VolumeGrid& grid) {
-  const auto& a = grid.lower;
-  const auto& b = grid.upper;
-  return Matrix4::translate(double(a[0]), double(a[1]), double(a[2])) *
-         Matrix4::scale(double(b[0]) - double(a[0]), double(b[1]) - double(a[1]),
-                        double(b[2]) - double(a[2]));
-}
-
 void read_constvolume(SceneReader& s, Properties& p, MeantVolume& out) {
   p.transform("to_world");  // of interest to extinction_box() only
   const Property* value = p.find("value");
