@@ -123,7 +123,7 @@ void SceneWriter::one_field(const FieldFacts& facts, const M& value) {
 template <class T>
 void SceneWriter::fields(const T& description) {
   for_each_field(description, [&](const FieldFacts& facts, const auto& value) {
-    if (facts.given && !facts.unwritten && !facts.initial) one_field(facts, value);
+    if (facts.given && !facts.unwritten && !(facts.terse && facts.initial)) one_field(facts, value);
   });
 }
 

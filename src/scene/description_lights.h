@@ -34,6 +34,7 @@ struct PointLight {
 };
 /// Between full and no intensity: linear in the angle, or t²(3 − 2t) of the angle's cosine.
 enum class SpotFalloff { linear, smooth };
+inline constexpr std::string_view kSpotFalloffs[] = {"linear", "smooth"};
 /// At the origin of its transform, along +z. Angles in degrees from the axis: full intensity within
 /// beam_width, none beyond cutoff_angle.
 struct SpotLight {
@@ -46,16 +47,20 @@ struct SpotLight {
     using enum ParameterType;
     using L = SpotLight;
     return FieldList(
-        field(&L::intensity, kIntensity),
+        field(&L::intensity, kIntensity).shown(": "),
         field(&L::cutoff_angle, Parameter{"cutoff_angle", number, kInitial,
-                                          "no light beyond this angle from the axis", degrees}),
+                                          "no light beyond this angle from the axis", degrees})
+            .shown(", cutoff angle "),
         field(&L::beam_width, Parameter{"beam_width", number, "(3/4 cutoff_angle)",
                                         "full intensity within this angle", not_negative})
-            .read_by_plugin(),
-        field(&L::texture, Parameter{"texture", texture, "", "multiplies the intensity"}),
-        field(&L::falloff));
+            .read_by_plugin()
+            .shown(", beam width "),
+        field(&L::texture, Parameter{"texture", texture, "", "multiplies the intensity"})
+            .shown(", texture "),
+        field(&L::falloff).words(kSpotFalloffs).shown_if_changed(", falloff "));
   }
   static constexpr const char* name() { return "spot"; }
+  static constexpr LightPose kPose = LightPose::both;
   std::vector<std::string> losses() const;
   void count(SceneFeatures& f) const;
   LightPointer build(SceneBuilder& b, const LightDescription& d) const;
@@ -72,12 +77,13 @@ struct ProjectorLight {
     using namespace parameter_words;
     using enum ParameterType;
     using L = ProjectorLight;
-    return joined_fields(
-        FieldList(field(&L::irradiance, kIrradiance), field(&L::scale, kLightScale)),
-        fov_fields(&L::fov, &L::fov_axis, "either this or focal_length"),
-        FieldList(field(&L::is_intensity)));
+    return joined_fields(FieldList(field(&L::irradiance, kIrradiance).shown(": "),
+                                   field(&L::scale, kLightScale).shown(", scale ")),
+                         fov_fields(&L::fov, &L::fov_axis, "either this or focal_length"),
+                         FieldList(field(&L::is_intensity).shown(", as intensity")));
   }
   static constexpr const char* name() { return "projector"; }
+  static constexpr LightPose kPose = LightPose::both;
   std::vector<std::string> losses() const;
   void count(SceneFeatures& f) const;
   LightPointer build(SceneBuilder& b, const LightDescription& d) const;
@@ -111,6 +117,8 @@ struct ConstantLight {
 /// `latitude_longitude` has its first and last row at the poles, `row_centers` half a row away from
 /// them, as pbrt-v3 has.
 enum class EnvironmentLayout { latitude_longitude, equal_area, row_centers };
+inline constexpr std::string_view kEnvironmentLayouts[] = {"latitude and longitude", "equal area",
+                                                           "row centers"};
 /// An image around the scene.
 struct EnvironmentMapLight {
   std::string file;  ///< resolved path
@@ -125,19 +133,25 @@ struct EnvironmentMapLight {
     using namespace parameter_words;
     using enum ParameterType;
     using L = EnvironmentMapLight;
-    return FieldList(
-        field(&L::file, Parameter{.name = "filename", .type = file, .required = true}).names_data(),
-        field(&L::scale, Parameter{.name = "scale",
-                                   .type = number,
-                                   .preset = kInitial,
-                                   .range = not_negative,
-                                   .aliases = "intensity_scale"}),
-        field(&L::tint), field(&L::layout), field(&L::illuminance),
-        field(&L::gamma,
-              Parameter{"gamma", number, "(of the file)", "1: linear, -1: sRGB", any, v0})
-            .unwritten());
+    return FieldList(field(&L::file, Parameter{.name = "filename", .type = file, .required = true})
+                         .names_data()
+                         .shown(": "),
+                     field(&L::scale, Parameter{.name = "scale",
+                                                .type = number,
+                                                .preset = kInitial,
+                                                .range = not_negative,
+                                                .aliases = "intensity_scale"})
+                         .shown(", scale "),
+                     field(&L::tint).shown_if_changed(", tint "),
+                     field(&L::layout).words(kEnvironmentLayouts).shown_if_changed(", by "),
+                     field(&L::illuminance).shown(", illuminance "),
+                     field(&L::gamma, Parameter{"gamma", number, "(of the file)",
+                                                "1: linear, -1: sRGB", any, v0})
+                         .unwritten()
+                         .shown(", gamma "));
   }
   static constexpr const char* name() { return "envmap"; }
+  static constexpr LightPose kPose = LightPose::none;
   static constexpr bool kIsEnvironment = true;
   std::vector<std::string> losses() const;
   void count(SceneFeatures& f) const;
@@ -148,7 +162,10 @@ struct EnvironmentMapLight {
 struct SunDisk {
   std::array<double, 3> direction{0, 0, 1};  ///< to its middle, not zero
   Spectrum irradiance{1.0f};                 ///< on a plane across that direction
-  static constexpr auto fields() { return plain_fields(&SunDisk::direction, &SunDisk::irradiance); }
+  static constexpr auto fields() {
+    return FieldList(field(&SunDisk::direction),
+                     field(&SunDisk::irradiance).shown(" of irradiance "));
+  }
 };
 
 /// Hosek and Wilkie's sky with the sun in it; +z is up.
@@ -167,29 +184,38 @@ struct SkyLight {
     using enum ParameterType;
     using L = SkyLight;
     return FieldList(
-        field(&L::turbidity, Parameter{"turbidity", number, kInitial, "of the air, from 1 to 10"}),
+        field(&L::turbidity, Parameter{"turbidity", number, kInitial, "of the air, from 1 to 10"})
+            .shown(" of turbidity "),
         field(&L::albedo, Parameter{.name = "albedo",
                                     .type = reflectance,
                                     .preset = kInitial,
                                     .note = "of the ground",
-                                    .preset_0x = "0.2"}),
+                                    .preset_0x = "0.2"})
+            .shown(", albedo "),
         field(&L::sky_scale,
               Parameter{"sky_scale", number, kInitial,
-                        "multiplies the light of the sky; in 0.x instead of scale", not_negative}),
+                        "multiplies the light of the sky; in 0.x instead of scale", not_negative})
+            .shown(", scale "),
         field(&L::sun_scale,
               Parameter{"sun_scale", number, kInitial,
-                        "multiplies the light of the sun; in 0.x instead of scale", not_negative}),
-        field(&L::sun_aperture, Parameter{"sun_aperture", number, kInitial, "in degrees", any, v3}),
-        field(&L::sun, Parameter{"sun_direction", point, "", "either this or time and place"}),
-        field(&L::disk),
+                        "multiplies the light of the sun; in 0.x instead of scale", not_negative})
+            .shown(", sun "),
+        field(&L::sun_aperture, Parameter{"sun_aperture", number, kInitial, "in degrees", any, v3})
+            .shown(", aperture "),
+        field(&L::sun, Parameter{"sun_direction", point, "", "either this or time and place"})
+            .shown(", direction "),
+        field(&L::disk).shown(", disk"),
         field(&L::stretch, Parameter{"stretch", number, kInitial,
                                      "draws the sky below the horizon, up to 2", any, v0})
-            .unwritten(),
+            .unwritten()
+            .shown_if_changed(", stretch "),
         field(&L::extend,
               Parameter{"extend", boolean, kInitial, "the horizon goes on below", any, v0})
-            .unwritten());
+            .unwritten()
+            .shown(", extended below the horizon"));
   }
   static constexpr const char* name() { return "sunsky"; }
+  static constexpr LightPose kPose = LightPose::none;
   static constexpr bool kIsEnvironment = true;
   std::vector<std::string> losses() const;
   void count(SceneFeatures& f) const;

@@ -54,6 +54,7 @@ constexpr bool has_lens(SensorKind k) {
 /// How a spherical camera's image shows the sphere of directions: by latitude and longitude, or by
 /// an octahedron that is folded to a square (math/equal_area.h).
 enum class SphereMapping { latitude_longitude, equal_area };
+inline constexpr std::string_view kSphereMappings[] = {"latitude and longitude", "equal area"};
 enum class PixelFormat { luminance, luminance_alpha, rgb, rgba, xyz, xyza };
 enum class ComponentFormat { half, single };
 
@@ -77,12 +78,17 @@ struct ToneMapping {
     using T = ToneMapping;
     return FieldList(
         field(&T::reinhard, Parameter{"tonemap_method", string, "gamma", "gamma or reinhard"})
-            .read_by_plugin(),
-        field(&T::gamma, Parameter{"gamma", number, kInitial, "-1: sRGB"}),
-        field(&T::exposure, Parameter{"exposure", number, kInitial, "in stops"}),
-        field(&T::key, Parameter{"key", number, kInitial, "of Reinhard's operator", positive}),
+            .read_by_plugin()
+            .shown(" by Reinhard's operator"),
+        field(&T::gamma, Parameter{"gamma", number, kInitial, "-1: sRGB"})
+            .shown_if_changed(", gamma "),
+        field(&T::exposure, Parameter{"exposure", number, kInitial, "in stops"})
+            .shown_if_changed(", exposure "),
+        field(&T::key, Parameter{"key", number, kInitial, "of Reinhard's operator", positive})
+            .shown_if_changed(", key "),
         field(&T::burn, Parameter{"burn", number, kInitial, "of Reinhard's operator, from 0 to 1",
-                                  not_negative}));
+                                  not_negative})
+            .shown_if_changed(", burn "));
   }
 };
 
@@ -112,16 +118,21 @@ struct FilmDescription {
         field(&F::crop, Parameter{"crop_offset_x", integer, "0", "", not_negative},
               Parameter{"crop_offset_y", integer, "0", "", not_negative},
               Parameter{"crop_width", integer, "(width)", "", size},
-              Parameter{"crop_height", integer, "(height)", "", size}),
+              Parameter{"crop_height", integer, "(height)", "", size})
+            .shown(", window "),
         field(&F::pixel_format, Parameter{"pixel_format", string, kInitial,
                                           "luminance, luminance_alpha, rgb, rgba, xyz, xyza"})
             .words(kPixelFormats)
-            .read_by_plugin(),
+            .read_by_plugin()
+            .shown(", "),
         field(&F::component_format, Parameter{"component_format", string, kInitial,
                                               "float16 or float32; uint32 becomes float32"})
             .words(kComponentFormats)
-            .read_by_plugin(),
-        field(&F::filter), field(&F::tone_mapping), field(&F::response), field(&F::sample_limit));
+            .read_by_plugin()
+            .shown(" "),
+        field(&F::filter).shown(", "), field(&F::tone_mapping).shown(", tone mapping"),
+        field(&F::response).shown(", response "),
+        field(&F::sample_limit).shown(", samples of at most "));
   }
   std::vector<std::string> losses() const {
     std::vector<std::string> lost;
@@ -157,8 +168,12 @@ struct LensDescription {
   bool relative_to_pupil = false;  ///< brightness does not depend on the lens (RealisticCamera)
   static constexpr auto fields() {
     using L = LensDescription;
-    return plain_fields(&L::surfaces, &L::focus_distance, &L::film_diagonal, &L::stop,
-                        &L::stop_image, &L::relative_to_pupil);
+    return FieldList(field(&L::surfaces).shown(", surfaces "),
+                     field(&L::focus_distance).shown(", focus at "),
+                     field(&L::film_diagonal).shown(", film diagonal "),
+                     field(&L::stop).words(kStopShapes).shown(", stop "),
+                     field(&L::stop_image).shown_if_changed(" "),
+                     field(&L::relative_to_pupil).shown(", relative to the pupil"));
   }
 };
 
@@ -187,6 +202,45 @@ struct SensorDescription {
   FilmDescription film;
   SamplerDescription sampler;
 
+  /// What some kinds of sensors have, and what stands in them.
+  static constexpr auto fields_of_kinds() {
+    using namespace parameter_words;
+    using enum ParameterType;
+    using S = SensorDescription;
+    constexpr auto pinhole = [](const S& s) { return s.kind == SensorKind::perspective; };
+    constexpr auto lens = [](const S& s) { return has_lens(s.kind); };
+    return FieldList(
+        field(&S::principal_point_offset_x,
+              Parameter{"principal_point_offset_x", number, kInitial, "in image widths"})
+            .when(pinhole)
+            .shown_if_changed(", principal point offset x "),
+        field(&S::principal_point_offset_y,
+              Parameter{"principal_point_offset_y", number, kInitial, "in image heights"})
+            .when(pinhole)
+            .shown_if_changed(", principal point offset y "),
+        field(&S::aperture_radius, Parameter{"aperture_radius", number, kInitial, "", not_negative})
+            .when(lens)
+            .shown(", aperture radius "),
+        field(&S::focus_distance,
+              Parameter{"focus_distance", number, "(far_clip)", "along the axis", positive})
+            .when(lens)
+            .read_by_plugin()
+            .shown(", focus at "),
+        field(&S::distortion,
+              Parameter{"kc", string, "0, 0", "radial distortion of third and fifth order"})
+            .when([](const S& s) { return s.kind == SensorKind::perspective_rdist; })
+            .shown(", distortion "),
+        field(&S::sphere_mapping).words(kSphereMappings).shown_if_changed(", by "),
+        field(&S::lenses)
+            .when([](const S& s) { return s.kind == SensorKind::realistic; })
+            .shown(", lenses"),
+        field(&S::shape),
+        field(&S::target_point, Parameter{"target", point, "(the scene)",
+                                          "a point or a shape over which radiance is averaged"})
+            .shown(", target "),
+        field(&S::target_shape).shown_if_changed(", target "), field(&S::parts),
+        field(&S::medium).shown(", in "), field(&S::film), field(&S::sampler));
+  }
   static constexpr auto fields() {
     using namespace parameter_words;
     using enum ParameterType;
@@ -196,46 +250,26 @@ struct SensorDescription {
              s.kind == SensorKind::telecentric;
     };
     constexpr auto with_fov = [](const S& s) { return has_fov(s.kind); };
-    constexpr auto pinhole = [](const S& s) { return s.kind == SensorKind::perspective; };
-    constexpr auto lens = [](const S& s) { return has_lens(s.kind); };
     const auto before_fov = FieldList(
         field(&S::where), field(&S::label), field(&S::kind),
         field(&S::shutter,
               Parameter{"shutter_open", number, "0", "when light is gathered from what moves"},
               Parameter{"shutter_close", number, "0", "not before the shutter opens"})
-            .terse(),
+            .terse()
+            .shown_if_changed(", shutter "),
         // One that stands in a shape is where that is.
         field(&S::to_world, Parameter{"to_world", transform}).read_by_plugin().when([](const S& s) {
           return s.kind != SensorKind::irradiancemeter;
         }),
         field(&S::motion),
-        field(&S::near_clip, Parameter{"near_clip", number, kInitial, "", positive}).when(clips),
-        field(&S::far_clip, Parameter{"far_clip", number, kInitial, "", positive}).when(clips));
+        field(&S::near_clip, Parameter{"near_clip", number, kInitial, "", positive})
+            .when(clips)
+            .shown_if_changed(", near clip "),
+        field(&S::far_clip, Parameter{"far_clip", number, kInitial, "", positive})
+            .when(clips)
+            .shown_if_changed(", far clip "));
     const auto fov = fov_fields(&S::fov, &S::fov_axis, "in degrees; either this or focal_length");
-    const auto after_fov = FieldList(
-        field(&S::principal_point_offset_x,
-              Parameter{"principal_point_offset_x", number, kInitial, "in image widths"})
-            .when(pinhole),
-        field(&S::principal_point_offset_y,
-              Parameter{"principal_point_offset_y", number, kInitial, "in image heights"})
-            .when(pinhole),
-        field(&S::aperture_radius, Parameter{"aperture_radius", number, kInitial, "", not_negative})
-            .when(lens),
-        field(&S::focus_distance,
-              Parameter{"focus_distance", number, "(far_clip)", "along the axis", positive})
-            .when(lens)
-            .read_by_plugin(),
-        field(&S::distortion,
-              Parameter{"kc", string, "0, 0", "radial distortion of third and fifth order"})
-            .when([](const S& s) { return s.kind == SensorKind::perspective_rdist; }),
-        field(&S::sphere_mapping),
-        field(&S::lenses).when([](const S& s) { return s.kind == SensorKind::realistic; }),
-        field(&S::shape),
-        field(&S::target_point, Parameter{"target", point, "(the scene)",
-                                          "a point or a shape over which radiance is averaged"}),
-        field(&S::target_shape), field(&S::parts), field(&S::medium), field(&S::film),
-        field(&S::sampler));
-    return joined_fields(before_fov, fov.when(with_fov), after_fov);
+    return joined_fields(before_fov, fov.when(with_fov), fields_of_kinds());
   }
   const char* name() const { return sensor_name(kind); }
   std::vector<std::string> losses() const {

@@ -36,6 +36,8 @@ struct FieldFacts {
   std::span<const Parameter> parameters;
   /// What precedes the value in the line of `info`; empty: the value is not shown.
   std::string_view shown;
+  /// Whether it is shown only where it is not the initial one of its struct.
+  bool shown_if_changed = false;
   /// The words for the values of an enumeration.
   std::span<const std::string_view> words;
   /// Whether the value means anything, beside those of the other fields.
@@ -52,7 +54,7 @@ struct FieldFacts {
   bool unwritten = false;
   /// Whether the value is written only where it is not the initial one of its struct.
   bool terse = false;
-  /// Whether it is the initial one; known of terse fields only.
+  /// Whether it is the initial one; known of fields for which that matters.
   bool initial = false;
 
   /// As Mitsuba 3 calls it; empty without a name.
@@ -78,6 +80,12 @@ struct Field {
   constexpr Field shown(std::string_view prefix) const {
     Field f = *this;
     f.facts.shown = prefix;
+    return f;
+  }
+  /// The same, if the value is not the initial one of its struct.
+  constexpr Field shown_if_changed(std::string_view prefix) const {
+    Field f = shown(prefix);
+    f.facts.shown_if_changed = true;
     return f;
   }
   /// The value means something only where `condition` holds.
@@ -211,7 +219,8 @@ void for_each_field(Value& value, Visit&& visit) {
     FieldFacts facts = field.facts;
     facts.parameters = field.parameters;
     if (field.given_if) facts.given = field.given_if(value);
-    if (facts.terse) facts.initial = same_value(value.*field.member, T{}.*field.member);
+    if (facts.terse || facts.shown_if_changed)
+      facts.initial = same_value(value.*field.member, T{}.*field.member);
     visit(std::as_const(facts), value.*field.member);
   };
   kFields<T>.apply([&](const auto&... fields) { (one(fields), ...); });

@@ -22,18 +22,24 @@ struct FilterOf : FilterDescription {
     using enum ParameterType;
     using F = FilterDescription;
     if constexpr (kKind == FilterKind::box)
-      return FieldList(
-          field(&F::radius, Parameter{"radius", number, kInitial, "", positive, v0}).unwritten());
+      return FieldList(field(&F::radius, Parameter{"radius", number, kInitial, "", positive, v0})
+                           .unwritten()
+                           .shown(" of radius "));
     else if constexpr (kKind == FilterKind::tent)
-      return FieldList(field(&F::radius, Parameter{"radius", number, kInitial, "", positive}));
+      return FieldList(field(&F::radius, Parameter{"radius", number, kInitial, "", positive})
+                           .shown(" of radius "));
     else if constexpr (kKind == FilterKind::gaussian)
-      return FieldList(field(&F::stddev, Parameter{"stddev", number, kInitial, "", positive}));
+      return FieldList(field(&F::stddev, Parameter{"stddev", number, kInitial, "", positive})
+                           .shown(" of deviation "));
     else if constexpr (kKind == FilterKind::mitchell)
       return FieldList(
-          field(&F::b, Parameter{.name = "B", .type = number, .preset = "(1/3)", .aliases = "b"}),
-          field(&F::c, Parameter{.name = "C", .type = number, .preset = "(1/3)", .aliases = "c"}));
+          field(&F::b, Parameter{.name = "B", .type = number, .preset = "(1/3)", .aliases = "b"})
+              .shown(", B "),
+          field(&F::c, Parameter{.name = "C", .type = number, .preset = "(1/3)", .aliases = "c"})
+              .shown(", C "));
     else if constexpr (kKind == FilterKind::lanczos)
-      return FieldList(field(&F::lobes, Parameter{"lobes", integer, kInitial, "", positive}));
+      return FieldList(
+          field(&F::lobes, Parameter{"lobes", integer, kInitial, "", positive}).shown(", lobes "));
     else
       return FieldList();
   }

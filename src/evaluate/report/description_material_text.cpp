@@ -20,9 +20,6 @@ struct BsdfLine {
 std::string DescriptionText::material(MaterialId id) const {
   const MaterialModel& model = scene_.materials[size_t(id)].model;
   BsdfLine line;
-  const auto show = [&](const FieldFacts& facts, const std::string& text) {
-    if (!facts.shown.empty()) line.values.append(facts.shown).append(text);
-  };
   const auto show_rough = [&](const Roughness& r) {
     const std::string u = input(r.alpha_u), v = input(r.alpha_v);
     line.roughness = fmt::format(" ({}, alpha {})", kMicrofacetNames[size_t(r.distribution)],
@@ -32,20 +29,10 @@ std::string DescriptionText::material(MaterialId id) const {
     if (!facts.given) return;
     with_value(value,
                Overloaded{
-                   [&](double v) { show(facts, value_text(v)); },
-                   [&](int v) { show(facts, fmt::to_string(v)); },
-                   [&](const Spectrum& v) { show(facts, value_text(v)); },
-                   [&](const std::optional<TextureId>& v) {
-                     if (v) show(facts, texture_name(*v));
-                   },
                    [&](const std::string& v) {
-                     show(facts, std::filesystem::path(v).filename().string());
+                     if (!facts.shown.empty())
+                       show(line.values, facts, std::filesystem::path(v).filename().string());
                    },
-                   [&](const ColorInput& v) { show(facts, input(v)); },
-                   [&](const std::optional<ColorInput>& v) {
-                     if (v) show(facts, input(*v));
-                   },
-                   [&](const FloatInput& v) { show(facts, input(v)); },
                    [&](const Roughness& r) { show_rough(r); },
                    [&](const std::optional<Roughness>& r) {
                      if (r) show_rough(*r);
@@ -58,7 +45,9 @@ std::string DescriptionText::material(MaterialId id) const {
                      for (const auto& [weight, part] : shares)
                        line.nested.push_back(fmt::format("{:.4g} of {}", weight, material(part)));
                    },
-                   [](const auto&) {},
+                   [&](const auto& v) {
+                     if (!facts.shown.empty()) show(line.values, facts, v);
+                   },
                });
   });
   // Where only one is nested, it is clear which.

@@ -3,6 +3,7 @@
 #include <filesystem>
 
 #include "evaluate/report/overloaded.h"
+#include "scene/filter_fields.h"
 
 namespace duet {
 
@@ -43,37 +44,43 @@ LightPose pose_of(const ForeignLight& light) {
   return light.operations().pose;
 }
 
-std::string filter_text(const FilterDescription& f) {
-  if (f.reach_x) {
-    constexpr const char* names[] = {"box",      "tent",       "gaussian",
-                                     "mitchell", "catmullrom", "lanczos"};
-    return fmt::format("{} filter of radius {:g} x {:g}", names[size_t(f.kind)], *f.reach_x,
-                       f.reach_y.value_or(*f.reach_x));
-  }
-  switch (f.kind) {
-    case FilterKind::box:
-      return fmt::format("box filter of radius {:g}", f.radius);
-    case FilterKind::tent:
-      return fmt::format("tent filter of radius {:g}", f.radius);
-    case FilterKind::gaussian:
-      return fmt::format("gaussian filter of deviation {:g}", f.stddev);
-    case FilterKind::mitchell:
-      return fmt::format("mitchell filter, B {:.3g}, C {:.3g}", f.b, f.c);
-    case FilterKind::catmullrom:
-      return "catmullrom filter";
-    case FilterKind::lanczos:
-      return fmt::format("lanczos filter of {} lobes", f.lobes);
-  }
-  return "";
-}
-
 }  // namespace
 
 std::string DescriptionText::value_text(double value) const {
-  return fmt::format("{:.4g}", value);
+  return fmt::format("{:g}", value);
 }
 std::string DescriptionText::value_text(const Spectrum& value) const {
   return text(value);
+}
+
+std::string DescriptionText::value_text(const FilmResponse& value) const {
+  return value_text(value[0]) + value_text(value[1]) + value_text(value[2]);
+}
+
+std::string DescriptionText::value_text(const CropWindow& value) const {
+  return fmt::format("{},{},{},{}", value.x, value.y, value.width, value.height);
+}
+
+std::string DescriptionText::value_text(const FilterDescription& value) const {
+  std::string text;
+  with_filter(value, [&](const auto& filter) {
+    text = filter.name() + std::string(" filter") + shown_fields(filter);
+  });
+  if (value.reach_x || value.reach_y)
+    text += fmt::format(" of extent {:g} x {:g}", value.reach_x.value_or(value.radius),
+                        value.reach_y.value_or(value.radius));
+  return text;
+}
+
+std::string DescriptionText::value_text(const std::vector<LensSurface>& value) const {
+  return std::to_string(value.size());
+}
+
+std::string DescriptionText::value_text(const std::vector<ShapeDescription>& value) const {
+  std::string text;
+  for (const ShapeDescription& shape : value)
+    text += (text.empty() ? "" : ", ") + shape_kind(shape);
+  return text;
 }
 
 std::string DescriptionText::name(MaterialId id) const {
@@ -132,7 +139,7 @@ std::string DescriptionText::input(const ColorInput& input) const {
 
 std::string DescriptionText::input(const FloatInput& input) const {
   if (const auto* id = std::get_if<TextureId>(&input)) return texture_name(*id);
-  return fmt::format("{:.4g}", std::get<double>(input));
+  return value_text(std::get<double>(input));
 }
 
 std::string DescriptionText::texture(const TextureDescription& t) const {
@@ -196,68 +203,23 @@ std::string DescriptionText::light(const LightDescription& l) const {
   const double time = scene_.sensors.empty() ? 0 : scene_.sensors[0].shutter[0];
   const Matrix4 m = l.motion.at(time) * l.to_world;
   const std::string t = std::visit(
-      Overloaded{
-          [&](const SpotLight& p) {
-            return fmt::format("spot {} {}, {:g} degrees: {}{}", place(m), direction(m),
-                               p.cutoff_angle, text(p.intensity),
-                               p.texture ? " with " + texture_name(*p.texture) : "");
-          },
-          [&](const ProjectorLight& p) {
-            return fmt::format("projector {} {}: {}, scale {:g}", place(m), direction(m),
-                               input(p.irradiance), p.scale);
-          },
-          [&](const EnvironmentMapLight& p) {
-            return fmt::format("envmap: {}, scale {:g}", p.file, p.scale);
-          },
-          [&](const SkyLight& p) {
-            return fmt::format("sky of turbidity {:g}, scale {:g}, sun {:g}{}", p.turbidity,
-                               p.sky_scale, p.sun_scale,
-                               p.disk ? ", whose irradiance is " + text(p.disk->irradiance) : "");
-          },
-          [&](const auto& p) { return p.name() + pose(pose_of(p), m) + shown_fields(p); },
-      },
-      l.model);
+      [&](const auto& p) { return p.name() + pose(pose_of(p), m) + shown_fields(p); }, l.model);
   return t + (l.motion.empty() ? "" : ", moves");
 }
 
 std::string DescriptionText::sensor(const SensorDescription& s) const {
-  const Matrix4 m = s.motion.at(s.shutter[0]) * s.to_world;
-  std::string t = fmt::format("{} {} {}", sensor_name(s.kind), place(m), direction(m));
-  if (s.kind == SensorKind::batch) t = fmt::format("batch of {} sensors", s.parts.size());
-  if (s.kind == SensorKind::irradiancemeter)
-    t = "irradiancemeter on " + shape_kind(scene_.shapes[s.shape]);
-  if (has_fov(s.kind))
-    t += fmt::format(", fov {:.4g} along {}", s.fov, kFovAxes[size_t(s.fov_axis)]);
-  if (has_lens(s.kind))
-    t += fmt::format(", aperture radius {:g}, focus at {:g}", s.aperture_radius, s.focus_distance);
-  if (s.kind == SensorKind::perspective_rdist)
-    t += fmt::format(", distortion {:g} and {:g}", s.distortion[0], s.distortion[1]);
-  if (s.kind == SensorKind::realistic)
-    t += fmt::format(", {} surfaces of lenses, stop {}, focus at {:g}, film diagonal {:g}",
-                     s.lenses.surfaces.size(), kStopShapes[size_t(s.lenses.stop)],
-                     s.lenses.focus_distance, s.lenses.film_diagonal);
-  if (s.target_point)
-    t += fmt::format(", target ({:.4g}, {:.4g}, {:.4g})", (*s.target_point)[0],
-                     (*s.target_point)[1], (*s.target_point)[2]);
-  for (const ShapeDescription& shape : s.target_shape) t += ", target " + shape_kind(shape);
-  if (s.medium) t += ", in " + name(*s.medium);
-  if (!s.motion.empty()) t += ", moves";
-  if (s.shutter != std::array<double, 2>{})
-    t += fmt::format(", shutter from {:g} to {:g}", s.shutter[0], s.shutter[1]);
-  return t;
+  std::string t = s.name();
+  if (s.kind == SensorKind::batch)
+    t += fmt::format(" of {} sensors", s.parts.size());
+  else if (s.kind == SensorKind::irradiancemeter)
+    t += " on " + shape_kind(scene_.shapes[s.shape]);
+  else
+    t += pose(LightPose::both, s.motion.at(s.shutter[0]) * s.to_world);
+  return t + shown_fields(s) + (s.motion.empty() ? "" : ", moves");
 }
 
 std::string DescriptionText::film(const FilmDescription& f) const {
-  constexpr const char* formats[] = {"luminance", "luminance and alpha", "rgb", "rgba", "xyz",
-                                     "xyza"};
-  std::string t = fmt::format("{}x{}", f.width, f.height);
-  if (f.crop)
-    t += fmt::format(", window {},{},{},{}", f.crop->x, f.crop->y, f.crop->width, f.crop->height);
-  t += fmt::format(", {}, {} {}", filter_text(f.filter), formats[size_t(f.pixel_format)],
-                   f.component_format == ComponentFormat::half ? "half" : "float");
-  if (f.tone_mapping)
-    t += f.tone_mapping->reinhard ? ", Reinhard's tone mapping" : ", tone mapping";
-  return t;
+  return fmt::format("{}x{}", f.width, f.height) + shown_fields(f);
 }
 
 }  // namespace duet

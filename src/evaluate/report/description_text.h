@@ -36,21 +36,51 @@ class DescriptionText {
   std::string phase(PhaseId id) const;
 
   std::string value_text(double value) const;
+  std::string value_text(int value) const { return std::to_string(value); }
   std::string value_text(const Spectrum& value) const;
   const std::string& value_text(const std::string& value) const { return value; }
+  std::string value_text(TextureId value) const { return texture_name(value); }
+  std::string value_text(MediumId value) const { return name(value); }
   std::string value_text(const ColorInput& value) const { return input(value); }
   std::string value_text(const FloatInput& value) const { return input(value); }
   std::string value_text(const ColorVolume& value) const { return input(value); }
+  template <size_t N>
+  std::string value_text(const std::array<double, N>& value) const {
+    return fmt::format("({:.4g})", fmt::join(value, ", "));
+  }
+  std::string value_text(const FilmResponse& value) const;
+  std::string value_text(const SampleLimit& value) const { return value_text(value.most); }
+  std::string value_text(const CropWindow& value) const;
+  std::string value_text(const FilterDescription& value) const;
+  std::string value_text(const std::vector<LensSurface>& value) const;
+  std::string value_text(const std::vector<ShapeDescription>& value) const;
+  template <HasFields T>
+  std::string value_text(const T& value) const {
+    return shown_fields(value);
+  }
+  /// Adds a field's prefix and its value, if there is one.
+  template <class M>
+  void show(std::string& line, const FieldFacts& facts, const M& value) const {
+    if constexpr (std::is_same_v<M, bool>)
+      line.append(value ? facts.shown : std::string_view());
+    else if constexpr (std::is_same_v<M, Choice>)
+      line.append(facts.shown).append(facts.words[value.index]);
+    else if constexpr (std::is_enum_v<M> && !kIsId<M>)
+      show(line, facts, Choice{size_t(value)});
+    else if constexpr (requires { value_text(value); })
+      line.append(facts.shown).append(value_text(value));
+  }
+  template <class M>
+  void show(std::string& line, const FieldFacts& facts, const std::optional<M>& value) const {
+    if (value) show(line, facts, *value);
+  }
   /// The fields that are shown, each after its prefix.
   template <class T>
   std::string shown_fields(const T& description) const {
     std::string line;
-    for_each_field(description, [&]<class M>(const FieldFacts& facts, const M& value) {
-      if (facts.shown.empty() || !facts.given) return;
-      if constexpr (std::is_same_v<M, bool>)
-        line.append(value ? facts.shown : std::string_view());
-      else if constexpr (requires { value_text(value); })
-        line.append(facts.shown).append(value_text(value));
+    for_each_field(description, [&](const FieldFacts& facts, const auto& value) {
+      const bool left_out = facts.shown_if_changed && facts.initial;
+      if (!facts.shown.empty() && facts.given && !left_out) show(line, facts, value);
     });
     return line;
   }
