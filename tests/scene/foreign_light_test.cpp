@@ -78,6 +78,11 @@ struct GlowLight {
   }
 };
 
+/// Has the fields of a glow: only its name tells the two apart.
+struct GleamLight : GlowLight {
+  static constexpr const char* name() { return "gleam"; }
+};
+
 const ForeignPlugin& glow_reader() {
   static const ForeignPlugin p(PluginKind::emitter, plugins::light<GlowLight>({.note = "made up"}));
   return p;
@@ -113,6 +118,15 @@ TEST_CASE("a foreign light is read by its fields, with their defaults, ranges an
   CHECK(!read_scene("3.0.0", "<emitter type='glow'/>").scene);
 }
 
+TEST_CASE("a foreign light has what all lights have") {
+  const SceneDescription d =
+      good("3.0.0", lamp("<float name='sampling_weight' value='3'/><medium type='homogeneous'/>"));
+  CHECK(d.lights.at(0).sampling_weight == 3);
+  CHECK(d.lights[0].medium.has_value());
+  CHECK(d.lights[0].to_world.turned({0, 0, 1})[1] == doctest::Approx(1));
+  glow_reader().round_trip(d);
+}
+
 TEST_CASE("a foreign light is listed, written, printed, counted and hashed") {
   const std::string table = compatibility_section(PluginKind::emitter, glow_reader().vocabulary());
   CHECK(table.find("| `glow` | 0.x, 3.x | done | made up |") != table.npos);
@@ -126,6 +140,11 @@ TEST_CASE("a foreign light is listed, written, printed, counted and hashed") {
 
   glow_reader().round_trip(d);
   CHECK(content_hash(good("3.0.0", lamp(""))) != content_hash(d));
+  SceneDescription other = d;
+  other.lights[0].model =
+      ForeignLight(GleamLight{std::get<ForeignLight>(d.lights[0].model).get<GlowLight>()});
+  CHECK(!(other == d));
+  CHECK(content_hash(other) != content_hash(d));
   const auto lost = pbrt::write_pbrt(d).losses;
   CHECK(std::find(lost.begin(), lost.end(), "the light \"glow\" is missing") != lost.end());
 }

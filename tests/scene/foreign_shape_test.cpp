@@ -67,6 +67,16 @@ TEST_CASE("a foreign shape is read by its fields, with their defaults, ranges an
   CHECK(!read_scene("3.0.0", "<shape type='pyramid'/>").scene);
 }
 
+TEST_CASE("a foreign shape has what all surfaces have") {
+  const SceneDescription d = good("3.0.0",
+                                  "<shape type='pyramid'><transform name='to_world'><translate "
+                                  "x='100'/></transform><boolean name='flip_normals' value='true'/>"
+                                  "<medium name='interior' type='homogeneous'/></shape>");
+  CHECK(d.shapes.at(0).to_world[0][3] == 100);
+  CHECK(d.shapes[0].interior.has_value());
+  pyramid_reader().round_trip(d);
+}
+
 TEST_CASE("a foreign shape is listed, written, printed, counted and hashed") {
   const std::string table = compatibility_section(PluginKind::shape, pyramid_reader().vocabulary());
   CHECK(table.find("| `pyramid` | 0.x, 3.x | done |") != table.npos);
@@ -114,6 +124,13 @@ TEST_CASE("a foreign shape is rendered by all methods, as it stands, moves and s
   };
   check(scene_of(sky, grey), {"path", "direct", "bdpt", "vcm"}, 0.25);
   check(scene_of(sky, grey + swings), {"path", "bdpt"}, 0.25);
+  const std::string elsewhere = "<transform name='toWorld'><translate x='100'/></transform>";
+  check(scene_of(sky, grey + elsewhere), {"path", "bdpt"}, 1);
+  // Open while it goes away, half of the time.
+  const std::string leaves =
+      "<animation name='toWorld'><transform time='0'><translate x='0'/></transform>"
+      "<transform time='1'><translate x='100'/></transform></animation>";
+  check(scene_of(sky, grey + leaves), {"path", "bdpt"}, 1);
   check(scene_of("", "<emitter type='area'><rgb name='radiance' value='3 3 3'/></emitter>"),
         {"path", "bdpt"}, 3);
 }
