@@ -129,8 +129,9 @@ TEST_CASE("a foreign shape is rendered by all methods, as it stands, moves and s
   // Open while it goes away, half of the time.
   const std::string leaves =
       "<animation name='toWorld'><transform time='0'><translate x='0'/></transform>"
-      "<transform time='1'><translate x='100'/></transform></animation>";
+      "<transform time='1'><translate x='1000'/></transform></animation>";
   check(scene_of(sky, grey + leaves), {"path", "bdpt"}, 1);
-  check(scene_of("", "<emitter type='area'><rgb name='radiance' value='3 3 3'/></emitter>"),
-        {"path", "bdpt"}, 3);
+  const std::string shines = "<emitter type='area'><rgb name='radiance' value='3 3 3'/></emitter>";
+  check(scene_of("", shines), {"path", "bdpt"}, 3);
+  check(scene_of("", shines + leaves), {"path", "bdpt"}, 0);
 }
