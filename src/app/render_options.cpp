@@ -75,6 +75,13 @@ void RenderOptionParser::add_image_options(CLI::App& c) {
   c.add_option("--size", size_, "Image size WxH instead of the scene's, without its crop window");
   c.add_option("--crop", crop_, "Render only the window x,y,w,h, in pixels");
   c.add_option("--aov", layers_, layer_help())->delimiter(',')->allow_extra_args(false);
+  c.add_option("--cryptomatte", mattes_,
+               "Mattes of things as layers of the EXR (Cryptomatte), separated by commas: object, "
+               "material")
+      ->delimiter(',')
+      ->allow_extra_args(false)
+      ->check(
+          CLI::IsMember(std::vector<std::string>(std::begin(kMatteKinds), std::end(kMatteKinds))));
   c.add_option("--techniques", techniques_,
                "One layer per technique: its part of the image, or with --techniques=raw without "
                "weights; EXR only")
@@ -146,9 +153,17 @@ void RenderOptionParser::finish_raw() {
     throw UsageError("--skip-existing: --raw without -o writes no image");
   if (o.denoise && !o.writes_images)
     throw UsageError("--denoise: --raw without -o writes no image");
+  if (!o.mattes.empty() && !o.writes_images)
+    throw UsageError(
+        "--cryptomatte: raw films hold no mattes, and --raw without -o writes no image");
   if (!checkpoint_.empty()) o.checkpoint = parse_seconds("--checkpoint", checkpoint_);
   if (samples_.empty() && slice_.empty()) return;
   const std::string option = samples_.empty() ? "--slice" : "--samples";
+  if (!o.mattes.empty())
+    throw UsageError(
+        fmt::format("{}: the mattes of slices cannot be put together; render them (--cryptomatte) "
+                    "with few samples apart",
+                    option));
   if (!samples_.empty() && !slice_.empty()) throw UsageError("--slice: there is --samples already");
   if (o.budget.seconds || o.budget.target_error)
     throw UsageError(
@@ -228,6 +243,9 @@ RenderCommandLine RenderOptionParser::finish() {
   if (!light_selection_.empty())
     o.integrator.parameters.emplace_back("light_selection", light_selection_);
   o.integrator.layers = layers_;
+  for (size_t kind = 0; kind < std::size(kMatteKinds); ++kind)
+    if (std::find(mattes_.begin(), mattes_.end(), kMatteKinds[kind]) != mattes_.end())
+      o.mattes.push_back(MatteKind(kind));
   if (!techniques_.empty())
     o.techniques = techniques_ == "raw" ? TechniqueOutput::raw : TechniqueOutput::weighted;
   o.progress = progress_ == "bar"     ? ProgressStyle::bar

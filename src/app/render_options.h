@@ -48,7 +48,7 @@ class RenderOptionParser {
       progress_ = "auto", techniques_, format_, light_selection_, checkpoint_, samples_, slice_,
       viewer_, live_port_;
   bool live_ = false;
-  std::vector<std::string> integrator_parameters_, layers_;
+  std::vector<std::string> integrator_parameters_, layers_, mattes_;
   FileOptions files_;
 };
 

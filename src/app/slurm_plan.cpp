@@ -38,6 +38,7 @@ const std::pair<const char*, const char*> kRefused[] = {
     {"--skip-existing", "tasks write no images"},
     {"--keep-partial-name", "tasks write no images"},
     {"--denoise", "tasks write no images"},
+    {"--cryptomatte", "the mattes of slices cannot be put together"},
     {"--stats", "all tasks would write this file"},
     {"--log", "all tasks would write this file"},
     {"--display", "no task has an image, and they run elsewhere"},

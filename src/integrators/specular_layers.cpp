@@ -1,6 +1,6 @@
 #include "integrators/specular_layers.h"
 
-#include "integrators/camera_integrator.h"
+#include "integrators/vertex_sample.h"
 
 namespace duet {
 
@@ -8,15 +8,6 @@ namespace {
 
 /// Between mirrors there would be no end. What is left then counts as white.
 constexpr uint32_t kMostReflections = 16;
-
-/// A sample of a vertex, from the dimensions that the path's own has.
-std::optional<BsdfSample> sample_vertex(const Bsdf& bsdf, uint32_t vertex, Sampler& sampler) {
-  sampler.start_dimension(kFirstVertexDimension + kDimensionsPerVertex * vertex +
-                          kScatteringDimension);
-  const Point2f v = sampler.next_2d();
-  const float u = bsdf.needs_choice() ? sampler.next_1d() : 0.5f;
-  return bsdf.sample(u, v, Transport::radiance);
-}
 
 }  // namespace
 

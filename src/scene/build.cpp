@@ -49,6 +49,7 @@ std::unique_ptr<Scene> SceneBuilder::build() {
   scene.accel = std::make_unique<Accel>(scene.shapes, scene.top, scene.groups, scene.instances,
                                         options_.threads, use_);
   survey();
+  if (options_.names) name_things(*options_.names);
   return std::move(made_);
 }
 

@@ -9,12 +9,16 @@
 
 namespace duet {
 
+struct SceneNames;
+
 struct BuildOptions {
   /// Which of the description's sensors to look through.
   size_t sensor = 0;
   int threads = 1;
   /// What the image's layers ask of all surfaces, on top of what the materials need.
   SurfaceNeeds layer_needs;
+  /// Is told what the things in the scene are called, if it is not null.
+  SceneNames* names = nullptr;
 };
 
 /// Builds what the description says; null, with errors in `diagnostics`, if something in it cannot

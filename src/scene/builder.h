@@ -142,6 +142,9 @@ class SceneBuilder {
   /// What depends on where everything is.
   void survey();
 
+  // build_names.cpp
+  void name_things(SceneNames& names) const;
+
   /// Whether the matrix can be made a Transform; an error if not.
   bool check_transform(const Matrix4& m, const SourceLocation& where);
 

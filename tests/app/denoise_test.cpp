@@ -77,6 +77,29 @@ TEST_SUITE("program") {
     }
   }
 
+  TEST_CASE("mattes are part of the image, and not of the denoised one") {
+    const DenoisingWorkplace place;
+    place.scene("tiny.xml");
+    REQUIRE(place.denoise({"tiny.xml", "--denoise", "-o", "a.exr"}).code == 0);
+    REQUIRE(
+        place.denoise({"tiny.xml", "--denoise", "--cryptomatte", "object", "-o", "b.exr"}).code ==
+        0);
+    const Image image = place.image("b.exr");
+    CHECK(image.channels.size() == 3 + 12);
+    CHECK(image.find_channel("CryptoObject00.R") == 3);
+    const Image clean = place.image("b.denoised.exr");
+    CHECK(clean.channels == place.image("a.denoised.exr").channels);
+    CHECK(clean.data == place.image("a.denoised.exr").data);
+    const auto fields = [&](const std::string& name) {
+      const auto header = read_image(place.path(name)).header;
+      return std::count_if(header.begin(), header.end(), [](const auto& field) {
+        return field.first.starts_with("cryptomatte/");
+      });
+    };
+    CHECK(fields("b.exr") == 4);
+    CHECK(fields("b.denoised.exr") == 0);
+  }
+
   TEST_CASE("where noise does not explain what the denoiser did, the image is as it was") {
     const DenoisingWorkplace place;
     TinyScene s = exact_scene();

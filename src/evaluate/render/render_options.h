@@ -8,6 +8,7 @@
 #include "base/tcp.h"
 #include "evaluate/render/scene_file.h"
 #include "evaluate/report/file_settings.h"
+#include "image/cryptomatte.h"
 #include "integrators/make_integrator.h"
 #include "integrators/pass.h"
 
@@ -21,6 +22,7 @@ struct RenderOptions {
   bool skip_existing = false;
   bool keep_partial_name = false;
   bool denoise = false;  ///< whether there is a denoised image beside each image
+  std::vector<MatteKind> mattes;
 
   IntegratorOverride integrator;
   RenderBudget budget;

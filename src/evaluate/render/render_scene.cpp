@@ -12,6 +12,7 @@
 #include "evaluate/render/raw_output.h"
 #include "evaluate/render/scene_denoiser.h"
 #include "evaluate/render/scene_images.h"
+#include "evaluate/render/scene_mattes.h"
 #include "evaluate/render/scene_method.h"
 #include "evaluate/render/scene_operand.h"
 #include "evaluate/report/memory_estimate.h"
@@ -92,6 +93,7 @@ class SceneRenderer {
     denoiser_.emplace(options_, description_.integrator);
     integrator_ = chosen_method(description_, sensor, options_, messages_);
     denoiser_->load();
+    mattes_.emplace(options_.mattes, description_.integrator);
     make_request(sensor.sampler);
     record_ = record_of(description_.integrator, *integrator_, request_);
     if (!record_.bias.empty()) warn(record_.bias);
@@ -104,8 +106,7 @@ class SceneRenderer {
     Fingerprint scene;
     file_ == kStandardInput ? scene.add(options_.read.standard_input) : scene.add_file(file_);
     record_.scene_hash = scene.text();
-    add_settings(settings_, record_, request_, options_, layout_,
-                 denoiser_->shown(integrator_->channels()));
+    add_settings(settings_, record_, request_, options_, layout_, written_channels());
     OutputNames names = output_names(file_);
     names.integrator = record_.integrator;
     names.seed = fmt::to_string(record_.seed);
@@ -150,14 +151,17 @@ class SceneRenderer {
     for (const std::string& path : planned)
       if (const std::string why = prepare_file(path); !why.empty())
         throw SceneFailure(fmt::format("cannot write {}: {}", path, why));
-    check_formats(planned, denoiser_->shown(integrator_->channels()), options_.files);
+    check_formats(planned, written_channels(), options_.files);
+  }
+
+  std::vector<std::string> written_channels() const {
+    return mattes_->with_channels(denoiser_->shown(integrator_->channels()));
   }
 
   void build() {
-    BuildOptions build;
-    build.sensor = options_.sensor;
-    build.threads = options_.threads;
-    build.layer_needs = integrator_needs(description_.integrator);
+    BuildOptions build{options_.sensor, options_.threads,
+                       integrator_needs(description_.integrator)};
+    mattes_->ask_for_names(description_, build);
     Diagnostics diagnostics;
     scene_ = build_scene(std::move(description_), build, diagnostics);
     report(diagnostics, options_.read.strict, messages_);
@@ -180,9 +184,9 @@ class SceneRenderer {
 
   /// Refuses an image for which there is no room before it takes what there is.
   void check_memory() const {
-    const MemoryEstimate estimate =
-        estimate_memory(*integrator_, layout_, request_.budget,
-                        view_.film.component_format == ComponentFormat::half);
+    MemoryEstimate estimate = estimate_memory(*integrator_, layout_, request_.budget,
+                                              view_.film.component_format == ComponentFormat::half);
+    estimate.copies += mattes_->memory_bytes(layout_, scene_->motion != nullptr);
     const MemoryLimit limit = memory_limit();
     messages_.detail("{}: {}; the limit is {} ({})", file_, describe(estimate),
                      memory_text(limit.bytes), limit.source);
@@ -213,8 +217,7 @@ class SceneRenderer {
   }
 
   bool has_standard_output() const {
-    const std::vector<std::string> paths = images_->planned();
-    return std::any_of(paths.begin(), paths.end(), is_standard_output);
+    return std::ranges::any_of(images_->planned(), is_standard_output);
   }
 
   /// The image so far, for someone who is waiting: it is not finished, and if it cannot be written
@@ -229,11 +232,12 @@ class SceneRenderer {
     }
   }
 
-  std::vector<std::string> write(const RenderResult& result) {
+  std::vector<std::string> write(RenderResult result) {
     HeaderFields header = scene_header(record_, view_, layout_.full);
     for (HeaderField& field : samples_header(record_, result)) header.push_back(std::move(field));
-    return denoiser_->write(*images_, *integrator_, result, form_of(view_, layout_, *integrator_),
-                            header);
+    ImageForm form = form_of(view_, layout_, *integrator_);
+    mattes_->add(*scene_, layout_, request_, result, form, header);
+    return denoiser_->write(*images_, *integrator_, result, form, header);
   }
 
   /// After an interrupt that came before every pixel had a sample: no file is replaced.
@@ -278,6 +282,7 @@ class SceneRenderer {
   Fingerprint settings_;
   std::optional<SceneImages> images_;
   std::optional<SceneDenoiser> denoiser_;
+  std::optional<SceneMattes> mattes_;
   std::optional<RawOutput> raw_;
   std::string scene_hash_;  ///< if there is a raw film
   std::unique_ptr<Integrator> integrator_;

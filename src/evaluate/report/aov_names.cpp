@@ -8,6 +8,7 @@
 #include <stdexcept>
 
 #include "image/channel_names.h"
+#include "image/cryptomatte.h"
 
 namespace duet {
 
@@ -94,9 +95,11 @@ std::vector<std::string> channels_in(AovNames names, const std::vector<std::stri
   for (size_t c = 0; c < channels.size(); ++c) {
     place = c > 0 && layer_of(channels[c]) == layer_of(channels[c - 1]) ? place + 1 : 0;
     std::string name = channels[c];
-    if (names == AovNames::blender) name = blender_name(channels[c]);
-    if (names == AovNames::nuke) name = nuke_name(channels[c], place);
-    if (names == AovNames::mitsuba) name = mitsuba_name(channels[c]);
+    // Readers look for mattes by these names.
+    const bool keeps_name = is_matte_channel(channels[c]);
+    if (names == AovNames::blender && !keeps_name) name = blender_name(channels[c]);
+    if (names == AovNames::nuke && !keeps_name) name = nuke_name(channels[c], place);
+    if (names == AovNames::mitsuba && !keeps_name) name = mitsuba_name(channels[c]);
     if (const auto other = std::find(named.begin(), named.end(), name); other != named.end())
       throw std::invalid_argument(fmt::format(
           "with the names of {}, {} and {} are both called {}", kAovNames[size_t(names)],

@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <optional>
 
+#include "image/cryptomatte.h"
 #include "image/denoiser_bias.h"
 #include "integrators/layers.h"
 
@@ -112,8 +113,8 @@ HeaderFields denoised_header(HeaderFields header, const std::string& denoiser) {
     if (field->first == "bias") {
       bias = std::get<std::string>(field->second) + "; " + bias;
       field = header.erase(field);
-    } else if (field->first.starts_with("relative")) {
-      // Estimates of the noise that was.
+    } else if (field->first.starts_with("relative") || field->first.starts_with(kMatteFields)) {
+      // Estimates of the noise that was, and layers that this image has not.
       field = header.erase(field);
     } else {
       ++field;

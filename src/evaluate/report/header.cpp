@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "evaluate/report/provenance.h"
+#include "image/cryptomatte.h"
 #include "math/angles.h"
 
 namespace duet {
@@ -99,7 +100,8 @@ TextFields header_texts(const HeaderFields& fields) {
   };
   TextFields texts;
   for (const auto& [name, value] : fields)
-    if (std::string text = std::visit(Text{}, value); !text.empty())
+    if (std::string text = std::visit(Text{}, value);
+        !text.empty() && !name.starts_with(kMatteFields))
       texts.emplace_back(name, std::move(text));
   return texts;
 }

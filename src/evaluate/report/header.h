@@ -41,7 +41,7 @@ HeaderFields scene_header(const RenderRecord& record, const SensorDescription& v
 /// Of the samples.
 HeaderFields samples_header(const RenderRecord& record, const RenderResult& result);
 
-/// Fields for files that hold texts only: numbers as texts, no matrices.
+/// Fields for files that hold texts and no layers: numbers as texts, no matrices.
 TextFields header_texts(const HeaderFields& fields);
 
 }  // namespace duet
