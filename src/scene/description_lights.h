@@ -157,7 +157,6 @@ struct EnvironmentMapLight {
   void count(SceneFeatures& f) const;
   LightPointer build(SceneBuilder& b, const LightDescription& d) const;
 };
-
 /// A sun whose brightness the file's version decides; the horizon does not cut it.
 struct SunDisk {
   std::array<double, 3> direction{0, 0, 1};  ///< to its middle, not zero
@@ -167,7 +166,6 @@ struct SunDisk {
                      field(&SunDisk::irradiance).shown(" of irradiance "));
   }
 };
-
 /// Hosek and Wilkie's sky with the sun in it; +z is up.
 struct SkyLight {
   double turbidity = 3;
