@@ -189,7 +189,7 @@ TEST_CASE("more things than ranks: those that cover most are kept") {
 }
 
 TEST_CASE("mattes depend neither on the number of threads nor on the window") {
-  MatteScene scene(square("above", "<rotate z='1' angle='20'/><translate x='0.4' z='1'/>", kGrey) +
+  MatteScene scene(square("above", "<rotate z='1' angle='20'/><translate x='-0.4' z='1'/>", kGrey) +
                    square("below", "<translate x='-0.3'/>", kSameGrey));
   MatteRequest request{.kinds = {MatteKind::object}, .spp = 19, .threads = 1};
   const Image one = scene.image(request);
