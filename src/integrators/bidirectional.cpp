@@ -5,6 +5,7 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "integrators/learn_emission.h"
 #include "integrators/motion_blur.h"
 
 namespace duet {
@@ -172,6 +173,7 @@ LightPassPlan BidirectionalIntegrator::light_plan(Point2i film) const {
   plan.subpaths = light_subpaths(film);
   plan.unit_weights = options_.method == Method::ptracer;
   plan.hide_emitters = options_.hide_emitters;
+  plan.guide = guide_.get();
   if (options_.method == Method::reuse && !is_thesis_) plan.windows = &windows_;
   return plan;
 }
@@ -185,6 +187,8 @@ void BidirectionalIntegrator::choose(const Scene& scene, const RenderOutlook& ou
   LightPassPlan plan = light_plan(outlook.film);
   plan.set = techniques(outlook.film, 0);
   plan.threads = outlook.threads;
+  if (options_.guide_emission) guide_ = learn_emission(scene, outlook.film, plan);
+  plan.guide = guide_.get();
   pilot_ = run_pilot(scene, outlook.film, plan);
 }
 

@@ -95,6 +95,7 @@ class BidirectionalIntegrator final : public CameraIntegrator {
   Windows windows_;
   MergeMask mask_;
   std::optional<Pilot> pilot_;
+  std::unique_ptr<const EmissionGuide> guide_;  ///< null where it would not help
 
   // Of the iteration under way.
   TechniqueSet set_;

@@ -70,6 +70,9 @@ class BidirectionalIntegrator::EyeSubpath {
 
  private:
   bool hides_emitters() const { return m_.options_.hide_emitters; }
+  ConnectionContext<Weights> connections() {
+    return eye_.connections(weights_, options_.strict_normals);
+  }
 
   /// Whether light at the end of the sub-path counts. Where merging or light tracing does the rest,
   /// only what is seen directly is left to be hit.
@@ -97,8 +100,7 @@ class BidirectionalIntegrator::EyeSubpath {
 
   void escape(float transmittance) {
     if (!scene_.environment || hides_lights()) return;
-    if (hits())
-      m_.add(eye_, 0, depth_ + 1, connect_escape(scene_, weights_, subpath_, transmittance));
+    if (hits()) m_.add(eye_, 0, depth_ + 1, connect_escape(connections(), subpath_, transmittance));
     alpha_ = 1;
   }
 
@@ -111,7 +113,7 @@ class BidirectionalIntegrator::EyeSubpath {
     if constexpr (Vertex::kMedia) d2 = length_squared(s.position - subpath_.from);
     const float cosine = std::abs(dot(s.ng, subpath_.ray.direction));
     if (hits() && s.shape->light != kNone && !(Vertex::kMedia && hides_lights()))
-      m_.add(eye_, 0, depth_ + 1, connect_hit(scene_, weights_, subpath_, s, d2, transmittance));
+      m_.add(eye_, 0, depth_ + 1, connect_hit(connections(), subpath_, s, d2, transmittance));
     if ((depth_ == m_.max_depth_ && !(Vertex::kMedia && may_be_passed(scene_, s))) ||
         !(cosine > 0)) {
       alpha_ = 1;
@@ -210,11 +212,17 @@ Spectrum BidirectionalIntegrator::trace(const Scene& scene, const CameraPath& pa
   const uint64_t key = hash_combine(key_, path.pixel);
   EyeWorkspace<Vertex>& workspace =
       static_cast<BidirectionalWorkspace<Vertex>&>(*path.workspace).eye;
-  Eye<Vertex> eye{scene,     path,
-                  sampler,   counters,
-                  values,    ConnectionRoulette(pilot_->roulette_threshold(), ~key),
-                  key,       RandomStream(key + kShadowStream),
-                  workspace, merges_in(path.pixel)};
+  Eye<Vertex> eye{scene,
+                  LightStarts(scene, guide_.get()),
+                  path,
+                  sampler,
+                  counters,
+                  values,
+                  ConnectionRoulette(pilot_->roulette_threshold(), ~key),
+                  key,
+                  RandomStream(key + kShadowStream),
+                  workspace,
+                  merges_in(path.pixel)};
   const size_t subpaths = lights_.vertices().ends.size();
   if (subpaths > 0) eye.light_subpath = sharing_.subpath(path.pixel, subpaths);
   if (options_.method == Method::reuse && options_.weights == ReuseWeights::exact) {

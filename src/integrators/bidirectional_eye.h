@@ -23,6 +23,7 @@ struct BidirectionalWorkspace final : PathWorkspace {
 template <class Vertex>
 struct BidirectionalIntegrator::Eye {
   const Scene& scene;
+  const LightStarts starts;
   const CameraPath& start;
   Sampler& sampler;
   RenderCounters& counters;
@@ -42,7 +43,7 @@ struct BidirectionalIntegrator::Eye {
   /// What the vertices of the sub-path are connected with.
   template <class Weights>
   ConnectionContext<Weights> connections(const Weights& weights, bool strict_normals) {
-    return {scene, weights, roulette, counters, strict_normals, &shadows};
+    return {scene, starts, weights, roulette, counters, strict_normals, &shadows};
   }
 
   float draw() {

@@ -25,13 +25,17 @@ void BidirectionalIntegrator::thesis_tail(const PathVertex& limit, Subpath& subp
     Hit hit;
     ++eye.counters.closest_rays;
     if (!scene.accel->closest_hit(subpath.ray, hit)) {
-      if (scene.environment) add(eye, 0, depth + 1, connect_escape(scene, PathWeights(), subpath));
+      if (scene.environment)
+        add(eye, 0, depth + 1,
+            connect_escape(eye.connections(PathWeights(), options_.strict_normals), subpath));
       return;
     }
     ++eye.counters.path_vertices;
     const Surface s = scene.surface(subpath.ray, hit);
     if (s.shape->light != kNone)
-      add(eye, 0, depth + 1, connect_hit(scene, PathWeights(), subpath, s, hit.t * hit.t));
+      add(eye, 0, depth + 1,
+          connect_hit(eye.connections(PathWeights(), options_.strict_normals), subpath, s,
+                      hit.t * hit.t));
     if (depth == max_depth_) return;
     reached.emplace(scene, s, -subpath.ray.direction, subpath.throughput, Partials{}, depth);
     v = &*reached;

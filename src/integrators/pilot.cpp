@@ -36,11 +36,14 @@ double footprint(const Scene& scene, const Ray& camera_ray, Sampler& sampler) {
   return 0;
 }
 
-double median_footprint(const Scene& scene, Point2i film, uint64_t seed) {
+}  // namespace
+
+double pixel_footprint(const Scene& scene, Point2i film) {
   std::vector<double> sizes;
   for (int y = 0; y < kRays; ++y)
     for (int x = 0; x < kRays; ++x) {
-      Sampler sampler(SampleSequence::independent, seed, kPilotScramble, uint64_t(y * kRays + x));
+      Sampler sampler(SampleSequence::independent, kPilotSeed, kPilotScramble,
+                      uint64_t(y * kRays + x));
       sampler.start_sample(0);
       const Point2f film_position{(float(x) + 0.5f) / kRays * float(film.x),
                                   (float(y) + 0.5f) / kRays * float(film.y)};
@@ -54,11 +57,9 @@ double median_footprint(const Scene& scene, Point2i film, uint64_t seed) {
   return *middle;
 }
 
-}  // namespace
-
 Pilot run_pilot(const Scene& scene, Point2i film, LightPassPlan plan) {
   Pilot pilot;
-  pilot.footprint = median_footprint(scene, film, kPilotSeed);
+  pilot.footprint = pixel_footprint(scene, film);
   plan.subpaths = kPilotSubpaths;
   plan.seed = kPilotSeed;
   plan.scramble = kPilotScramble;

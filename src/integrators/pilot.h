@@ -19,6 +19,9 @@ struct Pilot {
   float roulette_threshold() const { return float(0.1 * brightness); }
 };
 
+/// The side of a pixel where it meets surfaces, in world units: the median over the image.
+double pixel_footprint(const Scene& scene, Point2i film);
+
 /// `plan` is that of a whole iteration. The result does not depend on its seed.
 Pilot run_pilot(const Scene& scene, Point2i film, LightPassPlan plan);
 

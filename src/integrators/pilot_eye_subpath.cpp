@@ -62,7 +62,7 @@ class PilotEyeSubpath {
       }
       if (!found) {
         if (scene_.environment && sees_lights_)
-          add_found(connect_escape(scene_, weights_, subpath_, transmittance), transmittance);
+          add_found(connect_escape(found_light(), subpath_, transmittance), transmittance);
         return;
       }
       if (!meet_surface(hit, transmittance)) return;
@@ -120,7 +120,7 @@ class PilotEyeSubpath {
     const float d2 = Vertex::kMedia ? length_squared(s.position - subpath_.from) : hit.t * hit.t;
     const float cosine = std::abs(dot(s.ng, subpath_.ray.direction));
     if (s.shape->light != kNone && (!Vertex::kMedia || sees_lights_))
-      add_found(connect_hit(scene_, weights_, subpath_, s, d2, transmittance), transmittance);
+      add_found(connect_hit(found_light(), subpath_, s, d2, transmittance), transmittance);
     const bool is_last =
         depth_ == pilot_.max_depth &&
         !(Vertex::kMedia && scene_.materials[s.shape->material]->passes_straight());
@@ -172,8 +172,12 @@ class PilotEyeSubpath {
 
   ConnectionContext<FamilyWeights> connections(ConnectionRoulette& roulette,
                                                RenderCounters& counters) {
-    return {scene_, weights_, roulette, counters, pilot_.plan.strict_normals, &shadows_};
+    return {scene_,   LightStarts(scene_, pilot_.guide.get()),
+            weights_, roulette,
+            counters, pilot_.plan.strict_normals,
+            &shadows_};
   }
+  ConnectionContext<FamilyWeights> found_light() { return connections(roulette_, counters()); }
 
   void connect(const Vertex& v) {
     const std::span<const VertexPdfs> pdfs = pilot_.light.pdfs(index_);

@@ -2,8 +2,11 @@
 // contributions tells about the others.
 #pragma once
 
+#include <memory>
+
 #include "integrators/pilot_light_subpaths.h"
 #include "integrators/pricing_pilot.h"
+#include "transport/light_starts.h"
 #include "transport/subpath.h"
 #include "transport/vertex_grid.h"
 
@@ -22,7 +25,8 @@ struct PilotSetup {
   float query_radius = 0;  ///< within which the pilot merges
   float shift_scale = 1;   ///< of the distances to photons: PhotonShift::scale
   PilotLightSubpaths light{};
-  VertexGrid grid{};  ///< of the photons among their vertices
+  std::unique_ptr<const EmissionGuide> guide{};  ///< of the starts of light sub-paths, or null
+  VertexGrid grid{};                             ///< of the photons among their vertices
 };
 
 /// Adds a weighted contribution to the image, unless it is nothing.

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "base/parallel.h"
+#include "integrators/learn_emission.h"
 #include "integrators/pilot.h"
 #include "integrators/pilot_eye_subpath.h"
 #include "transport/light_subpath.h"
@@ -40,6 +41,8 @@ class PricingPilot {
     light.hide_emitters = plan.hide_emitters;
     light.seed = setup_.eye_seed;
     light.threads = plan.threads;
+    setup_.guide = learn_emission(scene, plan.film, light);
+    light.guide = setup_.guide.get();
     const Pilot sizes = run_pilot(scene, plan.film, light);
     const double radius = sizes.first_radius();
     set.merge_area = kPi * sqr(float(radius));
@@ -105,8 +108,9 @@ class PricingPilot {
     RenderCounters& counters = block.record.light_counters;
     SubpathPdfs pdfs;
     FamilyWeights weights(setup_.set);
-    const ConnectionContext<FamilyWeights> connections{scene_,   weights, roulette,
-                                                       counters, false,   &random};
+    const LightStarts starts(scene_, setup_.guide.get());
+    const ConnectionContext<FamilyWeights> connections{scene_,   starts, weights, roulette,
+                                                       counters, false,  &random};
     const auto visit = [&](const Vertex& v, const Hit& hit) {
       if (!v.is_smooth()) return;
       block.light.add(v, hit, pdfs);
@@ -120,9 +124,9 @@ class PricingPilot {
             seen->connection.value * (seen->connection.weight / setup_.set.light_paths),
             weights.shares(), Technique::light_image, cell(seen->film));
     };
-    trace_light_subpath<Vertex>(
-        {scene_, setup_.set, setup_.options, setup_.max_depth - 1, sampler, counters, &pdfs, ~key},
-        visit);
+    trace_light_subpath<Vertex>({scene_, starts, setup_.set, setup_.options, setup_.max_depth - 1,
+                                 sampler, counters, &pdfs, ~key},
+                                visit);
     block.light.end_subpath(pdfs);
   }
 

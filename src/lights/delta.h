@@ -132,6 +132,7 @@ class DirectionalEmitter final : public Light {
                                                 const Point2f& direction) const override;
   float direct_density(const EmissionSample& emission, const Point3f& at) const override;
   void surround(const Point3f& center, float radius) override { sphere_ = {center, radius}; }
+  const SceneSphere* entered_sphere() const override { return &sphere_; }
 
  private:
   Vector3f toward_light_;

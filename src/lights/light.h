@@ -81,6 +81,9 @@ class Light {
   virtual float direct_density(const EmissionSample& emission, const Point3f& at) const = 0;
   /// Tells lights that are infinitely far away which sphere holds the scene, before any use.
   virtual void surround(const Point3f&, float) {}
+  /// The sphere that rays of sample_emission() enter uniformly, whatever their direction, which
+  /// depends on its second argument alone; null if the light does not do so.
+  virtual const SceneSphere* entered_sphere() const { return nullptr; }
 
  private:
   LightKind kind_;
@@ -119,6 +122,7 @@ class EnvironmentLight : public Light {
   std::optional<EmissionSample> sample_emission(const Point2f& position,
                                                 const Point2f& direction) const override;
   void surround(const Point3f& center, float radius) override { sphere_ = {center, radius}; }
+  const SceneSphere* entered_sphere() const override { return &sphere_; }
 
  protected:
   const SceneSphere& sphere() const { return sphere_; }

@@ -31,6 +31,8 @@ class PortalEnvironment final : public EnvironmentLight {
                                                 const Point2f& direction) const override;
   float emission_density(const Vector3f& wi) const override;
   void surround(const Point3f& center, float radius) override;
+  /// Rays enter by the rectangle.
+  const SceneSphere* entered_sphere() const override { return nullptr; }
 
  private:
   /// The rectangle's density of uniform points per solid angle at `from`; zero if the ray does not

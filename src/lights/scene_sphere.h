@@ -25,6 +25,11 @@ class SceneSphere {
   Ray enter(const Vector3f& wi, const Point3f& through) const {
     return {through + wi * (dot(center_ - through, wi) + radius_), -wi, INFINITY};
   }
+  /// The numbers for which enter() makes the ray through a given point.
+  Point2f entry(const Vector3f& wi, const Point3f& through) const {
+    const Vector3f p = Frame(Normal3f(wi)).to_local(through - center_) * (1 / radius_);
+    return disk_to_square({p.x, p.y});
+  }
   /// The density per area of the disk's points.
   float density() const { return density_; }
 

@@ -21,6 +21,16 @@ constexpr float kBelowOne = 0x1.fffffep-1f;
   return {r * (cosine + steep * (sine - cosine)), r * (sine + steep * (cosine - sine))};
 }
 
+/// The point of the square that square_to_disk() takes to a point of the disk.
+inline Point2f disk_to_square(const Point2f& d) {
+  const float r = std::sqrt(d.x * d.x + d.y * d.y);
+  if (r == 0) return {0.5f, 0.5f};
+  const bool steep = std::abs(d.x) < std::abs(d.y);
+  const float along = std::copysign(r, steep ? d.y : d.x);
+  const float across = along * (4 / kPi) * std::atan(steep ? d.x / d.y : d.y / d.x);
+  return {0.5f * ((steep ? across : along) + 1), 0.5f * ((steep ? along : across) + 1)};
+}
+
 /// Density cos θ / π per solid angle on the upper hemisphere.
 [[gnu::always_inline]] inline Vector3f square_to_cosine_hemisphere(const Point2f& u) {
   const Point2f d = square_to_disk(u);

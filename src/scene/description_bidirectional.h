@@ -25,7 +25,8 @@ struct BidirectionalIntegratorDescription {
   double light_paths = 0;  ///< light sub-paths per pixel; 0: the default of the method
   /// Light vertices to which each eye vertex is connected; −1: all of one light sub-path.
   int connections = -1;
-  bool light_image = true;  ///< bdpt: connect light vertices to the camera
+  bool light_image = true;     ///< bdpt: connect light vertices to the camera
+  bool guide_emission = true;  ///< learn where light from infinitely far away is of use
   double radius = 0;  ///< of merging in the first iteration, world units; 0: from the pixels' size
   double alpha = 0;   ///< how fast the radius shrinks; 0: the method's default
   int max_eye_depth = 4, max_light_depth = 3;  ///< reuse
@@ -104,6 +105,10 @@ struct BidirectionalIntegratorDescription {
             field(&D::light_image, Parameter{"light_image", boolean, kInitial,
                                              "connect light vertices to the camera"})
                 .when([](const D& d) { return d.is(bdpt); }),
+            field(&D::guide_emission,
+                  Parameter{"guide_emission", boolean, kInitial,
+                            "learn where light from infinitely far away is of use"})
+                .terse(),
             field(&D::radius,
                   Parameter{.name = "radius",
                             .type = number,

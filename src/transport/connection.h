@@ -16,6 +16,7 @@
 
 #include "math/hash.h"
 #include "transport/light_choice.h"
+#include "transport/light_starts.h"
 #include "transport/light_vertex.h"
 #include "transport/media_vertex.h"
 
@@ -61,44 +62,47 @@ struct Connection {
   float weight = 0;
 };
 
-/// The light at the end of an eye sub-path that has hit the surface point `s` at squared distance
-/// `d2` from its last vertex. `transmittance` is the nominal one on the way from there.
-template <class Weights>
-inline Connection connect_hit(const Scene& scene, const Weights& weights, const Subpath& subpath,
-                              const Surface& s, float d2, float transmittance = 1) {
-  const SurfaceLight* light = scene.light_on(*s.shape);
-  if (!light) return {};
-  const Spectrum emitted = light->emitted(s, -subpath.ray.direction);
-  if (emitted.is_black()) return {};
-  const float direct = choice_density(scene, *light, subpath.from, s, subpath.ray.direction, d2);
-  const float emission = light->emission_density(s, -subpath.ray.direction) *
-                         scene.emission_picker.probability(s.shape->light);
-  return {subpath.throughput * emitted, weights.hit(subpath, direct / transmittance, emission)};
-}
-
-/// The environment at the end of an eye sub-path that has left the scene.
-template <class Weights>
-inline Connection connect_escape(const Scene& scene, const Weights& weights, const Subpath& subpath,
-                                 float transmittance = 1) {
-  const Vector3f& w = subpath.ray.direction;
-  const Spectrum emitted = scene.environment->emitted(subpath.from, w);
-  if (emitted.is_black()) return {};
-  const float direct = choice_density(scene, subpath.from, w);
-  const float emission = scene.environment->emission_density(w) *
-                         scene.emission_picker.probability(scene.environment_index);
-  return {subpath.throughput * emitted, weights.hit(subpath, direct / transmittance, emission)};
-}
-
 /// What all that is connected with the vertices of one sub-path needs.
 template <class Weights>
 struct ConnectionContext {
   const Scene& scene;
+  LightStarts starts;
   const Weights& weights;
   ConnectionRoulette& roulette;
   RenderCounters& counters;
   bool strict_normals = false;
   RandomStream* random = nullptr;  ///< for shadow rays through media; null where there are none
 };
+
+/// The light at the end of an eye sub-path that has hit the surface point `s` at squared distance
+/// `d2` from its last vertex. `transmittance` is the nominal one on the way from there.
+template <class Weights>
+inline Connection connect_hit(const ConnectionContext<Weights>& c, const Subpath& subpath,
+                              const Surface& s, float d2, float transmittance = 1) {
+  const SurfaceLight* light = c.scene.light_on(*s.shape);
+  if (!light) return {};
+  const Spectrum emitted = light->emitted(s, -subpath.ray.direction);
+  if (emitted.is_black()) return {};
+  const Vector3f& w = subpath.ray.direction;
+  const float direct = choice_density(c.scene, *light, subpath.from, s, w, d2);
+  const float emission =
+      c.starts.density(s.shape->light, light->emission_density(s, -w), w, s.position);
+  return {subpath.throughput * emitted, c.weights.hit(subpath, direct / transmittance, emission)};
+}
+
+/// The environment at the end of an eye sub-path that has left the scene.
+template <class Weights>
+inline Connection connect_escape(const ConnectionContext<Weights>& c, const Subpath& subpath,
+                                 float transmittance = 1) {
+  const Scene& scene = c.scene;
+  const Vector3f& w = subpath.ray.direction;
+  const Spectrum emitted = scene.environment->emitted(subpath.from, w);
+  if (emitted.is_black()) return {};
+  const float direct = choice_density(scene, subpath.from, w);
+  const float emission = c.starts.density(scene.environment_index,
+                                          scene.environment->emission_density(w), w, subpath.from);
+  return {subpath.throughput * emitted, c.weights.hit(subpath, direct / transmittance, emission)};
+}
 
 /// A light sample from an eye vertex. Uses up to three dimensions of the sampler.
 template <class Weights, class Vertex>
@@ -114,7 +118,7 @@ inline Connection connect_light(const ConnectionContext<Weights>& c, const Verte
     direct = sample->finite ? length_squared(sample->target - eye.position()) : 1.0f;
   const float hit = sample->delta ? 0.0f : f.pdf.value;
   direct *= probability;
-  const float emission = sample->emission * scene.emission_picker.probability(light);
+  const float emission = c.starts.density(light, sample->emission, sample->wi, eye.position());
   ConnectionEnd eye_end{emission * eye.cosine(sample->wi) / direct,
                         eye.reverse_pdf(sample->wi, Transport::radiance)};
   eye_end.merges = eye.merges(f.pdf.value, eye_end.beyond);

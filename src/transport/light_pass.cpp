@@ -73,6 +73,7 @@ void LightPass::trace(const Scene& scene, const LightPassPlan& plan, const Weigh
   block.end_pdfs.clear();
   block.counters = {};
   const bool has_lens = scene.camera->has_lens();
+  const LightStarts starts(scene, plan.guide);
   for (uint32_t i = range.first; i < range.end; ++i) {
     const uint64_t key = hash_combine(hash_combine(plan.seed, plan.scramble ^ kLightStream),
                                       (uint64_t(plan.iteration) << 32) + i);
@@ -80,8 +81,8 @@ void LightPass::trace(const Scene& scene, const LightPassPlan& plan, const Weigh
     RandomStream random(key ^ kMediaStream);
     Sampler sampler(plan.sequence, plan.seed ^ kLightStream, plan.scramble, i);
     sampler.start_sample(plan.iteration);
-    const ConnectionContext<Weights> connections{scene,          weights, roulette,
-                                                 block.counters, false,   &random};
+    const ConnectionContext<Weights> connections{scene,          starts, weights, roulette,
+                                                 block.counters, false,  &random};
     const auto visit = [&](const Vertex& v, const Hit& hit) {
       if (!v.is_smooth()) return;
       if (plan.set.camera_connections) {
@@ -97,7 +98,7 @@ void LightPass::trace(const Scene& scene, const LightPassPlan& plan, const Weigh
       }
     };
     const int length =
-        trace_light_subpath<Vertex>({scene, plan.set, plan.subpath, plan.max_depth, sampler,
+        trace_light_subpath<Vertex>({scene, starts, plan.set, plan.subpath, plan.max_depth, sampler,
                                      block.counters, pdfs, ~key ^ kMediaStream},
                                     visit);
     block.vertices.ends.push_back(uint32_t(block.vertices.vertices.size()));

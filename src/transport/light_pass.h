@@ -11,6 +11,7 @@ namespace duet {
 
 /// What a pass over the lights is to do.
 struct LightPassPlan {
+  const EmissionGuide* guide = nullptr;  ///< of the starts of sub-paths, or null
   TechniqueSet set;
   SubpathOptions subpath;
   int max_depth = 0;  ///< segments of a light sub-path

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "scene/light_media.h"
+#include "transport/light_starts.h"
 #include "transport/media_vertex.h"
 
 namespace duet {
@@ -34,17 +35,17 @@ struct LightStart {
 };
 
 /// Empty if the ray carries nothing.
-inline std::optional<LightStart> start_light_subpath(const Scene& scene, Sampler& sampler) {
+inline std::optional<LightStart> start_light_subpath(const Scene& scene, const LightStarts& starts,
+                                                     Sampler& sampler) {
   const float choice = sampler.next_1d();
   const Point2f position = sampler.next_2d(), direction = sampler.next_2d();
-  const LightPicker::Pick pick = scene.emission_picker.pick(choice, position);
-  const Light& light = *scene.lights[pick.light];
-  const auto e = light.sample_emission(position, direction);
+  const LightPicker::Pick pick = starts.pick(choice, position);
+  const auto e = starts.emit(pick.light, position, direction);
   if (!e || !(pick.probability > 0)) return std::nullopt;
   LightStart start;
   start.subpath.ray = e->ray;
   start.subpath.throughput = e->weight * (1 / pick.probability);
-  start.light = &light;
+  start.light = scene.lights[pick.light].get();
   start.index = pick.light;
   start.pick_probability = pick.probability;
   start.direct_picker = &scene.direct_picker;
@@ -101,6 +102,7 @@ inline SubpathOf<Vertex> leave_light(const Scene& scene, const LightStart& start
 /// How a light sub-path is traced.
 struct LightSubpathContext {
   const Scene& scene;
+  const LightStarts& starts;
   const TechniqueSet& set;
   SubpathOptions options;
   int max_depth;  ///< segments that it has at most
@@ -227,7 +229,7 @@ template <class Vertex = PathVertex, class Visit>
 int trace_light_subpath(const LightSubpathContext& context, Visit&& visit) {
   ++context.counters.light_paths;
   context.sampler.start_dimension(0);
-  const auto start = start_light_subpath(context.scene, context.sampler);
+  const auto start = start_light_subpath(context.scene, context.starts, context.sampler);
   if (context.pdfs) context.pdfs->clear();
   if (!start) return 0;
   LightSubpath<Vertex, std::remove_reference_t<Visit>> subpath(context, *start, visit);

@@ -137,21 +137,28 @@ class Observer {
   }
 
   ConnectionContext<Weights> connections() {
-    return {scene_, weights_, roulette_, counters_, false, &random_};
+    return {scene_, LightStarts(scene_), weights_, roulette_, counters_, false, &random_};
   }
 
   void trace_light() {
     Sampler sampler(SampleSequence::independent, 1, 0, index_);
     sampler.start_sample(0);
-    trace_light_subpath<Vertex>(
-        {scene_, set_, {1000, false}, kDepth, sampler, counters_, &light_pdfs_, uint64_t(index_)},
-        [&](const Vertex& v, const Hit& hit) {
-          if (!v.is_smooth()) return;
-          light_.push_back(v), packed_.emplace_back(v, hit);
-          ends_.push_back({light_pdfs_.front(), light_pdfs_.back()});
-          const auto seen = connect_camera(connections(), v, {}, false);
-          if (seen) note('c', seen->connection);
-        });
+    trace_light_subpath<Vertex>({scene_,
+                                 LightStarts(scene_),
+                                 set_,
+                                 {1000, false},
+                                 kDepth,
+                                 sampler,
+                                 counters_,
+                                 &light_pdfs_,
+                                 uint64_t(index_)},
+                                [&](const Vertex& v, const Hit& hit) {
+                                  if (!v.is_smooth()) return;
+                                  light_.push_back(v), packed_.emplace_back(v, hit);
+                                  ends_.push_back({light_pdfs_.front(), light_pdfs_.back()});
+                                  const auto seen = connect_camera(connections(), v, {}, false);
+                                  if (seen) note('c', seen->connection);
+                                });
   }
 
   SubpathOf<Vertex> new_subpath() const {
@@ -212,14 +219,14 @@ class Observer {
         }
       }
       if (!found) {
-        if (scene_.environment) note('u', connect_escape(scene_, weights_, subpath, transmittance));
+        if (scene_.environment) note('u', connect_escape(connections(), subpath, transmittance));
         return;
       }
       const Surface s = scene_.surface(subpath.ray, hit);
       const float d2 = length_squared(s.position - subpath.from);
       const float cosine = std::abs(dot(s.ng, subpath.ray.direction));
       if (s.shape->light != kNone)
-        note('u', connect_hit(scene_, weights_, subpath, s, d2, transmittance));
+        note('u', connect_hit(connections(), subpath, s, d2, transmittance));
       if (!(cosine > 0)) return;
       const Partials partials = arrive_at({s.position, d2, cosine, transmittance});
       if constexpr (Vertex::kMedia) {

@@ -67,7 +67,7 @@ std::vector<Plugin> bidirectional_integrators() {
   const ParameterList granularity = inert_parameters(integer, "granularity", v0);
   const ParameterList ppm_parameters(
       of("max_depth"), with_preset_0x(parameter<Bidirectional>("rr_depth"), "3"),
-      of("hide_emitters strict_normals light_selection light_paths radius"),
+      of("hide_emitters strict_normals light_selection light_paths guide_emission radius"),
       with_preset_0x(parameter<Bidirectional>("alpha"), "0.7"),
       Parameter{"photon_count", integer, "", "light_paths decides", any, v0, inert},
       Parameter{"max_passes", integer, "", "the sampler's sample_count decides", any, v0, inert},
@@ -75,7 +75,7 @@ std::vector<Plugin> bidirectional_integrators() {
   return {
       {"ptracer",
        both,
-       {of("max_depth rr_depth hide_emitters light_paths"), granularity,
+       {of("max_depth rr_depth hide_emitters light_paths guide_emission"), granularity,
         Parameter{"brute_force", boolean, "false", "connecting to the camera has the same mean",
                   any, v0, inert}},
        &read_bidirectional<ptracer>,
@@ -83,25 +83,28 @@ std::vector<Plugin> bidirectional_integrators() {
       {"bdpt",
        v0,
        {of("max_depth rr_depth hide_emitters strict_normals light_selection light_image"),
-        inert_parameters(boolean, "sample_direct"), of("light_paths connections")},
+        inert_parameters(boolean, "sample_direct"), of("light_paths guide_emission connections")},
        &read_bidirectional<bdpt>,
        "bidirectional path tracing"},
       {"reuse",
        both,
        {depth_with_note("longest path in segments; -1: no limit, but max_eye_depth + "
                         "max_light_depth + 1 with the weights of the thesis"),
-        of("rr_depth hide_emitters strict_normals light_selection light_paths max_eye_depth "
+        of("rr_depth hide_emitters strict_normals light_selection light_paths guide_emission "
+           "max_eye_depth "
            "max_light_depth weights thesis_reading continue_probability")},
        &read_bidirectional<reuse>,
        "Duet's own: bidirectional path tracing that reuses light sub-paths"},
       {"ppm", both, ppm_parameters, &read_ppm,
        "Duet's own: progressive photon mapping; approximates that of 0.x"},
       {"bpm", both,
-       of("max_depth rr_depth hide_emitters strict_normals light_selection light_paths radius "
+       of("max_depth rr_depth hide_emitters strict_normals light_selection light_paths "
+          "guide_emission radius "
           "alpha"),
        &read_bidirectional<bpm>, "Duet's own: bidirectional photon mapping"},
       {"vcm", both,
-       of("max_depth rr_depth hide_emitters strict_normals light_selection light_paths connections "
+       of("max_depth rr_depth hide_emitters strict_normals light_selection light_paths "
+          "guide_emission connections "
           "radius alpha"),
        &read_bidirectional<vcm>, "Duet's own: vertex connection and merging"},
       {"sppm", v0, ppm_parameters, &read_ppm, "by ppm", approximated},
