@@ -21,7 +21,7 @@ MUTATIONS = [
     ("light samples weighed as if light sub-paths chose lights alike", "src/transport/connection.h",
      "c.starts.density(light, sample->emission, sample->wi, eye.position())", "sample->emission * probability", WEIGHTS),
     ("light that was found weighed as if it had entered anywhere", "src/transport/light_starts.h",
-     "return guide_ ? emission * guide_->factor(light, from, through) : emission;",
+     "return guide_ ? emission * guide_->factor(light, *scene_->lights[light], from, through)\n                  : emission;",
      "(void)from, (void)through;\n    return emission;", "weights count where a guide*"),
     ("guided rays carry what rays from anywhere carry", "src/lights/emission_guide.cpp",
      "emission.weight *= 1 / density;", "", "guided *"),

@@ -132,7 +132,7 @@ class EmissionLearner {
     if (!(use > 0 && use < INFINITY)) return std::nullopt;
     const Ray& ray = start->emission.ray;
     const Vector3f from = -ray.direction;
-    const float factor = guide_->factor(start->index, from, ray.origin);
+    const float factor = guide_->factor(start->index, *start->light, from, ray.origin);
     // The least variance has a density in proportion to the root of the mean square of the use,
     // which the root of the use is nearer to than the use itself where that differs much.
     const float weight = std::sqrt(use * factor) / factor;

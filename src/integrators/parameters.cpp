@@ -149,8 +149,8 @@ Parameters parameters(BidirectionalIntegratorDescription& d) {
     add(light_selection(d.light_selection));
   }
   add(real("light_paths", d.light_paths, true, kMost));
-  if (d.method == bdpt || d.method == vcm) add(integer("connections", d.connections, -1, kMost));
   add(boolean("guide_emission", d.guide_emission));
+  if (d.method == bdpt || d.method == vcm) add(integer("connections", d.connections, -1, kMost));
   if (d.method == bdpt) add(boolean("light_image", d.light_image));
   if (d.method == ppm || d.method == bpm || d.method == vcm) {
     add(real("radius", d.radius, true, double(std::numeric_limits<float>::max())));

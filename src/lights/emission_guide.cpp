@@ -18,17 +18,15 @@ constexpr int kDeepest = 24;
 
 EmissionGuide::EmissionGuide(std::span<const std::unique_ptr<Light>> lights,
                              std::vector<Record> records, float most)
-    : most_(most), lights_(lights.size()) {
+    : most_(most), roots_(lights.size(), kUnguided) {
   const auto by_light = [](const Record& a, const Record& b) { return a.light < b.light; };
   std::stable_sort(records.begin(), records.end(), by_light);
   for (uint32_t i = 0; i < lights.size(); ++i) {
-    const SceneSphere* sphere = lights[i]->entered_sphere();
     const auto [first, end] =
         std::equal_range(records.begin(), records.end(), Record{i, {}, {}, 0}, by_light);
-    if (!sphere || first == end) continue;
-    const uint32_t root =
+    if (!lights[i]->entered_sphere() || first == end) continue;
+    roots_[i] =
         divide({first, end}, {{0, 0}, {1, 1}, 0}, lights[i]->kind() == LightKind::environment);
-    lights_[i] = {sphere, root};
   }
 }
 
@@ -59,8 +57,8 @@ uint32_t EmissionGuide::divide(std::span<Record> records, const Cell& cell, bool
   return index;
 }
 
-const SquareTree& EmissionGuide::entries(const Guided& guided, const Vector3f& from) const {
-  uint32_t node = guided.root;
+const SquareTree& EmissionGuide::entries(uint32_t root, const Vector3f& from) const {
+  uint32_t node = root;
   if (nodes_[node].children[0] != 0) {
     Point2f p = sphere_to_square_equal_area(from);
     const auto half = [](float& x) {
@@ -74,20 +72,21 @@ const SquareTree& EmissionGuide::entries(const Guided& guided, const Vector3f& f
   return entries_[nodes_[node].entries];
 }
 
-float EmissionGuide::factor(uint32_t light, const Vector3f& from, const Point3f& through) const {
-  const Guided& guided = lights_[light];
-  if (!guided.sphere) return 1;
-  return std::min(entries(guided, from).density(guided.sphere->entry(from, through)), most_);
+float EmissionGuide::factor(uint32_t index, const Light& light, const Vector3f& from,
+                            const Point3f& through) const {
+  const uint32_t root = roots_[index];
+  if (root == kUnguided) return 1;
+  return std::min(entries(root, from).density(light.entered_sphere()->entry(from, through)), most_);
 }
 
-void EmissionGuide::redirect(uint32_t light, const Point2f& position,
+void EmissionGuide::redirect(uint32_t index, const Light& light, const Point2f& position,
                              EmissionSample& emission) const {
-  const Guided& guided = lights_[light];
-  if (!guided.sphere) return;
+  const uint32_t root = roots_[index];
+  if (root == kUnguided) return;
   const Vector3f from = -emission.ray.direction;
   float density;
-  const Point2f entry = entries(guided, from).sample(position, density);
-  emission.ray = guided.sphere->enter(from, entry);
+  const Point2f entry = entries(root, from).sample(position, density);
+  emission.ray = light.entered_sphere()->enter(from, entry);
   emission.density *= std::min(density, most_);
   emission.weight *= 1 / density;
 }

@@ -29,10 +29,13 @@ class EmissionGuide {
   /// what the light itself says (EmissionSample::density), as weights count it. One for lights that
   /// are not guided. Weights add up to one with any numbers in place of densities, if all
   /// techniques have the same.
-  float factor(uint32_t light, const Vector3f& from, const Point3f& through) const;
+  /// The light is that of the index; one that moves may be made anew.
+  float factor(uint32_t index, const Light& light, const Vector3f& from,
+               const Point3f& through) const;
   /// Lets the ray that the light has made enter elsewhere. `position` is what the light had for the
   /// place. Its weight counts the true density, its density the factor().
-  void redirect(uint32_t light, const Point2f& position, EmissionSample& emission) const;
+  void redirect(uint32_t index, const Light& light, const Point2f& position,
+                EmissionSample& emission) const;
 
  private:
   /// A binary tree over the square of directions (math/equal_area.h), halved in x and y by turns.
@@ -40,20 +43,18 @@ class EmissionGuide {
     uint32_t children[2] = {0, 0};  ///< 0: a leaf
     uint32_t entries = 0;           ///< of a leaf: its tree
   };
-  struct Guided {
-    const SceneSphere* sphere = nullptr;  ///< null: the light is not guided
-    uint32_t root = 0;
-  };
   struct Cell {
     Point2f corner, size;
     int depth;
   };
 
   uint32_t divide(std::span<Record> records, const Cell& cell, bool may_divide);
-  const SquareTree& entries(const Guided& guided, const Vector3f& from) const;
+  const SquareTree& entries(uint32_t root, const Vector3f& from) const;
+
+  static constexpr uint32_t kUnguided = uint32_t(-1);
 
   float most_;
-  std::vector<Guided> lights_;
+  std::vector<uint32_t> roots_;  ///< by light; kUnguided where it is not guided
   std::vector<Node> nodes_;
   std::vector<SquareTree> entries_;
 };

@@ -19,8 +19,9 @@ class LightStarts {
   /// A ray of the light; empty if it carries nothing.
   std::optional<EmissionSample> emit(uint32_t light, const Point2f& position,
                                      const Point2f& direction) const {
-    auto e = scene_->lights[light]->sample_emission(position, direction);
-    if (e && guide_) guide_->redirect(light, position, *e);
+    const Light& emitter = *scene_->lights[light];
+    auto e = emitter.sample_emission(position, direction);
+    if (e && guide_) guide_->redirect(light, emitter, position, *e);
     return e;
   }
   /// The density of the choice of a light and of its ray through a point. `emission` is what the
@@ -28,7 +29,8 @@ class LightStarts {
   float density(uint32_t light, float emission, const Vector3f& from,
                 const Point3f& through) const {
     emission *= scene_->emission_picker.probability(light);
-    return guide_ ? emission * guide_->factor(light, from, through) : emission;
+    return guide_ ? emission * guide_->factor(light, *scene_->lights[light], from, through)
+                  : emission;
   }
 
  private:

@@ -59,11 +59,11 @@ TEST_CASE("rays enter where the camera looks, whatever the number of threads") {
   REQUIRE(same);
   const Vector3f from = normalize(Vector3f(-0.3f, -1, 0.6f));
   // The floor of the room's open side, and the plain behind the room.
-  const float inside = guide->factor(0, from, {0.1f, -0.5f, 0}),
-              outside = guide->factor(0, from, {9, 20, 0});
+  const float inside = guide->factor(0, *scene.scene->lights[0], from, {0.1f, -0.5f, 0}),
+              outside = guide->factor(0, *scene.scene->lights[0], from, {9, 20, 0});
   CHECK(inside > 100 * outside);
   CHECK(outside == doctest::Approx(0.25).epsilon(0.05));
-  CHECK(same->factor(0, from, {0.1f, -0.5f, 0}) == inside);
+  CHECK(same->factor(0, *scene.scene->lights[0], from, {0.1f, -0.5f, 0}) == inside);
 }
 
 TEST_CASE("there is no guide where it does not help") {

@@ -61,10 +61,10 @@ TEST_CASE("the parameters of each method, with their presets") {
   };
   const std::string paths = "max_depth=-1 rr_depth=5 hide_emitters=false",
                     own = paths + " strict_normals=false light_selection=auto",
-                    more = own + " light_paths=0";
+                    lights = " light_paths=0 guide_emission=true", more = own + lights;
   CHECK(parameters("path") == own + " only_specular=false");
   CHECK(parameters("auto") == own);
-  CHECK(parameters("ptracer") == paths + " light_paths=0");
+  CHECK(parameters("ptracer") == paths + lights);
   CHECK(parameters("bdpt") == more + " connections=-1 light_image=true");
   CHECK(parameters("reuse") ==
         more + " max_eye_depth=4 max_light_depth=3 weights=exact continue_probability=1");

@@ -78,13 +78,14 @@ TEST_CASE("guided rays have the density that is asked for on the way back") {
       const Point2f position = sampler.next_2d(), direction = sampler.next_2d();
       const EmissionSample plain = *lights[light]->sample_emission(position, direction);
       EmissionSample guided = plain;
-      guide.redirect(light, position, guided);
+      guide.redirect(light, *lights[light], position, guided);
       const float factor = guided.density / plain.density;
       const Vector3f from = -guided.ray.direction;
       CHECK(dot(from, plain.ray.direction) == doctest::Approx(-1).epsilon(1e-6));
       CHECK(guided.weight[0] * guided.density == doctest::Approx(plain.weight[0] * plain.density));
       // Rounding may take a ray across the edge of a cell.
-      const float back = guide.factor(light, from, guided.ray.origin + guided.ray.direction * 2.0f);
+      const float back = guide.factor(light, *lights[light], from,
+                                      guided.ray.origin + guided.ray.direction * 2.0f);
       odd += std::abs(back - factor) > 1e-4f * factor;
       mass.add(1 / double(factor));
       const auto distance = [&](const Ray& r) {
@@ -111,14 +112,15 @@ TEST_CASE("weights count guided rays as no denser than they may") {
     const EmissionSample plain = emit(*lights[0], i);
     EmissionSample a = plain, b = plain;
     const Point2f position{float(i % 32) / 32, float(i / 32) / 32};
-    guide.redirect(0, position, a);
-    counted.redirect(0, position, b);
+    guide.redirect(0, *lights[0], position, a);
+    counted.redirect(0, *lights[0], position, b);
     CHECK(a.ray.origin == b.ray.origin);
     CHECK(a.weight == b.weight);
     CHECK(b.density == std::min(a.density, 3 * plain.density));
     limited += b.density < a.density;
     const Vector3f from = -a.ray.direction;
-    CHECK(counted.factor(0, from, at) == std::min(guide.factor(0, from, at), 3.0f));
+    CHECK(counted.factor(0, *lights[0], from, at) ==
+          std::min(guide.factor(0, *lights[0], from, at), 3.0f));
   }
   CHECK(limited > 100);
 }
@@ -128,10 +130,10 @@ TEST_CASE("lights that do not enter by the sphere are left alone") {
   const EmissionGuide guide = guide_to(lights, kCenter);
   EmissionSample e = emit(*lights[2], 1);
   const EmissionSample before = e;
-  guide.redirect(2, {0.3f, 0.4f}, e);
+  guide.redirect(2, *lights[2], {0.3f, 0.4f}, e);
   CHECK(e.ray.origin == before.ray.origin);
   CHECK(e.density == before.density);
-  CHECK(guide.factor(2, e.ray.direction, kCenter) == 1);
+  CHECK(guide.factor(2, *lights[2], e.ray.direction, kCenter) == 1);
   const std::array<Point3f, 4> corners{Point3f(0, 0, 0), Point3f(1, 0, 0), Point3f(1, 1, 0),
                                        Point3f(0, 1, 0)};
   const PortalEnvironment portal(std::make_unique<ConstantEnvironment>(Spectrum(1)), corners, 0.5f);

@@ -314,7 +314,7 @@ class Checker {
   }
 
   double guided(uint32_t light, const Vector3f& from, const Point3f& through) const {
-    return guide_ ? double(guide_->factor(light, from, through)) : 1.0;
+    return guide_ ? double(guide_->factor(light, *scene_.lights[light], from, through)) : 1.0;
   }
 
   /// s = 1 at the last vertex of the eye sub-path.
