@@ -44,7 +44,6 @@ class Accel {
 
  private:
   struct Device;
-  void set_lead(const std::vector<Shape>& shapes, ShapeRange top);
   void choose_packets(const std::vector<Shape>& shapes);
   template <int kWidth>
   void intersect_packets(const RayBatch& rays, int n, HitBatch& hits) const;
@@ -57,8 +56,6 @@ class Accel {
   uint32_t top_first_ = 0, top_count_ = 0;
   const std::vector<ShapeRange>* groups_ = nullptr;
   const std::vector<Instance>* instances_ = nullptr;
-  /// How far before their origin rays begin for Embree, which keeps what it finds there to itself.
-  float lead_ = 0;
   int packet_ = 1;  ///< how many rays are traced at once
 };
 

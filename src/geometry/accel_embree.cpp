@@ -11,6 +11,7 @@
 #include <stdexcept>
 
 #include "geometry/accel.h"
+#include "geometry/ribbon.h"
 
 namespace duet {
 
@@ -24,8 +25,15 @@ void check(RTCDevice device, const char* doing) {
                   error == RTC_ERROR_OUT_OF_MEMORY ? "out of memory" : "internal error"));
 }
 
-void analytic_bounds_callback(const RTCBoundsFunctionArguments* args) {
-  const Bounds b = analytic_bounds(*static_cast<const Shape*>(args->geometryUserPtr), args->primID);
+bool is_ribbon(const Shape& shape) {
+  return shape.kind == ShapeKind::curves && shape.curves->profile != CurveProfile::tube;
+}
+
+/// What Embree calls for shapes that it does not know: analytic ones and ribbons.
+void bounds_callback(const RTCBoundsFunctionArguments* args) {
+  const Shape& shape = *static_cast<const Shape*>(args->geometryUserPtr);
+  const Bounds b = is_ribbon(shape) ? ribbon_bounds(*shape.curves, args->primID)
+                                    : analytic_bounds(shape, args->primID);
   args->bounds_o->lower_x = b.lower.x;
   args->bounds_o->lower_y = b.lower.y;
   args->bounds_o->lower_z = b.lower.z;
@@ -34,41 +42,48 @@ void analytic_bounds_callback(const RTCBoundsFunctionArguments* args) {
   args->bounds_o->upper_z = b.upper.z;
 }
 
+/// The nearest hit of a part in (tnear, ray.tmax). `u` is 0 on analytic shapes.
+bool intersect_part(const Shape& shape, uint32_t part, const Ray& ray, float tnear,
+                    RibbonHit& hit) {
+  if (is_ribbon(shape)) return intersect_ribbon(*shape.curves, part, ray, tnear, hit);
+  double t[2];
+  if (!intersect_analytic(shape, part, ray, double(tnear), double(ray.tmax), t)) return false;
+  hit = {float(t[0]), 0};
+  return true;
+}
+
 Ray ray_of(RTCRayN* rays, unsigned n, unsigned i) {
   return {{RTCRayN_org_x(rays, n, i), RTCRayN_org_y(rays, n, i), RTCRayN_org_z(rays, n, i)},
           {RTCRayN_dir_x(rays, n, i), RTCRayN_dir_y(rays, n, i), RTCRayN_dir_z(rays, n, i)},
           RTCRayN_tfar(rays, n, i)};
 }
 
-void analytic_intersect_callback(const RTCIntersectFunctionNArguments* args) {
+void intersect_callback(const RTCIntersectFunctionNArguments* args) {
   const Shape& shape = *static_cast<const Shape*>(args->geometryUserPtr);
   const unsigned n = args->N;
   RTCRayN* const rays = RTCRayHitN_RayN(args->rayhit, n);
   RTCHitN* const hits = RTCRayHitN_HitN(args->rayhit, n);
   for (unsigned i = 0; i < n; ++i) {
     if (!args->valid[i]) continue;
-    const Ray ray = ray_of(rays, n, i);
-    double t[2];
-    if (!intersect_analytic(shape, args->primID, ray, double(RTCRayN_tnear(rays, n, i)),
-                            double(ray.tmax), t))
+    RibbonHit hit;
+    if (!intersect_part(shape, args->primID, ray_of(rays, n, i), RTCRayN_tnear(rays, n, i), hit))
       continue;
-    RTCRayN_tfar(rays, n, i) = float(t[0]);
-    RTCHitN_u(hits, n, i) = RTCHitN_v(hits, n, i) = 0;
-    RTCHitN_primID(hits, n, i) = args->primID;
+    RTCRayN_tfar(rays, n, i) = hit.t;
+    RTCHitN_u(hits, n, i) = hit.u, RTCHitN_v(hits, n, i) = 0;
+    RTCHitN_primID(hits, n, i) = is_ribbon(shape) ? args->primID / kRibbonParts : args->primID;
     RTCHitN_geomID(hits, n, i) = args->geomID;
     RTCHitN_instID(hits, n, i, 0) = args->context->instID[0];
   }
 }
 
-void analytic_occluded_callback(const RTCOccludedFunctionNArguments* args) {
+void occluded_callback(const RTCOccludedFunctionNArguments* args) {
   const Shape& shape = *static_cast<const Shape*>(args->geometryUserPtr);
   const unsigned n = args->N;
   for (unsigned i = 0; i < n; ++i) {
     if (!args->valid[i]) continue;
-    const Ray ray = ray_of(args->ray, n, i);
-    double t[2];
-    if (intersect_analytic(shape, args->primID, ray, double(RTCRayN_tnear(args->ray, n, i)),
-                           double(ray.tmax), t))
+    RibbonHit hit;
+    if (intersect_part(shape, args->primID, ray_of(args->ray, n, i), RTCRayN_tnear(args->ray, n, i),
+                       hit))
       RTCRayN_tfar(args->ray, n, i) = -INFINITY;
   }
 }
@@ -81,37 +96,38 @@ void outside_only_callback(const RTCFilterFunctionNArguments* args) {
   if (hit.Ng_x * ray.dir_x + hit.Ng_y * ray.dir_y + hit.Ng_z * ray.dir_z >= 0) args->valid[0] = 0;
 }
 
-RTCGeometry make_curve_geometry(RTCDevice device, const CurveSet& curves) {
-  const bool ribbon = curves.profile != CurveProfile::tube;
-  RTCGeometry g = rtcNewGeometry(device, ribbon ? RTC_GEOMETRY_TYPE_FLAT_BSPLINE_CURVE
-                                         : curves.kind == CurveKind::bspline
+RTCGeometry make_tube_geometry(RTCDevice device, const CurveSet& curves) {
+  RTCGeometry g = rtcNewGeometry(device, curves.kind == CurveKind::bspline
                                              ? RTC_GEOMETRY_TYPE_ROUND_BSPLINE_CURVE
                                              : RTC_GEOMETRY_TYPE_ROUND_LINEAR_CURVE);
-  // Ribbons are intersected as chains of straight pieces: as many as there can be.
-  if (ribbon) rtcSetGeometryTessellationRate(g, 16);
   static_assert(sizeof(TubePoint) == 4 * sizeof(float));
   rtcSetSharedGeometryBuffer(g, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT4, curves.points.data(),
                              0, sizeof(TubePoint), curves.points.size());
   rtcSetSharedGeometryBuffer(g, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT, curves.segments.data(),
                              0, sizeof(uint32_t), curves.segments.size());
-  if (curves.outside_only && !ribbon) {
+  if (curves.outside_only) {
     rtcSetGeometryIntersectFilterFunction(g, outside_only_callback);
     rtcSetGeometryOccludedFilterFunction(g, outside_only_callback);
   }
   return g;
 }
 
+RTCGeometry make_user_geometry(RTCDevice device, const Shape& shape) {
+  RTCGeometry g = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_USER);
+  rtcSetGeometryUserPrimitiveCount(g, is_ribbon(shape)
+                                          ? uint32_t(shape.curves->segments.size()) * kRibbonParts
+                                          : shape.analytic_parts());
+  rtcSetGeometryUserData(g, const_cast<Shape*>(&shape));
+  rtcSetGeometryBoundsFunction(g, bounds_callback, nullptr);
+  rtcSetGeometryIntersectFunction(g, intersect_callback);
+  rtcSetGeometryOccludedFunction(g, occluded_callback);
+  return g;
+}
+
 RTCGeometry make_geometry(RTCDevice device, const Shape& shape) {
-  if (shape.kind == ShapeKind::curves) return make_curve_geometry(device, *shape.curves);
-  if (shape.kind != ShapeKind::mesh) {
-    RTCGeometry g = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_USER);
-    rtcSetGeometryUserPrimitiveCount(g, shape.analytic_parts());
-    rtcSetGeometryUserData(g, const_cast<Shape*>(&shape));
-    rtcSetGeometryBoundsFunction(g, analytic_bounds_callback, nullptr);
-    rtcSetGeometryIntersectFunction(g, analytic_intersect_callback);
-    rtcSetGeometryOccludedFunction(g, analytic_occluded_callback);
-    return g;
-  }
+  if (shape.kind == ShapeKind::curves && !is_ribbon(shape))
+    return make_tube_geometry(device, *shape.curves);
+  if (shape.kind != ShapeKind::mesh) return make_user_geometry(device, shape);
   const TriangleMesh& m = *shape.mesh;
   RTCGeometry g = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);
   // Embree may read 4 bytes beyond the last vertex of a shared buffer: meshes for rendering reserve
@@ -177,7 +193,6 @@ Accel::Accel(const std::vector<Shape>& shapes, ShapeRange top,
       attach(s, make_geometry(device, shapes[group.first + i]), i);
     rtcCommitScene(s);
   }
-  set_lead(shapes, top);
   choose_packets(shapes);
   for (uint32_t i = 0; i < instances.size(); ++i) {
     RTCGeometry g = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_INSTANCE);
@@ -194,27 +209,9 @@ Accel::Accel(const std::vector<Shape>& shapes, ShapeRange top,
 
 Accel::~Accel() = default;
 
-void Accel::set_lead(const std::vector<Shape>& shapes, ShapeRange top) {
-  // Embree takes no notice of a ribbon within twice its radius from where a ray begins.
-  const auto widest = [&](ShapeRange range) {
-    float radius = 0;
-    for (uint32_t i = range.first; i < range.first + range.count; ++i)
-      if (shapes[i].kind == ShapeKind::curves && shapes[i].curves->profile != CurveProfile::tube)
-        for (const TubePoint& p : shapes[i].curves->points) radius = std::max(radius, p.radius);
-    return radius;
-  };
-  constexpr float kRadii = 2.5f;
-  lead_ = kRadii * widest(top);
-  std::vector<float> of_group;
-  for (const ShapeRange& group : *groups_) of_group.push_back(widest(group));
-  for (const Instance& i : *instances_)
-    if (const float radius = of_group[i.group]; radius > 0)
-      lead_ = std::max(lead_, kRadii * radius * i.scale);
-}
-
 void Accel::choose_packets(const std::vector<Shape>& shapes) {
-  // Curves have filters and rays that begin elsewhere, which are made for one ray at a time. Where
-  // analytic shapes are many, rays that part are slow in packets: each asks for other shapes.
+  // Curves have filters, which are made for one ray at a time, or are many. Where analytic shapes
+  // are many, rays that part are slow in packets: each asks for other shapes.
   constexpr int kFewAnalyticShapes = 16;
   int analytic = 0;
   for (const Shape& shape : shapes) {

@@ -13,19 +13,13 @@ namespace duet {
 
 namespace {
 
-/// `lead`: Accel::lead_.
-inline void set_ray(RTCRay& r, const Ray& ray, float lead) {
+inline void set_ray(RTCRay& r, const Ray& ray) {
   // Embree reads origin and direction as vectors of four: what is written piece by piece and read
   // as a whole has to wait until it has left the store buffer.
   using Four [[gnu::vector_size(16), gnu::may_alias]] = float;
   *reinterpret_cast<Four*>(&r.org_x) = Four{ray.origin.x, ray.origin.y, ray.origin.z, 0};
   *reinterpret_cast<Four*>(&r.dir_x) = Four{ray.direction.x, ray.direction.y, ray.direction.z, 0};
   r.tfar = ray.tmax;
-  if (lead > 0) {
-    const Point3f origin = ray.origin - ray.direction * lead;
-    *reinterpret_cast<Four*>(&r.org_x) = Four{origin.x, origin.y, origin.z, lead};
-    r.tfar += lead;
-  }
   r.mask = ~0u, r.id = 0, r.flags = 0;
 }
 
@@ -33,7 +27,7 @@ inline void set_ray(RTCRay& r, const Ray& ray, float lead) {
 
 bool Accel::closest_hit(const Ray& ray, Hit& hit) const {
   RTCRayHit rh;
-  set_ray(rh.ray, ray, lead_);
+  set_ray(rh.ray, ray);
   rh.hit.geomID = RTC_INVALID_GEOMETRY_ID;
   rh.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
 #if RTC_VERSION_MAJOR >= 4
@@ -44,7 +38,7 @@ bool Accel::closest_hit(const Ray& ray, Hit& hit) const {
   rtcIntersect1(static_cast<RTCScene>(scene_), &context, &rh);
 #endif
   if (rh.hit.geomID == RTC_INVALID_GEOMETRY_ID) return false;
-  hit.t = rh.ray.tfar - lead_;
+  hit.t = rh.ray.tfar;
   hit.u = rh.hit.u;
   hit.v = rh.hit.v;
   hit.primitive = rh.hit.primID;
@@ -60,7 +54,7 @@ bool Accel::closest_hit(const Ray& ray, Hit& hit) const {
 
 bool Accel::occluded(const Ray& ray) const {
   RTCRay r;
-  set_ray(r, ray, lead_);
+  set_ray(r, ray);
 #if RTC_VERSION_MAJOR >= 4
   rtcOccluded1(static_cast<RTCScene>(scene_), &r);
 #else

@@ -81,8 +81,11 @@ Surface make_ribbon_surface(const Shape& shape, const Ray& ray, const Hit& hit) 
   if (!(length_squared(across) > 1e-12f)) across = Frame(Normal3f(ray.direction)).s;
   across = normalize(across);
   const Vector3f facing = cross(across, axis);
-  const float offset = c.radius > 0 ? dot(s.position - c.position, across) / c.radius : 0.0f;
-  const float share = 0.5f + 0.5f * std::clamp(offset, -1.0f, 1.0f);
+  // How far from the middle, which in a bend need not be straight across from it.
+  const Vector3f from_middle = s.position - c.position;
+  const float offset = std::copysign(length(from_middle), dot(from_middle, across));
+  const float share =
+      c.radius > 0 ? 0.5f + 0.5f * std::clamp(offset / c.radius, -1.0f, 1.0f) : 0.5f;
   Vector3f normal = facing, side = across;
   if (curves.profile == CurveProfile::round_ribbon) {
     const float angle = kPi * (share - 0.5f);

@@ -48,6 +48,45 @@ bool near(const Vector3f& a, const Vector3f& b) {
   return length(a - b) < 2e-4f * (1 + length(b));
 }
 
+/// Where a ray of unit direction is level with the first point of a ribbon of one segment that it
+/// meets by the definition of pbrt-v4: the segment is divided into eight pieces, and these into
+/// powers of two of stretches by how much they bend. Infinite if there is none.
+double pbrt_distance(const CurveSet& curves, const Ray& ray) {
+  const Frame frame{Normal3f(ray.direction)};
+  const auto seen = [&](const Vector3f& v) { return frame.to_local(v); };
+  const auto at = [&](float u) { return seen(curve_center(curves, 0, u).position - ray.origin); };
+  const auto slope = [&](float u) { return seen(curve_center(curves, 0, u).first); };
+  const auto dot2 = [](const Vector3f& a, const Vector3f& b) { return a.x * b.x + a.y * b.y; };
+  const float width =
+      2 * std::max(curve_center(curves, 0, 0).radius, curve_center(curves, 0, 1).radius);
+  double nearest = INFINITY;
+  for (int piece = 0; piece < 8; ++piece) {
+    const float u0 = float(piece) / 8, u1 = u0 + 1.0f / 8;
+    Vector3f x = at(u1) - at(u0);
+    x.z = 0;
+    x = normalize(x);
+    float bend = 0;
+    for (const float u : {u0, u1}) {
+      // The second differences of the control points of the piece.
+      const Vector3f d = seen(curve_center(curves, 0, u).second) * (1.0f / (64 * 6));
+      bend = std::max({bend, std::abs(dot2(d, x)), std::abs(d.x * x.y - d.y * x.x), std::abs(d.z)});
+    }
+    const double ratio = std::sqrt(2.0) * 6 * double(bend) / (8 * 0.05 * double(width));
+    const int steps = 1 << std::clamp(int(std::lround(std::log2(ratio))) / 2, 0, 10);
+    for (int k = 0; k < steps; ++k) {
+      const float v0 = u0 + float(k) / float(8 * steps), v1 = v0 + 1 / float(8 * steps);
+      const Vector3f p0 = at(v0), p1 = at(v1);
+      if (dot2(p0, slope(v0)) > 0 || dot2(p1, slope(v1)) < 0) continue;
+      const Vector3f chord = p1 - p0;
+      const float w = std::clamp(-dot2(p0, chord) / dot2(chord, chord), 0.0f, 1.0f);
+      const float u = v0 + (v1 - v0) * w, radius = curve_center(curves, 0, u).radius;
+      const Vector3f p = at(u);
+      if (dot2(p, p) <= radius * radius && p.z > 0) nearest = std::min(nearest, double(p.z));
+    }
+  }
+  return nearest;
+}
+
 /// What Mitsuba 3.9.1 (scalar_rgb) says of a ray.
 struct Answer {
   Point3f o;
@@ -255,6 +294,9 @@ TEST_SUITE("curves") {
     CHECK(flat.accel->occluded({{0, 0.05f, 0.02f}, {0, 0, -1}, 0.03f}));
     CHECK_FALSE(flat.accel->occluded({{0, 0.05f, 0.02f}, {0, 0, -1}, 0.01f}));
     CHECK_FALSE(flat.accel->occluded({{0, 0.05f, -0.001f}, {0, 0, -1}, INFINITY}));
+    // Whatever the length of the direction.
+    CHECK(flat.accel->occluded({{0, 0.05f, 0.02f}, {0, 0, -0.05f}, 1}));
+    CHECK_FALSE(flat.accel->occluded({{0, 0.05f, 0.02f}, {0, 0, -0.01f}, 1}));
     // A quarter from its edge the normal of the other kind has turned by an eighth of a circle.
     REQUIRE(round.hit({{0, 0.05f, 5}, {0, 0, -1}, INFINITY}, s, t));
     const float h = std::sqrt(0.5f);
@@ -296,5 +338,40 @@ TEST_SUITE("curves") {
       if (nearest > 1.03f) CHECK_FALSE(hit);
     }
     CHECK(met > 100);
+  }
+
+  TEST_CASE("wide ribbons are met where pbrt's definition says") {
+    for (const float width : {1.0f, 0.2f, 0.12f, 0.07f}) {
+      INFO(width);
+      CurveSet c;
+      c.kind = CurveKind::bspline;
+      c.profile = CurveProfile::ribbon;
+      // The Bézier curve (0, 0, 0), (0, −1, 1.5), (1.4, 1, 2), (1.2, 0, 0.2), which narrows to 0.3
+      // of its width.
+      c.points = {{{2.8f, 9, -6.5f}, 0.85f * width},
+                  {{-1.4f, -3, 1}, 0.5f * width},
+                  {{2.8f, 3, 2.5f}, 0.15f * width},
+                  {{-2.6f, -9, -9.8f}, -0.2f * width}};
+      c.segments = {0};
+      const Tubes ribbon(c);
+      int met = 0, differ = 0;
+      for (int i = 0; i < 5000; ++i) {
+        const float a = std::fmod(float(i) * 0.7548777f, 1.0f),
+                    b = std::fmod(float(i) * 0.5698403f, 1.0f);
+        // From below, about along the beginning.
+        const Ray ray{{1.5f * a - 0.5f, b - 0.5f, -0.3f},
+                      normalize(Vector3f(0.5f - a, -b - 0.3f, 1.5f)),
+                      INFINITY};
+        const double expected = pbrt_distance(c, ray);
+        Surface s;
+        float t;
+        const bool hit = ribbon.hit(ray, s, t);
+        met += hit;
+        // At edges rounding decides.
+        differ += hit != std::isfinite(expected) || (hit && std::abs(double(t) - expected) > 1e-4);
+      }
+      CHECK(met > 100);
+      CHECK(differ <= 2);
+    }
   }
 }

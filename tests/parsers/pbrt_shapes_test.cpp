@@ -200,6 +200,12 @@ TEST_CASE("pbrt curves: tubes go where Bezier curves do, as wide as they are") {
     }
     CHECK(double(c.radius) == doctest::Approx(0.5 * (0.4 * v + 0.2 * u)).epsilon(1e-5));
   }
+  // Those that come to a point, too.
+  curve.width1 = 0;
+  const CurveSet pointed = pbrt::make_tubes(curve);
+  for (const float u : {0.0f, 0.5f, 1.0f})
+    CHECK(curve_center(pointed, 0, u).radius ==
+          doctest::Approx(0.2f * (1 - u)).epsilon(1e-5).scale(1));
   curve.points.pop_back();
   CHECK(!pbrt::check_curve(curve).empty());
 }

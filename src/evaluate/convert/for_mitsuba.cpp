@@ -16,7 +16,16 @@ bool has_file(const MeshSource& s) {
   return !s.file.empty() && !s.is_part && !s.max_smooth_angle;
 }
 
-void shape_files(ShapeDescription& s, NewFiles& files) {
+/// Radii that Mitsuba 3 reads: B-splines that come to a point have negative ones beyond it here.
+CurveSet without_negative_radii(CurveSet curves, std::vector<std::string>& losses) {
+  bool changed = false;
+  for (TubePoint& p : curves.points)
+    if (p.radius < 0) p.radius = 0, changed = true;
+  if (changed) losses.emplace_back("curves that come to a point are wider towards it");
+  return curves;
+}
+
+void shape_files(ShapeDescription& s, NewFiles& files, std::vector<std::string>& losses) {
   if (auto* mesh = std::get_if<MeshShape>(&s.geometry); mesh && !has_file(mesh->source)) {
     auto made = mesh->mesh;
     // Normals that Mitsuba makes, too, are left to it.
@@ -33,7 +42,8 @@ void shape_files(ShapeDescription& s, NewFiles& files) {
     mesh->source.face_normals = mesh->mesh->normals.empty();
   }
   if (auto* curves = std::get_if<CurvesShape>(&s.geometry); curves && curves->file.empty())
-    curves->file = files.add("curves", "txt", curves_text(*curves->curves));
+    curves->file =
+        files.add("curves", "txt", curves_text(without_negative_radii(*curves->curves, losses)));
 }
 
 void volume_file(VolumeDescription& v, NewFiles& files, std::vector<std::string>& losses) {
@@ -134,7 +144,7 @@ void prepare_for_mitsuba(SceneDescription& scene, NewFiles& files,
   move_exposure_to_lights(scene);
   settle_images_for_mitsuba(scene);
   for (LightDescription& l : scene.lights) environment(scene, l, files, losses);
-  for_all_shapes(scene, [&](ShapeDescription& s) { shape_files(s, files); });
+  for_all_shapes(scene, [&](ShapeDescription& s) { shape_files(s, files, losses); });
   for (VolumeDescription& v : scene.volumes) volume_file(v, files, losses);
 }
 
