@@ -65,6 +65,7 @@ void SceneWriter::integrator(const IntegratorDescription& i) {
     std::string list;
     for (const AovDescription::Layer& l : i.aovs.layers)
       list += fmt::format("{}{}:{}", list.empty() ? "" : ", ", l.name, l.kind);
+    if (i.aovs.frame) lose("positions and normals of the layers are those of the world");
     out_.open("integrator", "aov");
     out_.string("aovs", list);
   }

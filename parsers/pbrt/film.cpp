@@ -39,7 +39,7 @@ constexpr Spec kGbufferFilm[] = {
     {"iso", kNumber, "100"},
     {"whitebalance", kNumber, "0"},
     {"sensor", kString, "cie1931"},
-    {"coordinatesystem", kString, "camera", "of P, N and Ns: camera is approximated by world"},
+    {"coordinatesystem", kString, "camera", "of P, N, Ns, dzdx and dzdy: camera or world"},
 };
 constexpr Spec kSpectralFilm[] = {
     DUET_FILM_SPECS,
@@ -133,8 +133,10 @@ void read_crop(Values& v, FilmDescription& film) {
 
 constexpr Record<int> kFilms[] = {
     {"rgb", Versions::v4, done, "", kRgbFilm, 1},
-    {"gbuffer", Versions::v4, approximated,
-     "with the layers Albedo, P, N, Ns and uv; without dzdx, dzdy, Variance and RelativeVariance",
+    {"gbuffer", Versions::v4, done,
+     "the layers Albedo, P, uv, dzdx, dzdy, N, Ns, Variance and RelativeVariance; dzdx and dzdy "
+     "have "
+     "signs and are per pixel, where pbrt divides them by the root of the samples per pixel",
      kGbufferFilm, 1},
     {"spectral", Versions::v4, approximated, "by its colours alone", kSpectralFilm, 1},
     {"image", Versions::v3, done, "", kImageFilm, 1},
@@ -208,21 +210,23 @@ void read_filter(Reader& reader, FilmDescription& film) {
   }
 }
 
-/// The layers of a gbuffer that there are.
-void add_layers(Values& v, IntegratorDescription& integrator) {
+/// The layers of a gbuffer. `to_camera` leads from the world to the camera's coordinates.
+void add_layers(Values& v, AovDescription& aovs, const std::optional<Matrix4>& to_camera) {
   const std::string system = v.string("coordinatesystem");
-  if (system == "camera")
-    v.reader().approximate(v.where("coordinatesystem"),
-                           "the layers P, N and Ns in the coordinates of the world");
-  else if (system != "world")
+  aovs.frame = system == "camera" && to_camera ? *to_camera : Matrix4();
+  if (system != "camera" && system != "world")
     v.reader().report().error(v.where("coordinatesystem"),
                               "a gbuffer's coordinate system is camera or world, not {}",
                               in_quotes(system));
-  integrator.aovs.layers = {{"albedo", "Albedo"},
-                            {"position", "P"},
-                            {"geo_normal", "N"},
-                            {"sh_normal", "Ns"},
-                            {"uv", "uv"}};
+  aovs.layers = {{"albedo", "Albedo"},
+                 {"position", "P"},
+                 {"uv", "uv"},
+                 {"dz_dx", "dzdx"},
+                 {"dz_dy", "dzdy"},
+                 {"geo_normal", "N"},
+                 {"sh_normal", "Ns"},
+                 {"sample_variance", "Variance"},
+                 {"relative_variance", "RelativeVariance"}};
 }
 
 }  // namespace
@@ -250,7 +254,8 @@ void read_film(Reader& reader, SensorDescription& sensor, double exposure_time) 
   if (reader.version() == Version::v3 || !v.boolean("savefp16"))
     film.component_format = ComponentFormat::single;
   sensor.lenses.film_diagonal = 1e-3 * v.positive("diagonal");
-  if (record->name == "gbuffer") add_layers(v, reader.scene().integrator);
+  if (record->name == "gbuffer")
+    add_layers(v, reader.scene().integrator.aovs, reader.camera_state.ctm[0].inverse());
   read_crop(v, film);
   read_response(v, film, exposure_time);
 }

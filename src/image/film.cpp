@@ -160,10 +160,24 @@ void Film::develop(std::span<const Film> films, std::span<const double> scales, 
     for (size_t c = 1; c <= n; ++c) *out++ = w != 0 ? float(sums[i + c] / w) : 0.0f;
   }
   add_splat_means(films, rows, image);
-  respond(rows, image);
   add_squares(films, rows, image);
   compute_statistics(films, rows, image);
+  respond(rows, image);
 }
+
+namespace {
+
+/// A statistic of `spp` samples by the means of their squares and of themselves, which are
+/// multiplied by `gain` afterwards.
+float spread_of(FilmStatistic::Kind kind, float square, float mean, double spp, float gain) {
+  const float spread = std::max(0.0f, square - mean * mean) * gain * gain;
+  if (kind == FilmStatistic::Kind::variance) return spread / float(std::max(1.0, spp));
+  const float variance = spread * float(spp / std::max(1.0, spp - 1));
+  if (kind == FilmStatistic::Kind::sample_variance) return variance;
+  return mean != 0 ? variance / (mean * gain) : 0.0f;
+}
+
+}  // namespace
 
 void Film::compute_statistics(std::span<const Film> films, Rows rows, Image& image) const {
   if (statistics_.empty() || tiles_.empty()) return;
@@ -171,6 +185,14 @@ void Film::compute_statistics(std::span<const Film> films, Rows rows, Image& ima
   for (const Film& f : films) spp += double(f.tiles_[0].samples());
   const size_t n = channels_.size();
   const auto [begin, end] = pixels_of(rows);
+  // The response to the colours of grey: others have no squares that would tell what becomes of
+  // them.
+  std::array<float, 3> gain{1, 1, 1};
+  if (layout_.response)
+    for (size_t c = 0; c < 3; ++c) {
+      const auto& row = (*layout_.response)[c];
+      gain[c] = float(row[0] + row[1] + row[2]);
+    }
   for (const FilmStatistic& s : statistics_)
     for (size_t i = begin * n; i < end * n; i += n) {
       const float* colour = &image.data[i];
@@ -179,8 +201,7 @@ void Film::compute_statistics(std::span<const Film> films, Rows rows, Image& ima
         out[0] = float(spp);
         continue;
       }
-      for (int c = 0; c < 3; ++c)
-        out[c] = std::max(0.0f, out[c] - colour[c] * colour[c]) / float(std::max(1.0, spp));
+      for (size_t c = 0; c < 3; ++c) out[c] = spread_of(s.kind, out[c], colour[c], spp, gain[c]);
     }
 }
 

@@ -56,6 +56,8 @@ struct FilmStatistic {
     samples,   ///< how many each pixel has
     variance,  ///< of the colours, as if samples were independent: three channels, in which the
                ///< samples have the squares of their colours
+    sample_variance,    ///< the same of the samples themselves, without bias
+    relative_variance,  ///< that over the mean
   };
   Kind kind = Kind::samples;
   size_t channel = 0;  ///< the first

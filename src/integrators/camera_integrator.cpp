@@ -10,7 +10,8 @@ namespace duet {
 namespace {
 
 bool is_moment(LayerKind kind) {
-  return kind == LayerKind::moments || kind == LayerKind::variance;
+  return kind == LayerKind::moments || kind == LayerKind::variance ||
+         kind == LayerKind::sample_variance || kind == LayerKind::relative_variance;
 }
 
 bool is_statistic(LayerKind kind) {
@@ -38,7 +39,8 @@ inline bool can_add(std::span<const float> values) {
 
 }  // namespace
 
-CameraIntegrator::CameraIntegrator(const CameraOutput& output) : image_(output.image) {
+CameraIntegrator::CameraIntegrator(const CameraOutput& output)
+    : image_(output.image), frame_(output.frame) {
   if (image_) channels_ = {"R", "G", "B", "A"};
   for (const Layer& layer : output.layers) {
     const std::vector<std::string> names = layer_channels(layer);
@@ -106,7 +108,9 @@ void CameraIntegrator::sample(const Scene& scene, const CameraPath& path, Sample
     else if (layer.kind == LayerKind::denoise_split)
       evaluate_split(path.sample, l, out);
     else if (found)
-      evaluate_layer(layer.kind, scene, {surface, -ray.direction, hit, path.next, &specular}, out);
+      evaluate_layer(
+          layer.kind, scene,
+          {surface, -ray.direction, hit, path.next, &specular, frame_ ? &*frame_ : nullptr}, out);
   }
 }
 
@@ -170,6 +174,10 @@ void CameraIntegrator::prepare(Film& film) const {
   for (const PlacedLayer& layer : layers_) {
     if (layer.kind == LayerKind::samples) film.add_statistic({Kind::samples, layer.first});
     if (layer.kind == LayerKind::variance) film.add_statistic({Kind::variance, layer.first});
+    if (layer.kind == LayerKind::sample_variance)
+      film.add_statistic({Kind::sample_variance, layer.first});
+    if (layer.kind == LayerKind::relative_variance)
+      film.add_statistic({Kind::relative_variance, layer.first});
   }
 }
 

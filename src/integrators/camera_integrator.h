@@ -25,6 +25,7 @@ enum class TechniqueOutput {
 struct CameraOutput {
   bool image = true;
   std::vector<Layer> layers;
+  std::optional<Transform> frame;  ///< of the layers: AovDescription::frame
   TechniqueOutput techniques = TechniqueOutput::none;
 };
 
@@ -87,6 +88,7 @@ class CameraIntegrator : public Integrator {
   };
   bool image_;
   std::vector<PlacedLayer> layers_;
+  std::optional<Transform> frame_;
   std::vector<std::string> channels_;
   std::vector<size_t> colour_layers_;  ///< where those of add_colour_layer() begin
   bool looks_at_first_hit_ = false, looks_at_next_rays_ = false, follows_specular_ = false;

@@ -9,7 +9,7 @@ namespace duet {
 
 namespace {
 
-const std::array<std::pair<const char*, LayerKind>, 20> kNames{{
+const std::array<std::pair<const char*, LayerKind>, 24> kNames{{
     {"albedo", LayerKind::albedo},
     {"depth", LayerKind::depth},
     {"position", LayerKind::position},
@@ -21,11 +21,15 @@ const std::array<std::pair<const char*, LayerKind>, 20> kNames{{
     {"dp_dv", LayerKind::dp_dv},
     {"duv_dx", LayerKind::duv_dx},
     {"duv_dy", LayerKind::duv_dy},
+    {"dz_dx", LayerKind::dz_dx},
+    {"dz_dy", LayerKind::dz_dy},
     {"prim_index", LayerKind::prim_index},
     {"shape", LayerKind::shape_index},
     {"shape_index", LayerKind::shape_index},
     {"moments", LayerKind::moments},
     {"variance", LayerKind::variance},
+    {"sample_variance", LayerKind::sample_variance},
+    {"relative_variance", LayerKind::relative_variance},
     {"samples", LayerKind::samples},
     {"denoise_albedo", LayerKind::denoise_albedo},
     {"denoise_normal", LayerKind::denoise_normal},
@@ -38,6 +42,8 @@ std::vector<const char*> suffixes(LayerKind kind) {
     case LayerKind::denoise_albedo:
     case LayerKind::moments:
     case LayerKind::variance:
+    case LayerKind::sample_variance:
+    case LayerKind::relative_variance:
       return {"R", "G", "B"};
     case LayerKind::denoise_split:
       return {"R", "G", "B", "S"};
@@ -47,6 +53,9 @@ std::vector<const char*> suffixes(LayerKind kind) {
     case LayerKind::duv_dx:
     case LayerKind::duv_dy:
       return {"U", "V"};
+    case LayerKind::dz_dx:
+    case LayerKind::dz_dy:
+      return {"Z"};
     case LayerKind::prim_index:
     case LayerKind::shape_index:
     case LayerKind::samples:
@@ -72,12 +81,17 @@ bool has_derivatives(const Shape& s) {
                                      : s.kind != ShapeKind::sdf_grid;
 }
 
-/// The change of uv between the surface's point and the one of its tangent plane where `next` meets
-/// it: what dp_du and dp_dv make up best of the step from one to the other, by least squares. Zero
-/// if there is no such point, or no coordinates. Source: Igehy, "Tracing Ray Differentials", 1999.
-Point2f uv_change(const Surface& s, const Ray& next) {
+/// From the surface's point to the one of its tangent plane where `next` meets it. Not finite if
+/// there is none. Source: Igehy, "Tracing Ray Differentials", 1999.
+Vector3f step_to(const Surface& s, const Ray& next) {
   const float distance = dot(s.ng, s.position - next.origin) / dot(s.ng, next.direction);
-  const Vector3f step = next.origin + next.direction * distance - s.position;
+  return next.origin + next.direction * distance - s.position;
+}
+
+/// The change of uv on the way to `next`: what dp_du and dp_dv make up best of the step, by least
+/// squares. Zero if there is no such point, or no coordinates.
+Point2f uv_change(const Surface& s, const Ray& next) {
+  const Vector3f step = step_to(s, next);
   const float uu = length_squared(s.dp_du), vv = length_squared(s.dp_dv),
               uv = dot(s.dp_du, s.dp_dv);
   const float determinant = uu * vv - uv * uv;
@@ -85,6 +99,23 @@ Point2f uv_change(const Surface& s, const Ray& next) {
   const Point2f change{(vv * along_u - uv * along_v) / determinant,
                        (uu * along_v - uv * along_u) / determinant};
   return std::isfinite(change.x) && std::isfinite(change.y) ? change : Point2f{0, 0};
+}
+
+/// The change of z on the way to `next`. Zero if there is no such point.
+float z_change(const LayerPoint& point, const Ray& next) {
+  const Vector3f step = step_to(point.surface, next);
+  const float z = point.frame ? (*point.frame)(step).z : step.z;
+  return std::isfinite(z) ? z : 0.0f;
+}
+
+Point3f told_position(const LayerPoint& point) {
+  return point.frame ? (*point.frame)(point.surface.position) : point.surface.position;
+}
+
+Normal3f told_normal(const LayerPoint& point, const Normal3f& n) {
+  if (!point.frame) return n;
+  const Normal3f turned = normalize((*point.frame)(n));
+  return dot(n, point.wo) < 0 ? -turned : turned;
 }
 
 }  // namespace
@@ -111,13 +142,20 @@ std::vector<std::string> layer_channels(const Layer& layer) {
 }
 
 SurfaceNeeds layer_needs(LayerKind kind) {
-  const bool tangents =
-      kind == LayerKind::dp_du || kind == LayerKind::dp_dv || layer_needs_next_rays(kind);
+  const bool tangents = kind == LayerKind::dp_du || kind == LayerKind::dp_dv ||
+                        kind == LayerKind::duv_dx || kind == LayerKind::duv_dy;
   return {kind == LayerKind::uv, tangents};
 }
 
 bool layer_needs_next_rays(LayerKind kind) {
-  return kind == LayerKind::duv_dx || kind == LayerKind::duv_dy;
+  return kind == LayerKind::duv_dx || kind == LayerKind::duv_dy || kind == LayerKind::dz_dx ||
+         kind == LayerKind::dz_dy;
+}
+
+bool layer_needs_image(LayerKind kind) {
+  return kind == LayerKind::moments || kind == LayerKind::variance ||
+         kind == LayerKind::sample_variance || kind == LayerKind::relative_variance ||
+         kind == LayerKind::denoise_split;
 }
 
 bool layer_follows_specular(LayerKind kind) {
@@ -150,16 +188,16 @@ void evaluate_layer(LayerKind kind, const Scene& scene, const LayerPoint& point,
       out[0] = point.hit.t;
       break;
     case LayerKind::position:
-      put(s.position, out);
+      put(told_position(point), out);
       break;
     case LayerKind::uv:
       out[0] = s.uv.x, out[1] = s.uv.y;
       break;
     case LayerKind::normal:
-      put(s.shading.n, out);
+      put(told_normal(point, s.shading.n), out);
       break;
     case LayerKind::geo_normal:
-      put(s.ng, out);
+      put(told_normal(point, s.ng), out);
       break;
     case LayerKind::dp_du:
     case LayerKind::dp_dv:
@@ -173,6 +211,11 @@ void evaluate_layer(LayerKind kind, const Scene& scene, const LayerPoint& point,
         out[0] = c.x, out[1] = c.y;
       }
       break;
+    case LayerKind::dz_dx:
+    case LayerKind::dz_dy:
+      if (point.next)
+        out[0] = z_change(point, kind == LayerKind::dz_dx ? point.next->right : point.next->below);
+      break;
     case LayerKind::prim_index:
       out[0] = float(point.hit.primitive);
       break;
@@ -181,6 +224,8 @@ void evaluate_layer(LayerKind kind, const Scene& scene, const LayerPoint& point,
       break;
     case LayerKind::moments:
     case LayerKind::variance:
+    case LayerKind::sample_variance:
+    case LayerKind::relative_variance:
     case LayerKind::samples:
     case LayerKind::denoise_split:
       break;

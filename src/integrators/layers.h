@@ -22,12 +22,16 @@ enum class LayerKind {
   dp_dv,
   duv_dx,  ///< change of uv from one pixel to the next on the right
   duv_dy,  ///< the same to the one below
+  dz_dx,   ///< change of the position's z from one pixel to the next on the right
+  dz_dy,   ///< the same to the one below
   prim_index,
   shape_index,
-  moments,         ///< mean of the squares of the samples' colours
-  variance,        ///< of the pixel's colours, as if samples were independent
-  samples,         ///< number of samples of the pixel
-  denoise_albedo,  ///< through perfectly specular surfaces (specular_layers.h)
+  moments,            ///< mean of the squares of the samples' colours
+  variance,           ///< of the pixel's colours, as if samples were independent
+  sample_variance,    ///< of the colours of a pixel's samples
+  relative_variance,  ///< the same, over their mean
+  samples,            ///< number of samples of the pixel
+  denoise_albedo,     ///< through perfectly specular surfaces (specular_layers.h)
   denoise_normal,
   denoise_split,  ///< colours, and 1, with signs that tell two halves of the samples
 };
@@ -50,6 +54,9 @@ SurfaceNeeds layer_needs(LayerKind kind);
 /// Whether a layer looks at where the neighbouring pixels' rays go.
 bool layer_needs_next_rays(LayerKind kind);
 
+/// Whether a layer is made of the samples' colours.
+bool layer_needs_image(LayerKind kind);
+
 /// Whether a layer is of what is seen in mirrors and through glass.
 bool layer_follows_specular(LayerKind kind);
 
@@ -68,6 +75,8 @@ struct LayerPoint {
   const NextRays* next;
   /// What is seen in mirrors and through glass, or null if the layer does not need it.
   const SpecularView* specular = nullptr;
+  /// Where positions and normals are told (AovDescription::frame), or null for the world.
+  const Transform* frame = nullptr;
 };
 
 /// Writes the layer's value at a point; nothing for statistics. A miss leaves zeros.

@@ -85,14 +85,14 @@ void set_parameters(IntegratorDescription& integrator,
 CameraOutput camera_output(const IntegratorDescription& integrator) {
   CameraOutput output;
   output.image = integrator.image;
+  if (integrator.aovs.frame) output.frame = Transform(*integrator.aovs.frame);
   for (const AovDescription::Layer& layer : integrator.aovs.layers) {
     const auto kind = find_layer(layer.kind);
     if (!kind)
       throw std::invalid_argument(fmt::format("there is no layer \"{}\"{}; there are {}",
                                               layer.kind, did_you_mean(layer.kind, layer_names()),
                                               fmt::join(layer_names(), ", ")));
-    if (!output.image && (*kind == LayerKind::moments || *kind == LayerKind::variance ||
-                          *kind == LayerKind::denoise_split))
+    if (!output.image && layer_needs_image(*kind))
       throw std::invalid_argument(
           fmt::format("layer \"{}\" needs an image, which \"aov\" does not make", layer.kind));
     for (const Layer& other : output.layers)

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "base/diagnostics.h"
+#include "math/transform.h"
 #include "scene/description_bidirectional.h"
 
 namespace duet {
@@ -127,7 +128,12 @@ struct AovDescription {
     static constexpr auto fields() { return plain_fields(&Layer::kind, &Layer::name); }
   };
   std::vector<Layer> layers;
-  static constexpr auto fields() { return plain_fields(&AovDescription::layers); }
+  /// From the world to where positions and normals are told, and normals are turned towards the
+  /// camera: pbrt's gbuffer. Without one they are the world's, and normals those of the surface.
+  std::optional<Matrix4> frame;
+  static constexpr auto fields() {
+    return plain_fields(&AovDescription::layers, &AovDescription::frame);
+  }
 };
 
 struct IntegratorDescription {

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 #include "support/pbrt_file.h"
 #include "support/transport_scene.h"
@@ -134,41 +135,79 @@ TEST_CASE("realistic cameras are rendered by the methods that send rays from the
   CHECK(diagnostics.all()[0].message.find("needs a sensor") != std::string::npos);
 }
 
-TEST_CASE("pbrt's gbuffer: its layers are in the image, and what is missing is said") {
-  const auto gbuffer = [](const std::string& parameters) {
-    const TemporaryDirectory folder;
-    const std::string file = folder.write(
-        "scene.pbrt",
-        "LookAt 0 0 -5 0 0 0 0 1 0\nFilm \"gbuffer\" \"integer xresolution\" 8 \"integer "
-        "yresolution\" 8 " +
-            parameters +
-            "\nPixelFilter \"box\"\nWorldBegin\nLightSource \"infinite\"\n"
-            "Material \"diffuse\" \"rgb reflectance\" [.2 .4 .6]\n"
-            "Shape \"bilinearmesh\" \"point3 P\" [-9 -9 1  9 -9 1  -9 9 1  9 9 1]\n");
-    return read_pbrt_file(file);
-  };
-  PbrtFile f = gbuffer("\"string coordinatesystem\" \"world\"");
+namespace {
+
+PbrtFile gbuffer(const std::string& parameters) {
+  const TemporaryDirectory folder;
+  return read_pbrt_file(folder.write(
+      "scene.pbrt",
+      "LookAt 0 0 -5 0 0 0 0 1 0\nCamera \"perspective\"\nFilm \"gbuffer\" \"integer "
+      "xresolution\" 8 \"integer yresolution\" 8 " +
+          parameters +
+          "\nPixelFilter \"box\"\nWorldBegin\nLightSource \"infinite\"\n"
+          "LightSource \"point\" \"point3 from\" [1 0 -2] \"rgb I\" [9 9 9]\n"
+          "Material \"diffuse\" \"rgb reflectance\" [.2 .4 .6]\n"
+          // z = 1 + x/2
+          "Shape \"bilinearmesh\" \"point3 P\" [-9 -9 -3.5  9 -9 5.5  -9 9 -3.5  9 9 5.5]\n"));
+}
+
+/// A pixel of the image of a gbuffer, by the names of its channels.
+std::map<std::string, double> gbuffer_pixel(const std::string& parameters, int spp) {
+  PbrtFile f = gbuffer(parameters);
   REQUIRE(f.scene);
-  REQUIRE(f.scene->approximations.size() == 1);
-  CHECK(f.scene->approximations[0].message.find(
-            "without dzdx, dzdy, Variance and RelativeVariance") != std::string::npos);
-  CHECK(gbuffer("").scene->approximations.size() == 2);
-  check_message(gbuffer("\"string coordinatesystem\" \"render\""), "camera or world");
-  const TransportScene scene(*std::move(f.scene));
+  CHECK(f.scene->approximations.empty());
+  f.scene->integrator.aovs.layers.push_back({"variance", "v"});
+  const auto response = f.scene->sensors.at(0).film.response;
+  TransportScene scene(*std::move(f.scene));
+  scene.layout.response = response;
   const auto integrator = scene.method("path", {});
   const std::vector<std::string> names = integrator->channels();
-  const Image image = scene.render(*integrator, scene.layout, 4, 1).image;
-  const auto value = [&](const std::string& name) {
-    const auto at = std::find(names.begin(), names.end(), name);
-    REQUIRE(at != names.end());
-    return image.data[size_t(at - names.begin()) + 36 * names.size()];
-  };
-  CHECK(value("Albedo.G") == doctest::Approx(0.4));
-  CHECK(value("P.Z") == doctest::Approx(1));
-  CHECK(std::abs(value("N.Z")) == doctest::Approx(1));
-  CHECK(value("Ns.Z") == doctest::Approx(double(value("N.Z"))));
-  // In the middle.
-  CHECK(value("uv.U") == doctest::Approx(0.5).epsilon(0.1));
+  const Image image = scene.render(*integrator, scene.layout, spp, 1).image;
+  std::map<std::string, double> pixel;
+  // On the right of the middle, and above it.
+  for (size_t c = 0; c < names.size(); ++c)
+    pixel[names[c]] = double(image.data[c + (3 * 8 + 4) * names.size()]);
+  return pixel;
+}
+
+}  // namespace
+
+TEST_CASE("pbrt's gbuffer: its layers are in the image, in the coordinates that it asks for") {
+  check_message(gbuffer("\"string coordinatesystem\" \"render\""), "camera or world");
+  auto world = gbuffer_pixel("\"string coordinatesystem\" \"world\"", 1024);
+  CHECK(world.at("Albedo.G") == doctest::Approx(0.4));
+  const double x = world.at("P.X"), z = world.at("P.Z");
+  CHECK(std::abs(x) > 0.1);
+  CHECK(z == doctest::Approx(1 + x / 2).epsilon(1e-4));
+  CHECK(world.at("N.Z") == doctest::Approx(-2 / std::sqrt(5.0)));
+  CHECK(world.at("Ns.Z") == doctest::Approx(world.at("N.Z")));
+  CHECK(world.at("uv.U") == doctest::Approx((x + 9) / 18).epsilon(1e-3));
+  // A pixel is tan 45° / 4 wide at distance 1 along the axis. With x = ± s d and z = d − 5 the
+  // plane is at d = 6 / (1 ∓ s / 2).
+  const double pixel = 0.25, side = x > 0 ? 1 : -1, s = pixel / 2;
+  const auto depth = [&](double across) { return 6 / (1 - side * across / 2); };
+  const double step = (depth(s + 1.5 * pixel) - depth(s - 0.5 * pixel)) / 2;
+  CHECK(world.at("dzdx.Z") == doctest::Approx(step).epsilon(0.05));
+  CHECK(world.at("dzdy.Z") == doctest::Approx(0).scale(1));
+  // The camera's space has the same z here, from the camera on, and x to the right of the image.
+  auto camera = gbuffer_pixel("", 1024);
+  CHECK(camera.at("P.X") == doctest::Approx(side * x).epsilon(1e-3));
+  CHECK(camera.at("P.Z") == doctest::Approx(z + 5).epsilon(1e-3));
+  CHECK(camera.at("N.Z") == doctest::Approx(world.at("N.Z")));
+  CHECK(camera.at("dzdx.Z") == doctest::Approx(step).epsilon(0.05));
+}
+
+TEST_CASE("pbrt's gbuffer: variances are those of samples, after the exposure") {
+  constexpr int kSpp = 64;
+  auto plain = gbuffer_pixel("", kSpp), bright = gbuffer_pixel("\"float iso\" 200", kSpp);
+  const double variance = plain.at("Variance.G");
+  CHECK(variance > 1e-5);
+  CHECK(plain.at("v.G") * kSpp * kSpp / (kSpp - 1) == doctest::Approx(variance).epsilon(1e-4));
+  CHECK(plain.at("RelativeVariance.G") == doctest::Approx(variance / plain.at("G")).epsilon(1e-4));
+  CHECK(bright.at("G") == doctest::Approx(2 * plain.at("G")).epsilon(1e-4));
+  CHECK(bright.at("Variance.G") == doctest::Approx(4 * variance).epsilon(1e-4));
+  CHECK(bright.at("RelativeVariance.G") ==
+        doctest::Approx(2 * plain.at("RelativeVariance.G")).epsilon(1e-4));
 }
 
 TEST_CASE("pbrt: what colours cannot say of spectra is listed as approximated") {
