@@ -60,54 +60,64 @@ ParameterList of(std::string_view names) {
   return parameters_of<Bidirectional>(names);
 }
 
-}  // namespace
+constexpr Parameter kGranularity{
+    .name = "granularity", .type = integer, .versions = v0, .support = inert};
 
-std::vector<Plugin> bidirectional_integrators() {
-  using enum BidirectionalMethod;
-  const ParameterList granularity = inert_parameters(integer, "granularity", v0);
-  const ParameterList ppm_parameters(
-      of("max_depth"), with_preset_0x(parameter<Bidirectional>("rr_depth"), "3"),
+/// Those of `ppm` and `sppm`, two of whose defaults are others in 0.x.
+ParameterList photon_parameters() {
+  return {
+      of("max_depth"),
+      with_preset_0x(parameter<Bidirectional>("rr_depth"), "3"),
       of("hide_emitters strict_normals light_selection light_paths guide_emission radius"),
       with_preset_0x(parameter<Bidirectional>("alpha"), "0.7"),
       Parameter{"photon_count", integer, "", "light_paths decides", any, v0, inert},
       Parameter{"max_passes", integer, "", "the sampler's sample_count decides", any, v0, inert},
-      granularity);
+      kGranularity};
+}
+
+}  // namespace
+
+std::vector<Plugin> bidirectional_integrators() {
+  using enum BidirectionalMethod;
+  const ParameterList eye_paths =
+      of("max_depth rr_depth hide_emitters strict_normals light_selection");
+  const ParameterList light_paths = of("light_paths guide_emission");
+  const ParameterList merging = of("radius alpha");
   return {
       {"ptracer",
        both,
-       {of("max_depth rr_depth hide_emitters light_paths guide_emission"), granularity,
+       {of("max_depth rr_depth hide_emitters"), light_paths, kGranularity,
         Parameter{"brute_force", boolean, "false", "connecting to the camera has the same mean",
                   any, v0, inert}},
        &read_bidirectional<ptracer>,
        "light tracing: paths from the lights, connected to the camera"},
       {"bdpt",
        v0,
-       {of("max_depth rr_depth hide_emitters strict_normals light_selection light_image"),
-        inert_parameters(boolean, "sample_direct"), of("light_paths guide_emission connections")},
+       {eye_paths, of("light_image"), inert_parameters(boolean, "sample_direct"), light_paths,
+        of("connections")},
        &read_bidirectional<bdpt>,
        "bidirectional path tracing"},
       {"reuse",
        both,
        {depth_with_note("longest path in segments; -1: no limit, but max_eye_depth + "
                         "max_light_depth + 1 with the weights of the thesis"),
-        of("rr_depth hide_emitters strict_normals light_selection light_paths guide_emission "
-           "max_eye_depth "
-           "max_light_depth weights thesis_reading continue_probability")},
+        of("rr_depth hide_emitters strict_normals light_selection"), light_paths,
+        of("max_eye_depth max_light_depth weights thesis_reading continue_probability")},
        &read_bidirectional<reuse>,
        "Duet's own: bidirectional path tracing that reuses light sub-paths"},
-      {"ppm", both, ppm_parameters, &read_ppm,
+      {"ppm", both, photon_parameters(), &read_ppm,
        "Duet's own: progressive photon mapping; approximates that of 0.x"},
-      {"bpm", both,
-       of("max_depth rr_depth hide_emitters strict_normals light_selection light_paths "
-          "guide_emission radius "
-          "alpha"),
-       &read_bidirectional<bpm>, "Duet's own: bidirectional photon mapping"},
-      {"vcm", both,
-       of("max_depth rr_depth hide_emitters strict_normals light_selection light_paths "
-          "guide_emission connections "
-          "radius alpha"),
-       &read_bidirectional<vcm>, "Duet's own: vertex connection and merging"},
-      {"sppm", v0, ppm_parameters, &read_ppm, "by ppm", approximated},
+      {"bpm",
+       both,
+       {eye_paths, light_paths, merging},
+       &read_bidirectional<bpm>,
+       "Duet's own: bidirectional photon mapping"},
+      {"vcm",
+       both,
+       {eye_paths, light_paths, of("connections"), merging},
+       &read_bidirectional<vcm>,
+       "Duet's own: vertex connection and merging"},
+      {"sppm", v0, photon_parameters(), &read_ppm, "by ppm", approximated},
       {"photonmapper",
        v0,
        {of("max_depth rr_depth hide_emitters"),
