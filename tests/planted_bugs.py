@@ -176,7 +176,7 @@ MUTATIONS = [
      "return count + index;", "return count + index - (count + index > 0);", "OBJ: negative indices count back*"),
     ("spectra are not seen in daylight", "parsers/values/color.cpp",
      "if (daylight) weight *= look_up(kD65, wavelength);", "", "tabulated spectra are what Mitsuba 3*"),
-    ("the axis of a rotation is taken as it is in 0.x", "parsers/mitsuba/transform_values.cpp",
+    ("the axis of a rotation is taken as it is in 0.x", "parsers/xml/transform_element.cpp",
      "c_.version.is_0x() || std::abs(length - 1) < 1e-5", "std::abs(length - 1) < 1e-5", "the axis of a rotation*"),
     ("bytes of colours in PLY are decoded twice", "parsers/mesh/ply.cpp",
      "return decode_ ? srgb_to_linear(scaled) : scaled;",

@@ -65,6 +65,12 @@ FileAccess with_disk(FileAccess access) {
   return access;
 }
 
+std::string text_of(const std::string& path, const FileAccess& access) {
+  auto text = access.read(path);
+  if (!text) throw ReadError(path + ": cannot be read");
+  return std::move(*text);
+}
+
 std::string folder_of(const std::string& path) {
   const std::string folder = fs::path(path).parent_path().string();
   return folder.empty() ? "." : folder;

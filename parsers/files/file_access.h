@@ -42,6 +42,9 @@ struct FileAccess {
 /// `access` with what it leaves open done on the disk.
 FileAccess with_disk(FileAccess access);
 
+/// The whole text of a file; throws ReadError.
+std::string text_of(const std::string& path, const FileAccess& access);
+
 /// The folder of a file, "." if it has none in its name.
 std::string folder_of(const std::string& path);
 

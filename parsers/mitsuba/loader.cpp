@@ -4,10 +4,10 @@
 #include <filesystem>
 
 #include "base/readable.h"
-#include "mitsuba/property_values.h"
 #include "mitsuba/references.h"
-#include "mitsuba/scene_file_xml.h"
 #include "values/text.h"
+#include "xml/scene_file.h"
+#include "xml/value_elements.h"
 
 namespace duet {
 

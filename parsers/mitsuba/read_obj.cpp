@@ -100,11 +100,8 @@ MaterialLibrary* SceneReader::material_library(const std::string& name, const st
     return nullptr;
   }
   folders.insert(folders.begin() + 1, folder_of(*path));
-  const auto materials = report_.from_file(where, [&] {
-    const auto text = access_.read(*path);
-    if (!text) throw ReadError(*path + ": cannot be read");
-    return parse_mtl(*text, *path);
-  });
+  const auto materials =
+      report_.from_file(where, [&] { return parse_mtl(text_of(*path, access_), *path); });
   if (materials)
     entry->second =
         std::make_unique<MaterialLibrary>(*path, *materials, std::move(folders), p.node().version);

@@ -3,6 +3,7 @@
 
 #include <string>
 
+#include "math/transform.h"
 #include "volume/vol_file.h"
 
 namespace duet {

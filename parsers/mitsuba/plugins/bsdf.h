@@ -6,13 +6,9 @@
 // read_nested().
 #pragma once
 
-#include "mitsuba/read_fields.h"
-#include "mitsuba/vocabulary.h"
-#include "scene/field_parameters.h"
+#include "mitsuba/plugins/plugin.h"
 
 namespace duet::plugins {
-
-using namespace parameter_words;
 
 /// The parameters of T without those of the roughness that its interface may have.
 template <class T>
@@ -26,22 +22,17 @@ std::vector<Parameter> smooth_parameters() {
   return list;
 }
 
-/// What `row` leaves open follows from T: its name, its parameters and how it is read. Where the
-/// interface may be rough, it is smooth. kCheck is that of read_model().
+/// As plugin_of(). Where the interface may be rough, it is smooth.
 template <class T, auto kCheck = nullptr>
 Plugin bsdf(Plugin row = {}) {
-  if (row.name.empty()) row.name = T{}.name();
   if (row.parameters.empty()) row.parameters = smooth_parameters<T>();
-  if (std::holds_alternative<std::monostate>(row.reader))
-    row.reader = &read_model<T, kCheck, MaterialDescription>;
-  return row;
+  return plugin_of<T, MaterialDescription, kCheck>(std::move(row));
 }
 
 /// The same for the plugin with a rough interface, whose name must be given.
 template <class T, auto kCheck = nullptr>
 Plugin rough_bsdf(Plugin row) {
-  if (row.parameters.empty()) row.parameters = parameters_of<T>();
-  return bsdf<T, kCheck>(row);
+  return plugin_of<T, MaterialDescription, kCheck>(std::move(row));
 }
 
 }  // namespace duet::plugins

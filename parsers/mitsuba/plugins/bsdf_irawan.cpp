@@ -43,11 +43,8 @@ void read_irawan(SceneReader& s, Properties& p, MaterialDescription& out) {
   if (path.empty()) return;
   WardMaterial m;
   m.alpha_u = m.alpha_v = kClothRoughness;
-  const auto weave = s.report().from_file(p.where("filename"), [&] {
-    const auto text = s.files().read(path);
-    if (!text) throw ReadError(path + ": cannot be read");
-    return parse_weave(*text, path);
-  });
+  const auto weave = s.report().from_file(
+      p.where("filename"), [&] { return parse_weave(text_of(path, s.files()), path); });
   if (!weave) return;
   Spectrum diffuse, specular;
   const std::vector<float> shares = weave->shares();

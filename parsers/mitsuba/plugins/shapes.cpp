@@ -5,10 +5,10 @@
 
 #include "mitsuba/plugins/shape.h"
 #include "mitsuba/plugins/tables.h"
-#include "mitsuba/property_values.h"
 #include "values/text.h"
 #include "volume/surface_grid.h"
 #include "volume/volume_file.h"
+#include "xml/value_elements.h"
 
 namespace duet::plugins {
 

@@ -1,4 +1,4 @@
-#include "mitsuba/scene_file_xml.h"
+#include "xml/scene_file.h"
 
 #include "values/text.h"
 

@@ -1,4 +1,4 @@
-#include "mitsuba/property_values.h"
+#include "xml/value_elements.h"
 
 #include <algorithm>
 

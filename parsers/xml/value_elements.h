@@ -4,8 +4,8 @@
 #include <string_view>
 
 #include "files/file_access.h"
-#include "mitsuba/node.h"
 #include "xml/attributes.h"
+#include "xml/property_value.h"
 
 namespace duet {
 

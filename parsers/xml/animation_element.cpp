@@ -1,8 +1,8 @@
 // <animation>: transforms with the times at which they hold.
 #include <algorithm>
 
-#include "mitsuba/property_values.h"
 #include "values/text.h"
+#include "xml/value_elements.h"
 
 namespace duet {
 

@@ -1,8 +1,8 @@
 #include <cmath>
 
 #include "math/orthogonal.h"
-#include "mitsuba/property_values.h"
 #include "values/text.h"
+#include "xml/value_elements.h"
 
 namespace duet {
 

@@ -5,8 +5,8 @@
 #include <optional>
 #include <string>
 
-#include "mitsuba/mitsuba.h"
-#include "mitsuba/node.h"
+#include "files/file_access.h"
+#include "xml/property_value.h"
 #include "xml/xml_document.h"
 
 namespace duet {
