@@ -1,8 +1,6 @@
 // duet batch: many scenes, each in a process of its own.
 #include <CLI/CLI.hpp>
 #include <algorithm>
-#include <filesystem>
-#include <set>
 
 #include "app/arguments.h"
 #include "app/commands.h"
@@ -15,13 +13,11 @@
 #include "evaluate/batch/job_arguments.h"
 #include "evaluate/batch/job_queue.h"
 #include "evaluate/batch/reports.h"
-#include "evaluate/render/output.h"
 
 namespace duet {
 
 namespace {
 
-namespace fs = std::filesystem;
 using namespace batch;
 
 /// More of one manifest nobody reads.
@@ -41,9 +37,7 @@ class BatchCommand {
       : options_(options), program_(program), log_(program.log) {}
 
   int run() {
-    log_.set_level(options_.quiet     ? Log::Level::quiet
-                   : options_.verbose ? Log::Level::verbose
-                                      : Log::Level::normal);
+    log_.set_level(message_level(options_.quiet, options_.verbose));
     const QueueSettings settings = queue_settings();
     jobs_ = list_jobs(options_.list, options_.for_all, options_.outputs, program_, diagnostics_);
     if (report_errors()) return kWrongUsage;
@@ -51,12 +45,14 @@ class BatchCommand {
       for (const Job& job : jobs_) fmt::print("duet {}\n", shell_quoted(job_arguments(job)));
       return kSuccess;
     }
-    check_files();
+    check_files(options_.list, jobs_, reports(), diagnostics_);
     if (report_errors()) return kWrongUsage;
     return render(settings);
   }
 
  private:
+  ReportPaths reports() const { return {options_.csv, options_.junit, options_.report}; }
+
   QueueSettings queue_settings() {
     QueueSettings settings;
     settings.threads = options_.threads.empty()
@@ -83,38 +79,13 @@ class BatchCommand {
     return true;
   }
 
-  /// Finds out before rendering what would be a pity to find out afterwards.
-  void check_files() {
-    std::error_code ignored;
-    std::set<std::string> taken{fs::weakly_canonical(options_.list, ignored)};
-    for (const Job& job : jobs_)
-      for (const std::string& output : job.outputs) {
-        taken.insert(fs::weakly_canonical(output, ignored));
-        if (const std::string why = prepare_file(output); !why.empty())
-          diagnostics_.error(job.where, "cannot write {}: {}", output, why);
-      }
-    const std::pair<const char*, const std::string*> reports[] = {
-        {"--report", &options_.report}, {"--junit", &options_.junit}, {"--csv", &options_.csv}};
-    for (const auto& [option, path] : reports) {
-      if (path->empty()) continue;
-      if (!taken.insert(fs::weakly_canonical(*path, ignored)).second)
-        throw UsageError(
-            fmt::format("{} {}: this file has another use in this call", option, *path));
-      if (const std::string why = prepare_file(*path); !why.empty())
-        throw UsageError(fmt::format("{}: cannot write {}: {}", option, *path, why));
-    }
-  }
-
   int render(const QueueSettings& settings) {
     install_signal_handlers();
-    const ProgressStyle style = options_.progress == "bar"    ? ProgressStyle::bar
-                                : options_.progress == "none" ? ProgressStyle::none
-                                                              : ProgressStyle::automatic;
     JobQueue queue(jobs_, settings);
     bool is_good = true;
     double seconds = 0;
     {
-      JobDisplay display(style, jobs_.size(), log_);
+      JobDisplay display(progress_style(options_.progress), jobs_.size(), log_);
       QueueEvents events;
       events.stop_signal = [] { return std::max(0, interrupt_exit_code() - 128); };
       events.wants_snapshots = take_snapshot_request;
@@ -134,7 +105,7 @@ class BatchCommand {
     const BatchOutcome outcome{options_.list, jobs_, queue.results(), program_.command_line,
                                seconds};
     if (!options_.quiet) fmt::print("{}{}\n", outcome_table(outcome), outcome_summary(outcome));
-    is_good &= write_reports(outcome, {options_.csv, options_.junit, options_.report}, log_);
+    is_good &= write_reports(outcome, reports(), log_);
     if (const int code = interrupt_exit_code()) return code;
     return is_good ? kSuccess : kSceneFailed;
   }

@@ -8,7 +8,6 @@
 #include "app/commands.h"
 #include "app/program.h"
 #include "app/signals.h"
-#include "base/atomic_file.h"
 #include "evaluate/chart/page.h"
 #include "evaluate/compare/linear_image.h"
 #include "evaluate/render/output.h"
@@ -35,12 +34,8 @@ class ChartCommand {
     const std::vector<std::string> names = chart_names(o_.read.scenes);
     make_directory(o_.directory);
     for (size_t i = 0; i < names.size() && interrupt_exit_code() == 0; ++i) measure(i, names[i]);
-    if (several() && !scenes_.empty()) {
-      write_file_atomically(in(o_.directory, "summary.csv"), summary_csv(scenes_));
-      write_file_atomically(in(o_.directory, "index.html"),
-                            chart_index(scenes_, program_.command_line));
-      log_.info("{}", in(o_.directory, "index.html"));
-    }
+    if (several() && !scenes_.empty())
+      log_.info("{}", write_chart_index(scenes_, o_.directory, program_.command_line));
     if (const int code = interrupt_exit_code()) return code;
     if (misused_ == names.size()) return kWrongUsage;
     return failed_ > 0 ? kSceneFailed : kSuccess;

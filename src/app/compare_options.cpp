@@ -11,7 +11,7 @@
 #include "app/commands.h"
 #include "base/diagnostics.h"
 #include "base/log.h"
-#include "evaluate/render/output.h"
+#include "evaluate/render/output_checks.h"
 
 namespace duet {
 
@@ -22,12 +22,6 @@ namespace {
 bool is_directory_of_images(const std::string& path) {
   std::error_code ignored;
   return fs::is_directory(path, ignored);
-}
-
-void check_writable(const char* option, const std::string& path) {
-  if (path.empty()) return;
-  if (const std::string why = prepare_file(path); !why.empty())
-    throw UsageError(fmt::format("{}: cannot write {}: {}", option, path, why));
 }
 
 std::optional<double> samples(const std::string& option, const std::string& text) {

@@ -5,20 +5,16 @@
 #include "app/commands.h"
 #include "app/file_options.h"
 #include "app/program.h"
-#include "base/diagnostics.h"
-#include "evaluate/raw/expected_slices.h"
-#include "evaluate/raw/merge.h"
+#include "evaluate/raw/merge_files.h"
 #include "evaluate/render/output.h"
-#include "evaluate/report/render_report.h"
-#include "evaluate/report/statistics.h"
 
 namespace duet {
 
 namespace {
 
 struct MergeOptions {
-  std::vector<std::string> films, outputs;
-  std::string png, raw, stats, slices, spp, slice_command;
+  MergeRequest request;
+  std::string png, slices, spp, slice_command;
   FileOptions files;
   bool quiet = false;
 };
@@ -34,55 +30,21 @@ ExpectedSlices expected_slices(const MergeOptions& o) {
   return {uint32_t(parse_whole("--slices", o.slices, 1, spp)), spp, o.slice_command};
 }
 
-/// Whether there are any.
-bool report(const std::vector<std::string>& incomplete, Log& log) {
-  for (const std::string& slice : incomplete) log.error("{}", slice);
-  return !incomplete.empty();
-}
-
 int merge(MergeOptions o, Program& program) {
   if (o.quiet) program.log.set_level(Log::Level::quiet);
-  if (!o.png.empty()) o.outputs.push_back(o.png);
-  const FileSettings files = parse_file_settings(o.files);
-  if (o.outputs.empty() && o.raw.empty())
+  MergeRequest& request = o.request;
+  if (!o.png.empty()) request.outputs.push_back(o.png);
+  request.files = parse_file_settings(o.files);
+  if (request.outputs.empty() && request.raw.empty())
     throw UsageError("merge: -o, --png or --raw has to name a file");
-  for (const std::string& path : o.outputs) {
+  for (const std::string& path : request.outputs) {
     if (image_format(path).empty())
       throw UsageError(fmt::format("-o {}: images are written as .exr, .png or .jpg", path));
   }
-  const ExpectedSlices slices = expected_slices(o);
-  std::vector<std::string> planned = o.outputs;
-  for (const std::string& path : {o.raw, o.stats})
-    if (!path.empty()) planned.push_back(path);
-  for (const std::string& path : planned)
-    if (const std::string why = prepare_file(path); !why.empty())
-      throw std::runtime_error(fmt::format("cannot write {}: {}", path, why));
-
-  slices.leave_out_missing(o.films);
-  if (o.films.empty()) {
-    report(slices.incomplete({}), program.log);
-    throw std::runtime_error("none of the films is there");
-  }
-  const MergedFilms merged = merge_raw_films(o.films);
-  if (merged.result.spp == 0) throw std::runtime_error("the films have no samples");
-  check_formats(o.outputs, merged.image.contents.channels, files);
-  RenderRecord record = record_of(merged);
-  record.command_line = program.command_line;
-  record.threads = program.threads();
-  const std::string gaps = to_string(slices.gaps(merged));
-  if (!gaps.empty()) program.log.warning("samples are missing: {}", gaps);
-  if (!o.raw.empty()) write_raw_film(o.raw, merged.image, merged.state);
-  const HeaderFields header = header_of(merged, record, gaps);
-  for (const std::string& path : o.outputs)
-    write_image(path, merged.result.image, merged.image.form, header, files);
-  if (!o.stats.empty()) {
-    StatisticsFile statistics(o.stats);
-    statistics.add(record, merged.result, {.render = merged.result.seconds}, {});
-    statistics.write(false);
-  }
-  program.log.info("{} films: {} -> {}", merged.films, describe(record, merged.result),
-                   fmt::join(planned, " "));
-  return report(slices.incomplete(merged.state.samples), program.log) ? kSceneFailed : kSuccess;
+  request.slices = expected_slices(o);
+  request.command_line = program.command_line;
+  request.threads = program.threads();
+  return merge_to_files(std::move(request), program.log) ? kSuccess : kSceneFailed;
 }
 
 }  // namespace
@@ -90,13 +52,14 @@ int merge(MergeOptions o, Program& program) {
 void add_merge_command(CLI::App& app, Program& program) {
   CLI::App* c = app.add_subcommand("merge", "Add up raw films to one image");
   const auto o = std::make_shared<MergeOptions>();
-  c->add_option("films", o->films, "Raw films of one image, with different samples")->required();
-  c->add_option("-o,--output", o->outputs, "Image: .exr, .png or .jpg; repeatable")
+  c->add_option("films", o->request.films, "Raw films of one image, with different samples")
+      ->required();
+  c->add_option("-o,--output", o->request.outputs, "Image: .exr, .png or .jpg; repeatable")
       ->allow_extra_args(false);
   c->add_option("--png", o->png, "Image for display");
-  c->add_option("--raw", o->raw, "All of them as one raw film, to go on from");
+  c->add_option("--raw", o->request.raw, "All of them as one raw film, to go on from");
   add_file_options(*c, o->files);
-  c->add_option("--stats", o->stats, "Write statistics as JSON to this file");
+  c->add_option("--stats", o->request.stats, "Write statistics as JSON to this file");
   c->add_option("--slices", o->slices,
                 "The films are this many slices, as of duet render --slice, of all samples; those "
                 "that are lost or lack samples are named");

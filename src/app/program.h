@@ -24,4 +24,9 @@ struct Program {
   std::optional<HardwareThreads> threads_;
 };
 
+/// Of what -q and -v say.
+inline Log::Level message_level(bool quiet, bool verbose) {
+  return quiet ? Log::Level::quiet : verbose ? Log::Level::verbose : Log::Level::normal;
+}
+
 }  // namespace duet

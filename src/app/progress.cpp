@@ -44,6 +44,13 @@ double fraction_of(const RenderProgress& p) {
 
 }  // namespace
 
+ProgressStyle progress_style(const std::string& name) {
+  return name == "bar"     ? ProgressStyle::bar
+         : name == "plain" ? ProgressStyle::plain
+         : name == "none"  ? ProgressStyle::none
+                           : ProgressStyle::automatic;
+}
+
 ProgressDisplay::ProgressDisplay(ProgressStyle style, std::string scene, const Batch& batch,
                                  Log& log)
     : style_(style), scene_(std::move(scene)), batch_(batch), log_(log), bar_(log) {

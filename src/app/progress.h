@@ -17,6 +17,9 @@ enum class ProgressStyle {
   none,
 };
 
+/// By its name; `automatic` for all others.
+ProgressStyle progress_style(const std::string& name);
+
 /// Draws the progress of one render on standard error.
 class ProgressDisplay {
  public:

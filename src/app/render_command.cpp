@@ -52,9 +52,7 @@ class RenderCommand {
 
  private:
   void set_up_log() const {
-    log_.set_level(options_.quiet     ? Log::Level::quiet
-                   : options_.verbose ? Log::Level::verbose
-                                      : Log::Level::normal);
+    log_.set_level(message_level(options_.quiet, options_.verbose));
     if (options_.log_file.empty()) return;
     std::error_code ignored;  // the file says what is wrong
     make_directories(std::filesystem::path(options_.log_file).parent_path(), ignored);

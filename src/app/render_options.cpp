@@ -144,45 +144,19 @@ void RenderOptionParser::add_raw_options(CLI::App& c) {
 void RenderOptionParser::finish_raw() {
   RenderOptions& o = options_;
   o.writes_images = o.raw.empty() || !o.outputs.empty();
-  if (!o.raw.empty() && o.raw != "-" && image_format(o.raw) != "exr" && !o.raw.ends_with('/'))
-    throw UsageError(fmt::format("--raw {}: raw films are .exr files", o.raw));
-  if (o.raw == "-") throw UsageError("--raw -: raw films cannot go to standard output");
-  if (!o.resume.empty() && o.read.scenes.size() > 1)
-    throw UsageError("--resume: one film belongs to one scene; --checkpoint resumes several");
-  if (o.skip_existing && !o.writes_images)
-    throw UsageError("--skip-existing: --raw without -o writes no image");
-  if (o.denoise && !o.writes_images)
-    throw UsageError("--denoise: --raw without -o writes no image");
-  if (!o.mattes.empty() && !o.writes_images)
-    throw UsageError(
-        "--cryptomatte: raw films hold no mattes, and --raw without -o writes no image");
   if (!checkpoint_.empty()) o.checkpoint = parse_seconds("--checkpoint", checkpoint_);
-  if (samples_.empty() && slice_.empty()) return;
-  const std::string option = samples_.empty() ? "--slice" : "--samples";
-  if (!o.mattes.empty())
-    throw UsageError(
-        fmt::format("{}: the mattes of slices cannot be put together; render them (--cryptomatte) "
-                    "with few samples apart",
-                    option));
-  if (!samples_.empty() && !slice_.empty()) throw UsageError("--slice: there is --samples already");
-  if (o.budget.seconds || o.budget.target_error)
-    throw UsageError(
-        fmt::format("{}: samples that follow from --time or --target-error cannot be "
-                    "cut into slices",
-                    option));
-  if (o.raw.empty() && !o.checkpoint)
-    throw UsageError(fmt::format("{}: the slice goes to a raw film; name it with --raw", option));
-  const auto v = samples_.empty() ? parse_integers(option, slice_, '/', 2, "K/N")
-                                  : parse_integers(option, samples_, ':', 2, "A:B");
-  if (samples_.empty()) {
+  if (!samples_.empty()) {
+    const auto v = parse_integers("--samples", samples_, ':', 2, "A:B");
+    if (v[0] < 0 || v[1] <= v[0] || v[1] > kMaxSpp)
+      throw UsageError(fmt::format("--samples {}: there are no such samples", samples_));
+    o.samples = {uint32_t(v[0]), uint32_t(v[1])};
+  }
+  if (!slice_.empty()) {
+    const auto v = parse_integers("--slice", slice_, '/', 2, "K/N");
     if (v[0] < 1 || v[1] < v[0])
       throw UsageError(fmt::format("--slice {}: the parts are 1/{} to {}/{}", slice_,
                                    std::max(v[1], 1), std::max(v[1], 1), std::max(v[1], 1)));
     o.slice = {uint32_t(v[0]), uint32_t(v[1])};
-  } else {
-    if (v[0] < 0 || v[1] <= v[0] || v[1] > kMaxSpp)
-      throw UsageError(fmt::format("--samples {}: there are no such samples", samples_));
-    o.samples = {uint32_t(v[0]), uint32_t(v[1])};
   }
 }
 
@@ -248,20 +222,16 @@ RenderCommandLine RenderOptionParser::finish() {
       o.mattes.push_back(MatteKind(kind));
   if (!techniques_.empty())
     o.techniques = techniques_ == "raw" ? TechniqueOutput::raw : TechniqueOutput::weighted;
-  o.progress = progress_ == "bar"     ? ProgressStyle::bar
-               : progress_ == "plain" ? ProgressStyle::plain
-               : progress_ == "none"  ? ProgressStyle::none
-                                      : ProgressStyle::automatic;
+  o.progress = progress_style(progress_);
   if (o.require_target && !o.budget.target_error)
     throw UsageError("--require-target: there is no --target-error");
   if (!viewer_.empty()) o.viewer = parse_viewer(viewer_);
   finish_live();
   finish_format();
   finish_raw();
+  check_parts(o);
   check_outputs(o);
-  if (!o.stats_file.empty())
-    if (const std::string why = prepare_file(o.stats_file); !why.empty())
-      throw UsageError(fmt::format("--stats: cannot write {}: {}", o.stats_file, why));
+  check_writable("--stats", o.stats_file);
   return std::move(options_);
 }
 

@@ -14,8 +14,8 @@
 #include "base/diagnostics.h"
 #include "base/run_program.h"
 #include "evaluate/render/output.h"
+#include "evaluate/stability/run.h"
 #include "evaluate/stability/selection.h"
-#include "evaluate/stability/table.h"
 
 namespace duet {
 
@@ -39,16 +39,6 @@ std::string catalogue_folder(const std::string& option) {
   for (const std::string& folder : {std::string(DUET_STABILITY_SOURCE), beside})
     if (std::filesystem::exists(folder + "/catalogue.json", ignored)) return folder;
   return DUET_STABILITY_INSTALLED;
-}
-
-void print_list(const std::vector<const Row*>& rows) {
-  for (const Row* row : rows)
-    fmt::print("{:>3} {:22} {:6} {}\n", row->number > 0 ? fmt::to_string(row->number) : "",
-               row->name,
-               !row->planned.empty() ? "planned"
-               : row->fast           ? "fast"
-                                     : "",
-               row->title);
 }
 
 /// The page that is to be brought up to date, if only a part of the table is measured.
@@ -80,17 +70,33 @@ auto selected(Select select) {
   }
 }
 
+/// Prints what is found as soon as it is.
+RunEvents printed(size_t rows, Log& log) {
+  RunEvents events;
+  events.row = [rows, &log](const Row& row, size_t number) {
+    if (row.planned.empty())
+      log.info("[{}/{}] {}: {}", number, rows, row.name, row.title);
+    else
+      fmt::print("{:>3} {:22} planned: {}\n", row.number, row.name, row.planned);
+  };
+  events.judged = [](const Row& row, const CellResult& cell) {
+    fmt::print("{}\n", result_line(row, cell));
+    std::fflush(stdout);
+  };
+  events.cancelled = [] { return interrupt_exit_code() != 0; };
+  return events;
+}
+
 int run_stability(const StabilityOptions& o, Program& program) {
   const Catalogue catalogue = read_catalogue(catalogue_folder(o.folder));
-  const std::vector<const Row*> rows =
-      selected([&] { return select_rows(catalogue, o.cases, o.fast); });
-  const std::vector<std::string> methods = selected([&] { return select_methods(o.methods); });
+  const Selection selection{selected([&] { return select_rows(catalogue, o.cases, o.fast); }),
+                            selected([&] { return select_methods(o.methods); }), o.fast};
   for (const std::string& path : {o.markdown, o.json})
     if (const std::string why = path.empty() ? "" : prepare_file(path); !why.empty())
       throw UsageError(fmt::format("cannot write {}: {}", path, why));
   const std::string earlier = earlier_page(o);
   if (o.list) {
-    print_list(rows);
+    fmt::print("{}", row_list(selection.rows));
     return kSuccess;
   }
   const int threads =
@@ -98,24 +104,8 @@ int run_stability(const StabilityOptions& o, Program& program) {
   if (o.quiet) program.log.set_level(Log::Level::quiet);
   install_signal_handlers();
   std::vector<RowResult> results;
-  double seconds = 0;
   try {
-    for (const Row* row : rows) {
-      RowResult& result = results.emplace_back(RowResult{row, {}});
-      if (!row->planned.empty()) {
-        fmt::print("{:>3} {:22} planned: {}\n", row->number, row->name, row->planned);
-        continue;
-      }
-      program.log.info("[{}/{}] {}: {}", results.size(), rows.size(), row->name, row->title);
-      Laboratory laboratory(threads, [] { return interrupt_exit_code() != 0; });
-      for (const std::string& method : methods) {
-        result.cells.push_back(
-            judge(catalogue, *row, method, laboratory, o.fast ? kFastFactor : 1));
-        seconds += result.cells.back().seconds;
-        fmt::print("{}\n", result_line(*row, result.cells.back()));
-        std::fflush(stdout);
-      }
-    }
+    results = run(catalogue, selection, threads, printed(selection.rows.size(), program.log));
   } catch (const Laboratory::Cancelled&) {
     program.log.warning("interrupted: the table is not complete, and no file is written");
     return interrupt_exit_code();
@@ -123,16 +113,9 @@ int run_stability(const StabilityOptions& o, Program& program) {
   if (!o.markdown.empty())
     write_file_atomically(o.markdown, markdown(catalogue, results, whole_command(o), earlier));
   if (!o.json.empty()) write_file_atomically(o.json, json(results));
-  const int unexpected = count(results, Outcome::unexpected);
-  const int unresolved = count(results, Outcome::not_resolved);
-  const int expected = count(results, Outcome::holds) + count(results, Outcome::fails_as_known);
-  fmt::print("{} of {} cells as expected", expected, expected + unexpected + unresolved);
-  fmt::print("{}\n", unresolved > 0 ? fmt::format(", {} not resolved", unresolved) : "");
-  if (o.fast)
-    fmt::print("the bounds of what is noticed are {:g} times as coarse as in the whole run\n",
-               kFastFactor);
-  program.log.info("measured in {:.0f} s", seconds);
-  return unexpected + unresolved == 0 ? kSuccess : kSceneFailed;
+  fmt::print("{}", summary(results, o.fast));
+  program.log.info("measured in {:.0f} s", seconds_of(results));
+  return is_as_expected(results) ? kSuccess : kSceneFailed;
 }
 
 }  // namespace

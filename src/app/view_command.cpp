@@ -1,42 +1,20 @@
 // duet view: an image file in the viewer of the reports.
-#include <unistd.h>
-
 #include <CLI/CLI.hpp>
-#include <cerrno>
-#include <filesystem>
-#include <system_error>
 
 #include "app/commands.h"
 #include "app/program.h"
 #include "base/atomic_file.h"
-#include "base/run_program.h"
 #include "evaluate/render/output.h"
+#include "evaluate/web/browser.h"
 #include "evaluate/web/image_page.h"
 
 namespace duet {
 
 namespace {
 
-namespace fs = std::filesystem;
-
 struct ViewOptions {
   std::string image, page;
 };
-
-/// Where the page of an image goes that is to be looked at now. It must stay for as long as it is
-/// open, so it is left to whatever clears that folder.
-std::string temporary_page(const std::string& image) {
-  std::string folder = (fs::temp_directory_path() / "duet-view-XXXXXX").string();
-  if (!mkdtemp(folder.data())) throw std::system_error(errno, std::generic_category(), folder);
-  return (fs::path(folder) / fs::path(image).filename()).string() + ".html";
-}
-
-/// Opens a page as the desktop does, without waiting until it is closed.
-void open_page(const std::string& opener, const std::string& page) {
-  const ProgramEnd end = run_program({find_program("setsid"), "--fork", opener, page});
-  if (end.exit_code != 0)
-    throw std::runtime_error(fmt::format("xdg-open cannot be started: {}", end.err));
-}
 
 int view(const ViewOptions& o, Program& program) {
   try {
@@ -47,7 +25,7 @@ int view(const ViewOptions& o, Program& program) {
       write_file_atomically(o.page, html);
       return kSuccess;
     }
-    const std::string opener = find_program("xdg-open");
+    const std::string opener = page_opener();
     if (opener.empty())
       throw std::runtime_error("there is no xdg-open, which opens pages; -o PAGE writes one");
     const std::string page = temporary_page(o.image);

@@ -4,6 +4,7 @@
 #include <atomic>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 
@@ -19,6 +20,13 @@ struct TcpAddress {
   /// "host:port"; an IPv6 address stands in brackets.
   std::string text() const;
 };
+
+/// The parts of such a text, which may have no port. Nothing if it has no host.
+struct AddressParts {
+  std::string host;
+  std::optional<std::string> port;
+};
+std::optional<AddressParts> split_address(const std::string& text);
 
 /// The addresses that a host has. Looking them up takes as long as it takes.
 class TcpPeer {

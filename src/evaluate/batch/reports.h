@@ -46,6 +46,11 @@ void write_outcome_page(const BatchOutcome& batch, AtomicFile& file);
 struct ReportPaths {
   std::string csv, junit, page;
 };
+/// Finds out before rendering what would be a pity to find out afterwards: an error at its job for
+/// an image that cannot be written; throws UsageError for a report that cannot, or whose file is
+/// the list, an image or another report.
+void check_files(const std::string& list, const std::vector<Job>& jobs, const ReportPaths& paths,
+                 Diagnostics& diagnostics);
 /// Writes them. Whether all are there; a message says of each that is not why.
 bool write_reports(const BatchOutcome& batch, const ReportPaths& paths, Messages& messages);
 

@@ -207,4 +207,13 @@ void write_chart(const ChartScene& scene, const std::string& folder,
   write_file_atomically((in / "index.html").string(), chart_page(scene, command_line));
 }
 
+std::string write_chart_index(const std::vector<ChartScene>& scenes, const std::string& folder,
+                              const std::string& command_line) {
+  const std::filesystem::path in = folder;
+  write_file_atomically((in / "summary.csv").string(), summary_csv(scenes));
+  const std::string page = (in / "index.html").string();
+  write_file_atomically(page, chart_index(scenes, command_line));
+  return page;
+}
+
 }  // namespace duet

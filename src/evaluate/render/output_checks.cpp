@@ -24,7 +24,46 @@ void check_standard_output(const RenderOptions& o) {
     throw UsageError("-o -: " + why);
 }
 
+void check_raw_films(const RenderOptions& o) {
+  if (!o.raw.empty() && o.raw != "-" && image_format(o.raw) != "exr" && !o.raw.ends_with('/'))
+    throw UsageError(fmt::format("--raw {}: raw films are .exr files", o.raw));
+  if (o.raw == "-") throw UsageError("--raw -: raw films cannot go to standard output");
+  if (!o.resume.empty() && o.read.scenes.size() > 1)
+    throw UsageError("--resume: one film belongs to one scene; --checkpoint resumes several");
+  if (o.writes_images) return;
+  if (o.skip_existing) throw UsageError("--skip-existing: --raw without -o writes no image");
+  if (o.denoise) throw UsageError("--denoise: --raw without -o writes no image");
+  if (!o.mattes.empty())
+    throw UsageError(
+        "--cryptomatte: raw films hold no mattes, and --raw without -o writes no image");
+}
+
 }  // namespace
+
+void check_parts(const RenderOptions& o) {
+  check_raw_films(o);
+  if (!o.samples && !o.slice) return;
+  const std::string option = o.samples ? "--samples" : "--slice";
+  if (!o.mattes.empty())
+    throw UsageError(
+        fmt::format("{}: the mattes of slices cannot be put together; render them (--cryptomatte) "
+                    "with few samples apart",
+                    option));
+  if (o.samples && o.slice) throw UsageError("--slice: there is --samples already");
+  if (o.budget.seconds || o.budget.target_error)
+    throw UsageError(
+        fmt::format("{}: samples that follow from --time or --target-error cannot be "
+                    "cut into slices",
+                    option));
+  if (o.raw.empty() && !o.checkpoint)
+    throw UsageError(fmt::format("{}: the slice goes to a raw film; name it with --raw", option));
+}
+
+void check_writable(const std::string& option, const std::string& path) {
+  if (path.empty()) return;
+  if (const std::string why = prepare_file(path); !why.empty())
+    throw UsageError(fmt::format("{}: cannot write {}: {}", option, path, why));
+}
 
 void check_outputs(const RenderOptions& o) {
   check_standard_output(o);

@@ -5,6 +5,14 @@
 
 namespace duet {
 
+/// Throws UsageError if the options about raw films, and about parts of the samples, do not go
+/// together or with the others.
+void check_parts(const RenderOptions& options);
+
+/// Throws UsageError if the file that this option of the command line names cannot be written;
+/// makes the directories in which it is to be. "" is no file.
+void check_writable(const std::string& option, const std::string& path);
+
 /// Throws UsageError if two scenes would be written to one file, if a name cannot be known, or if
 /// standard output cannot hold what it is to hold.
 void check_outputs(const RenderOptions& options);

@@ -31,12 +31,6 @@ struct RowResult {
   std::vector<CellResult> cells;  ///< none if the row is planned
 };
 
-/// What to run of a catalogue.
-struct Selection {
-  std::vector<const Row*> rows;
-  std::vector<std::string> methods;
-};
-
 /// Measures a cell and compares with what is expected there. `coarser` is by how much coarser than
 /// in the whole run the bounds of the power are.
 CellResult judge(const Catalogue& catalogue, const Row& row, const std::string& method,

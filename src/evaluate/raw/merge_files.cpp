@@ -1,0 +1,64 @@
+#include "evaluate/raw/merge_files.h"
+
+#include <fmt/ranges.h>
+
+#include <stdexcept>
+
+#include "evaluate/raw/merge.h"
+#include "evaluate/render/output.h"
+#include "evaluate/report/render_report.h"
+#include "evaluate/report/statistics.h"
+
+namespace duet {
+
+namespace {
+
+/// All files that are to be written; throws std::runtime_error if one cannot be.
+std::vector<std::string> prepared_files(const MergeRequest& r) {
+  std::vector<std::string> planned = r.outputs;
+  for (const std::string& path : {r.raw, r.stats})
+    if (!path.empty()) planned.push_back(path);
+  for (const std::string& path : planned)
+    if (const std::string why = prepare_file(path); !why.empty())
+      throw std::runtime_error(fmt::format("cannot write {}: {}", path, why));
+  return planned;
+}
+
+/// Whether there are any.
+bool report(const std::vector<std::string>& incomplete, Messages& messages) {
+  for (const std::string& slice : incomplete) messages.error("{}", slice);
+  return !incomplete.empty();
+}
+
+}  // namespace
+
+bool merge_to_files(MergeRequest r, Messages& messages) {
+  const std::vector<std::string> planned = prepared_files(r);
+  r.slices.leave_out_missing(r.films);
+  if (r.films.empty()) {
+    report(r.slices.incomplete({}), messages);
+    throw std::runtime_error("none of the films is there");
+  }
+  const MergedFilms merged = merge_raw_films(r.films);
+  if (merged.result.spp == 0) throw std::runtime_error("the films have no samples");
+  check_formats(r.outputs, merged.image.contents.channels, r.files);
+  RenderRecord record = record_of(merged);
+  record.command_line = r.command_line;
+  record.threads = r.threads;
+  const std::string gaps = to_string(r.slices.gaps(merged));
+  if (!gaps.empty()) messages.warning("samples are missing: {}", gaps);
+  if (!r.raw.empty()) write_raw_film(r.raw, merged.image, merged.state);
+  const HeaderFields header = header_of(merged, record, gaps);
+  for (const std::string& path : r.outputs)
+    write_image(path, merged.result.image, merged.image.form, header, r.files);
+  if (!r.stats.empty()) {
+    StatisticsFile statistics(r.stats);
+    statistics.add(record, merged.result, {.render = merged.result.seconds}, {});
+    statistics.write(false);
+  }
+  messages.info("{} films: {} -> {}", merged.films, describe(record, merged.result),
+                fmt::join(planned, " "));
+  return !report(r.slices.incomplete(merged.state.samples), messages);
+}
+
+}  // namespace duet

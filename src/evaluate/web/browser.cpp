@@ -1,0 +1,33 @@
+#include "evaluate/web/browser.h"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <filesystem>
+#include <stdexcept>
+#include <system_error>
+
+#include "base/run_program.h"
+
+namespace duet {
+
+namespace fs = std::filesystem;
+
+std::string page_opener() {
+  return find_program("xdg-open");
+}
+
+std::string temporary_page(const std::string& file) {
+  std::string folder = (fs::temp_directory_path() / "duet-view-XXXXXX").string();
+  if (!mkdtemp(folder.data())) throw std::system_error(errno, std::generic_category(), folder);
+  return (fs::path(folder) / fs::path(file).filename()).string() + ".html";
+}
+
+void open_page(const std::string& opener, const std::string& page) {
+  const ProgramEnd end = run_program({find_program("setsid"), "--fork", opener, page});
+  if (end.exit_code != 0)
+    throw std::runtime_error(fmt::format("xdg-open cannot be started: {}", end.err));
+}
+
+}  // namespace duet
