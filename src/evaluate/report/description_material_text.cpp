@@ -30,7 +30,7 @@ std::string DescriptionText::material(MaterialId id) const {
     with_value(value,
                Overloaded{
                    [&](const std::string& v) {
-                     if (!facts.shown.empty())
+                     if (is_shown(facts))
                        show(line.values, facts, std::filesystem::path(v).filename().string());
                    },
                    [&](const Roughness& r) { show_rough(r); },
@@ -46,7 +46,7 @@ std::string DescriptionText::material(MaterialId id) const {
                        line.nested.push_back(fmt::format("{:.4g} of {}", weight, material(part)));
                    },
                    [&](const auto& v) {
-                     if (!facts.shown.empty()) show(line.values, facts, v);
+                     if (is_shown(facts)) show(line.values, facts, v);
                    },
                });
   });

@@ -74,13 +74,15 @@ class DescriptionText {
   void show(std::string& line, const FieldFacts& facts, const std::optional<M>& value) const {
     if (value) show(line, facts, *value);
   }
+  static bool is_shown(const FieldFacts& facts) {
+    return facts.given && !facts.shown.empty() && !(facts.shown_if_changed && facts.initial);
+  }
   /// The fields that are shown, each after its prefix.
   template <class T>
   std::string shown_fields(const T& description) const {
     std::string line;
     for_each_field(description, [&](const FieldFacts& facts, const auto& value) {
-      const bool left_out = facts.shown_if_changed && facts.initial;
-      if (!facts.shown.empty() && facts.given && !left_out) show(line, facts, value);
+      if (is_shown(facts)) show(line, facts, value);
     });
     return line;
   }
