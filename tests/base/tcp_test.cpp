@@ -34,6 +34,20 @@ double seconds_of(F&& work) {
 TEST_CASE("addresses are host:port, and those of IPv6 stand in brackets") {
   CHECK(TcpAddress{"127.0.0.1", 80}.text() == "127.0.0.1:80");
   CHECK(TcpAddress{"::1", 80}.text() == "[::1]:80");
+  const auto is_split = [](const std::string& text, const std::string& host,
+                           const std::optional<std::string>& port) {
+    const auto parts = split_address(text);
+    return parts && parts->host == host && parts->port == port;
+  };
+  CHECK(is_split("127.0.0.1:80", "127.0.0.1", "80"));
+  CHECK(is_split("[::1]:80", "::1", "80"));
+  CHECK(is_split("[::1]", "::1", std::nullopt));
+  CHECK(is_split("here", "here", std::nullopt));
+  CHECK(is_split("here:", "here", ""));
+  for (const char* text : {"", ":80", "[]", "[::1", "[::1]x:80"}) {
+    CAPTURE(text);
+    CHECK(!split_address(text));
+  }
 }
 
 TEST_CASE("a host that does not exist, and a port without a listener, are errors with a reason") {
