@@ -1,9 +1,11 @@
 // Loops over independent pieces of work on a given number of threads.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <functional>
 #include <memory>
+#include <vector>
 
 namespace duet {
 
@@ -38,5 +40,18 @@ class HardwareThreads {
 /// all are done. Denormal numbers are flushed to zero in all of them. An exception thrown by `work`
 /// is thrown again here.
 void parallel_for(size_t count, int threads, const std::function<void(size_t)>& work);
+
+/// What `work(i, values)` appends to `values` for every i in [0, count), in the order of i whatever
+/// the number of threads; `block` of them follow each other on one thread.
+template <class T, class Work>
+std::vector<T> parallel_append(size_t count, size_t block, int threads, const Work& work) {
+  std::vector<std::vector<T>> blocks((count + block - 1) / block);
+  parallel_for(blocks.size(), threads, [&](size_t b) {
+    for (size_t i = b * block; i < std::min((b + 1) * block, count); ++i) work(i, blocks[b]);
+  });
+  std::vector<T> all;
+  for (const std::vector<T>& b : blocks) all.insert(all.end(), b.begin(), b.end());
+  return all;
+}
 
 }  // namespace duet

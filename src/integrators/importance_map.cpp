@@ -48,24 +48,17 @@ Coordinates coordinates(const Importon& i, float normal_scale) {
 
 std::vector<Importon> trace_importons(const Scene& scene, Point2i film, int side, int max_depth,
                                       const SubpathOptions& options, int threads) {
-  const size_t count = size_t(side) * size_t(side);
-  std::vector<std::vector<Importon>> blocks((count + kImportonSubpathsPerBlock - 1) /
-                                            kImportonSubpathsPerBlock);
-  parallel_for(blocks.size(), threads, [&](size_t b) {
-    const size_t end = std::min((b + 1) * kImportonSubpathsPerBlock, count);
-    for (size_t i = b * kImportonSubpathsPerBlock; i < end; ++i) {
-      Sampler sampler(SampleSequence::independent, kImportonSeed, 0, i);
-      sampler.start_sample(0);
-      const Point2f jitter = sampler.next_2d();
-      const Point2f at{(float(i % size_t(side)) + jitter.x) / float(side) * float(film.x),
-                       (float(i / size_t(side)) + jitter.y) / float(side) * float(film.y)};
-      const Ray ray = scene.camera->sample_ray(at, sampler.next_2d());
-      trace_importons(scene, ray, max_depth, options, sampler, blocks[b]);
-    }
-  });
-  std::vector<Importon> all;
-  for (const auto& b : blocks) all.insert(all.end(), b.begin(), b.end());
-  return all;
+  return parallel_append<Importon>(
+      size_t(side) * size_t(side), kImportonSubpathsPerBlock, threads,
+      [&](size_t i, std::vector<Importon>& importons) {
+        Sampler sampler(SampleSequence::independent, kImportonSeed, 0, i);
+        sampler.start_sample(0);
+        const Point2f jitter = sampler.next_2d();
+        const Point2f at{(float(i % size_t(side)) + jitter.x) / float(side) * float(film.x),
+                         (float(i / size_t(side)) + jitter.y) / float(side) * float(film.y)};
+        const Ray ray = scene.camera->sample_ray(at, sampler.next_2d());
+        trace_importons(scene, ray, max_depth, options, sampler, importons);
+      });
 }
 
 ImportanceMap::ImportanceMap(std::vector<Importon> importons) {

@@ -101,18 +101,13 @@ class EmissionLearner {
   }
 
   std::vector<UsefulRay> trace(uint32_t round) const {
-    std::vector<std::vector<UsefulRay>> blocks(kRounds[round] / kRaysPerBlock);
-    parallel_for(blocks.size(), plan_.threads, [&](size_t b) {
-      RenderCounters counters;
-      for (uint32_t i = 0; i < kRaysPerBlock; ++i) {
-        Sampler sampler(SampleSequence::independent, kRoundSeed, round, b * kRaysPerBlock + i);
-        sampler.start_sample(0);
-        if (const auto ray = trace(sampler, counters)) blocks[b].push_back(*ray);
-      }
-    });
-    std::vector<UsefulRay> all;
-    for (const auto& b : blocks) all.insert(all.end(), b.begin(), b.end());
-    return all;
+    return parallel_append<UsefulRay>(
+        kRounds[round], kRaysPerBlock, plan_.threads, [&](size_t i, std::vector<UsefulRay>& rays) {
+          RenderCounters counters;
+          Sampler sampler(SampleSequence::independent, kRoundSeed, round, i);
+          sampler.start_sample(0);
+          if (const auto ray = trace(sampler, counters)) rays.push_back(*ray);
+        });
   }
 
   std::optional<UsefulRay> trace(Sampler& sampler, RenderCounters& counters) const {
@@ -127,8 +122,9 @@ class EmissionLearner {
       if (!v.is_smooth() || (plan_.set.light_samples && v.depth == 1)) return;
       use += v.throughput.max() * importance_(v.position(), v.wo);
     };
-    trace_light_subpath<PathVertex>(
-        {scene_, starts, plan_.set, plan_.subpath, plan_.max_depth, sampler, counters}, visit);
+    trace_light_subpath(
+        {scene_, starts, plan_.set, plan_.subpath, plan_.max_depth, sampler, counters}, start,
+        visit);
     if (!(use > 0 && use < INFINITY)) return std::nullopt;
     const Ray& ray = start->emission.ray;
     const Vector3f from = -ray.direction;

@@ -222,18 +222,24 @@ class LightSubpath {
   uint32_t dimension_ = kLightStartDimensions;
 };
 
-/// Traces one sub-path. `visit(vertex, hit)` sees every vertex, on surfaces where they were hit,
-/// and finds the sampler at the random numbers for the lens. Returns the number of vertices.
-/// `Vertex` is PathVertex or MediaVertex.
+/// Traces one sub-path from its start; empty ones have no vertices. `visit(vertex, hit)` sees every
+/// vertex, on surfaces where they were hit, and finds the sampler at the random numbers for the
+/// lens. Returns the number of vertices. `Vertex` is PathVertex or MediaVertex.
+template <class Vertex = PathVertex, class Visit>
+int trace_light_subpath(const LightSubpathContext& context, const std::optional<LightStart>& start,
+                        Visit&& visit) {
+  ++context.counters.light_paths;
+  if (context.pdfs) context.pdfs->clear();
+  if (!start || context.max_depth < 1) return 0;
+  return LightSubpath<Vertex, std::remove_reference_t<Visit>>(context, *start, visit).trace();
+}
+
+/// The same for the start that the sampler's first random numbers make.
 template <class Vertex = PathVertex, class Visit>
 int trace_light_subpath(const LightSubpathContext& context, Visit&& visit) {
-  ++context.counters.light_paths;
   context.sampler.start_dimension(0);
   const auto start = start_light_subpath(context.scene, context.starts, context.sampler);
-  if (context.pdfs) context.pdfs->clear();
-  if (!start) return 0;
-  LightSubpath<Vertex, std::remove_reference_t<Visit>> subpath(context, *start, visit);
-  return context.max_depth < 1 ? 0 : subpath.trace();
+  return trace_light_subpath<Vertex>(context, start, visit);
 }
 
 }  // namespace duet
