@@ -48,6 +48,7 @@ PartlyMerged merge_where_it_pays(const PredictedMethod& without, const Predicted
         const PredictedPart& p = (merge ? with : without).parts[parts.size()];
         parts.push_back(merge);
         mixed.missing += p.missing;
+        mixed.rare += p.rare;
         mixed.merged += p.merged;
         mixed.variance += p.variance;
         mixed.blur += p.blur, blur_variance += p.blur_variance;

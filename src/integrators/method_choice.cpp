@@ -30,30 +30,14 @@ constexpr double kDoubt = 0.1;
 constexpr double kNearlyAll = 0.95;
 /// Share of the light that may be missed.
 constexpr double kNegligible = 1e-4;
-/// Between the sphere of all surfaces and that of the visible ones: beyond, light sub-paths that
-/// are far away miss what the image shows.
-constexpr double kFarRatio = 30;
+/// Share of the light that may be in so few pixels that an image looks as if it were missing.
+constexpr double kMostRare = 0.02;
 
 /// What a method is taken for before anything is known of it: for the length of the pilot.
 PredictedMethod unknown_method() {
   PredictedMethod p;
   p.variance = p.cost = 1;
   return p;
-}
-
-/// Whether most of the scene lies far from what the camera sees.
-bool shows_little(const Scene& scene, Point2i film) {
-  constexpr int kRays = 32;
-  Bounds seen;
-  for (int y = 0; y < kRays; ++y)
-    for (int x = 0; x < kRays; ++x) {
-      const Point2f at{(float(x) + 0.5f) / kRays * float(film.x),
-                       (float(y) + 0.5f) / kRays * float(film.y)};
-      const Ray ray = scene.camera->sample_ray(at, {0.5f, 0.5f});
-      Hit hit;
-      if (scene.accel->closest_hit(ray, hit)) seen.extend(scene.surface(ray, hit).position);
-    }
-  return !seen.empty() && scene.accel->bounds().radius() > kFarRatio * double(seen.radius());
 }
 
 /// Adds what comes of merging in parts of the image only, for the candidates that merge.
@@ -110,10 +94,11 @@ struct Eligible {
 Eligible eligible(const MethodPrices& prices, const MethodRules& rules) {
   const std::vector<MethodCandidate>& c = prices.candidates;
   const std::vector<PredictedMethod>& p = prices.predictions;
-  double least_missing = 1;
-  for (const PredictedMethod& q : p) least_missing = std::min(least_missing, q.missing);
+  double least_missing = 1, least_rare = 1;
+  for (const PredictedMethod& q : p)
+    least_missing = std::min(least_missing, q.missing), least_rare = std::min(least_rare, q.rare);
   const auto finds_all = [&](size_t i) {
-    return p[i].missing <= least_missing + kNegligible &&
+    return p[i].missing <= least_missing + kNegligible && p[i].rare <= least_rare + kMostRare &&
            !(rules.needs_light_subpaths && c[i].light_paths == 0);
   };
   Eligible result;
@@ -123,6 +108,16 @@ Eligible eligible(const MethodPrices& prices, const MethodRules& rules) {
     result.unbiased |= may && c[i].merges == 0;
   }
   return result;
+}
+
+/// What is wrong with a candidate that is not eligible.
+std::string why_not(const PredictedMethod& p) {
+  if (p.missing > kNegligible)
+    return fmt::format(" would miss {} of the light", percent(p.missing));
+  if (p.rare > kMostRare)
+    return fmt::format(" would show {} of the light in fewer than {} of the pixels",
+                       percent(p.rare), percent(kTrimmedPixels));
+  return " cannot find all light";
 }
 
 /// The candidate with which least is to be lost; one that does not merge, and path tracing, unless
@@ -148,11 +143,12 @@ std::vector<std::string> promises(const MethodPrices& prices, const MethodRisk& 
   std::vector<std::string> lines;
   for (size_t i = 0; i < prices.candidates.size(); ++i) {
     const PredictedMethod& p = prices.predictions[i];
-    lines.push_back(fmt::format(
-        "auto: {:36} misses {:.2e}, merges {:.3f}, variance {:.3g}, blur² {:.3g}, error² {:.3g}, "
-        "cost {:.3g}, price {:.3g}, loss {:.3g}",
-        prices.candidates[i].name, p.missing, p.merged, p.variance, p.blur, p.error, p.cost,
-        p.error * p.cost, risk.loss(i)));
+    lines.push_back(
+        fmt::format("auto: {:36} misses {:.2e}, rare {:.3f}, merges {:.3f}, variance {:.3g}, blur² "
+                    "{:.3g}, error² {:.3g}, "
+                    "cost {:.3g}, price {:.3g}, loss {:.3g}",
+                    prices.candidates[i].name, p.missing, p.rare, p.merged, p.variance, p.blur,
+                    p.error, p.cost, p.error * p.cost, risk.loss(i)));
   }
   return lines;
 }
@@ -191,10 +187,7 @@ MethodChoice take(const MethodPrices& prices, const MethodRules& rules) {
   choice.candidates = promises(prices, risk);
   choice.reason = c.name + ": ";
   if (!may.candidates[0])
-    choice.reason +=
-        path.missing > kNegligible
-            ? fmt::format("{} would miss {} of the light", from_camera.name, percent(path.missing))
-            : from_camera.name + " cannot find all light";
+    choice.reason += from_camera.name + why_not(path);
   else if (best == 0)
     choice.reason +=
         fmt::format("no other method promises more than {} times its efficiency", kHysteresis);
@@ -231,8 +224,6 @@ MethodChoice choose_method(const Scene& scene, const AutoIntegratorDescription& 
     return no_pilot("paths of one segment are seen directly");
   if (!scene.camera->connectible())
     return no_pilot("the sensor cannot be connected with light sub-paths");
-  if (rules.far_lights_only && !rules.needs_light_subpaths && shows_little(scene, outlook.film))
-    return no_pilot("light sub-paths so far away would miss what the image shows");
 
   return take(price_methods(scene, options, outlook), rules);
 }

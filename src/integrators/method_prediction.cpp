@@ -12,8 +12,6 @@ namespace duet {
 
 namespace {
 
-/// Share of the pixels that the error leaves out, as `duet compare` does.
-constexpr double kTrimmedPixels = 0.001;
 /// Of the square of the image's mean, in what errors are relative to.
 constexpr double kDarkShare = 0.1;
 
@@ -100,11 +98,12 @@ class Prediction {
       const double variance = (tile.squares + tile.products) / subpaths;
       const double blur = tile.blur / subpaths * shrinkage;
       const double blur_variance = tile.blur_squares * std::pow(shrinkage / subpaths, 2);
-      p.parts.push_back({all_ > 0 ? tile.missing / all_ : 0,
+      p.parts.push_back({all_ > 0 ? tile.missing / all_ : 0, all_ > 0 ? tile.rare / all_ : 0,
                          may_merge_ > 0 ? tile.merged / may_merge_ : 0, variance,
                          variance / spp_ + bias + blur, blur, blur_variance,
                          kLeastVariance * tile.squares / subpaths / spp_ + bias});
-      p.missing += p.parts.back().missing, p.merged += p.parts.back().merged;
+      p.missing += p.parts.back().missing, p.rare += p.parts.back().rare;
+      p.merged += p.parts.back().merged;
       p.blur += blur, blur_variances += blur_variance;
       squares += tile.squares, products += tile.products, lost += bias;
     }
@@ -150,7 +149,7 @@ class Prediction {
         tile.merged += value * candidate_.merges * double(merges) / density;
         const double square = double(v.square) * norms_[v.cell];
         if (square / (density * density) > limit_)
-          tile.trimmed += value * std::sqrt(norms_[v.cell]);
+          tile.trimmed += value * std::sqrt(norms_[v.cell]), tile.rare += value;
         else
           tile.squares += copies(v) * square / density * (1 + 2 * seen_twice(v.shares, density));
       }
@@ -229,8 +228,10 @@ class Prediction {
   std::vector<double> norms_;
   struct Tile {
     double squares = 0, products = 0;  ///< of contributions
-    double trimmed = 0, missing = 0;   ///< light left out as too rare, and that cannot be found
-    double merged = 0;                 ///< light that merging finds
+    /// Light left out as too rare, in units of the image's error, and as it is; and that cannot be
+    /// found.
+    double trimmed = 0, rare = 0, missing = 0;
+    double merged = 0;  ///< light that merging finds
     /// Products of what two sub-paths have too much, and their squares.
     double blur = 0, blur_squares = 0;
   };

@@ -12,6 +12,9 @@
 
 namespace duet {
 
+/// Share of the pixels that the error leaves out, as `duet compare` does.
+inline constexpr double kTrimmedPixels = 0.001;
+
 /// A method that may be chosen, by its multiples of the pilot's numbers of samples.
 struct MethodCandidate {
   decltype(IntegratorDescription::method) method;
@@ -25,7 +28,7 @@ struct MethodCandidate {
 
 /// What one part of the image adds to the figures of PredictedMethod, as far as they are sums.
 struct PredictedPart {
-  double missing = 0, merged = 0, variance = 0, error = 0;
+  double missing = 0, rare = 0, merged = 0, variance = 0, error = 0;
   double blur = 0;  ///< is among the error; of so few sub-paths it may come out below zero
   double blur_variance = 0;
   double least_error = 0;  ///< what the error of the whole is bounded by from below
@@ -34,6 +37,7 @@ struct PredictedPart {
 /// What a candidate would do with the render's samples.
 struct PredictedMethod {
   double missing = 0;   ///< share of the light that it cannot find
+  double rare = 0;      ///< share of the light that fewer than kTrimmedPixels would show
   double merged = 0;    ///< share of the light with smooth scattering that it finds by merging
   double variance = 0;  ///< of one sample per pixel, relative to the square of the image
   double blur = 0;      ///< mean squared relative error that merging adds: cautious_blur()

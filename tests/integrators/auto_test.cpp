@@ -143,14 +143,27 @@ TEST_CASE("nothing is tried where there is nothing to choose") {
         "volpath: the scene has no lights");
   const TransportScene lit(kCamera + kWalls + kPoint);
   CHECK(choose(lit, 1).reason == "path: paths of one segment are seen directly");
+}
+
+// Rays from the sky enter where the camera looks, however large the ground is. Those of a sun that
+// path tracing meets by chance alone make light that its image has in few pixels.
+TEST_CASE("light from far away is followed where path tracing would have it in few pixels") {
   const std::string ground =
       "<shape type='rectangle'><transform name='to_world'><scale value='10000'/></transform>" +
       grey("0.5, 0.5, 0.5") + "</shape>";
-  const TransportScene plain(camera_xml("0, -3, 3", "0, 0, 0.3", 32) + ground +
-                             sphere_xml("0, 0, 0.5", "0.5", grey("0.5, 0.5, 0.5")) +
-                             "<emitter type='constant'/>");
-  CHECK(choose(plain).reason ==
-        "path: light sub-paths so far away would miss what the image shows");
+  CHECK(choose(TransportScene(camera_xml("0, -3, 3", "0, 0, 0.3", 32) + ground +
+                              sphere_xml("0, 0, 0.5", "0.5", grey("0.5, 0.5, 0.5")) +
+                              "<emitter type='constant'/>"))
+            .name == "path");
+  const Chosen c = choose(TransportScene(
+      camera_xml("0, -2, 0.6", "0, 0, 0", 32) + ground +
+      "<shape type='cube'><transform name='to_world'><scale x='4' y='4' z='0.05'/><translate "
+      "z='1.5'/></transform><bsdf type='dielectric'/></shape>"
+      "<emitter type='sunsky'><transform name='to_world'><rotate x='1' angle='90'/></transform>"
+      "<vector name='sun_direction' x='1' y='-0.3' z='1'/></emitter>"));
+  CAPTURE(c.reason);
+  CHECK(c.name != "path");
+  CHECK(c.reason.find("of the light in fewer than 0.1 % of the pixels") != std::string::npos);
 }
 
 TEST_CASE("light sub-paths are taken where path tracing loses light") {
