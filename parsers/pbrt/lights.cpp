@@ -175,7 +175,7 @@ void read_infinite(Values& v) {
 constexpr Spec kGoniometric[] = {
     {"I", kColor, "1", "multiplies the image"},
     {"filename", kString, "", "an equal-area image of the sphere", 1, done, Versions::v4},
-    {"mapname", kString, "", "an image by latitude and longitude", 1, refused, Versions::v3},
+    {"mapname", kString, "", "an image by latitude and longitude", 1, done, Versions::v3},
     DUET_LIGHT_SPECS};
 
 constexpr Spec kProjection[] = {{"I", kColor, "1", "", 1, done, Versions::v3},
@@ -185,14 +185,19 @@ constexpr Spec kProjection[] = {{"I", kColor, "1", "", 1, done, Versions::v3},
                                 DUET_LIGHT_SPECS};
 
 void read_goniometric(Values& v) {
-  if (!v.has("filename")) {
+  const bool v3 = v.reader().version() == Version::v3;
+  const char* const name = v3 ? "mapname" : "filename";
+  GoniometricLight light;
+  light.scale = emitted_color(v, "I") * scale_of(v);
+  light.latitude_longitude = v3;
+  if (!v.has(name)) {
+    if (v3) return add(v, PointLight{light.scale}, {});
     v.reader().report().error(v.where(), "\"string filename\" is needed");
     return;
   }
-  GoniometricLight light;
-  light.file = v.file("filename");
+  light.file = v.file(name);
   if (light.file.empty()) return;
-  light.scale = emitted_color(v, "I") * scale_of(v);
+  if (v3) v.reader().note_image_colors(v.where(name));
   BitmapTexture image;
   image.file = light.file;
   scale_to_power(v, light.scale, image,

@@ -120,6 +120,10 @@ SceneWriter::MaybeLight SceneWriter::light(const EnvironmentMapLight& m, const L
 
 SceneWriter::MaybeLight SceneWriter::light(const GoniometricLight& m, const LightDescription&,
                                            Matrix4& to_world) {
+  if (m.latitude_longitude) {
+    lose("a goniometric image by latitude and longitude is missing");
+    return std::nullopt;
+  }
   Matrix4 swap;
   swap.m = {{{1, 0, 0, 0}, {0, 0, 1, 0}, {0, 1, 0, 0}, {0, 0, 0, 1}}};
   to_world = to_world * swap;

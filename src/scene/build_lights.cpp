@@ -7,6 +7,7 @@
 #include "lights/portal.h"
 #include "lights/sky.h"
 #include "math/angles.h"
+#include "math/equal_area.h"
 #include "scene/builder.h"
 
 namespace duet {
@@ -190,9 +191,43 @@ void GoniometricLight::count(SceneFeatures& f) const {
   ++f.point_lights;
 }
 
+namespace {
+
+/// Colours of a square of equal areas, each that of an image by latitude and longitude in its
+/// direction, bilinearly between centres of texels; the image goes on beyond all its edges.
+std::vector<Spectrum> equal_areas(const BitmapPixels& image, int n) {
+  const int width = image.width(), height = image.height();
+  const auto texel = [&](int x, int y) {
+    return image.color((x % width + width) % width, (y % height + height) % height);
+  };
+  std::vector<Spectrum> texels;
+  for (int y = 0; y < n; ++y)
+    for (int x = 0; x < n; ++x) {
+      const Vector3f w =
+          square_to_sphere_equal_area({(float(x) + 0.5f) / float(n), (float(y) + 0.5f) / float(n)});
+      const float phi = std::atan2(w.y, w.x), turn = phi < 0 ? phi + 2 * kPi : phi;
+      const float s = turn / (2 * kPi) * float(width) - 0.5f,
+                  t = std::acos(std::clamp(w.z, -1.0f, 1.0f)) / kPi * float(height) - 0.5f;
+      const int i = int(std::floor(s)), j = int(std::floor(t));
+      const float ds = s - float(i), dt = t - float(j);
+      texels.push_back(lerp(lerp(texel(i, j), texel(i + 1, j), ds),
+                            lerp(texel(i, j + 1), texel(i + 1, j + 1), ds), dt));
+    }
+  return texels;
+}
+
+}  // namespace
+
 LightPointer GoniometricLight::build(SceneBuilder& b, const LightDescription& d) const {
   const auto image = b.pixels(file, {}, d.where);
   if (!image) return nullptr;
+  if (latitude_longitude) {
+    // So finely that steps between texels are small beside those of the image.
+    const int fine = std::clamp(4 * image->height(), 512, 2048);
+    std::vector<Spectrum> texels = equal_areas(*image, fine);
+    for (Spectrum& t : texels) t *= scale;
+    return std::make_unique<GoniometricEmitter>(Transform(d.to_world), fine, std::move(texels));
+  }
   const int n = image->width();
   if (image->height() != n) {
     b.diagnostics().error(d.where, "an equal-area map must be a square, not {}x{}", n,

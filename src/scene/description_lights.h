@@ -122,17 +122,19 @@ struct CollimatedLight {
 };
 
 /// Radiant intensity in all directions by an image that is a square of equal areas
-/// (math/equal_area.h), without interpolation; the mean of its colours counts. pbrt has it.
+/// (math/equal_area.h), without interpolation; the mean of its colours counts. pbrt-v4 has it. That
+/// of pbrt-v3 has colours by latitude and longitude around +z, with interpolation between them.
 struct GoniometricLight {
   std::string file;  ///< resolved path
   Spectrum scale{1.0f};
+  bool latitude_longitude = false;
   static constexpr auto fields() {
     using enum ParameterType;
     using L = GoniometricLight;
     return FieldList(field(&L::file, Parameter{.name = "filename", .type = ParameterType::file})
                          .names_data()
                          .shown(": "),
-                     field(&L::scale).shown(", scale "));
+                     field(&L::scale).shown(", scale "), field(&L::latitude_longitude));
   }
   static constexpr const char* name() { return "goniometric"; }
   static constexpr LightPose kPose = LightPose::both;

@@ -69,6 +69,34 @@ TEST_CASE("pbrt lights with an image have the power that they are given") {
       doctest::Approx(10 / (3.14159265 * 3.14159265 * 4 * 2 * luminance_of_image())).epsilon(1e-3));
 }
 
+// Directions at the centres of texels, and one between two of them, are off by 0.005 of the largest
+// value at most; an image that is turned, mirrored or upside down is another by 0.25.
+TEST_CASE("pbrt-v3: goniometric lights have an image by latitude and longitude, or none") {
+  SceneDescription d = v3_file(
+      "LightSource \"goniometric\" \"rgb I\" [2 2 1] \"string mapname\" \"image.exr\"\n"
+      "LightSource \"goniometric\" \"rgb I\" [3 2 1]\nShape \"sphere\"\n");
+  CHECK(std::get<PointLight>(d.lights.at(1).model).intensity == Spectrum(3, 2, 1));
+  const TemporaryDirectory folder;
+  write_exr(folder.path(kImage), four_pixels(), {});
+  std::get<GoniometricLight>(d.lights.at(0).model).file = folder.path(kImage);
+  Diagnostics diagnostics;
+  const auto scene = build_scene(d, {}, diagnostics);
+  REQUIRE(scene);
+  const auto towards = [&](const Point3f& p) {
+    return scene->lights.at(0)->sample_direct(p, {}).value().weight * length_squared(p - Point3f());
+  };
+  // pbrt-v3 measures latitude from the light's +y and longitude from its +x towards its +z.
+  const auto is = [](const Spectrum& a, const Spectrum& b) {
+    return std::max({std::abs(a.r - b.r), std::abs(a.g - b.g), std::abs(a.b - b.b)}) < 0.01f;
+  };
+  CHECK(is(towards({0, 1, 1}), {0, 0, 0}));
+  CHECK(is(towards({0, 1, -1}), {1, 0.5f, 0.75f}));
+  CHECK(is(towards({0, -1, 1}), {2, 2, 1}));
+  CHECK(is(towards({0, -1, -1}), {1, 1, 0.5f}));
+  CHECK(is(towards({-1, 1, 0}), {0.5f, 0.25f, 0.375f}));
+  CHECK(is(towards({0, 0, 1}), {1, 1, 0.5f}));
+}
+
 TEST_CASE("pbrt-v3: the rows of an environment map are centred half a row from the poles") {
   SceneDescription d =
       v3_file("LightSource \"infinite\" \"string mapname\" \"image.exr\"\nShape \"sphere\"\n");
