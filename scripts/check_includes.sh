@@ -41,8 +41,11 @@ find src parsers -name '*.h' -o -name '*.cpp' | sort | xargs awk '
            target == "materials/measured_table.h" || target == "media/volume_grid.h"
     if (!ok) { print FILENAME ":" FNR ": " module " must not include " target; bad = 1 }
   }
-  /^#include <embree/ && FILENAME !~ /accel_embree(_queries)?\.cpp$/ {
-    print FILENAME ":" FNR ": only geometry/accel_embree.cpp and accel_embree_queries.cpp may include Embree"; bad = 1
+  /^#include "geometry\/embree.h"/ && FILENAME !~ /accel_embree[a-z_]*\.cpp$/ {
+    print FILENAME ":" FNR ": only geometry/accel_embree*.cpp may know Embree"; bad = 1
+  }
+  /^#include <embree/ && FILENAME !~ /geometry\/embree\.h$/ {
+    print FILENAME ":" FNR ": only geometry/embree.h may include Embree"; bad = 1
   }
   /^#include <(OpenEXR|Imf|OpenImageIO)/ && FILENAME !~ /^src\/image\// {
     print FILENAME ":" FNR ": only src/image may include image libraries"; bad = 1

@@ -113,19 +113,19 @@ void plugins::read_obj_shape(SceneReader& s, Properties& p, ShapeList& out) {
   shape.where = p.node().where;
   shape.label = {p.node().id};
   MeshShape whole;
-  whole.source.file = s.file(p, "filename");
-  MeshOptions options = mesh_options(p, whole.source);
+  whole.source->file = s.file(p, "filename");
+  MeshOptions options = mesh_options(p, *whole.source);
   if (p.has("shape_index")) options.obj_part = p.integer("shape_index");
   options.collapse = p.boolean("collapse");
   const bool load = p.boolean("load_materials") && p.is_0x(), recenter = p.boolean("recenter");
   const GivenMaterials given = given_materials(s, p);
   s.attach_without_material(p, shape);
-  if (whole.source.file.empty()) return;
-  whole.source.is_part = options.obj_part.has_value();
+  if (whole.source->file.empty()) return;
+  whole.source->is_part = options.obj_part.has_value();
   const SourceLocation where = p.where("filename");
 
   if (given.by_name.empty() && (given.all || !load)) {
-    whole.mesh = s.cache().mesh("obj", whole.source.file, options, where);
+    whole.mesh = s.cache().mesh("obj", whole.source->file, options, where);
     if (!whole.mesh) return;
     if (recenter) shape.to_world = shape.to_world * recentering({whole.mesh.get()});
     shape.material = given.all ? *given.all : s.default_material(p, shape);
@@ -135,7 +135,7 @@ void plugins::read_obj_shape(SceneReader& s, Properties& p, ShapeList& out) {
   }
 
   auto read = s.report().from_file(
-      where, [&] { return s.files().read_obj_parts(whole.source.file, options); });
+      where, [&] { return s.files().read_obj_parts(whole.source->file, options); });
   if (!read) return;
   ObjFile& file = *read;
   if (recenter) {
@@ -143,7 +143,7 @@ void plugins::read_obj_shape(SceneReader& s, Properties& p, ShapeList& out) {
     for (const ObjPart& part : file.parts) meshes.push_back(&part.mesh);
     shape.to_world = shape.to_world * recentering(meshes);
   }
-  PartMaterials materials(s, p, given, load ? file.library : "", whole.source.file, shape);
+  PartMaterials materials(s, p, given, load ? file.library : "", whole.source->file, shape);
   std::map<std::string, MaterialId> used;
   for (ObjPart& part : file.parts) {
     const MaterialId id = materials.find(part.material);
@@ -152,7 +152,7 @@ void plugins::read_obj_shape(SceneReader& s, Properties& p, ShapeList& out) {
   }
   materials.report_unused();
   file.parts = join_parts(std::move(file.parts));
-  whole.source.is_part |= file.parts.size() > 1;
+  whole.source->is_part |= file.parts.size() > 1;
   for (ObjPart& part : file.parts) {
     ShapeDescription& made = out.shapes.emplace_back(shape);
     made.material = used.at(part.material);

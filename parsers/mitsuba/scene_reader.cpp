@@ -167,12 +167,13 @@ void SceneReader::top_level(const Node& node) {
   }
 }
 
-std::optional<AreaEmission> SceneReader::emission(const Node& node) {
+Boxed<AreaEmission> SceneReader::emission(const Node& node) {
   if (const auto known = surface_lights_.find(&node); known != surface_lights_.end())
     known->second = true;
   AreaEmission emission;
   emission.where = node.where;
-  return read_into(node, emission) ? std::optional(emission) : std::nullopt;
+  if (!read_into(node, emission)) return {};
+  return emission;
 }
 
 void SceneReader::check_scene(const NodeTree& tree, bool have_integrator) {

@@ -69,7 +69,7 @@ class SceneReader {
   void attach_without_material(Properties& p, ShapeDescription& shape);
   MaterialId default_material(Properties& p, const ShapeDescription& shape);
   /// What emits on a shape; nothing after an error.
-  std::optional<AreaEmission> emission(const Node& node);
+  Boxed<AreaEmission> emission(const Node& node);
   /// Reads `node` with its plugin's function if that makes a T; false after an error.
   template <class T>
   bool read_into(const Node& node, T& result);

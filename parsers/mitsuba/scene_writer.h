@@ -36,6 +36,10 @@ class SceneWriter {
   void fields(const T& description);
   template <class M>
   void one_field(const FieldFacts& facts, const M& value);
+  template <class M>
+  void one_field(const FieldFacts& facts, const Boxed<M>& value) {
+    if (value) one_field(facts, *value);
+  }
   /// What is open is the plugin of that description: its fields and what is lost of it.
   template <class T>
   void plugin(std::string_view tag, const T& description);

@@ -4,14 +4,14 @@
 namespace duet {
 
 void SceneWriter::mesh(const MeshShape& m) {
-  out_.string("filename", m.source.file);
-  if (m.source.file.empty()) lose("a mesh that does not come from a file is missing");
-  if (m.source.is_part)
+  out_.string("filename", m.source->file);
+  if (m.source->file.empty()) lose("a mesh that does not come from a file is missing");
+  if (m.source->is_part)
     lose("parts of an OBJ file cannot be named in Mitsuba 3: each is the whole file");
-  if (m.source.face_normals) out_.boolean("face_normals", true);
-  if (m.source.plugin != "serialized") out_.boolean("flip_tex_coords", m.source.flip_tex_coords);
-  if (m.source.plugin == "serialized") out_.integer("shape_index", m.source.shape_index);
-  if (m.source.max_smooth_angle)
+  if (m.source->face_normals) out_.boolean("face_normals", true);
+  if (m.source->plugin != "serialized") out_.boolean("flip_tex_coords", m.source->flip_tex_coords);
+  if (m.source->plugin == "serialized") out_.integer("shape_index", m.source->shape_index);
+  if (m.source->max_smooth_angle)
     lose("\"max_smooth_angle\" does not exist in Mitsuba 3: normals are those of the file");
 }
 

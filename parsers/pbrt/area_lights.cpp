@@ -29,10 +29,10 @@ constexpr Record<int> kAreaLights[] = {
 
 }  // namespace
 
-std::optional<AreaEmission> read_area_light(Reader& reader, const Plugin& plugin,
-                                            const std::function<double()>& area) {
+Boxed<AreaEmission> read_area_light(Reader& reader, const Plugin& plugin,
+                                    const std::function<double()>& area) {
   const auto* record = find_record<int>(reader, plugin, kAreaLights);
-  if (!record) return std::nullopt;
+  if (!record) return {};
   Values v(reader, plugin, record->parameters);
   AreaEmission emission;
   emission.where = plugin.where;
@@ -49,7 +49,7 @@ std::optional<AreaEmission> read_area_light(Reader& reader, const Plugin& plugin
   BitmapTexture image;
   image.file = v.file("filename");
   v.reader().note_image_colors(v.where("filename"));
-  if (image.file.empty()) return std::nullopt;
+  if (image.file.empty()) return {};
   scale_to_power(v, scale, image, [&](const TextureTexels& pixels) {
     return flux() * double(pixels.mean().luminance());
   });

@@ -25,7 +25,7 @@ void add_mesh(Values& v, TriangleMesh mesh, bool own_normals) {
   }
   auto shared = std::make_shared<const TriangleMesh>(std::move(mesh));
   v.reader().add_shape(v.plugin(),
-                       {.geometry = MeshShape{std::move(shared), {}}, .has_normals = own_normals});
+                       {.geometry = MeshShape{std::move(shared)}, .has_normals = own_normals});
 }
 
 void read_shape(Reader& reader, const Plugin& plugin) {

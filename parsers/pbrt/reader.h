@@ -182,8 +182,8 @@ class Reader {
 // The families of plugins, a file each.
 void read_shape(Reader& reader, const Plugin& plugin);
 /// `area` is that of the surface in the world.
-std::optional<AreaEmission> read_area_light(Reader& reader, const Plugin& plugin,
-                                            const std::function<double()>& area);
+Boxed<AreaEmission> read_area_light(Reader& reader, const Plugin& plugin,
+                                    const std::function<double()>& area);
 void read_light(Reader& reader, const Plugin& plugin);
 std::optional<MaterialId> read_material(Reader& reader, const Plugin& plugin);
 /// `plugin` has the texture's class as its name; `name` and `kind` ("float" …) precede that.

@@ -131,10 +131,10 @@ void SceneWriter::trianglemesh(const TriangleMesh& m, const FloatInput& alpha) {
 }
 
 void SceneWriter::mesh(const MeshShape& m, const FloatInput& alpha, const Matrix4& own) {
-  if (m.source.pbrt_file.empty() || !(own == Matrix4{}))
+  if (m.source->pbrt_file.empty() || !(own == Matrix4{}))
     return trianglemesh(moved(*m.mesh, own), alpha);
   Statement s("Shape", "plymesh");
-  s.string("filename", m.source.pbrt_file);
+  s.string("filename", m.source->pbrt_file);
   if (alpha != FloatInput(1.0)) put(s, "alpha", alpha);
   world_text_ += s.text();
 }

@@ -15,6 +15,10 @@ namespace duet {
 /// Whether update() will be called: then only what has moved is sorted anew, and rays are slower.
 enum class AccelUse { still, moving };
 
+/// From so many instances on that do not move, they need a third of the memory, and rays that meet
+/// them take longer.
+inline constexpr size_t kManyInstances = 1 << 16;
+
 /// An acceleration structure over shapes that must outlive it and stay where they are.
 class Accel {
  public:
@@ -45,6 +49,7 @@ class Accel {
  private:
   struct Device;
   void choose_packets(const std::vector<Shape>& shapes);
+  void attach_instances(AccelUse use);
   template <int kWidth>
   void intersect_packets(const RayBatch& rays, int n, HitBatch& hits) const;
   template <int kWidth>

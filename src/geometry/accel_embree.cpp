@@ -1,16 +1,10 @@
-// Builds Embree's acceleration structures; accel_embree_queries.cpp asks them. No other file knows
-// Embree.
-#if __has_include(<embree4/rtcore.h>)
-#include <embree4/rtcore.h>
-#else
-#include <embree3/rtcore.h>
-#endif
-
+// Builds Embree's acceleration structures; accel_embree_queries.cpp asks them.
 #include <fmt/format.h>
 
 #include <stdexcept>
 
 #include "geometry/accel.h"
+#include "geometry/embree.h"
 #include "geometry/ribbon.h"
 
 namespace duet {
@@ -34,12 +28,7 @@ void bounds_callback(const RTCBoundsFunctionArguments* args) {
   const Shape& shape = *static_cast<const Shape*>(args->geometryUserPtr);
   const Bounds b = is_ribbon(shape) ? ribbon_bounds(*shape.curves, args->primID)
                                     : analytic_bounds(shape, args->primID);
-  args->bounds_o->lower_x = b.lower.x;
-  args->bounds_o->lower_y = b.lower.y;
-  args->bounds_o->lower_z = b.lower.z;
-  args->bounds_o->upper_x = b.upper.x;
-  args->bounds_o->upper_y = b.upper.y;
-  args->bounds_o->upper_z = b.upper.z;
+  set_bounds(*args->bounds_o, b);
 }
 
 /// The nearest hit of a part in (tnear, ray.tmax). `u` is 0 on analytic shapes.
@@ -50,12 +39,6 @@ bool intersect_part(const Shape& shape, uint32_t part, const Ray& ray, float tne
   if (!intersect_analytic(shape, part, ray, double(tnear), double(ray.tmax), t)) return false;
   hit = {float(t[0]), 0};
   return true;
-}
-
-Ray ray_of(RTCRayN* rays, unsigned n, unsigned i) {
-  return {{RTCRayN_org_x(rays, n, i), RTCRayN_org_y(rays, n, i), RTCRayN_org_z(rays, n, i)},
-          {RTCRayN_dir_x(rays, n, i), RTCRayN_dir_y(rays, n, i), RTCRayN_dir_z(rays, n, i)},
-          RTCRayN_tfar(rays, n, i)};
 }
 
 void intersect_callback(const RTCIntersectFunctionNArguments* args) {
@@ -159,7 +142,8 @@ void place(RTCGeometry g, const Instance& instance) {
 
 struct Accel::Device {
   RTCDevice device = nullptr;
-  std::vector<RTCScene> scenes;  ///< the top scene, then one per group
+  std::vector<RTCScene> scenes;            ///< the top scene, then one per group
+  std::unique_ptr<InstanceSet> instances;  ///< if they are many
   ~Device() {
     for (RTCScene s : scenes) rtcReleaseScene(s);
     if (device) rtcReleaseDevice(device);
@@ -194,13 +178,7 @@ Accel::Accel(const std::vector<Shape>& shapes, ShapeRange top,
     rtcCommitScene(s);
   }
   choose_packets(shapes);
-  for (uint32_t i = 0; i < instances.size(); ++i) {
-    RTCGeometry g = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_INSTANCE);
-    rtcSetGeometryInstancedScene(g, device_->scenes[1 + instances[i].group]);
-    rtcSetGeometryTimeStepCount(g, 1);
-    place(g, instances[i]);
-    attach(scene, g, top.count + i);
-  }
+  attach_instances(use);
   check(device, "to take over the geometry");
   rtcCommitScene(scene);
   check(device, "to build the acceleration structure");
@@ -208,6 +186,27 @@ Accel::Accel(const std::vector<Shape>& shapes, ShapeRange top,
 }
 
 Accel::~Accel() = default;
+
+void Accel::attach_instances(AccelUse use) {
+  RTCDevice device = device_->device;
+  RTCScene scene = device_->scenes[0];
+  const std::vector<Instance>& instances = *instances_;
+  if (use == AccelUse::still && instances.size() >= kManyInstances) {
+    InstanceSet set{
+        &instances, {device_->scenes.begin() + 1, device_->scenes.end()}, {}, top_count_};
+    for (RTCScene group : set.scenes) set.bounds.push_back(bounds_of(group));
+    device_->instances = std::make_unique<InstanceSet>(std::move(set));
+    attach(scene, make_instances_geometry(device, *device_->instances), top_count_);
+    return;
+  }
+  for (uint32_t i = 0; i < instances.size(); ++i) {
+    RTCGeometry g = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_INSTANCE);
+    rtcSetGeometryInstancedScene(g, device_->scenes[1 + instances[i].group]);
+    rtcSetGeometryTimeStepCount(g, 1);
+    place(g, instances[i]);
+    attach(scene, g, top_count_ + i);
+  }
+}
 
 void Accel::choose_packets(const std::vector<Shape>& shapes) {
   // Curves have filters, which are made for one ray at a time, or are many. Where analytic shapes
@@ -246,14 +245,7 @@ void Accel::update(std::span<const uint32_t> shapes, std::span<const uint32_t> i
 }
 
 Bounds Accel::bounds() const {
-  RTCBounds b;
-  rtcGetSceneBounds(static_cast<RTCScene>(scene_), &b);
-  Bounds out;
-  if (b.lower_x <= b.upper_x) {
-    out.lower = {b.lower_x, b.lower_y, b.lower_z};
-    out.upper = {b.upper_x, b.upper_y, b.upper_z};
-  }
-  return out;
+  return bounds_of(static_cast<RTCScene>(scene_));
 }
 
 const char* embree_version() {

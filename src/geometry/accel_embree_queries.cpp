@@ -1,42 +1,15 @@
 // Asks Embree for rays. Versions 3.13 and 4 differ in how per-ray arguments are passed.
-#if __has_include(<embree4/rtcore.h>)
-#include <embree4/rtcore.h>
-#else
-#include <embree3/rtcore.h>
-#endif
-
 #include <algorithm>
 
 #include "geometry/accel.h"
+#include "geometry/embree.h"
 
 namespace duet {
-
-namespace {
-
-inline void set_ray(RTCRay& r, const Ray& ray) {
-  // Embree reads origin and direction as vectors of four: what is written piece by piece and read
-  // as a whole has to wait until it has left the store buffer.
-  using Four [[gnu::vector_size(16), gnu::may_alias]] = float;
-  *reinterpret_cast<Four*>(&r.org_x) = Four{ray.origin.x, ray.origin.y, ray.origin.z, 0};
-  *reinterpret_cast<Four*>(&r.dir_x) = Four{ray.direction.x, ray.direction.y, ray.direction.z, 0};
-  r.tfar = ray.tmax;
-  r.mask = ~0u, r.id = 0, r.flags = 0;
-}
-
-}  // namespace
 
 bool Accel::closest_hit(const Ray& ray, Hit& hit) const {
   RTCRayHit rh;
   set_ray(rh.ray, ray);
-  rh.hit.geomID = RTC_INVALID_GEOMETRY_ID;
-  rh.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
-#if RTC_VERSION_MAJOR >= 4
-  rtcIntersect1(static_cast<RTCScene>(scene_), &rh);
-#else
-  RTCIntersectContext context;
-  rtcInitIntersectContext(&context);
-  rtcIntersect1(static_cast<RTCScene>(scene_), &context, &rh);
-#endif
+  intersect_one(static_cast<RTCScene>(scene_), rh);
   if (rh.hit.geomID == RTC_INVALID_GEOMETRY_ID) return false;
   hit.t = rh.ray.tfar;
   hit.u = rh.hit.u;
@@ -55,13 +28,7 @@ bool Accel::closest_hit(const Ray& ray, Hit& hit) const {
 bool Accel::occluded(const Ray& ray) const {
   RTCRay r;
   set_ray(r, ray);
-#if RTC_VERSION_MAJOR >= 4
-  rtcOccluded1(static_cast<RTCScene>(scene_), &r);
-#else
-  RTCIntersectContext context;
-  rtcInitIntersectContext(&context);
-  rtcOccluded1(static_cast<RTCScene>(scene_), &context, &r);
-#endif
+  occlude_one(static_cast<RTCScene>(scene_), r);
   return r.tfar < 0;
 }
 

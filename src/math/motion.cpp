@@ -69,11 +69,19 @@ Matrix4 rotation(const Quaternion& q) {
 
 }  // namespace
 
-Motion::Motion(std::vector<Keyframe> keyframes) : keyframes_(std::move(keyframes)) {
-  for (const Keyframe& k : keyframes_) {
-    assert(parts_.empty() || keyframes_[parts_.size() - 1].time < k.time);
-    parts_.push_back(parts(k.pose));
+Motion::Motion(std::vector<Keyframe> keyframes) {
+  if (keyframes.empty()) return;
+  Way way{std::move(keyframes), {}};
+  for (const Keyframe& k : way.keyframes) {
+    assert(way.parts.empty() || way.keyframes[way.parts.size() - 1].time < k.time);
+    way.parts.push_back(parts(k.pose));
   }
+  way_ = std::move(way);
+}
+
+const std::vector<Keyframe>& Motion::keyframes() const {
+  static const std::vector<Keyframe> none;
+  return way_ ? way_->keyframes : none;
 }
 
 Motion::Parts Motion::parts(const Matrix4& pose) {
@@ -100,18 +108,19 @@ Matrix4 Motion::between(const Parts& a, const Parts& b, double share) {
 
 Matrix4 Motion::at(double time) const {
   if (empty()) return {};
-  const auto next = std::upper_bound(keyframes_.begin(), keyframes_.end(), time,
+  const auto& [keyframes, parts] = *way_;
+  const auto next = std::upper_bound(keyframes.begin(), keyframes.end(), time,
                                      [](double t, const Keyframe& k) { return t < k.time; });
-  if (next == keyframes_.begin()) return next->pose;
+  if (next == keyframes.begin()) return next->pose;
   const Keyframe& last = *std::prev(next);
-  if (next == keyframes_.end() || last.time == time || last.pose == next->pose) return last.pose;
-  const size_t i = size_t(next - keyframes_.begin());
-  return between(parts_[i - 1], parts_[i], (time - last.time) / (next->time - last.time));
+  if (next == keyframes.end() || last.time == time || last.pose == next->pose) return last.pose;
+  const size_t i = size_t(next - keyframes.begin());
+  return between(parts[i - 1], parts[i], (time - last.time) / (next->time - last.time));
 }
 
 bool Motion::is_still(double first, double last) const {
   const Matrix4 pose = at(first);
-  for (const Keyframe& k : keyframes_)
+  for (const Keyframe& k : keyframes())
     if (k.time > first && k.time < last && k.pose != pose) return false;
   return at(last) == pose;
 }

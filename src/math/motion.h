@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include "base/boxed.h"
 #include "math/transform.h"
 
 namespace duet {
@@ -25,14 +26,14 @@ class Motion {
   /// poses between them can be inverted, too. Their times increase.
   explicit Motion(std::vector<Keyframe> keyframes);
 
-  bool empty() const { return keyframes_.empty(); }
-  const std::vector<Keyframe>& keyframes() const { return keyframes_; }
+  bool empty() const { return keyframes().empty(); }
+  const std::vector<Keyframe>& keyframes() const;
   /// The identity if there are no poses; at their times exactly the poses.
   Matrix4 at(double time) const;
   /// Whether the pose is the same at all times from `first` to `last`.
   bool is_still(double first, double last) const;
 
-  bool operator==(const Motion& o) const { return keyframes_ == o.keyframes_; }
+  bool operator==(const Motion& o) const { return keyframes() == o.keyframes(); }
 
  private:
   /// A pose taken apart.
@@ -44,8 +45,13 @@ class Motion {
   static Parts parts(const Matrix4& pose);
   static Matrix4 between(const Parts& a, const Parts& b, double share);
 
-  std::vector<Keyframe> keyframes_;
-  std::vector<Parts> parts_;
+  /// The poses, and the same taken apart.
+  struct Way {
+    std::vector<Keyframe> keyframes;
+    std::vector<Parts> parts;
+  };
+
+  Boxed<Way> way_;  ///< few things move
 };
 
 }  // namespace duet

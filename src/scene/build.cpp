@@ -45,11 +45,13 @@ std::unique_ptr<Scene> SceneBuilder::build() {
     scene_->camera_medium = scene_->media[m].get();
   if (diagnostics_.has_errors()) return nullptr;
   Scene& scene = *scene_;
+  if (options_.names) name_things(*options_.names);
+  // Shapes are built, and their descriptions may be many.
+  if (use_ == AccelUse::still) description_.shapes = std::vector<ShapeDescription>();
   for (const auto& m : scene.materials) scene.has_passable_surfaces |= m->passes_straight();
   scene.accel = std::make_unique<Accel>(scene.shapes, scene.top, scene.groups, scene.instances,
                                         options_.threads, use_);
   survey();
-  if (options_.names) name_things(*options_.names);
   return std::move(made_);
 }
 

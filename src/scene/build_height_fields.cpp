@@ -84,7 +84,7 @@ void SceneBuilder::height_field(ShapeDescription& d) {
   if (read_heights(shape->heights, *shape, Spectrum(1.0f), field)) {
     const int columns = height_count(field.columns), rows = height_count(field.rows);
     field.heights =
-        enlarge(std::move(field.heights), field.columns, field.rows, columns, rows, shape->filter);
+        enlarge(std::move(field.heights), field.columns, field.rows, columns, rows, *shape->filter);
     field.columns = columns, field.rows = rows;
     result.mesh = std::make_shared<TriangleMesh>(make_height_field(field));
   } else {

@@ -76,6 +76,7 @@ void SceneBuilder::shapes() {
   scene.shapes.reserve(count + description_.shapes.size());
   scene.top = add_all(description_.shapes);
   for (ShapeGroupDescription& g : description_.groups) scene.groups.push_back(add_all(g.shapes));
+  scene.instances.reserve(description_.shapes.size() - scene.top.count);
   for (const ShapeDescription& d : description_.shapes)
     if (const auto* instance = std::get_if<InstanceShape>(&d.geometry))
       add_instance(d, instance->group);

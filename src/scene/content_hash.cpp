@@ -88,6 +88,11 @@ class Hasher {
     words_.add(value.has_value());
     if (value) add(*value);
   }
+  template <class T>
+  void add(const Boxed<T>& value) {
+    words_.add(value.has_value());
+    if (value) add(*value);
+  }
   template <class... T>
   void add(const std::variant<T...>& value) {
     words_.add(value.index());

@@ -8,6 +8,7 @@
 #include <variant>
 #include <vector>
 
+#include "base/boxed.h"
 #include "geometry/curves.h"
 #include "geometry/mesh.h"
 #include "geometry/sdf_grid.h"
@@ -39,9 +40,9 @@ struct MeshSource {
 /// The mesh in its own space. Shapes may share one.
 struct MeshShape {
   std::shared_ptr<const TriangleMesh> mesh;
-  MeshSource source;
+  Boxed<MeshSource> source = MeshSource{};  ///< never empty
   static constexpr auto fields() { return plain_fields(&MeshShape::mesh, &MeshShape::source); }
-  const std::string& name() const { return source.plugin; }
+  const std::string& name() const { return source->plugin; }
   const std::shared_ptr<const TriangleMesh>& triangles() const { return mesh; }
 };
 // A shape that is made of triangles has them in its own space: triangles().
@@ -121,7 +122,7 @@ struct HeightFieldShape {
   int width = 32, height = 32;  ///< of a texture that is no image
   bool shading_normals = true;  ///< smooth from patch to patch
   /// Makes a number of heights that is one more than a power of two along either side.
-  FilterDescription filter{.kind = FilterKind::lanczos, .lobes = 2};
+  Boxed<FilterDescription> filter = FilterDescription{.kind = FilterKind::lanczos, .lobes = 2};
   static constexpr auto fields() {
     using namespace parameter_words;
     using enum ParameterType;
@@ -202,7 +203,7 @@ struct ShapeDescription {
   Motion motion;  ///< of what `to_world` has placed
   bool flip_normals = false;
   MaterialId material{};  ///< not used by instances
-  std::optional<AreaEmission> emission;
+  Boxed<AreaEmission> emission;
   /// What fills the space behind and before the surface. A surface with neither of them changes
   /// nothing; one with either stands between the two, and the one that is absent is empty space.
   std::optional<MediumId> interior, exterior;

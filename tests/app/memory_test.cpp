@@ -44,9 +44,39 @@ Memory render(const Workplace& place, int size, std::vector<std::string> argumen
   return {std::stod(text[1]) * (text[2] == "MB" ? 1e6 : 1e9), stats["memory_peak_bytes"]};
 }
 
+/// A scene of pbrt with so many instances of one triangle.
+std::string instances(int count) {
+  std::string text =
+      "Film \"rgb\" \"integer xresolution\" 16 \"integer yresolution\" 16 \"string filename\" "
+      "\"a.exr\"\nIntegrator \"path\"\nWorldBegin\nLightSource \"infinite\"\nObjectBegin \"t\"\n"
+      "Shape \"trianglemesh\" \"point3 P\" [0 0 5 1 0 5 0 1 5] \"integer indices\" [0 1 2]\n"
+      "ObjectEnd\n";
+  for (int i = 0; i < count; ++i)
+    text += fmt::format("AttributeBegin Translate {} {} {} ObjectInstance \"t\" AttributeEnd\n",
+                        i % 100, i / 100 % 100, i / 10000);
+  return text;
+}
+
 }  // namespace
 
 TEST_SUITE("program") {
+  // Some 375 bytes each: 272 in the description, while it is there, and 108 in the scene. Embree's
+  // own instances, or a description that stays, would make it 480 and more.
+  TEST_CASE("an instance of many takes 400 bytes at most, from its file to its image") {
+    const Workplace place;
+    const auto peak = [&](int count) {
+      place.write("scene.pbrt", instances(count));
+      const Outcome o = place.run({"scene.pbrt", "-q", "--spp", "1", "--stats", "stats.json"});
+      REQUIRE_MESSAGE(o.code == 0, o.err);
+      return nlohmann::json::parse(read_file(place.path("stats.json")))["memory_peak_bytes"]
+          .get<double>();
+    };
+    constexpr int kFew = 1000, kMany = 250000;
+    const double each = (peak(kMany) - peak(kFew)) / (kMany - kFew);
+    MESSAGE(fmt::format("{:.0f} bytes for each", each));
+    CHECK(each < 400);
+  }
+
   TEST_CASE("the guard expects as much memory as a render takes") {
     const Workplace place;
     place.write("room.xml", kRoom);

@@ -143,7 +143,7 @@ TEST_CASE("convert: a film's exposure becomes that of all lights where films hav
   CHECK(!d.sensors.at(0).film.response);
   CHECK(std::get<PointLight>(d.lights.at(0).model).intensity == Spectrum(2.5f, 5, 10));
   CHECK(std::get<ConstantLight>(d.lights.at(1).model).radiance == Spectrum(10, 5, 2.5f));
-  CHECK(std::get<Spectrum>(d.shapes.at(0).emission.value().radiance) == Spectrum(5, 10, 15));
+  CHECK(std::get<Spectrum>(d.shapes.at(0).emission->radiance) == Spectrum(5, 10, 15));
 }
 
 TEST_CASE("convert: meshes, curves and grids without a file get one, with the same content") {

@@ -67,9 +67,9 @@ TEST_CASE("paths and backslashes") {
     <shape type="obj"><string name="filename" value="meshes\b.obj"/></shape>)",
                                   files);
   REQUIRE_MESSAGE(r.scene, r.messages());
-  CHECK(std::get<MeshShape>(r.description().shapes[0].geometry).source.file ==
+  CHECK(std::get<MeshShape>(r.description().shapes[0].geometry).source->file ==
         "/common/meshes/a.obj");
-  CHECK(std::get<MeshShape>(r.description().shapes[1].geometry).source.file ==
+  CHECK(std::get<MeshShape>(r.description().shapes[1].geometry).source->file ==
         "/scene/meshes/b.obj");
   CHECK(read_scene("3.0.0", "<path value='nowhere'/>")
             .has("scene.xml:2:7: error: file \"nowhere\" not found"));

@@ -159,12 +159,12 @@ TEST_CASE("shape: places and orientation") {
 TEST_CASE("shape: meshes") {
   const auto mesh = [](const std::string& version, const std::string& type,
                        const std::string& content) {
-    return std::get<MeshShape>(good(version, "<shape type='" + type +
-                                                 "'><string name='filename' value='a." + type +
-                                                 "'/>" + content + "</shape>")
-                                   .shapes.at(0)
-                                   .geometry)
-        .source;
+    return *std::get<MeshShape>(good(version, "<shape type='" + type +
+                                                  "'><string name='filename' value='a." + type +
+                                                  "'/>" + content + "</shape>")
+                                    .shapes.at(0)
+                                    .geometry)
+                .source;
   };
   CHECK(mesh("3.0.0", "obj", "").flip_tex_coords);
   CHECK(!mesh("3.0.0", "ply", "").flip_tex_coords);

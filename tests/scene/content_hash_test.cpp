@@ -111,12 +111,12 @@ TEST_CASE("the content hash sees the data of meshes and images, and not where th
     TriangleMesh m = make_rectangle();
     m.positions[0].x = x;
     d.shapes.resize(1);
-    d.shapes[0].geometry = MeshShape{std::make_shared<TriangleMesh>(std::move(m)), {}};
+    d.shapes[0].geometry = MeshShape{std::make_shared<TriangleMesh>(std::move(m))};
     d.materials.resize(1);
     return d;
   };
   SceneDescription renamed = mesh(-1);
-  std::get<MeshShape>(renamed.shapes[0].geometry).source.file = "elsewhere.ply";
+  std::get<MeshShape>(renamed.shapes[0].geometry).source->file = "elsewhere.ply";
   CHECK(content_hash(renamed) == content_hash(mesh(-1)));
   CHECK(content_hash(mesh(-1)) != content_hash(mesh(-1.5)));
   CHECK(content_hash(mesh(0.0f)) == content_hash(mesh(-0.0f)));

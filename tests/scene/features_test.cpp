@@ -102,7 +102,7 @@ TEST_CASE("lights and lenses are counted") {
   d.materials.resize(1);
   d.textures.resize(1);
   ShapeDescription lamp = shape(DiskShape{});
-  lamp.emission.emplace();
+  lamp.emission = AreaEmission{};
   d.shapes.push_back(lamp);
   lamp.emission->radiance = TextureId{0};
   d.shapes.push_back(lamp);

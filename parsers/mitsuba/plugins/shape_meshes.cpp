@@ -21,13 +21,13 @@ namespace {
 
 void read_mesh(SceneReader& s, Properties& p, ShapeDescription& out) {
   MeshShape shape;
-  shape.source.file = s.file(p, "filename");
-  MeshOptions options = mesh_options(p, shape.source);
-  if (shape.source.plugin == "serialized")
-    options.shape_index = shape.source.shape_index = p.integer("shape_index");
-  if (!shape.source.file.empty())
+  shape.source->file = s.file(p, "filename");
+  MeshOptions options = mesh_options(p, *shape.source);
+  if (shape.source->plugin == "serialized")
+    options.shape_index = shape.source->shape_index = p.integer("shape_index");
+  if (!shape.source->file.empty())
     shape.mesh =
-        s.cache().mesh(shape.source.plugin, shape.source.file, options, p.where("filename"));
+        s.cache().mesh(shape.source->plugin, shape.source->file, options, p.where("filename"));
   out.geometry = std::move(shape);
   s.attach_to_surface(p, out);
 }

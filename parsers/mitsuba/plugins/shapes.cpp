@@ -126,7 +126,7 @@ void read_heightfield(SceneReader& s, Properties& p, ShapeDescription& out) {
   const int width = p.integer("width"), height = p.integer("height");
   // Mitsuba 0.6 does not listen to one of them alone.
   if (p.has("width") && p.has("height")) field.width = width, field.height = height;
-  if (const Node* filter = p.child(PluginKind::rfilter)) s.read_into(*filter, field.filter);
+  if (const Node* filter = p.child(PluginKind::rfilter)) s.read_into(*filter, *field.filter);
   const auto textures = p.children(PluginKind::texture);
   s.attach_to_surface(p, out);
   if (textures.size() + (p.has("filename") ? 1 : 0) != 1)

@@ -26,7 +26,7 @@ CurveSet without_negative_radii(CurveSet curves, std::vector<std::string>& losse
 }
 
 void shape_files(ShapeDescription& s, NewFiles& files, std::vector<std::string>& losses) {
-  if (auto* mesh = std::get_if<MeshShape>(&s.geometry); mesh && !has_file(mesh->source)) {
+  if (auto* mesh = std::get_if<MeshShape>(&s.geometry); mesh && !has_file(*mesh->source)) {
     auto made = mesh->mesh;
     // Normals that Mitsuba makes, too, are left to it.
     if (made->computed_normals) {
@@ -34,12 +34,12 @@ void shape_files(ShapeDescription& s, NewFiles& files, std::vector<std::string>&
       plain.normals.clear();
       made = std::make_shared<const TriangleMesh>(std::move(plain));
     }
-    mesh->source = {};
-    mesh->source.file = mesh->mesh->computed_normals ? files.add("mesh", "ply", ply_bytes(*made))
-                                                     : files.add_mesh(mesh->mesh);
-    mesh->source.plugin = "ply";
-    mesh->source.flip_tex_coords = false;
-    mesh->source.face_normals = mesh->mesh->normals.empty();
+    mesh->source = MeshSource{};
+    mesh->source->file = mesh->mesh->computed_normals ? files.add("mesh", "ply", ply_bytes(*made))
+                                                      : files.add_mesh(mesh->mesh);
+    mesh->source->plugin = "ply";
+    mesh->source->flip_tex_coords = false;
+    mesh->source->face_normals = mesh->mesh->normals.empty();
   }
   if (auto* curves = std::get_if<CurvesShape>(&s.geometry); curves && curves->file.empty())
     curves->file =

@@ -25,13 +25,13 @@ bool keeps_angles(const Matrix4& m) {
 /// pbrt reads PLY files with their own normals and coordinates alone.
 void mesh_file(ShapeDescription& s, NewFiles& files) {
   auto* mesh = std::get_if<MeshShape>(&s.geometry);
-  if (!mesh || !mesh->source.pbrt_file.empty()) return;
-  const MeshSource& from = mesh->source;
+  if (!mesh || !mesh->source->pbrt_file.empty()) return;
+  const MeshSource& from = *mesh->source;
   const bool plain = from.plugin == "ply" && !from.flip_tex_coords && !from.max_smooth_angle &&
                      !mesh->mesh->computed_normals &&
                      from.face_normals == mesh->mesh->normals.empty();
   if (plain && !from.file.empty() && !mesh->mesh->normals.empty()) {
-    mesh->source.pbrt_file = from.file;
+    mesh->source->pbrt_file = from.file;
     return;
   }
   if (mesh->mesh->computed_normals && s.motion.empty() && !keeps_angles(s.to_world)) {
@@ -43,7 +43,7 @@ void mesh_file(ShapeDescription& s, NewFiles& files) {
   }
   // Few triangles stand in the scene itself.
   constexpr size_t kFew = 64;
-  if (mesh->mesh->triangles.size() > kFew) mesh->source.pbrt_file = files.add_mesh(mesh->mesh);
+  if (mesh->mesh->triangles.size() > kFew) mesh->source->pbrt_file = files.add_mesh(mesh->mesh);
 }
 
 void environment_file(SceneDescription& scene, LightDescription& l, NewFiles& files,

@@ -62,8 +62,8 @@ void name_files_again(SceneDescription& scene, const NewFiles& files) {
     }
   for_all_shapes(scene, [&](ShapeDescription& s) {
     if (auto* mesh = std::get_if<MeshShape>(&s.geometry)) {
-      mesh->source.file = files.relative(mesh->source.file);
-      mesh->source.pbrt_file = files.relative(mesh->source.pbrt_file);
+      mesh->source->file = files.relative(mesh->source->file);
+      mesh->source->pbrt_file = files.relative(mesh->source->pbrt_file);
     }
     if (auto* grid = std::get_if<SdfGridShape>(&s.geometry))
       grid->file = files.relative(grid->file);

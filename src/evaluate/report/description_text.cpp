@@ -162,7 +162,7 @@ std::string DescriptionText::shape_kind(const ShapeDescription& s) const {
   return std::visit(
       Overloaded{
           [](const MeshShape& m) {
-            return m.source.plugin.empty() ? std::string("mesh") : m.source.plugin;
+            return m.source->plugin.empty() ? std::string("mesh") : m.source->plugin;
           },
           [](const CurvesShape& m) {
             return fmt::format("{} ({}, {} segments)", m.name(), file_name(m.file),
@@ -183,7 +183,7 @@ std::string DescriptionText::shape(const ShapeDescription& s) const {
            (s.motion.empty() ? "" : ", moves");
   }
   if (const auto* m = std::get_if<MeshShape>(&s.geometry)) {
-    if (!m->source.file.empty()) t += fmt::format(" ({})", file_name(m->source.file));
+    if (!m->source->file.empty()) t += fmt::format(" ({})", file_name(m->source->file));
     t += fmt::format(", {} triangles", m->mesh->triangles.size());
   }
   t += ", bsdf " + name(s.material);
