@@ -60,6 +60,16 @@ void read_bilerp(Values& v, const Request& request, Made& made) {
   set(made, mapped(v, v.reader().add_texture(b, v.where())));
 }
 
+constexpr Spec kCoordinates[] = {DUET_MAPPING_SPECS};
+
+/// Red is u and green is v, both from 0 to 1 in each unit square.
+void read_coordinates(Values& v, const Request& request, Made& made) {
+  if (!request.is_color)
+    return v.reader().report().error(v.where(), "texture coordinates are colours, not numbers");
+  const BilerpDescription b{{0, 0, 0}, {0, 1, 0}, {1, 0, 0}, {1, 1, 0}, mapping(v), true};
+  set(made, mapped(v, v.reader().add_texture(b, v.where())));
+}
+
 constexpr Spec kDots[] = {{"inside", kEither, "1", "around the dots, as pbrt has it"},
                           {"outside", kEither, "0", "in the dots"},
                           DUET_MAPPING_SPECS};
@@ -107,6 +117,7 @@ constexpr Record<ReadTexture> kPatterns[] = {
     {"checkerboard", Versions::both, done, "never blurred by its distance", kChecks,
      read_checkerboard},
     {"bilerp", Versions::both, done, "", kBilerp, read_bilerp},
+    {"uv", Versions::v3, done, "", kCoordinates, read_coordinates},
     {"dots", Versions::both, done, "", kDots, read_dots},
     {"fbm", Versions::both, done, "never blurred by its distance", kNoise,
      read_noise<NoiseKind::fbm>},

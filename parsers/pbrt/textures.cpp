@@ -212,7 +212,6 @@ constexpr Record<ReadTexture> kTextures[] = {
     {"scale", Versions::both, done, "", kScale, read_scale},
     {"mix", Versions::both, done, "", kMixTexture, read_mix_texture},
     {"directionmix", Versions::v4, done, "", kDirectionMix, read_direction_mix},
-    {"uv", Versions::v3, refused, "texture coordinates as colours", {}, nullptr},
     {"ptex",
      Versions::both,
      refused,

@@ -64,6 +64,7 @@ bool SceneWriter::write_mapped_pattern(const MixDescription& t, const Target& ta
 }
 
 void SceneWriter::write(const BilerpDescription& t, const Target& target) {
+  if (t.repeats) lose("a texture that is linear in each square of coordinates goes on beyond one");
   Statement s = target.begin("bilerp");
   input(s, "v00", t.v00, target);
   input(s, "v01", t.v01, target);

@@ -50,7 +50,7 @@ std::unique_ptr<Texture> FunctionDescription::build(SceneBuilder& b, const Sourc
 }
 
 std::unique_ptr<Texture> BilerpDescription::build(SceneBuilder&, const SourceLocation&) const {
-  return std::make_unique<BilerpTexture>(v00, v01, v10, v11, to_uv);
+  return std::make_unique<BilerpTexture>(v00, v01, v10, v11, to_uv, repeats);
 }
 
 std::unique_ptr<Texture> DotsDescription::build(SceneBuilder& b, const SourceLocation&) const {

@@ -159,20 +159,25 @@ struct FunctionDescription {
   std::unique_ptr<Texture> build(SceneBuilder& b, const SourceLocation& where) const;
 };
 
-/// Linear between four corners; `v01` is at u = 0, v = 1.
+/// Linear between four corners; `v01` is at u = 0, v = 1. It goes on beyond the unit square, or
+/// begins anew in each.
 struct BilerpDescription {
   Spectrum v00{0.0f}, v01{1.0f}, v10{0.0f}, v11{1.0f};
   UvTransform to_uv;
+  bool repeats = false;
 
   static constexpr auto fields() {
     using namespace parameter_words;
     using enum ParameterType;
     using T = BilerpDescription;
-    return FieldList(field(&T::v00, Parameter{"v00", unbounded, kInitial, "constant"}),
-                     field(&T::v01, Parameter{"v01", unbounded, kInitial, "at u = 0, v = 1"}),
-                     field(&T::v10, Parameter{"v10", unbounded, kInitial, "constant"}),
-                     field(&T::v11, Parameter{"v11", unbounded, kInitial, "constant"}),
-                     uv_field(&T::to_uv));
+    return FieldList(
+        field(&T::v00, Parameter{"v00", unbounded, kInitial, "constant"}),
+        field(&T::v01, Parameter{"v01", unbounded, kInitial, "at u = 0, v = 1"}),
+        field(&T::v10, Parameter{"v10", unbounded, kInitial, "constant"}),
+        field(&T::v11, Parameter{"v11", unbounded, kInitial, "constant"}), uv_field(&T::to_uv),
+        field(&T::repeats,
+              Parameter{"repeats", boolean, kInitial, "begins anew in each unit square"})
+            .terse());
   }
   static constexpr const char* name() { return "bilerp"; }
   std::unique_ptr<Texture> build(SceneBuilder& b, const SourceLocation& where) const;

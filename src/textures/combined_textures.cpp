@@ -87,7 +87,7 @@ Point2f FunctionTexture::gradient(const Surface& s) const {
 }
 
 Point2f BilerpTexture::gradient(const Surface& s) const {
-  const Point2f p = to_uv_(s.uv);
+  const Point2f p = place(s);
   const float along_x = at({1, p.y}).luminance() - at({0, p.y}).luminance();
   const float along_y = at({p.x, 1}).luminance() - at({p.x, 0}).luminance();
   const auto& m = to_uv_.m;

@@ -1,6 +1,8 @@
 // Textures made of others, and the simplest patterns that these are combined with.
 #pragma once
 
+#include <cmath>
+
 #include "math/transform.h"
 #include "textures/texture.h"
 #include "textures/texture_kinds.h"
@@ -92,14 +94,14 @@ class FunctionTexture final : public Texture {
   TextureFunction function_;
 };
 
-/// Linear between the corners of the unit square of texture coordinates, and beyond; `v01` is at
-/// u = 0, v = 1.
+/// Linear between the corners of the unit square of texture coordinates, and beyond, or in each
+/// square anew; `v01` is at u = 0, v = 1.
 class BilerpTexture final : public Texture {
  public:
   BilerpTexture(const Spectrum& v00, const Spectrum& v01, const Spectrum& v10, const Spectrum& v11,
-                const UvTransform& to_uv)
-      : v00_(v00), v01_(v01), v10_(v10), v11_(v11), to_uv_(to_uv) {}
-  Spectrum color(const Surface& s) const override { return at(to_uv_(s.uv)); }
+                const UvTransform& to_uv, bool repeats)
+      : v00_(v00), v01_(v01), v10_(v10), v11_(v11), to_uv_(to_uv), repeats_(repeats) {}
+  Spectrum color(const Surface& s) const override { return at(place(s)); }
   float value(const Surface& s) const override { return color(s).luminance(); }
   Point2f gradient(const Surface& s) const override;
   Spectrum average() const override { return (v00_ + v01_ + v10_ + v11_) * 0.25f; }
@@ -109,8 +111,14 @@ class BilerpTexture final : public Texture {
     return (v00_ * (1 - p.y) + v01_ * p.y) * (1 - p.x) + (v10_ * (1 - p.y) + v11_ * p.y) * p.x;
   }
 
+  Point2f place(const Surface& s) const {
+    const Point2f p = to_uv_(s.uv);
+    return repeats_ ? Point2f(p.x - std::floor(p.x), p.y - std::floor(p.y)) : p;
+  }
+
   Spectrum v00_, v01_, v10_, v11_;
   UvTransform to_uv_;
+  bool repeats_;
 };
 
 /// Round dots in some of the unit squares around the integer points of texture coordinates,

@@ -234,6 +234,24 @@ TEST_CASE("pbrt-v3 hair, and Disney's material on one or both sides") {
   CHECK(std::get<double>(material_of(d, 3).model.get<PrincipledThinMaterial>().diff_trans) == 0.5);
 }
 
+TEST_CASE("pbrt-v3: texture coordinates are colours, in each unit square anew") {
+  const SceneDescription d = v3_file(
+      "Texture \"t\" \"color\" \"uv\" \"float uscale\" 3\n"
+      "Material \"matte\" \"texture Kd\" \"t\"\nShape \"sphere\"\n");
+  const auto& t = std::get<BilerpDescription>(d.textures.at(0).model);
+  CHECK(t.repeats);
+  CHECK(t.v10 == Spectrum(1, 0, 0));
+  CHECK(t.v01 == Spectrum(0, 1, 0));
+  CHECK(t.v11 == Spectrum(1, 1, 0));
+  CHECK(t.to_uv.m[0][0] == 3);
+  const TemporaryDirectory folder;
+  const PbrtFile number = read_pbrt_file(
+      folder.write("scene.pbrt",
+                   "Film \"image\"\nWorldBegin\nTexture \"t\" \"float\" \"uv\"\n"
+                   "Material \"matte\" \"texture sigma\" \"t\"\nShape \"sphere\"\nWorldEnd\n"));
+  CHECK(number.messages.find("texture coordinates are colours, not numbers") != std::string::npos);
+}
+
 TEST_CASE("pbrt-v3 matte and translucent take textures of all their parameters") {
   const SceneDescription d = v3_file(
       "Texture \"s\" \"float\" \"checkerboard\" \"float tex1\" 90\n"

@@ -85,6 +85,9 @@ TEST_CASE("texture: those of pbrt are written and read") {
                                  Spectrum(0.75f),
                                  {{{{2, 0, 0.5}, {0, 4, 0.25}}}}};
   CHECK(again(bilerp) == bilerp);
+  BilerpDescription repeats = bilerp;
+  repeats.repeats = true;
+  CHECK(again(repeats) == repeats);
   const DotsDescription dots{Spectrum(0.5f), TextureId{0}, {{{{9, 0, 0}, {0, 9, 0}}}}};
   CHECK(again(dots, {kTwoSquares}) == dots);
 }

@@ -218,15 +218,20 @@ TEST_CASE("sums, products and functions of textures") {
 
 TEST_CASE("colours between four corners") {
   const BilerpTexture texture(Spectrum(0), Spectrum(1, 0, 0), Spectrum(0, 1, 0), Spectrum(0, 0, 1),
-                              UvTransform{});
+                              UvTransform{}, false);
   CHECK(texture.color(at({}, {0, 1})) == Spectrum(1, 0, 0));
   CHECK(texture.color(at({}, {1, 0})) == Spectrum(0, 1, 0));
   CHECK(texture.color(at({}, {1, 1})) == Spectrum(0, 0, 1));
   CHECK(texture.color(at({}, {0.5f, 0.25f})).g == doctest::Approx(0.375));
   UvTransform turned;
   turned.m = {{{0, 2, 0.1}, {-1, 0, 0}}};
-  check_gradient(BilerpTexture(Spectrum(0), Spectrum(1), Spectrum(0.2f), Spectrum(0.7f), turned),
-                 at({}, {0.3f, 0.4f}));
+  check_gradient(
+      BilerpTexture(Spectrum(0), Spectrum(1), Spectrum(0.2f), Spectrum(0.7f), turned, false),
+      at({}, {0.3f, 0.4f}));
+  const BilerpTexture repeats(Spectrum(0), Spectrum(1, 0, 0), Spectrum(0, 1, 0), Spectrum(0, 0, 1),
+                              UvTransform{}, true);
+  CHECK(repeats.color(at({}, {3.25f, -0.5f})) == texture.color(at({}, {0.25f, 0.5f})));
+  CHECK(texture.color(at({}, {3.25f, -0.5f})) != texture.color(at({}, {0.25f, 0.5f})));
 }
 
 TEST_CASE("dots lie in two of five squares and keep to them") {
