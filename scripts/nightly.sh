@@ -81,7 +81,7 @@ run_python() {
 
 run_fuzz() {
   duet_install clang-14 libclang-rt-14-dev
-  scripts/build.sh fuzz
+  scripts/build.sh fuzz fuzzers
   local finds="$PWD/$logs/finds" failed=() count=0 program format seeds options
   mkdir -p "$finds"
   for program in build-fuzz/fuzz_*; do
