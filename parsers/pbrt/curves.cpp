@@ -61,8 +61,8 @@ CurveSet make_tubes(const CurvePoints& c) {
       // Linear along the whole curve; such control points make it so.
       const double u = (double(s) + double(i) - 1) / double(segments);
       const double width = c.width0 + u * (c.width1 - c.width0);
-      set.points.push_back({{float(spline[i][0]), float(spline[i][1]), float(spline[i][2])},
-                            float(0.5 * width)});
+      set.points.push_back(
+          {{float(spline[i][0]), float(spline[i][1]), float(spline[i][2])}, float(0.5 * width)});
     }
   }
   return set;
