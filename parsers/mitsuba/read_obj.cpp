@@ -156,7 +156,7 @@ void plugins::read_obj_shape(SceneReader& s, Properties& p, ShapeList& out) {
   for (ObjPart& part : file.parts) {
     ShapeDescription& made = out.shapes.emplace_back(shape);
     made.material = used.at(part.material);
-    made.geometry = MeshShape{std::make_shared<TriangleMesh>(std::move(part.mesh)), whole.source};
+    made.geometry = MeshShape{std::make_shared<TriangleMesh>(std::move(part.mesh)), *whole.source};
   }
 }
 

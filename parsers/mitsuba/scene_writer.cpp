@@ -1,5 +1,8 @@
 #include "mitsuba/scene_writer.h"
 
+#include <algorithm>
+
+#include "mitsuba/plugins/integrators.h"
 #include "mitsuba/writer.h"
 
 namespace duet {
@@ -63,9 +66,17 @@ void SceneWriter::integrator(const IntegratorDescription& i) {
   const bool layers = !i.aovs.layers.empty() || !i.image;
   if (layers) {
     std::string list;
-    for (const AovDescription::Layer& l : i.aovs.layers)
-      list += fmt::format("{}{}:{}", list.empty() ? "" : ", ", l.name, l.kind);
-    if (i.aovs.frame) lose("positions and normals of the layers are those of the world");
+    const auto& kinds = plugins::layer_kinds();
+    bool in_frame = false;
+    for (const AovDescription::Layer& l : i.aovs.layers) {
+      in_frame |= l.in_frame;
+      if (std::find(kinds.begin(), kinds.end(), l.kind) == kinds.end())
+        lose(fmt::format("the layer \"{}\" is missing", l.name));
+      else
+        list += fmt::format("{}{}:{}", list.empty() ? "" : ", ", l.name, l.kind);
+    }
+    if (in_frame)
+      lose("layers are in the coordinates of the world, with normals of either side of surfaces");
     out_.open("integrator", "aov");
     out_.string("aovs", list);
   }

@@ -135,8 +135,8 @@ constexpr Record<int> kFilms[] = {
     {"rgb", Versions::v4, done, "", kRgbFilm, 1},
     {"gbuffer", Versions::v4, done,
      "the layers Albedo, P, uv, dzdx, dzdy, N, Ns, Variance and RelativeVariance; dzdx and dzdy "
-     "have "
-     "signs and are per pixel, where pbrt divides them by the root of the samples per pixel",
+     "have signs and are per pixel, where pbrt divides them by the root of the samples per pixel; "
+     "variances are of colours and count samples that see no surface",
      kGbufferFilm, 1},
     {"spectral", Versions::v4, approximated, "by its colours alone", kSpectralFilm, 1},
     {"image", Versions::v3, done, "", kImageFilm, 1},
@@ -210,10 +210,17 @@ void read_filter(Reader& reader, FilmDescription& film) {
   }
 }
 
-/// The layers of a gbuffer. `to_camera` leads from the world to the camera's coordinates.
-void add_layers(Values& v, AovDescription& aovs, const std::optional<Matrix4>& to_camera) {
+/// The layers of a gbuffer.
+void add_layers(Values& v, AovDescription& aovs) {
   const std::string system = v.string("coordinatesystem");
-  aovs.frame = system == "camera" && to_camera ? *to_camera : Matrix4();
+  const auto& ctm = v.reader().camera_state.ctm;
+  if (system == "camera") {
+    aovs.frame = ctm[0].inverse().value_or(Matrix4());
+    if (!(ctm[0] == ctm[1]))
+      v.reader().approximate(
+          v.where(),
+          "layers in the coordinates of a camera that moves are in those of its first pose");
+  }
   if (system != "camera" && system != "world")
     v.reader().report().error(v.where("coordinatesystem"),
                               "a gbuffer's coordinate system is camera or world, not {}",
@@ -227,6 +234,7 @@ void add_layers(Values& v, AovDescription& aovs, const std::optional<Matrix4>& t
                  {"sh_normal", "Ns"},
                  {"sample_variance", "Variance"},
                  {"relative_variance", "RelativeVariance"}};
+  for (AovDescription::Layer& layer : aovs.layers) layer.in_frame = true;
 }
 
 }  // namespace
@@ -254,8 +262,7 @@ void read_film(Reader& reader, SensorDescription& sensor, double exposure_time) 
   if (reader.version() == Version::v3 || !v.boolean("savefp16"))
     film.component_format = ComponentFormat::single;
   sensor.lenses.film_diagonal = 1e-3 * v.positive("diagonal");
-  if (record->name == "gbuffer")
-    add_layers(v, reader.scene().integrator.aovs, reader.camera_state.ctm[0].inverse());
+  if (record->name == "gbuffer") add_layers(v, reader.scene().integrator.aovs);
   read_crop(v, film);
   read_response(v, film, exposure_time);
 }

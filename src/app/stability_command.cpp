@@ -14,6 +14,7 @@
 #include "base/diagnostics.h"
 #include "base/run_program.h"
 #include "evaluate/render/output.h"
+#include "evaluate/render/output_checks.h"
 #include "evaluate/stability/run.h"
 #include "evaluate/stability/selection.h"
 
@@ -91,9 +92,8 @@ int run_stability(const StabilityOptions& o, Program& program) {
   const Catalogue catalogue = read_catalogue(catalogue_folder(o.folder));
   const Selection selection{selected([&] { return select_rows(catalogue, o.cases, o.fast); }),
                             selected([&] { return select_methods(o.methods); }), o.fast};
-  for (const std::string& path : {o.markdown, o.json})
-    if (const std::string why = path.empty() ? "" : prepare_file(path); !why.empty())
-      throw UsageError(fmt::format("cannot write {}: {}", path, why));
+  check_writable("--markdown", o.markdown);
+  check_writable("--json", o.json);
   const std::string earlier = earlier_page(o);
   if (o.list) {
     fmt::print("{}", row_list(selection.rows));

@@ -231,7 +231,8 @@ void Accel::update(std::span<const uint32_t> shapes, std::span<const uint32_t> i
   RTCScene scene = device_->scenes[0];
   for (const uint32_t shape : shapes) {
     RTCGeometry g = rtcGetGeometry(scene, shape - top_first_);
-    // Analytic shapes have no buffer, but are user data; a commit asks for their bounds.
+    // Analytic shapes and ribbons have no buffer, but are user data; a commit asks for their
+    // bounds.
     if (!rtcGetGeometryUserData(g)) rtcUpdateGeometryBuffer(g, RTC_BUFFER_TYPE_VERTEX, 0);
     rtcCommitGeometry(g);
   }

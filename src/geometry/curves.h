@@ -10,7 +10,8 @@
 namespace duet {
 
 /// A point that a curve goes through (linear) or that pulls at it (B-spline), with the radius of
-/// the tube there.
+/// the tube there. Control points of B-splines may have negative radii where the tube narrows so
+/// quickly that it would end before its last point.
 struct TubePoint {
   Point3f position;
   float radius;

@@ -44,7 +44,7 @@ CameraIntegrator::CameraIntegrator(const CameraOutput& output)
   if (image_) channels_ = {"R", "G", "B", "A"};
   for (const Layer& layer : output.layers) {
     const std::vector<std::string> names = layer_channels(layer);
-    layers_.push_back({layer.kind, channels_.size(), names.size()});
+    layers_.push_back({layer.kind, channels_.size(), names.size(), layer.in_frame});
     channels_.insert(channels_.end(), names.begin(), names.end());
     looks_at_first_hit_ |= looks_at_hits(layer.kind);
     looks_at_next_rays_ |= layer_needs_next_rays(layer.kind);
@@ -110,7 +110,8 @@ void CameraIntegrator::sample(const Scene& scene, const CameraPath& path, Sample
     else if (found)
       evaluate_layer(
           layer.kind, scene,
-          {surface, -ray.direction, hit, path.next, &specular, frame_ ? &*frame_ : nullptr}, out);
+          {surface, -ray.direction, hit, path.next, &specular, layer.in_frame ? &frame_ : nullptr},
+          out);
   }
 }
 

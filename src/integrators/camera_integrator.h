@@ -25,7 +25,7 @@ enum class TechniqueOutput {
 struct CameraOutput {
   bool image = true;
   std::vector<Layer> layers;
-  std::optional<Transform> frame;  ///< of the layers: AovDescription::frame
+  Transform frame;  ///< of layers in one: AovDescription::frame
   TechniqueOutput techniques = TechniqueOutput::none;
 };
 
@@ -85,10 +85,11 @@ class CameraIntegrator : public Integrator {
     LayerKind kind;
     size_t first;     ///< index of its first channel
     size_t channels;  ///< number of them
+    bool in_frame;    ///< as AovDescription::Layer has it
   };
   bool image_;
   std::vector<PlacedLayer> layers_;
-  std::optional<Transform> frame_;
+  Transform frame_;
   std::vector<std::string> channels_;
   std::vector<size_t> colour_layers_;  ///< where those of add_colour_layer() begin
   bool looks_at_first_hit_ = false, looks_at_next_rays_ = false, follows_specular_ = false;

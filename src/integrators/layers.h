@@ -38,7 +38,8 @@ enum class LayerKind {
 
 struct Layer {
   LayerKind kind;
-  std::string name;  ///< prefix of its channels
+  std::string name;       ///< prefix of its channels
+  bool in_frame = false;  ///< AovDescription::Layer::in_frame
 };
 
 /// The kind with this name: those of Mitsuba's `aov` plugin (sh_normal, …) and of the command line

@@ -85,7 +85,7 @@ void set_parameters(IntegratorDescription& integrator,
 CameraOutput camera_output(const IntegratorDescription& integrator) {
   CameraOutput output;
   output.image = integrator.image;
-  if (integrator.aovs.frame) output.frame = Transform(*integrator.aovs.frame);
+  output.frame = Transform(integrator.aovs.frame);
   for (const AovDescription::Layer& layer : integrator.aovs.layers) {
     const auto kind = find_layer(layer.kind);
     if (!kind)
@@ -98,7 +98,7 @@ CameraOutput camera_output(const IntegratorDescription& integrator) {
     for (const Layer& other : output.layers)
       if (other.name == layer.name)
         throw std::invalid_argument(fmt::format("two layers are called \"{}\"", layer.name));
-    output.layers.push_back({*kind, layer.name});
+    output.layers.push_back({*kind, layer.name, layer.in_frame});
   }
   if (integrator.moments) output.layers.push_back({LayerKind::moments, "m2"});
   if (!output.image && output.layers.empty())

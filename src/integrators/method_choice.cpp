@@ -89,21 +89,27 @@ MethodChoice without_pilot(const MethodRules& rules, const PathLimits& o, const 
 struct Eligible {
   std::vector<uint8_t> candidates;
   bool unbiased = false;  ///< there is one among them that does not merge
+  /// Shares of the light that the best of them misses, and has in few pixels.
+  double least_missing = 1, least_rare = 1;
 };
 
 Eligible eligible(const MethodPrices& prices, const MethodRules& rules) {
   const std::vector<MethodCandidate>& c = prices.candidates;
   const std::vector<PredictedMethod>& p = prices.predictions;
-  double least_missing = 1, least_rare = 1;
-  for (const PredictedMethod& q : p)
-    least_missing = std::min(least_missing, q.missing), least_rare = std::min(least_rare, q.rare);
-  const auto finds_all = [&](size_t i) {
-    return p[i].missing <= least_missing + kNegligible && p[i].rare <= least_rare + kMostRare &&
-           !(rules.needs_light_subpaths && c[i].light_paths == 0);
-  };
   Eligible result;
+  const auto can_find_all = [&](size_t i) {
+    return !(rules.needs_light_subpaths && c[i].light_paths == 0);
+  };
+  for (size_t i = 0; i < c.size(); ++i)
+    if (can_find_all(i)) result.least_missing = std::min(result.least_missing, p[i].missing);
+  const auto finds_all = [&](size_t i) {
+    return can_find_all(i) && p[i].missing <= result.least_missing + kNegligible;
+  };
+  // Light that a method misses is not rare with it: those that miss some are no measure.
+  for (size_t i = 0; i < c.size(); ++i)
+    if (finds_all(i)) result.least_rare = std::min(result.least_rare, p[i].rare);
   for (size_t i = 0; i < c.size(); ++i) {
-    const bool may = finds_all(i);
+    const bool may = finds_all(i) && p[i].rare <= result.least_rare + kMostRare;
     result.candidates.push_back(may);
     result.unbiased |= may && c[i].merges == 0;
   }
@@ -111,10 +117,10 @@ Eligible eligible(const MethodPrices& prices, const MethodRules& rules) {
 }
 
 /// What is wrong with a candidate that is not eligible.
-std::string why_not(const PredictedMethod& p) {
-  if (p.missing > kNegligible)
+std::string why_not(const PredictedMethod& p, const Eligible& may) {
+  if (p.missing > may.least_missing + kNegligible)
     return fmt::format(" would miss {} of the light", percent(p.missing));
-  if (p.rare > kMostRare)
+  if (p.rare > may.least_rare + kMostRare)
     return fmt::format(" would show {} of the light in fewer than {} of the pixels",
                        percent(p.rare), percent(kTrimmedPixels));
   return " cannot find all light";
@@ -144,9 +150,8 @@ std::vector<std::string> promises(const MethodPrices& prices, const MethodRisk& 
   for (size_t i = 0; i < prices.candidates.size(); ++i) {
     const PredictedMethod& p = prices.predictions[i];
     lines.push_back(
-        fmt::format("auto: {:36} misses {:.2e}, rare {:.3f}, merges {:.3f}, variance {:.3g}, blur² "
-                    "{:.3g}, error² {:.3g}, "
-                    "cost {:.3g}, price {:.3g}, loss {:.3g}",
+        fmt::format("auto: {:36} misses {:.2e}, rare {:.3f}, merges {:.3f}, variance {:.3g}, "
+                    "blur² {:.3g}, error² {:.3g}, cost {:.3g}, price {:.3g}, loss {:.3g}",
                     prices.candidates[i].name, p.missing, p.rare, p.merged, p.variance, p.blur,
                     p.error, p.cost, p.error * p.cost, risk.loss(i)));
   }
@@ -187,7 +192,7 @@ MethodChoice take(const MethodPrices& prices, const MethodRules& rules) {
   choice.candidates = promises(prices, risk);
   choice.reason = c.name + ": ";
   if (!may.candidates[0])
-    choice.reason += from_camera.name + why_not(path);
+    choice.reason += from_camera.name + why_not(path, may);
   else if (best == 0)
     choice.reason +=
         fmt::format("no other method promises more than {} times its efficiency", kHysteresis);
@@ -203,8 +208,10 @@ MethodChoice take(const MethodPrices& prices, const MethodRules& rules) {
         ratio(risk.loss(best)));
   choice.reason += "; " + describe(rules);
   if (c.merges > 0) {
-    choice.bias = may.unbiased ? "merging is consistent, but biased"
-                               : "some light is found by merging only: consistent, but biased";
+    choice.bias =
+        may.unbiased
+            ? "merging is consistent, but biased"
+            : "some light is found by merging only, or in few pixels: consistent, but biased";
     choice.reason += "; consistent, biased";
   }
   return choice;

@@ -228,10 +228,10 @@ class Prediction {
   std::vector<double> norms_;
   struct Tile {
     double squares = 0, products = 0;  ///< of contributions
-    /// Light left out as too rare, in units of the image's error, and as it is; and that cannot be
-    /// found.
-    double trimmed = 0, rare = 0, missing = 0;
-    double merged = 0;  ///< light that merging finds
+    double missing = 0;                ///< light that cannot be found
+    double rare = 0;                   ///< light that is left out as too rare
+    double trimmed = 0;                ///< the same, in units of the image's error
+    double merged = 0;                 ///< light that merging finds
     /// Products of what two sub-paths have too much, and their squares.
     double blur = 0, blur_squares = 0;
   };

@@ -16,7 +16,7 @@ struct MethodRules {
   bool needs_light_subpaths = false;
   /// Merging is worth its cost for reflections of what mirrors or lenses make of light.
   bool may_merge = false;
-  /// All lights are infinitely far away: light sub-paths may miss what the image shows.
+  /// All lights are infinitely far away. Only told: nothing follows from it.
   bool far_lights_only = false;
   bool has_media = false;                ///< there are participating media
   bool has_heterogeneous_media = false;  ///< some whose transmittance has to be estimated

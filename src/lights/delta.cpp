@@ -228,14 +228,18 @@ double ProjectorEmitter::power(double) const {
 
 GoniometricEmitter::GoniometricEmitter(const Transform& to_world, int n,
                                        std::vector<Spectrum> texels)
-    : PositionEmitter(to_world(Point3f(0, 0, 0))),
-      to_world_(to_world),
-      n_(n),
-      texels_(std::move(texels)),
-      density_(float(inverse_determinant(to_world) * double(n) * n / (4 * std::numbers::pi))) {
+    : PositionEmitter(Point3f(0, 0, 0)), n_(n), texels_(std::move(texels)) {
+  place(to_world);
   std::vector<float> weights;
+  weights.reserve(texels_.size());
   for (const Spectrum& t : texels_) weights.push_back(std::max(t.luminance(), 0.0f));
   choice_ = DiscreteDistribution(weights);
+}
+
+void GoniometricEmitter::place(const Transform& to_world) {
+  position_ = to_world(Point3f(0, 0, 0));
+  to_world_ = to_world;
+  density_ = float(inverse_determinant(to_world) * double(n_) * n_ / (4 * std::numbers::pi));
 }
 
 std::optional<LightSample> GoniometricEmitter::sample_direct(const Point3f& from,

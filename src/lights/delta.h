@@ -103,6 +103,8 @@ class GoniometricEmitter final : public PositionEmitter {
  public:
   /// `texels` are n rows of n.
   GoniometricEmitter(const Transform& to_world, int n, std::vector<Spectrum> texels);
+  /// Puts it elsewhere: the image stays.
+  void place(const Transform& to_world);
   std::optional<LightSample> sample_direct(const Point3f& from, const Point2f& u) const override;
   double power(double scene_radius) const override;
   /// A direction by a texel chosen by its luminance.

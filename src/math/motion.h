@@ -26,7 +26,7 @@ class Motion {
   /// poses between them can be inverted, too. Their times increase.
   explicit Motion(std::vector<Keyframe> keyframes);
 
-  bool empty() const { return keyframes().empty(); }
+  bool empty() const { return !way_; }
   const std::vector<Keyframe>& keyframes() const;
   /// The identity if there are no poses; at their times exactly the poses.
   Matrix4 at(double time) const;

@@ -201,6 +201,7 @@ std::vector<Spectrum> equal_areas(const BitmapPixels& image, int n) {
     return image.color((x % width + width) % width, (y % height + height) % height);
   };
   std::vector<Spectrum> texels;
+  texels.reserve(size_t(n) * size_t(n));
   for (int y = 0; y < n; ++y)
     for (int x = 0; x < n; ++x) {
       const Vector3f w =
@@ -222,8 +223,8 @@ LightPointer GoniometricLight::build(SceneBuilder& b, const LightDescription& d)
   const auto image = b.pixels(file, {}, d.where);
   if (!image) return nullptr;
   if (latitude_longitude) {
-    // So finely that steps between texels are small beside those of the image.
-    const int fine = std::clamp(4 * image->height(), 512, 2048);
+    // So finely that steps between texels are small beside those of images of up to 512 rows.
+    const int fine = std::clamp(std::max(4 * image->height(), 2 * image->width()), 512, 2048);
     std::vector<Spectrum> texels = equal_areas(*image, fine);
     for (Spectrum& t : texels) t *= scale;
     return std::make_unique<GoniometricEmitter>(Transform(d.to_world), fine, std::move(texels));

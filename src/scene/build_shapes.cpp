@@ -73,7 +73,9 @@ void SceneBuilder::shapes() {
     return ShapeRange{uint32_t(first), uint32_t(scene.shapes.size() - first)};
   };
   for (const ShapeGroupDescription& g : description_.groups) count += g.shapes.size();
-  scene.shapes.reserve(count + description_.shapes.size());
+  for (const ShapeDescription& d : description_.shapes)
+    count += !std::holds_alternative<InstanceShape>(d.geometry);
+  scene.shapes.reserve(count);
   scene.top = add_all(description_.shapes);
   for (ShapeGroupDescription& g : description_.groups) scene.groups.push_back(add_all(g.shapes));
   scene.instances.reserve(description_.shapes.size() - scene.top.count);

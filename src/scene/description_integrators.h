@@ -125,12 +125,15 @@ struct AutoIntegratorDescription : PathLimits {
 struct AovDescription {
   struct Layer {
     std::string kind, name;
-    static constexpr auto fields() { return plain_fields(&Layer::kind, &Layer::name); }
+    bool in_frame = false;  ///< as pbrt's gbuffer has them
+    static constexpr auto fields() {
+      return plain_fields(&Layer::kind, &Layer::name, &Layer::in_frame);
+    }
   };
   std::vector<Layer> layers;
-  /// From the world to where positions and normals are told, and normals are turned towards the
-  /// camera: pbrt's gbuffer. Without one they are the world's, and normals those of the surface.
-  std::optional<Matrix4> frame;
+  /// From the world to where positions and normals of the layers in a frame are told; their normals
+  /// are turned towards the camera. Those of others are the world's, and normals the surface's.
+  Matrix4 frame;
   static constexpr auto fields() {
     return plain_fields(&AovDescription::layers, &AovDescription::frame);
   }

@@ -1,7 +1,6 @@
 // Lights that are not surfaces, as plain data.
 #pragma once
 
-#include <array>
 #include <memory>
 #include <optional>
 #include <string>

@@ -40,7 +40,11 @@ struct MeshSource {
 /// The mesh in its own space. Shapes may share one.
 struct MeshShape {
   std::shared_ptr<const TriangleMesh> mesh;
-  Boxed<MeshSource> source = MeshSource{};  ///< never empty
+  Boxed<MeshSource> source;  ///< never empty
+
+  MeshShape() : MeshShape(nullptr) {}
+  explicit MeshShape(std::shared_ptr<const TriangleMesh> triangles, MeshSource from = {})
+      : mesh(std::move(triangles)), source(std::move(from)) {}
   static constexpr auto fields() { return plain_fields(&MeshShape::mesh, &MeshShape::source); }
   const std::string& name() const { return source->plugin; }
   const std::shared_ptr<const TriangleMesh>& triangles() const { return mesh; }

@@ -2,6 +2,7 @@
 #include <algorithm>
 
 #include "cameras/realistic.h"
+#include "lights/delta.h"
 #include "lights/environment.h"
 #include "scene/builder.h"
 
@@ -41,6 +42,10 @@ void SceneBuilder::place_light(uint32_t index, const Matrix4& to_world) {
   if (std::holds_alternative<EnvironmentMapLight>(d.model) && !d.portal) {
     // The tables of an image do not turn with it.
     static_cast<EnvironmentMap&>(*described.light).turn(to_world);
+    return;
+  }
+  if (std::holds_alternative<GoniometricLight>(d.model)) {
+    static_cast<GoniometricEmitter&>(*described.light).place(Transform(to_world));
     return;
   }
   // The same from everywhere, however it turns.

@@ -113,7 +113,7 @@ class BilerpTexture final : public Texture {
 
   Point2f place(const Surface& s) const {
     const Point2f p = to_uv_(s.uv);
-    return repeats_ ? Point2f(p.x - std::floor(p.x), p.y - std::floor(p.y)) : p;
+    return repeats_ ? Point2f{p.x - std::floor(p.x), p.y - std::floor(p.y)} : p;
   }
 
   Spectrum v00_, v01_, v10_, v11_;

@@ -8,14 +8,18 @@ using namespace duet::test;
 
 namespace {
 
-/// A group of a mesh and an analytic shape, and one with nothing to be met but its shape's edge.
+/// A group of a mesh and an analytic shape, one of a disk, and a mesh and a ball among the
+/// instances.
 const std::string kGroups =
     camera_xml("0,-3,1", "0,0,1", 8) + "<shape type='shapegroup' id='group'><shape type='cube'>" +
     grey("0.5") + "</shape>" + sphere_xml("0,0,1.5", "0.7", grey("0.5")) +
     "</shape><shape type='shapegroup' id='other'><shape type='disk'>" + grey("0.5") +
     "</shape></shape><shape type='instance'><ref id='group'/></shape><shape type='instance'>"
     "<ref id='other'/></shape>" +
-    lamp_xml("0.3", "5,5,5");
+    sphere_xml("0.5,0.5,0.5", "0.1", grey("0.5")) +
+    "<shape type='cube'><transform name='to_world'><scale value='0.05'/><translate x='0.2' y='0.3' "
+    "z='0.4'/></transform>" +
+    grey("0.5") + "</shape>" + lamp_xml("0.3", "5,5,5");
 
 /// Of both groups in a cube, turned, stretched and mirrored.
 std::vector<Instance> scattered(size_t count) {
@@ -44,7 +48,7 @@ TEST_CASE("rays find the same among many instances as among as many of Embree's 
   CHECK(length(one.bounds().upper - own.bounds().upper) < 1e-4f);
   CHECK(length(one.bounds().lower - own.bounds().lower) < 1e-4f);
   constexpr int kRays = 20000;
-  int found = 0, analytic = 0, short_and_free = 0, same = 0;
+  int found = 0, analytic = 0, alone = 0, short_and_free = 0, same = 0;
   for (uint64_t i = 0; i < kRays; ++i) {
     Sampler s(SampleSequence::independent, 9, 0, i);
     s.start_sample(0);
@@ -63,12 +67,14 @@ TEST_CASE("rays find the same among many instances as among as many of Embree's 
     ++same;
     found += any;
     analytic += any && scene.shapes[hit.shape].kind != ShapeKind::mesh;
+    alone += any && hit.instance == kNone;
     short_and_free += !any && i % 2 == 1;
   }
   // But for rays that meet an edge.
   CHECK(same >= kRays - kRays / 1000);
   CHECK(found > kRays / 4);
   CHECK(analytic > kRays / 20);
+  CHECK(alone > kRays / 200);
   CHECK(short_and_free > kRays / 20);
 }
 

@@ -104,3 +104,30 @@ TEST_CASE("a short pilot takes what loses least, and says that it is short") {
   CHECK(unsure > 2);
   for (const MethodPrices& p : known) CHECK(!says_so(take(p, rules)));
 }
+
+// Light that a method misses is not rare with it, so that it is no measure of what is rare with
+// others.
+TEST_CASE("there is a method to take where one misses light and all others have it in few pixels") {
+  MethodPrices prices;
+  const auto add = [&](double light_paths, double missing, double rare, double error) {
+    MethodCandidate c;
+    c.method = PathIntegratorDescription{};
+    c.name = light_paths > 0 ? "bdpt" : "path";
+    c.light_paths = light_paths;
+    prices.candidates.push_back(c);
+    prices.predictions.push_back(method(std::vector<double>(kParts, error)));
+    prices.predictions.back().missing = missing, prices.predictions.back().rare = rare;
+  };
+  add(0, 0.3, 0, 1);
+  add(1, 0, 0.05, 2);
+  add(0.25, 0, 0.06, 1.5);
+  MethodChoice c = take(prices, {});
+  CHECK(c.reason.find("bdpt: path would miss 30 % of the light") == 0);
+  CHECK(c.candidates.size() == 3);
+  prices.predictions[0] = method(std::vector<double>(kParts, 1));
+  prices.predictions[0].rare = 0.08;
+  c = take(prices, {});
+  CHECK(c.reason.substr(0, 5) == "bdpt:");
+  CHECK(c.reason.find("path would show 8 % of the light in fewer than 0.1 % of the pixels") !=
+        std::string::npos);
+}

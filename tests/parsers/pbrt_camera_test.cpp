@@ -5,6 +5,7 @@
 #include <cmath>
 #include <map>
 
+#include "mitsuba/writer.h"
 #include "support/pbrt_file.h"
 #include "support/transport_scene.h"
 
@@ -137,12 +138,13 @@ TEST_CASE("realistic cameras are rendered by the methods that send rays from the
 
 namespace {
 
-PbrtFile gbuffer(const std::string& parameters) {
+PbrtFile gbuffer(const std::string& parameters, const std::string& look = "0 0 -5 0 0 0 0 1 0") {
   const TemporaryDirectory folder;
   return read_pbrt_file(folder.write(
       "scene.pbrt",
-      "LookAt 0 0 -5 0 0 0 0 1 0\nCamera \"perspective\"\nFilm \"gbuffer\" \"integer "
-      "xresolution\" 8 \"integer yresolution\" 8 " +
+      "LookAt " + look +
+          "\nCamera \"perspective\"\nFilm \"gbuffer\" \"integer "
+          "xresolution\" 8 \"integer yresolution\" 8 " +
           parameters +
           "\nPixelFilter \"box\"\nWorldBegin\nLightSource \"infinite\"\n"
           "LightSource \"point\" \"point3 from\" [1 0 -2] \"rgb I\" [9 9 9]\n"
@@ -152,8 +154,9 @@ PbrtFile gbuffer(const std::string& parameters) {
 }
 
 /// A pixel of the image of a gbuffer, by the names of its channels.
-std::map<std::string, double> gbuffer_pixel(const std::string& parameters, int spp) {
-  PbrtFile f = gbuffer(parameters);
+std::map<std::string, double> gbuffer_pixel(const std::string& parameters, int spp,
+                                            const std::string& look = "0 0 -5 0 0 0 0 1 0") {
+  PbrtFile f = gbuffer(parameters, look);
   REQUIRE(f.scene);
   CHECK(f.scene->approximations.empty());
   f.scene->integrator.aovs.layers.push_back({"variance", "v"});
@@ -195,6 +198,42 @@ TEST_CASE("pbrt's gbuffer: its layers are in the image, in the coordinates that 
   CHECK(camera.at("P.Z") == doctest::Approx(z + 5).epsilon(1e-3));
   CHECK(camera.at("N.Z") == doctest::Approx(world.at("N.Z")));
   CHECK(camera.at("dzdx.Z") == doctest::Approx(step).epsilon(0.05));
+}
+
+// A camera that is turned by 90° about y, looking along +x at the plane's other side.
+TEST_CASE("pbrt's gbuffer: positions and normals turn with the camera, normals towards it") {
+  const std::string look = "-20 0 1 0 0 1 0 1 0";
+  auto world = gbuffer_pixel("\"string coordinatesystem\" \"world\"", 64, look),
+       camera = gbuffer_pixel("", 64, look);
+  REQUIRE(std::abs(world.at("P.Z") - 1) > 0.1);
+  CHECK(world.at("N.X") == doctest::Approx(-1 / std::sqrt(5.0)));
+  CHECK(world.at("N.Z") == doctest::Approx(2 / std::sqrt(5.0)));
+  // Forward is the world's x, up its y, and to the right its -z.
+  CHECK(camera.at("N.Z") == doctest::Approx(world.at("N.X")));
+  CHECK(camera.at("N.X") == doctest::Approx(-world.at("N.Z")));
+  CHECK(camera.at("P.Z") == doctest::Approx(world.at("P.X") + 20).epsilon(1e-4));
+  CHECK(camera.at("P.X") == doctest::Approx(1 - world.at("P.Z")).epsilon(1e-4));
+  CHECK(camera.at("P.Y") == doctest::Approx(world.at("P.Y")).epsilon(1e-4));
+  // Layers that are asked for beside them are the world's.
+  PbrtFile f = gbuffer("", look);
+  f.scene->integrator.aovs.layers.push_back({"position", "mine"});
+  TransportScene scene(*std::move(f.scene));
+  const auto integrator = scene.method("path", {});
+  const std::vector<std::string> names = integrator->channels();
+  const Image image = scene.render(*integrator, scene.layout, 64, 1).image;
+  const size_t x = size_t(std::find(names.begin(), names.end(), "mine.X") - names.begin());
+  REQUIRE(x < names.size());
+  CHECK(double(image.data[(3 * 8 + 4) * names.size() + x]) ==
+        doctest::Approx(world.at("P.X")).epsilon(1e-4));
+}
+
+TEST_CASE("pbrt's gbuffer: a Mitsuba file has those layers that Mitsuba knows") {
+  const MitsubaXml xml = write_mitsuba_xml(*gbuffer("").scene);
+  for (const char* name : {"dzdx", "dzdy", "Variance", "RelativeVariance"})
+    CHECK(std::count(xml.losses.begin(), xml.losses.end(),
+                     std::string("the layer \"") + name + "\" is missing") == 1);
+  CHECK(xml.text.find("\"Albedo:albedo, P:position, uv:uv, N:geo_normal, Ns:sh_normal\"") !=
+        std::string::npos);
 }
 
 TEST_CASE("pbrt's gbuffer: variances are those of samples, after the exposure") {

@@ -12,14 +12,14 @@ const Node* nested_integrator(Properties& p) {
   return nested;
 }
 
-namespace {
-
 const std::vector<std::string>& layer_kinds() {
   static const std::vector<std::string> kinds{
       "albedo", "depth", "position", "uv",     "geo_normal", "sh_normal",
       "dp_du",  "dp_dv", "duv_dx",   "duv_dy", "prim_index", "shape_index"};
   return kinds;
 }
+
+namespace {
 
 void read_layers(Properties& p, AovDescription& out) {
   if (!p.find("aovs")) return;

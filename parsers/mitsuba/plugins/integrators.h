@@ -18,6 +18,8 @@ Plugin multichannel();
 /// Says that another method is run instead.
 void note_substitute(SceneReader& s, const Properties& p, std::string_view method,
                      std::string_view why = "");
+/// The kinds of layers that Mitsuba's plugin `aov` has.
+const std::vector<std::string>& layer_kinds();
 /// The integrator that stands in `p`; null after an error.
 const Node* nested_integrator(Properties& p);
 

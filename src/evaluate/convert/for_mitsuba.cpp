@@ -16,13 +16,17 @@ bool has_file(const MeshSource& s) {
   return !s.file.empty() && !s.is_part && !s.max_smooth_angle;
 }
 
-/// Radii that Mitsuba 3 reads: B-splines that come to a point have negative ones beyond it here.
-CurveSet without_negative_radii(CurveSet curves, std::vector<std::string>& losses) {
-  bool changed = false;
-  for (TubePoint& p : curves.points)
-    if (p.radius < 0) p.radius = 0, changed = true;
-  if (changed) losses.emplace_back("curves that come to a point are wider towards it");
-  return curves;
+/// The file of curves with radii that Mitsuba 3 reads: control points of B-splines that narrow
+/// quickly have negative ones here.
+std::string text_of(const CurveSet& curves, std::vector<std::string>& losses) {
+  const auto is_negative = [](const TubePoint& p) { return p.radius < 0; };
+  if (std::none_of(curves.points.begin(), curves.points.end(), is_negative))
+    return curves_text(curves);
+  const std::string loss = "curves that narrow quickly are wider towards their ends";
+  if (std::find(losses.begin(), losses.end(), loss) == losses.end()) losses.push_back(loss);
+  CurveSet wider = curves;
+  for (TubePoint& p : wider.points) p.radius = std::max(p.radius, 0.0f);
+  return curves_text(wider);
 }
 
 void shape_files(ShapeDescription& s, NewFiles& files, std::vector<std::string>& losses) {
@@ -42,8 +46,7 @@ void shape_files(ShapeDescription& s, NewFiles& files, std::vector<std::string>&
     mesh->source->face_normals = mesh->mesh->normals.empty();
   }
   if (auto* curves = std::get_if<CurvesShape>(&s.geometry); curves && curves->file.empty())
-    curves->file =
-        files.add("curves", "txt", curves_text(without_negative_radii(*curves->curves, losses)));
+    curves->file = files.add("curves", "txt", text_of(*curves->curves, losses));
 }
 
 void volume_file(VolumeDescription& v, NewFiles& files, std::vector<std::string>& losses) {

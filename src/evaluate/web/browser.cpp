@@ -27,7 +27,7 @@ std::string temporary_page(const std::string& file) {
 void open_page(const std::string& opener, const std::string& page) {
   const ProgramEnd end = run_program({find_program("setsid"), "--fork", opener, page});
   if (end.exit_code != 0)
-    throw std::runtime_error(fmt::format("xdg-open cannot be started: {}", end.err));
+    throw std::runtime_error(fmt::format("{} cannot be started: {}", opener, end.err));
 }
 
 }  // namespace duet
