@@ -18,7 +18,7 @@ PredictedMethod even(double error, double cost) {
   p.error = p.variance = error;
   p.cost = cost;
   const double share = error / (kSide * kSide);
-  p.parts.assign(size_t(kSide * kSide), {0, 0, share, share});
+  p.parts.assign(size_t(kSide * kSide), {.variance = share, .error = share});
   return p;
 }
 
