@@ -12,6 +12,7 @@
 #include "base/diagnostics.h"
 #include "base/log.h"
 #include "evaluate/render/output_checks.h"
+#include "evaluate/report/image_file.h"
 
 namespace duet {
 

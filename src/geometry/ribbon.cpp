@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "geometry/surface.h"
 #include "math/frame.h"
 
 namespace duet {

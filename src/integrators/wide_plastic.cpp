@@ -63,7 +63,7 @@ template <class Facets>
     out.roulette[k] = diffuse_weight > 0 ? second : first;
     const float p =
         lobe_probability(1 - transmittance(std::abs(at.wo.z)), specular_weight, diffuse_weight);
-    const Point2f v(vs.numbers.x[i], vs.numbers.y[i]);
+    const Point2f v{vs.numbers.x[i], vs.numbers.y[i]};
     const Vector3f mirrored = reflect(at.wo, facets.sample(at.wo, v));
     const Vector3f diffuse = square_to_cosine_hemisphere(v);
     const Vector3f wi(u < p ? mirrored.x : diffuse.x, u < p ? mirrored.y : diffuse.y,
