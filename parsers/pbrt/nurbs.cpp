@@ -107,7 +107,7 @@ TriangleMesh make_nurbs(const NurbsSurface& s) {
   };
   TriangleMesh mesh = make_grid(kPoints - 1, kPoints - 1, [&](double x, double y) {
     const auto [p, du, dv] = evaluate(s, parameter(s.u, x), parameter(s.v, y));
-    const auto derivative = [&](const P4& d) {
+    const auto derivative = [&p = p](const P4& d) {
       Vector3f r;
       for (int c = 0; c < 3; ++c) r[c] = float((d[size_t(c)] - p[size_t(c)] / p[3] * d[3]) / p[3]);
       return r;
