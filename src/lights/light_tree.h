@@ -6,41 +6,29 @@
 #include <vector>
 
 #include "lights/light_bounds.h"
+#include "lights/light_nodes.h"
 #include "lights/light_selection.h"
 
 namespace duet {
 
-/// A binary tree of LightBounds. A way down is chosen at each pair of nodes in proportion to their
-/// importance() for the point; the lights of a leaf by their power. Every light with power is
-/// reached with a probability that is told exactly; of far lights it may be zero, to rounding, so
-/// that a share of choices has to be made otherwise.
+/// A tree of LightBounds with up to eight children for each node. A way down is chosen among them
+/// in proportion to their importance for the point (LightEstimates), down to a leaf or to a node
+/// whose lights differ little as seen from there; one of its lights by their power. Every light
+/// with power is reached with a probability that is told exactly; of far lights it may be zero, to
+/// rounding, so that a share of choices has to be made otherwise.
 /// Source: Conty Estevez & Kulla 2018 (light_bounds.h), without their splitting; derivation and
 /// differences in docs/lights.md.
 class LightTree {
  public:
-  /// A node is half a cache line; beside it in memory is its sibling.
-  struct Node {
-    Point3f center;  ///< of a sphere that holds the lights
-    float radius;
-    float intensity;  ///< share of the tree's power over LightBounds::measure()
-    uint32_t child;   ///< number of a pair, or the lights of a leaf
-    int16_t axis[3];  ///< of the cone of normals, times 32767
-    int8_t normals;   ///< cosine of the cone's angle, times 127 and rounded down
-    int8_t spread;    ///< the same of LightBounds::spread
+  /// A node's child is a number of groups(), or the lights of a leaf.
+  struct Leaf {
+    static constexpr uint32_t kMark = 1u << 31;
+    uint32_t first, count;  ///< a range of light_order()
 
-    bool is_leaf() const { return (child & kLeaf) != 0; }
-    /// Of a leaf: the range in light_order().
-    uint32_t first() const { return child >> 3 & (kMost - 1); }
-    uint32_t count() const { return (child & 7) + 1; }
-    /// What the lights are expected to send to `from`, up to a factor that is common to all nodes.
-    float importance(const Point3f& from) const;
+    static bool is(uint32_t child) { return (child & kMark) != 0; }
+    static Leaf of(uint32_t child) { return {child >> 3 & (kMost - 1), (child & 7) + 1}; }
+    uint32_t child() const { return kMark | first << 3 | (count - 1); }
   };
-  struct alignas(64) Pair {
-    Node nodes[2];
-    /// The probability of the first node.
-    float first_share(const Point3f& from) const;
-  };
-  static constexpr uint32_t kLeaf = 1u << 31;
   static constexpr uint32_t kMost = 1u << 28;  ///< lights
   static constexpr uint32_t kMostInLeaf = 8;
 
@@ -67,8 +55,9 @@ class LightTree {
   /// Bounds of everything, where power is the sum.
   const LightBounds& bounds() const { return bounds_; }
 
-  // What it is made of, for tests.
-  std::span<const Pair> pairs() const { return pairs_; }
+  // What it is made of, for tests. The first group is the root's children.
+  std::span<const LightNodes> groups() const { return groups_; }
+  bool directed() const { return directed_; }
   std::span<const uint32_t> light_order() const { return order_; }
   std::span<const float> powers() const { return powers_; }
 
@@ -77,16 +66,15 @@ class LightTree {
   /// Where a light is.
   struct Place {
     uint32_t position = kNone;  ///< in order_
-    uint32_t trail = 0;         ///< bit i: which node of the pair at depth i leads to it
+    uint32_t trail = 0;         ///< three bits for each depth: which node of the group leads to it
   };
-  float leaf_power(const Node& leaf) const;
 
-  std::vector<Pair> pairs_;
-  Node root_{};
+  std::vector<LightNodes> groups_;
   std::vector<uint32_t> order_;  ///< lights, those of a leaf one after the other
-  std::vector<float> powers_;    ///< by position in order_
+  std::vector<float> powers_;    ///< shares of the tree's, by position in order_
   std::vector<Place> places_;    ///< by light
   LightBounds bounds_;
+  bool directed_ = false;  ///< whether any light does not shine into all directions
 };
 
 /// Whether `count` lights, or triangles of one, are chosen by a tree.

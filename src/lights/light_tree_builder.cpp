@@ -2,6 +2,7 @@
 #include <array>
 #include <bit>
 #include <cassert>
+#include <limits>
 
 #include "lights/light_tree.h"
 
@@ -10,8 +11,10 @@ namespace duet {
 namespace {
 
 constexpr int kBins = 12;
-/// The bits of a trail.
-constexpr uint32_t kMostDepth = 32;
+constexpr uint32_t kChildren = LightNodes::kCount;
+constexpr uint32_t kChildBits = std::bit_width(kChildren - 1);
+/// As many groups as a trail has room for.
+constexpr uint32_t kMostDepth = 32 / kChildBits;
 
 /// Of a cluster with more lights than this only the longest axis is looked at.
 constexpr uint32_t kLargeCluster = 1024;
@@ -71,21 +74,23 @@ struct Split {
   float cost = INFINITY;
 };
 
-int8_t rounded_down(float cosine) {
-  return int8_t(std::clamp(std::floor(cosine * 127), -127.0f, 127.0f));
+/// Above zero, as power is.
+float share_of(float power, float total) {
+  return std::max(power / total, std::numeric_limits<float>::min());
 }
 
 /// A node of the lights with these bounds; `total` is the power of the whole tree.
-LightTree::Node make_node(const LightBounds& b, float total, uint32_t child) {
-  LightTree::Node n{};
+LightNode make_node(const LightBounds& b, float total, uint32_t child) {
+  LightNode n;
   n.center = b.box.center();
   n.radius = b.box.radius();
+  n.power = share_of(b.power, total);
   // Narrow beams shall not let the importance overflow.
-  n.intensity = b.power / (total * std::max(b.measure(), 1e-3f));
+  n.intensity = n.power / std::max(b.measure(), 1e-3f);
   n.child = child;
-  for (int i = 0; i < 3; ++i) n.axis[i] = int16_t(std::lround(b.normals.axis[i] * 32767));
-  n.normals = rounded_down(std::cos(b.normals.angle));
-  n.spread = rounded_down(std::cos(b.spread));
+  n.axis = b.normals.axis;
+  n.normals = std::cos(b.normals.angle);
+  n.spread = std::cos(b.spread);
   return n;
 }
 
@@ -103,9 +108,7 @@ class LightTreeBuilder {
   }
 
   void build() {
-    if (items_.empty()) return;
-    const uint32_t child = cluster(0, uint32_t(items_.size()), 0, 0, tree_.bounds_);
-    tree_.root_ = make_node(tree_.bounds_, total_, child);
+    if (!items_.empty()) group({0, uint32_t(items_.size())}, 0, 0, tree_.bounds_);
   }
 
  private:
@@ -128,20 +131,41 @@ class LightTreeBuilder {
     uint32_t size() const { return end - begin; }
   };
 
-  /// Makes a node's child of a range of items; `bounds` becomes that of all of them.
-  uint32_t cluster(uint32_t begin, uint32_t end, uint32_t depth, uint32_t trail,
-                   LightBounds& bounds) {
-    if (end - begin <= leaf_size_) return leaf({begin, end}, trail, bounds);
-    const uint32_t middle = divide({begin, end}, depth);
-    const uint32_t pair = uint32_t(tree_.pairs_.size());
-    tree_.pairs_.emplace_back();
-    LightBounds second;
-    const uint32_t a = cluster(begin, middle, depth + 1, trail, bounds);
-    const uint32_t b = cluster(middle, end, depth + 1, trail | 1u << depth, second);
-    tree_.pairs_[pair].nodes[0] = make_node(bounds, total_, a);
-    tree_.pairs_[pair].nodes[1] = make_node(second, total_, b);
-    bounds.extend(second);
-    return pair;
+  /// Makes the children of a node of a range of items; returns the number of the group, and
+  /// extends `bounds` by all of them.
+  uint32_t group(const Range& range, uint32_t depth, uint32_t trail, LightBounds& bounds) {
+    const uint32_t number = uint32_t(tree_.groups_.size());
+    tree_.groups_.emplace_back();
+    uint32_t i = 0;
+    for (const Range& part : parts(range, depth)) {
+      if (part.size() == 0) continue;
+      const uint32_t way = trail | i << (kChildBits * depth);
+      LightBounds b;
+      const uint32_t child =
+          part.size() <= leaf_size_ ? leaf(part, way, b) : group(part, depth + 1, way, b);
+      tree_.groups_[number].set(int(i++), make_node(b, total_, child));
+      bounds.extend(b);
+    }
+    return number;
+  }
+
+  /// Divides the largest part again and again, until there are kChildren or all are leaves. Those
+  /// that are not used are empty.
+  std::array<Range, kChildren> parts(const Range& range, uint32_t depth) {
+    // Parts of equal number from where on worse ones might need more bits than a trail has.
+    const uint32_t bits = uint32_t(std::bit_width(range.size() - 1));
+    const bool must_halve = depth + (bits + kChildBits - 1) / kChildBits >= kMostDepth;
+    std::array<Range, kChildren> parts{range};
+    for (uint32_t n = 1; n < kChildren; ++n) {
+      Range& largest =
+          *std::max_element(parts.begin(), parts.begin() + n,
+                            [](const Range& a, const Range& b) { return a.size() < b.size(); });
+      if (largest.size() <= leaf_size_) break;
+      const uint32_t middle = divide(largest, must_halve);
+      parts[n] = {middle, largest.end};
+      largest.end = middle;
+    }
+    return parts;
   }
 
   uint32_t leaf(const Range& range, uint32_t trail, LightBounds& bounds) {
@@ -149,22 +173,21 @@ class LightTreeBuilder {
     for (uint32_t i = range.begin; i < range.end; ++i) {
       const Item& item = items_[i];
       bounds.extend(item.bounds);
+      tree_.directed_ |= item.bounds.normals.angle < kPi;
       tree_.places_[item.light] = {uint32_t(tree_.order_.size()), trail};
       tree_.order_.push_back(item.light);
-      tree_.powers_.push_back(item.bounds.power / total_);
+      tree_.powers_.push_back(share_of(item.bounds.power, total_));
     }
-    return LightTree::kLeaf | first << 3 | (range.size() - 1);
+    return LightTree::Leaf{first, range.size()}.child();
   }
 
   /// Puts the items of the first half before the others; returns where the second one begins.
-  uint32_t divide(const Range& range, uint32_t depth) {
+  uint32_t divide(const Range& range, bool must_halve) {
     Box centers;
     for (uint32_t i = range.begin; i < range.end; ++i) {
       const Point3f c = doubled_center(items_[i].bounds);
       centers.extend(c, c);
     }
-    // Halves of equal number from where on a worse split might need more bits than a trail has.
-    const bool must_halve = depth + uint32_t(std::bit_width(range.size() - 1)) >= kMostDepth;
     const Split split = must_halve ? Split{} : find_split(range, centers);
     const auto begin = items_.begin() + range.begin, end = items_.begin() + range.end;
     if (split.axis >= 0) {
@@ -224,7 +247,7 @@ LightTree::LightTree(std::vector<Entry> entries, uint32_t count, uint32_t leaf_s
     : places_(count) {
   assert(entries.size() <= kMost && leaf_size >= 1 && leaf_size <= kMostInLeaf);
   LightTreeBuilder(*this, std::move(entries), leaf_size).build();
-  pairs_.shrink_to_fit();
+  groups_.shrink_to_fit();
 }
 
 }  // namespace duet

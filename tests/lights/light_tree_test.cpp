@@ -218,6 +218,19 @@ TEST_CASE("near lights are preferred to far ones, and those that face a point to
   CHECK(pair.probability(1, {0, 0, -3}) == 1);
 }
 
+TEST_CASE("far lights that differ little are chosen by power") {
+  std::vector<LightBounds> lights;
+  for (int i = 0; i < 100; ++i)
+    lights.push_back(panel({float(i), 0, 0}, {0, 0, 1}, 0.1f, i == 1 ? 3.0f : 1.0f));
+  const LightTree tree = make_tree(lights, 1);
+  const auto ratio = [&](const Point3f& from) {
+    return tree.probability(1, from) / tree.probability(0, from);
+  };
+  CHECK(ratio({50, 0, 500}) == doctest::Approx(3).epsilon(1e-5));
+  CHECK(ratio({0, 0, 0.5f}) < 1);
+  CHECK(ratio({1, 0, 0.5f}) > 9);
+}
+
 TEST_CASE("lights in awkward places are all found") {
   const auto check = [](const std::vector<LightBounds>& lights, uint32_t leaf_size) {
     const LightTree tree = make_tree(lights, leaf_size);
@@ -251,36 +264,39 @@ TEST_CASE("lights in awkward places are all found") {
 TEST_CASE("a light tree's nodes hold what is below them") {
   const auto lights = mixed_lights(300);
   const LightTree tree = make_tree(lights, 2);
-  const auto check = [&](const auto& self, const LightTree::Node& node) -> double {
-    std::vector<uint32_t> below;
-    const auto gather = [&](const auto& again, const LightTree::Node& n) -> void {
-      if (n.is_leaf()) {
-        for (uint32_t i = 0; i < n.count(); ++i) below.push_back(tree.light_order()[n.first() + i]);
-        return;
-      }
-      for (const auto& child : tree.pairs()[n.child].nodes) again(again, child);
-    };
-    gather(gather, node);
-    float power = 0;
-    for (const uint32_t l : below) power += lights[l].power / tree.bounds().power;
-    if (node.normals == -127)
-      CHECK(node.intensity == doctest::Approx(double(power / (4 * kPi))).epsilon(0.01));
-    for (const uint32_t l : below) {
-      const LightBounds& b = lights[l];
-      CHECK(distance(b.box.center(), node.center) + b.box.radius() <=
-            node.radius * 1.0001f + b.box.radius() + 1e-5f);
-      const Vector3f axis(float(node.axis[0]), float(node.axis[1]), float(node.axis[2]));
-      const float between =
-          std::acos(std::clamp(dot(b.normals.axis, normalize(axis)), -1.0f, 1.0f));
-      if (node.normals == -127) continue;
-      REQUIRE(b.normals.angle < kPi);
-      CHECK(between + b.normals.angle <=
-            std::acos(std::max(-1.0f, float(node.normals) / 127)) + 2e-3f);
+  const auto below = [&](const auto& self, uint32_t child, std::vector<uint32_t>& found) -> void {
+    if (LightTree::Leaf::is(child)) {
+      const auto [first, count] = LightTree::Leaf::of(child);
+      for (uint32_t i = first; i < first + count; ++i) found.push_back(tree.light_order()[i]);
+      return;
     }
-    if (!node.is_leaf())
-      for (const auto& child : tree.pairs()[node.child].nodes) self(self, child);
-    return 0;
+    const LightNodes& group = tree.groups()[child];
+    for (int i = 0; i < LightNodes::kCount; ++i)
+      if (group.power[i] > 0) self(self, group.child[i], found);
   };
-  for (const auto& child : tree.pairs()[0].nodes) check(check, child);
+  size_t at_the_top = 0;
+  for (size_t number = 0; number < tree.groups().size(); ++number)
+    for (int i = 0; i < LightNodes::kCount; ++i) {
+      const LightNode node = tree.groups()[number].get(i);
+      if (!(node.power > 0)) continue;
+      std::vector<uint32_t> held;
+      below(below, node.child, held);
+      if (number == 0) at_the_top += held.size();
+      float power = 0;
+      for (const uint32_t l : held) power += lights[l].power / tree.bounds().power;
+      CHECK(node.power == doctest::Approx(double(power)).epsilon(1e-4));
+      if (node.normals <= -1)
+        CHECK(node.intensity == doctest::Approx(double(power / (4 * kPi))).epsilon(0.01));
+      for (const uint32_t l : held) {
+        const LightBounds& b = lights[l];
+        CHECK(distance(b.box.center(), node.center) <= node.radius * 1.0001f + 1e-5f);
+        if (node.normals <= -1) continue;
+        const float between =
+            std::acos(std::clamp(dot(b.normals.axis, normalize(node.axis)), -1.0f, 1.0f));
+        REQUIRE(b.normals.angle < kPi);
+        CHECK(between + b.normals.angle <= std::acos(node.normals) + 2e-3f);
+      }
+    }
+  CHECK(at_the_top == tree.light_order().size());
   CHECK(tree.memory_bytes() < lights.size() * 90);
 }

@@ -8,8 +8,12 @@
 
 namespace duet::test {
 
-/// LightTree::Node::importance().
-double importance(const LightTree::Node& node, const Point3f& from);
+/// LightEstimates::importance, without the intensities in its place, and the spare room before the
+/// node is not even: above zero if it is.
+struct Estimate {
+  double importance, spare;
+};
+Estimate estimate(const LightNode& node, bool directed, const Point3f& from);
 
 /// By light, the probability that the tree chooses it.
 std::vector<double> tree_probabilities(const LightTree& tree, size_t lights, const Point3f& from);
