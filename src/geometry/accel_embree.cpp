@@ -5,7 +5,6 @@
 
 #include "geometry/accel.h"
 #include "geometry/embree.h"
-#include "geometry/ribbon.h"
 
 namespace duet {
 
@@ -17,58 +16,6 @@ void check(RTCDevice device, const char* doing) {
   throw std::runtime_error(
       fmt::format("Embree failed {}: {}", doing,
                   error == RTC_ERROR_OUT_OF_MEMORY ? "out of memory" : "internal error"));
-}
-
-bool is_ribbon(const Shape& shape) {
-  return shape.kind == ShapeKind::curves && shape.curves->profile != CurveProfile::tube;
-}
-
-/// What Embree calls for shapes that it does not know: analytic ones and ribbons.
-void bounds_callback(const RTCBoundsFunctionArguments* args) {
-  const Shape& shape = *static_cast<const Shape*>(args->geometryUserPtr);
-  const Bounds b = is_ribbon(shape) ? ribbon_bounds(*shape.curves, args->primID)
-                                    : analytic_bounds(shape, args->primID);
-  set_bounds(*args->bounds_o, b);
-}
-
-/// The nearest hit of a part in (tnear, ray.tmax). `u` is 0 on analytic shapes.
-bool intersect_part(const Shape& shape, uint32_t part, const Ray& ray, float tnear,
-                    RibbonHit& hit) {
-  if (is_ribbon(shape)) return intersect_ribbon(*shape.curves, part, ray, tnear, hit);
-  double t[2];
-  if (!intersect_analytic(shape, part, ray, double(tnear), double(ray.tmax), t)) return false;
-  hit = {float(t[0]), 0};
-  return true;
-}
-
-void intersect_callback(const RTCIntersectFunctionNArguments* args) {
-  const Shape& shape = *static_cast<const Shape*>(args->geometryUserPtr);
-  const unsigned n = args->N;
-  RTCRayN* const rays = RTCRayHitN_RayN(args->rayhit, n);
-  RTCHitN* const hits = RTCRayHitN_HitN(args->rayhit, n);
-  for (unsigned i = 0; i < n; ++i) {
-    if (!args->valid[i]) continue;
-    RibbonHit hit;
-    if (!intersect_part(shape, args->primID, ray_of(rays, n, i), RTCRayN_tnear(rays, n, i), hit))
-      continue;
-    RTCRayN_tfar(rays, n, i) = hit.t;
-    RTCHitN_u(hits, n, i) = hit.u, RTCHitN_v(hits, n, i) = 0;
-    RTCHitN_primID(hits, n, i) = is_ribbon(shape) ? args->primID / kRibbonParts : args->primID;
-    RTCHitN_geomID(hits, n, i) = args->geomID;
-    RTCHitN_instID(hits, n, i, 0) = args->context->instID[0];
-  }
-}
-
-void occluded_callback(const RTCOccludedFunctionNArguments* args) {
-  const Shape& shape = *static_cast<const Shape*>(args->geometryUserPtr);
-  const unsigned n = args->N;
-  for (unsigned i = 0; i < n; ++i) {
-    if (!args->valid[i]) continue;
-    RibbonHit hit;
-    if (intersect_part(shape, args->primID, ray_of(args->ray, n, i), RTCRayN_tnear(args->ray, n, i),
-                       hit))
-      RTCRayN_tfar(args->ray, n, i) = -INFINITY;
-  }
 }
 
 /// Lets rays through the inside of a tube.
@@ -95,22 +42,11 @@ RTCGeometry make_tube_geometry(RTCDevice device, const CurveSet& curves) {
   return g;
 }
 
-RTCGeometry make_user_geometry(RTCDevice device, const Shape& shape) {
-  RTCGeometry g = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_USER);
-  rtcSetGeometryUserPrimitiveCount(g, is_ribbon(shape)
-                                          ? uint32_t(shape.curves->segments.size()) * kRibbonParts
-                                          : shape.analytic_parts());
-  rtcSetGeometryUserData(g, const_cast<Shape*>(&shape));
-  rtcSetGeometryBoundsFunction(g, bounds_callback, nullptr);
-  rtcSetGeometryIntersectFunction(g, intersect_callback);
-  rtcSetGeometryOccludedFunction(g, occluded_callback);
-  return g;
-}
-
 RTCGeometry make_geometry(RTCDevice device, const Shape& shape) {
-  if (shape.kind == ShapeKind::curves && !is_ribbon(shape))
-    return make_tube_geometry(device, *shape.curves);
-  if (shape.kind != ShapeKind::mesh) return make_user_geometry(device, shape);
+  if (shape.kind == ShapeKind::curves)
+    return shape.curves->profile == CurveProfile::tube ? make_tube_geometry(device, *shape.curves)
+                                                       : make_ribbon_geometry(device, shape);
+  if (shape.kind != ShapeKind::mesh) return make_analytic_geometry(device, shape);
   const TriangleMesh& m = *shape.mesh;
   RTCGeometry g = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);
   // Embree may read 4 bytes beyond the last vertex of a shared buffer: meshes for rendering reserve
@@ -211,7 +147,7 @@ void Accel::attach_instances(AccelUse use) {
 void Accel::choose_packets(const std::vector<Shape>& shapes) {
   // Curves have filters, which are made for one ray at a time, or are many. Where analytic shapes
   // are many, rays that part are slow in packets: each asks for other shapes.
-  constexpr int kFewAnalyticShapes = 16;
+  constexpr int kFewAnalyticShapes = 256;
   int analytic = 0;
   for (const Shape& shape : shapes) {
     if (shape.kind == ShapeKind::curves || shape.kind == ShapeKind::sdf_grid) return;

@@ -1,81 +1,31 @@
 #include <algorithm>
 
-#include "geometry/shape.h"
+#include "geometry/quadric.h"
 #include "geometry/surface.h"
 #include "math/warp.h"
 
 namespace duet {
 
-namespace {
-
-struct Local {
-  double x, y, z;
-};
-
-Local to_local(const Matrix4& m, const Point3f& p) {
-  const auto row = [&](int i) { return m[i][0] * p.x + m[i][1] * p.y + m[i][2] * p.z + m[i][3]; };
-  return {row(0), row(1), row(2)};
-}
-
-Local to_local(const Matrix4& m, const Vector3f& v) {
-  const auto row = [&](int i) { return m[i][0] * v.x + m[i][1] * v.y + m[i][2] * v.z; };
-  return {row(0), row(1), row(2)};
-}
-
-/// Roots of |o + t d|² = 1, over the first `dimensions` coordinates. The discriminant is formed
-/// from the point of closest approach, which keeps its digits for far origins. Source: Haines et
-/// al., "Precision Improvements for Ray/Sphere Intersection", Ray Tracing Gems, 2019.
-bool unit_quadric_roots(const Local& o, const Local& d, bool use_z, double t[2]) {
-  const double z = use_z ? 1 : 0;
-  const double a = d.x * d.x + d.y * d.y + z * d.z * d.z;
-  if (!(a > 0)) return false;
-  const double b = -(o.x * d.x + o.y * d.y + z * o.z * d.z) / a;
-  const double px = o.x + b * d.x, py = o.y + b * d.y, pz = z * (o.z + b * d.z);
-  const double h2 = 1 - (px * px + py * py + pz * pz);
-  if (!(h2 >= 0)) return false;
-  const double h = std::sqrt(h2 / a);
-  t[0] = b - h, t[1] = b + h;
-  return true;
-}
-
-}  // namespace
-
-int intersect_analytic(const Shape& shape, uint32_t part, const Ray& ray, double tnear, double tfar,
-                       double t[2]) {
-  const Local o = to_local(shape.to_local, ray.origin);
-  const Local d = to_local(shape.to_local, ray.direction);
-  int n = 0;
-  const auto accept = [&](double s) {
-    if (s > tnear && s < tfar) t[n++] = s;
-  };
-  double roots[2];
+double analytic_distance(const Shape& shape, uint32_t part, const Ray& ray, double tnear) {
+  const LocalVector o = to_local(shape.to_local, ray.origin);
+  const LocalVector d = to_local(shape.to_local, ray.direction);
+  const double tfar = double(ray.tmax);
   switch (shape.kind) {
     case ShapeKind::sphere:
-      if (unit_quadric_roots(o, d, true, roots)) accept(roots[0]), accept(roots[1]);
-      break;
+      return quadric_distance<ShapeKind::sphere>(o, d, tnear, tfar);
     case ShapeKind::cylinder:
-      if (unit_quadric_roots(o, d, false, roots))
-        for (const double s : roots) {
-          const double z = o.z + s * d.z;
-          if (z >= 0 && z <= 1) accept(s);
-        }
-      break;
-    case ShapeKind::disk: {
-      const double s = -o.z / d.z;
-      const double x = o.x + s * d.x, y = o.y + s * d.y;
-      if (x * x + y * y <= 1) accept(s);
-      break;
-    }
+      return quadric_distance<ShapeKind::cylinder>(o, d, tnear, tfar);
+    case ShapeKind::disk:
+      return quadric_distance<ShapeKind::disk>(o, d, tnear, tfar);
     case ShapeKind::sdf_grid:
-      if (const auto s = intersect_cell(*shape.sdf, shape.sdf->cells[part], {o.x, o.y, o.z},
-                                        {d.x, d.y, d.z}, tnear, tfar))
-        t[n++] = *s;
-      break;
+      return intersect_cell(*shape.sdf, shape.sdf->cells[part], {o.x, o.y, o.z}, {d.x, d.y, d.z},
+                            tnear, tfar)
+          .value_or(double(INFINITY));
     case ShapeKind::mesh:
     case ShapeKind::curves:
       break;
   }
-  return n;
+  return double(INFINITY);
 }
 
 void Bounds::extend(const Point3f& p) {
@@ -221,7 +171,7 @@ double surface_area(const Shape& shape) {
 namespace {
 
 /// A point of a signed distance field, near p.
-Surface make_sdf_surface(const Shape& shape, uint32_t primitive, const Local& p) {
+Surface make_sdf_surface(const Shape& shape, uint32_t primitive, const LocalVector& p) {
   const SdfPoint at = surface_point(*shape.sdf, shape.sdf->cells[primitive], {p.x, p.y, p.z});
   Surface s;
   s.shape = &shape;
@@ -239,7 +189,7 @@ Surface make_sdf_surface(const Shape& shape, uint32_t primitive, const Local& p)
 
 /// A point near a unit shape back onto it, which removes the rounding error of its distance, and
 /// the normal there.
-Normal3f snap_to_shape(ShapeKind kind, Local& p) {
+Normal3f snap_to_shape(ShapeKind kind, LocalVector& p) {
   switch (kind) {
     case ShapeKind::sphere: {
       const double l = 1 / std::sqrt(p.x * p.x + p.y * p.y + p.z * p.z);
@@ -275,9 +225,9 @@ std::pair<Vector3f, Vector3f> derivatives(ShapeKind kind, const Point3f& p) {
 }  // namespace
 
 Surface make_analytic_surface(const Shape& shape, const Ray& ray, const Hit& hit) {
-  const Local o = to_local(shape.to_local, ray.origin);
-  const Local d = to_local(shape.to_local, ray.direction);
-  Local at{o.x + hit.t * d.x, o.y + hit.t * d.y, o.z + hit.t * d.z};
+  const LocalVector o = to_local(shape.to_local, ray.origin);
+  const LocalVector d = to_local(shape.to_local, ray.direction);
+  LocalVector at{o.x + hit.t * d.x, o.y + hit.t * d.y, o.z + hit.t * d.z};
   if (shape.kind == ShapeKind::sdf_grid) return make_sdf_surface(shape, hit.primitive, at);
   Surface s;
   s.shape = &shape;

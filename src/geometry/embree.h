@@ -63,6 +63,10 @@ inline Bounds bounds_of(RTCScene scene) {
   return {{b.lower_x, b.lower_y, b.lower_z}, {b.upper_x, b.upper_y, b.upper_z}};
 }
 
+/// Analytic shapes and ribbons, which Embree does not know. The geometry refers to the shape.
+RTCGeometry make_analytic_geometry(RTCDevice device, const Shape& shape);
+RTCGeometry make_ribbon_geometry(RTCDevice device, const Shape& shape);
+
 /// Instances as the primitives of one geometry. Embree's own need three times the memory.
 struct InstanceSet {
   const std::vector<Instance>* instances;

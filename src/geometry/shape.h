@@ -80,11 +80,10 @@ struct Hit {
   uint32_t instance;  ///< kNone outside of instances
 };
 
-/// The intersections of a ray with a part of an analytic shape in (tnear, tfar), nearest first:
-/// their number is returned and the distances are stored in `t`; of cells only the nearest. Works
-/// in double precision and on directions of any length.
-int intersect_analytic(const Shape& shape, uint32_t part, const Ray& ray, double tnear, double tfar,
-                       double t[2]);
+/// The distance of the nearest intersection of a ray with a part of an analytic shape in
+/// (tnear, ray.tmax), or INFINITY. Works in double precision and on directions of any length, in
+/// units of theirs.
+double analytic_distance(const Shape& shape, uint32_t part, const Ray& ray, double tnear);
 
 /// Lower and upper corner of an analytic shape's box in world space.
 struct Bounds {
