@@ -221,6 +221,7 @@ void finish_integrator(Reader& reader) {
   standard.where = {std::make_shared<const std::string>(reader.scene().file), 0, 0};
   const Plugin& plugin = reader.integrator ? *reader.integrator : standard;
   reader.scene().integrator.where = plugin.where;
+  reader.scene().counts_passed_surfaces = false;
   const bool replaced = reader.options().replaces_integrator;
   const Record<ReadIntegrator>* record = nullptr;
   {

@@ -240,16 +240,16 @@ Spectrum BidirectionalIntegrator::trace(const Scene& scene, const CameraPath& pa
 }
 
 std::unique_ptr<PathWorkspace> BidirectionalIntegrator::make_workspace(const Scene& scene) const {
-  if (scene.media.empty()) return std::make_unique<BidirectionalWorkspace<PathVertex>>();
-  return std::make_unique<BidirectionalWorkspace<MediaVertex>>();
+  if (scene.needs_media_vertices()) return std::make_unique<BidirectionalWorkspace<MediaVertex>>();
+  return std::make_unique<BidirectionalWorkspace<PathVertex>>();
 }
 
 Spectrum BidirectionalIntegrator::radiance(const Scene& scene, const CameraPath& path,
                                            Sampler& sampler, RenderCounters& counters,
                                            std::span<float> values) const {
   if (max_depth_ == 0) return {};
-  return scene.media.empty() ? trace<PathVertex>(scene, path, sampler, counters, values)
-                             : trace<MediaVertex>(scene, path, sampler, counters, values);
+  return scene.needs_media_vertices() ? trace<MediaVertex>(scene, path, sampler, counters, values)
+                                      : trace<PathVertex>(scene, path, sampler, counters, values);
 }
 
 }  // namespace duet

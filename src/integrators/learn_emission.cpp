@@ -147,7 +147,7 @@ std::unique_ptr<const EmissionGuide> learn_emission(const Scene& scene, Point2i 
                                                     const LightPassPlan& plan) {
   const bool any = std::any_of(scene.lights.begin(), scene.lights.end(),
                                [](const auto& light) { return light->entered_sphere(); });
-  if (!any || !scene.media.empty() || plan.max_depth < 1) return nullptr;
+  if (!any || scene.needs_media_vertices() || plan.max_depth < 1) return nullptr;
   const int depth = std::min(plan.max_depth, kMostSegments);
   std::vector<Importon> importons =
       trace_importons(scene, film, kImportonSide, depth, plan.subpath, plan.threads);

@@ -41,7 +41,7 @@ SceneLimits limits_of(const Scene& scene) {
 }  // namespace
 
 MethodCandidate camera_candidate(const MethodRules& rules, const PathLimits& o) {
-  if (rules.has_media) return {VolumePathIntegratorDescription{o}, "volpath"};
+  if (rules.skips_passed_surfaces) return {VolumePathIntegratorDescription{o}, "volpath"};
   return {PathIntegratorDescription{o}, "path"};
 }
 

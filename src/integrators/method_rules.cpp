@@ -12,9 +12,10 @@ MethodRules method_rules(const SceneFeatures& f) {
   MethodRules rules;
   rules.has_media = f.media > 0;
   rules.has_heterogeneous_media = f.heterogeneous_media > 0;
-  // A surface that lets light pass unchanged stops light samples as glass does, but for the methods
-  // that know media.
-  const bool delta_surfaces = f.mirrors + f.smooth_glass > 0 || (f.masks > 0 && !rules.has_media);
+  rules.skips_passed_surfaces = rules.has_media || f.skips_masks;
+  // A surface that lets light pass unchanged stops light samples as glass does where it counts.
+  const bool delta_surfaces =
+      f.mirrors + f.smooth_glass > 0 || (f.masks > 0 && !rules.skips_passed_surfaces);
   rules.has_lights = near_lights + far_lights + f.emissive_media > 0;
   rules.needs_light_subpaths = (delta_lights && delta_surfaces) || f.beams > 0;
   rules.may_merge =

@@ -18,6 +18,8 @@ struct MethodRules {
   bool may_merge = false;
   /// All lights are infinitely far away. Only told: nothing follows from it.
   bool far_lights_only = false;
+  /// Surfaces that light passes straight are no vertices (Scene::needs_media_vertices()).
+  bool skips_passed_surfaces = false;
   bool has_media = false;                ///< there are participating media
   bool has_heterogeneous_media = false;  ///< some whose transmittance has to be estimated
 

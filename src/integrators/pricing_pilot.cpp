@@ -162,8 +162,8 @@ class PricingPilot {
 }  // namespace
 
 PricingRecord run_pricing_pilot(const Scene& scene, const PricingPlan& plan) {
-  return scene.media.empty() ? PricingPilot<PathVertex>(scene, plan).run()
-                             : PricingPilot<MediaVertex>(scene, plan).run();
+  return scene.needs_media_vertices() ? PricingPilot<MediaVertex>(scene, plan).run()
+                                      : PricingPilot<PathVertex>(scene, plan).run();
 }
 
 }  // namespace duet

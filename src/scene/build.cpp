@@ -49,6 +49,7 @@ std::unique_ptr<Scene> SceneBuilder::build() {
   // Shapes are built, and their descriptions may be many.
   if (use_ == AccelUse::still) description_.shapes = std::vector<ShapeDescription>();
   for (const auto& m : scene.materials) scene.has_passable_surfaces |= m->passes_straight();
+  scene.skips_passed_surfaces = scene.has_passable_surfaces && !description_.counts_passed_surfaces;
   scene.accel = std::make_unique<Accel>(scene.shapes, scene.top, scene.groups, scene.instances,
                                         options_.threads, use_);
   survey();
@@ -65,7 +66,7 @@ void SceneBuilder::survey() {
   scene.camera->surround(bounds.center(), bounds.radius());
   for (const auto& light : scene.lights) light->surround(bounds.center(), bounds.radius());
   scene.light_media.clear();
-  if (!scene.media.empty())
+  if (scene.needs_media_vertices())
     for (const auto& light : scene.lights)
       scene.light_media.push_back(medium_before(scene, *light));
   scene.emission_picker =

@@ -29,6 +29,9 @@ struct SceneDescription {
   std::vector<LightDescription> lights;
   std::vector<SensorDescription> sensors;
   IntegratorDescription integrator;
+  /// Whether surfaces that light passes straight through count as vertices of paths, whose depth
+  /// they add to, and stop light samples: so in Mitsuba, but for its volpath, and not in pbrt.
+  bool counts_passed_surfaces = true;
   /// What is rendered differently from what the file asks for, one sentence each.
   std::vector<Diagnostic> approximations;
 
@@ -36,7 +39,8 @@ struct SceneDescription {
   static constexpr auto fields() {
     using S = SceneDescription;
     return plain_fields(&S::textures, &S::materials, &S::volumes, &S::phases, &S::media, &S::shapes,
-                        &S::groups, &S::lights, &S::sensors, &S::integrator);
+                        &S::groups, &S::lights, &S::sensors, &S::integrator,
+                        &S::counts_passed_surfaces);
   }
 };
 

@@ -30,6 +30,7 @@ struct SceneFeatures {
   size_t rough_reflection = 0, rough_refraction = 0;  ///< microfacets
   size_t mirrors = 0, smooth_glass = 0;               ///< delta distributions
   size_t masks = 0;                                   ///< partly or wholly transparent surfaces
+  bool skips_masks = false;                           ///< they are no vertices of paths
   size_t bumps = 0;                                   ///< bump and normal maps
   size_t textures = 0;
   /// Surfaces that light enters but that it cannot be followed through from its source, because

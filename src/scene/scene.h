@@ -52,11 +52,17 @@ struct Scene {
   std::vector<LightMedium> light_media;
   /// Whether light may pass straight through any surface.
   bool has_passable_surfaces = false;
+  /// Whether such surfaces are no vertices of paths (SceneDescription::counts_passed_surfaces).
+  bool skips_passed_surfaces = false;
   std::unique_ptr<Accel> accel;
   SceneFeatures features;  ///< of the description that this was built from
   /// Moves the scene between passes, for one render at a time (MotionLease); null if it stands
   /// still while the shutter is open.
   std::shared_ptr<SceneMotion> motion;
+
+  /// Whether light is scattered between surfaces, or passes some that are no vertices: sub-paths
+  /// are those of MediaVertex then.
+  bool needs_media_vertices() const { return !media.empty() || skips_passed_surfaces; }
 
   Scene() = default;
   Scene(const Scene&) = delete;

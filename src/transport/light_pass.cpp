@@ -171,10 +171,10 @@ void LightPass::run(const Scene& scene, const LightPassPlan& plan, const TakeSpl
       const uint32_t first = wave + uint32_t(i) * size;
       const uint32_t end = std::min(first + size, plan.subpaths);
       Block& block = blocks_[i];
-      if (scene.media.empty())
-        trace<PathVertex>(scene, plan, {first, end}, block);
-      else
+      if (scene.needs_media_vertices())
         trace<MediaVertex>(scene, plan, {first, end}, block);
+      else
+        trace<PathVertex>(scene, plan, {first, end}, block);
       if (!block.splats.empty()) splats(block.splats, block.counters);
     });
     for (uint32_t i = 0; i < count; ++i) counters.add(blocks_[i].counters);

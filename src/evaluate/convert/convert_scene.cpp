@@ -47,12 +47,14 @@ ConvertedScene convert_scene(const SceneDescription& scene, const std::string& f
   ConvertedScene result;
   std::string text;
   const auto convert = [&](const auto& prepare, const auto& write) {
-    prepare(d, files, result.losses);
+    Losses losses;
+    prepare(d, files, losses);
     // What is made beside the scene has a relative name already when the others get theirs.
     name_files_again(d, files);
     auto written = write(d);
     text = std::move(written.text);
-    result.losses.insert(result.losses.end(), written.losses.begin(), written.losses.end());
+    for (std::string& loss : written.losses) losses.add(std::move(loss));
+    result.losses = losses.list();
   };
   if (file.ends_with(".pbrt"))
     convert(prepare_for_pbrt, pbrt::write_pbrt);

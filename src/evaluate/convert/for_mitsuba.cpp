@@ -18,18 +18,17 @@ bool has_file(const MeshSource& s) {
 
 /// The file of curves with radii that Mitsuba 3 reads: control points of B-splines that narrow
 /// quickly have negative ones here.
-std::string text_of(const CurveSet& curves, std::vector<std::string>& losses) {
+std::string curves_file(const CurveSet& curves, Losses& losses) {
   const auto is_negative = [](const TubePoint& p) { return p.radius < 0; };
   if (std::none_of(curves.points.begin(), curves.points.end(), is_negative))
     return curves_text(curves);
-  const std::string loss = "curves that narrow quickly are wider towards their ends";
-  if (std::find(losses.begin(), losses.end(), loss) == losses.end()) losses.push_back(loss);
+  losses.add("curves that narrow quickly are wider towards their ends");
   CurveSet wider = curves;
   for (TubePoint& p : wider.points) p.radius = std::max(p.radius, 0.0f);
   return curves_text(wider);
 }
 
-void shape_files(ShapeDescription& s, NewFiles& files, std::vector<std::string>& losses) {
+void shape_files(ShapeDescription& s, NewFiles& files, Losses& losses) {
   if (auto* mesh = std::get_if<MeshShape>(&s.geometry); mesh && !has_file(*mesh->source)) {
     auto made = mesh->mesh;
     // Normals that Mitsuba makes, too, are left to it.
@@ -46,10 +45,10 @@ void shape_files(ShapeDescription& s, NewFiles& files, std::vector<std::string>&
     mesh->source->face_normals = mesh->mesh->normals.empty();
   }
   if (auto* curves = std::get_if<CurvesShape>(&s.geometry); curves && curves->file.empty())
-    curves->file = files.add("curves", "txt", text_of(*curves->curves, losses));
+    curves->file = files.add("curves", "txt", curves_file(*curves->curves, losses));
 }
 
-void volume_file(VolumeDescription& v, NewFiles& files, std::vector<std::string>& losses) {
+void volume_file(VolumeDescription& v, NewFiles& files, Losses& losses) {
   const auto& n = v.grid->size;
   if (v.nodes_on_faces && v.file.empty()) {
     // The same nodes half a cell within a box that is larger by that.
@@ -59,7 +58,7 @@ void volume_file(VolumeDescription& v, NewFiles& files, std::vector<std::string>
                  Matrix4::scale(1 + 2 * half[0], 1 + 2 * half[1], 1 + 2 * half[2]);
     v.nodes_on_faces = false;
     if (!pbrt::GridCells(v).fades())
-      losses.emplace_back("a grid goes on for half a cell beyond its outermost values");
+      losses.add("a grid goes on for half a cell beyond its outermost values");
   }
   if (v.file.empty() && v.grid->node_count() > 1) {
     VolumeGrid grid = *v.grid;
@@ -68,8 +67,7 @@ void volume_file(VolumeDescription& v, NewFiles& files, std::vector<std::string>
   }
 }
 
-void environment(SceneDescription& scene, LightDescription& l, NewFiles& files,
-                 std::vector<std::string>& losses) {
+void environment(SceneDescription& scene, LightDescription& l, NewFiles& files, Losses& losses) {
   const auto* map = std::get_if<EnvironmentMapLight>(&l.model);
   if (!map) return;
   const bool has_form = map->layout == EnvironmentLayout::latitude_longitude;
@@ -83,7 +81,7 @@ void environment(SceneDescription& scene, LightDescription& l, NewFiles& files,
   made.file = files.add_image(
       "environment", environment_image(scene, l, EnvironmentForm::latitude_longitude, width));
   if (!has_form)
-    losses.emplace_back(
+    losses.add(
         "an environment map is resampled to one by latitude and longitude, with rows at the poles");
   l.model = made;
 }
@@ -142,8 +140,8 @@ void move_exposure_to_lights(SceneDescription& scene) {
 
 }  // namespace
 
-void prepare_for_mitsuba(SceneDescription& scene, NewFiles& files,
-                         std::vector<std::string>& losses) {
+void prepare_for_mitsuba(SceneDescription& scene, NewFiles& files, Losses& losses) {
+  count_passed_surfaces(scene, true, losses);
   move_exposure_to_lights(scene);
   settle_images_for_mitsuba(scene);
   for (LightDescription& l : scene.lights) environment(scene, l, files, losses);

@@ -47,7 +47,7 @@ void mesh_file(ShapeDescription& s, NewFiles& files) {
 }
 
 void environment_file(SceneDescription& scene, LightDescription& l, NewFiles& files,
-                      std::vector<std::string>& losses) {
+                      Losses& losses) {
   const auto* map = std::get_if<EnvironmentMapLight>(&l.model);
   if (!map && !std::holds_alternative<SkyLight>(l.model)) return;
   // Of the transform only the rotation counts, and pbrt takes all of it.
@@ -69,13 +69,14 @@ void environment_file(SceneDescription& scene, LightDescription& l, NewFiles& fi
   made.file = files.add_image("environment",
                               environment_image(scene, l, EnvironmentForm::equal_area,
                                                 square ? own : std::clamp(own, 256, kLargest)));
-  if (!square) losses.emplace_back("an environment is resampled to an image of equal areas");
+  if (!square) losses.add("an environment is resampled to an image of equal areas");
   l.model = made;
 }
 
 }  // namespace
 
-void prepare_for_pbrt(SceneDescription& scene, NewFiles& files, std::vector<std::string>& losses) {
+void prepare_for_pbrt(SceneDescription& scene, NewFiles& files, Losses& losses) {
+  count_passed_surfaces(scene, false, losses);
   settle_images_for_pbrt(scene);
   for (LightDescription& l : scene.lights) environment_file(scene, l, files, losses);
   for_all_shapes(scene, [&](ShapeDescription& s) { mesh_file(s, files); });

@@ -7,6 +7,7 @@
 #include "image/image_io.h"
 #include "mesh/ply_writer.h"
 #include "scene/bsdfs/measured.h"
+#include "scene/features.h"
 
 namespace duet {
 
@@ -70,6 +71,21 @@ void name_files_again(SceneDescription& scene, const NewFiles& files) {
     if (auto* curves = std::get_if<CurvesShape>(&s.geometry))
       curves->file = files.relative(curves->file);
   });
+}
+
+void count_passed_surfaces(SceneDescription& scene, bool counts, Losses& losses) {
+  if (scene.counts_passed_surfaces == counts) return;
+  const auto is_limited = []<class T>(const T& method) {
+    if constexpr (requires { method.max_depth; })
+      return !std::is_same_v<T, VolumePathIntegratorDescription> && method.max_depth >= 0;
+    else
+      return false;
+  };
+  if (scene_features(scene).masks > 0 && std::visit(is_limited, scene.integrator.method))
+    losses.add(counts ? "surfaces that light passes straight through count for the depth of paths"
+                      : "surfaces that light passes straight through count no longer for the depth "
+                        "of paths");
+  scene.counts_passed_surfaces = counts;
 }
 
 }  // namespace duet

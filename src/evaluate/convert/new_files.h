@@ -10,6 +10,7 @@
 
 #include "evaluate/convert/convert_scene.h"
 #include "image/image.h"
+#include "values/writing.h"
 
 namespace duet {
 
@@ -49,11 +50,14 @@ void for_all_shapes(SceneDescription& scene, Change change) {
 /// Names the images and measured materials of the scene relative to the new scene file.
 void name_files_again(SceneDescription& scene, const NewFiles& files);
 
+/// Sets SceneDescription::counts_passed_surfaces to what the format has; a loss where paths are
+/// shorter or longer for it.
+void count_passed_surfaces(SceneDescription& scene, bool counts, Losses& losses);
+
 /// The description as Mitsuba 3 can have it; what changes is added to `losses`.
-void prepare_for_mitsuba(SceneDescription& scene, NewFiles& files,
-                         std::vector<std::string>& losses);
+void prepare_for_mitsuba(SceneDescription& scene, NewFiles& files, Losses& losses);
 /// The same for pbrt-v4.
-void prepare_for_pbrt(SceneDescription& scene, NewFiles& files, std::vector<std::string>& losses);
+void prepare_for_pbrt(SceneDescription& scene, NewFiles& files, Losses& losses);
 
 /// Gives image textures the form that the format has for what they say, where it has one: numbers
 /// that are the same by the rules of both, and values that are no colours.

@@ -1,0 +1,49 @@
+// Surfaces that light passes straight through: vertices of paths in Mitsuba, none in pbrt.
+#include <doctest/doctest.h>
+
+#include "support/pbrt_file.h"
+#include "support/transport_scene.h"
+
+using namespace duet;
+using namespace duet::test;
+
+namespace {
+
+/// A camera at 1.5 above a lamp at 1, over a diffuse disk; half of the light passes each of two
+/// black disks between.
+SceneDescription two_half_open_disks() {
+  const TemporaryDirectory folder;
+  return scene_of(read_pbrt_file(folder.write(
+      "scene.pbrt",
+      "LookAt 0 0 1.5 0 0 0 0 1 0\nCamera \"perspective\" \"float fov\" 1\n"
+      "Film \"rgb\" \"integer xresolution\" 1 \"integer yresolution\" 1\n"
+      "PixelFilter \"box\"\nIntegrator \"bdpt\" \"integer maxdepth\" 1\nWorldBegin\n"
+      "LightSource \"point\" \"point3 from\" [0 0 1]\n"
+      "Material \"diffuse\" \"rgb reflectance\" [.5 .5 .5]\nShape \"disk\" \"float radius\" .5\n"
+      "Material \"diffuse\" \"rgb reflectance\" [0 0 0]\n"
+      "Shape \"disk\" \"float height\" .5 \"float alpha\" .5\n"
+      "Shape \"disk\" \"float height\" .6 \"float alpha\" .5\n")));
+}
+
+}  // namespace
+
+TEST_CASE("surfaces that light passes straight through are no vertices in pbrt's scenes") {
+  constexpr double kExpected = 0.5 / 3.14159265358979 / 16;
+  const TransportScene scene(two_half_open_disks());
+  CHECK(scene.scene->skips_passed_surfaces);
+  for (const std::string method : {"volpath", "bdpt", "reuse", "ppm", "bpm", "vcm", "auto"}) {
+    CAPTURE(method);
+    const double mean = double(scene.render(method, {{"max_depth", "2"}}, 16384, 1).image.data[0]);
+    CHECK(mean == doctest::Approx(kExpected).epsilon(0.03));
+  }
+}
+
+TEST_CASE("surfaces that light passes straight through count in Mitsuba's scenes") {
+  SceneDescription description = two_half_open_disks();
+  description.counts_passed_surfaces = true;
+  const TransportScene scene(std::move(description));
+  CHECK(!scene.scene->skips_passed_surfaces);
+  // They stop light samples and connections.
+  for (const char* method : {"path", "bdpt"})
+    CHECK(scene.render(method, {{"max_depth", "20"}}, 256, 1).image.data[0] == 0);
+}
