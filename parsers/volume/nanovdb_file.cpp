@@ -54,6 +54,7 @@ std::vector<uint8_t> read_bytes(ByteReader& in, uint64_t bytes) {
 NanoVdbBlob read_blob(ByteReader& in, const Entry& e) {
   // What zlib can make of so many bytes, at the most.
   constexpr uint64_t kMostRatio = 1032;
+  if (e.memory == 0) in.fail("has a grid of no bytes");
   if (e.codec == Codec::zip) {
     const auto size = in.take_value<uint64_t>("a grid");
     const std::vector<uint8_t> packed = read_bytes(in, size);

@@ -101,6 +101,9 @@ TEST_CASE("NanoVDB files that cannot be read are told why") {
   std::string other = file;
   other[11] = char(other[11] + 1);  // the upper bits of the version
   CHECK(message_of(other).find("only 32 is known") != std::string::npos);
+  std::string empty = file;
+  std::fill_n(empty.begin() + 16, 8, '\0');  // the bytes of the first grid
+  CHECK(message_of(empty, "other") == "a.nvdb: has a grid of no bytes");
 }
 
 TEST_CASE("damaged NanoVDB files never lead astray") {

@@ -246,7 +246,7 @@ std::vector<Case> cases_with_media(const TemporaryDirectory& folder) {
                 sphere_xml("0, -0.701, 0.7", "0.2", area + "4, 5, 6'/></emitter>") + box +
                 inside("fog") + "</shape>",
             "<ref id='fog'/>"),
-       true, 2, false, true},
+       false, 2, false, true},
       {"lamps above, in and across a medium that walls close",
        text(wax + room + lamp + "<shape type='rectangle'><transform name='to_world'>" +
             "<translate z='0.6'/></transform>" + inside("wax") + "</shape>" +
