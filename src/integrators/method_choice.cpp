@@ -85,42 +85,48 @@ MethodChoice without_pilot(const MethodRules& rules, const PathLimits& o, const 
   return {c.method, c.name + ": " + why, ""};
 }
 
+/// Why a candidate may not be taken: it misses light, has it in few pixels, or starts at the camera
+/// where light has to be found from its source.
+enum class Flaw : uint8_t { none, misses, rare, one_sided };
+
 /// Which of the candidates may be taken.
 struct Eligible {
-  std::vector<uint8_t> candidates;
-  bool unbiased = false;  ///< there is one among them that does not merge
-  /// Shares of the light that the best of them misses, and has in few pixels.
-  double least_missing = 1, least_rare = 1;
+  std::vector<Flaw> flaws;
+  std::vector<uint8_t> candidates;  ///< 1 for those without a flaw
+  bool unbiased = false;            ///< there is one among them that does not merge
 };
 
 Eligible eligible(const MethodPrices& prices, const MethodRules& rules) {
   const std::vector<MethodCandidate>& c = prices.candidates;
   const std::vector<PredictedMethod>& p = prices.predictions;
-  Eligible result;
+  // Shares of the light that the best of them misses, and has in few pixels.
+  double least_missing = 1, least_rare = 1;
   const auto can_find_all = [&](size_t i) {
     return !(rules.needs_light_subpaths && c[i].light_paths == 0);
   };
   for (size_t i = 0; i < c.size(); ++i)
-    if (can_find_all(i)) result.least_missing = std::min(result.least_missing, p[i].missing);
-  const auto finds_all = [&](size_t i) {
-    return can_find_all(i) && p[i].missing <= result.least_missing + kNegligible;
-  };
+    if (can_find_all(i)) least_missing = std::min(least_missing, p[i].missing);
+  const auto misses = [&](size_t i) { return p[i].missing > least_missing + kNegligible; };
   // Light that a method misses is not rare with it: those that miss some are no measure.
   for (size_t i = 0; i < c.size(); ++i)
-    if (finds_all(i)) result.least_rare = std::min(result.least_rare, p[i].rare);
+    if (can_find_all(i) && !misses(i)) least_rare = std::min(least_rare, p[i].rare);
+  Eligible result;
   for (size_t i = 0; i < c.size(); ++i) {
-    const bool may = finds_all(i) && p[i].rare <= result.least_rare + kMostRare;
-    result.candidates.push_back(may);
-    result.unbiased |= may && c[i].merges == 0;
+    const Flaw flaw = misses(i)                            ? Flaw::misses
+                      : p[i].rare > least_rare + kMostRare ? Flaw::rare
+                      : !can_find_all(i)                   ? Flaw::one_sided
+                                                           : Flaw::none;
+    result.flaws.push_back(flaw);
+    result.candidates.push_back(flaw == Flaw::none);
+    result.unbiased |= flaw == Flaw::none && c[i].merges == 0;
   }
   return result;
 }
 
-/// What is wrong with a candidate that is not eligible.
-std::string why_not(const PredictedMethod& p, const Eligible& may) {
-  if (p.missing > may.least_missing + kNegligible)
-    return fmt::format(" would miss {} of the light", percent(p.missing));
-  if (p.rare > may.least_rare + kMostRare)
+/// What is wrong with a candidate.
+std::string why_not(const PredictedMethod& p, Flaw flaw) {
+  if (flaw == Flaw::misses) return fmt::format(" would miss {} of the light", percent(p.missing));
+  if (flaw == Flaw::rare)
     return fmt::format(" would show {} of the light in fewer than {} of the pixels",
                        percent(p.rare), percent(kTrimmedPixels));
   return " cannot find all light";
@@ -192,7 +198,7 @@ MethodChoice take(const MethodPrices& prices, const MethodRules& rules) {
   choice.candidates = promises(prices, risk);
   choice.reason = c.name + ": ";
   if (!may.candidates[0])
-    choice.reason += from_camera.name + why_not(path, may);
+    choice.reason += from_camera.name + why_not(path, may.flaws[0]);
   else if (best == 0)
     choice.reason +=
         fmt::format("no other method promises more than {} times its efficiency", kHysteresis);

@@ -70,11 +70,17 @@ TEST_CASE("rules from what a scene contains") {
   CHECK(method_rules(sky).needs_light_subpaths);
   SceneFeatures fog = f;
   fog.media = 1;
-  CHECK(method_rules(fog) ==
-        MethodRules{.needs_light_subpaths = true, .may_merge = true, .has_media = true});
+  CHECK(method_rules(fog) == MethodRules{.needs_light_subpaths = true,
+                                         .may_merge = true,
+                                         .skips_passed_surfaces = true,
+                                         .has_media = true});
   fog.heterogeneous_media = 1;
   CHECK(method_rules(fog).has_heterogeneous_media);
-  sky.media = 1;  // masks stop light samples no longer
+  // Masks stop light samples no longer.
+  SceneFeatures pbrt = sky;
+  pbrt.skips_masks = true;
+  CHECK(!method_rules(pbrt).needs_light_subpaths);
+  sky.media = 1;
   CHECK(!method_rules(sky).needs_light_subpaths);
   for (const SceneFeatures& any : {f, sky, fog}) CHECK(!describe(method_rules(any)).empty());
 }

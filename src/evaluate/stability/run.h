@@ -16,7 +16,7 @@ struct Selection {
   bool fast = false;  ///< with bounds of what is noticed that are coarser by kFastFactor
 };
 
-/// Told of a run while it goes on.
+/// Told of a run while it goes on. All three have to be set.
 struct RunEvents {
   /// A row begins, or is passed over since it is planned; `number` counts from 1.
   std::function<void(const Row& row, size_t number)> row;
