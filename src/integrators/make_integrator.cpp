@@ -17,6 +17,7 @@
 #include "integrators/path.h"
 #include "integrators/volpath.h"
 #include "scene/description.h"
+#include "scene/features.h"
 
 namespace duet {
 
@@ -106,6 +107,12 @@ CameraOutput camera_output(const IntegratorDescription& integrator) {
   return output;
 }
 
+/// Whether light samples end at surfaces that light passes straight through.
+bool stops_at_passed_surfaces(const Method& method) {
+  return std::holds_alternative<PathIntegratorDescription>(method) ||
+         std::holds_alternative<DirectIntegratorDescription>(method);
+}
+
 /// Where a scene first has what not every method can render, or null.
 struct LimitLocations {
   const SourceLocation* medium = nullptr;
@@ -191,6 +198,13 @@ SurfaceNeeds integrator_needs(const IntegratorDescription& integrator) {
 void check_support(const SceneDescription& scene, const IntegratorDescription& integrator,
                    Diagnostics& diagnostics) {
   if (!integrator.image) return;
+  if (!scene.counts_passed_surfaces && stops_at_passed_surfaces(integrator.method) &&
+      scene_features(scene).masks > 0)
+    diagnostics.warning(integrator.where,
+                        "integrator \"{}\" stops light samples at surfaces with alpha and counts "
+                        "them for the depth of paths, as pbrt does not; \"volpath\" renders this "
+                        "scene as pbrt does",
+                        integrator_name(integrator));
   const LimitLocations found = find_limits(scene);
   const SceneLimits limits{.media = found.medium != nullptr,
                            .one_way_surfaces = found.one_way_surface != nullptr,

@@ -38,6 +38,19 @@ TEST_CASE("surfaces that light passes straight through are no vertices in pbrt's
   }
 }
 
+TEST_CASE("what stops at surfaces that pbrt does not count says so") {
+  const SceneDescription scene = two_half_open_disks();
+  for (const std::string method : {"path", "direct", "volpath", "bdpt"}) {
+    CAPTURE(method);
+    IntegratorDescription integrator = scene.integrator;
+    apply_override(integrator, {method, {}, {}});
+    Diagnostics diagnostics;
+    check_support(scene, integrator, diagnostics);
+    CHECK(diagnostics.all().size() == (method == "path" || method == "direct" ? 1 : 0));
+    CHECK(!diagnostics.has_errors());
+  }
+}
+
 TEST_CASE("surfaces that light passes straight through count in Mitsuba's scenes") {
   SceneDescription description = two_half_open_disks();
   description.counts_passed_surfaces = true;
