@@ -38,7 +38,7 @@ MUTATIONS = [
     ("lights are chosen by power where angles tell them apart", "src/lights/light_nodes.cpp",
      "kEven * furthest * near - nearest * far", "kEven * near - far", "a light tree's probabilities*"),
     ("surfaces that light passes straight never count", "src/scene/build.cpp",
-     "scene.has_passable_surfaces && !description_.counts_passed_surfaces", "scene.has_passable_surfaces",
+     "scene.has_passable_surfaces && scene.features.skips_masks", "scene.has_passable_surfaces",
      "surfaces that light passes straight through count*"),
     ("the tree's share is not that of its lights", "src/lights/direct_picker.cpp",
      "/ all);", ");", "a tree mixes*"),

@@ -54,7 +54,7 @@ class BidirectionalIntegrator final : public CameraIntegrator {
   void splat(Film& film, std::span<const LightSplat> splats, RenderCounters& counters) const;
 
   // bidirectional_eye.cpp, bidirectional_connect.h and bidirectional_thesis.cpp. `Vertex` is
-  // PathVertex, or MediaVertex in scenes with media.
+  // PathVertex, or MediaVertex (needs_media_vertices()).
   template <class Vertex>
   Spectrum trace(const Scene& scene, const CameraPath& path, Sampler& sampler,
                  RenderCounters& counters, std::span<float> values) const;

@@ -10,7 +10,7 @@
 namespace duet {
 
 /// The guide for light sub-paths of the plan's kind, for an image of this size; null where it would
-/// help little, and in scenes with media. The result depends on the scene, the size and the depths
+/// help little, and for MediaVertex. The result depends on the scene, the size and the depths
 /// of the plan alone.
 std::unique_ptr<const EmissionGuide> learn_emission(const Scene& scene, Point2i film,
                                                     const LightPassPlan& plan);

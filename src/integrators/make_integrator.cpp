@@ -198,8 +198,8 @@ SurfaceNeeds integrator_needs(const IntegratorDescription& integrator) {
 void check_support(const SceneDescription& scene, const IntegratorDescription& integrator,
                    Diagnostics& diagnostics) {
   if (!integrator.image) return;
-  if (!scene.counts_passed_surfaces && stops_at_passed_surfaces(integrator.method) &&
-      scene_features(scene).masks > 0)
+  const bool skips_masks = !scene.counts_passed_surfaces && scene_features(scene).skips_masks;
+  if (skips_masks && stops_at_passed_surfaces(integrator.method))
     diagnostics.warning(integrator.where,
                         "integrator \"{}\" stops light samples at surfaces with alpha and counts "
                         "them for the depth of paths, as pbrt does not; \"volpath\" renders this "
@@ -208,16 +208,18 @@ void check_support(const SceneDescription& scene, const IntegratorDescription& i
   const LimitLocations found = find_limits(scene);
   const SceneLimits limits{.media = found.medium != nullptr,
                            .one_way_surfaces = found.one_way_surface != nullptr,
-                           .emissive_media = found.emissive_medium != nullptr};
+                           .emissive_media = found.emissive_medium != nullptr,
+                           .skips_masks = skips_masks};
   switch (find_obstacle(limits, integrator.method)) {
     case Obstacle::media:
       return diagnostics.error(
-          *found.medium,
+          found.medium ? *found.medium : integrator.where,
           "integrator \"{}\" cannot render this scene: {}; \"volpath\", \"bdpt\" and \"vcm\" can",
           integrator_name(integrator),
           std::get<BidirectionalIntegratorDescription>(integrator.method).method ==
                   BidirectionalMethod::reuse
-              ? "the weights of the thesis know no participating media"
+              ? "the weights of the thesis know no participating media, nor surfaces with alpha "
+                "that are no vertices"
               : "it has no photons in participating media, only on surfaces");
     case Obstacle::emissive_media:
       return diagnostics.error(

@@ -35,7 +35,8 @@ SceneLimits limits_of(const Scene& scene) {
   return {.media = !scene.media.empty(),
           .one_way_surfaces = scene.features.one_way_surfaces > 0,
           .connectible = scene.camera->connectible(),
-          .emissive_media = scene.features.emissive_media > 0};
+          .emissive_media = scene.features.emissive_media > 0,
+          .skips_masks = scene.features.skips_masks};
 }
 
 }  // namespace

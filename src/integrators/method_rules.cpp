@@ -31,7 +31,8 @@ Obstacle find_obstacle(const SceneLimits& scene,
   using enum BidirectionalMethod;
   const bool is_thesis = d->method == reuse && d->weights != ReuseWeights::exact;
   if (scene.emissive_media) return Obstacle::emissive_media;
-  if (scene.media && (d->method == ppm || d->method == bpm || is_thesis)) return Obstacle::media;
+  if (scene.media && (d->method == ppm || d->method == bpm)) return Obstacle::media;
+  if ((scene.media || scene.skips_masks) && is_thesis) return Obstacle::media;
   if (scene.one_way_surfaces) return Obstacle::one_way_surfaces;
   if (!scene.connectible && (d->method == ptracer || d->method == reuse)) return Obstacle::sensor;
   return Obstacle::none;

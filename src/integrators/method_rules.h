@@ -34,6 +34,7 @@ struct SceneLimits {
   bool one_way_surfaces = false;  ///< SceneFeatures::one_way_surfaces
   bool connectible = true;        ///< light sub-paths can be connected with the sensor
   bool emissive_media = false;    ///< some of the media emit
+  bool skips_masks = false;       ///< SceneFeatures::skips_masks
 };
 
 enum class Obstacle { none, media, emissive_media, one_way_surfaces, sensor };

@@ -70,8 +70,8 @@ static DUET_WIDE void estimate_directed(const LightNodes& nodes, const Point3f& 
     // Above zero among the lights, where they shine into all directions, and where the sum is above
     // π: angles say nothing there.
     const float open = std::max(std::max(sin_u - kBelowOne, -kBelowOne - cos_o), -sin_both);
-    const float along = cosine * cos_both;
-    const float across = std::sqrt(std::max(1 - cosine * cosine, 0.0f)) * sin_both;
+    const float sine = std::sqrt(std::max(1 - cosine * cosine, 0.0f));
+    const float along = cosine * cos_both, across = sine * sin_both;
     const float bound = std::max(nodes.spread[i], 0.0f);
     const float beyond = along + across > bound ? along + across : 0.0f;
     const float nearest = cosine >= cos_both ? 1.0f : beyond, furthest = along - across;
@@ -79,7 +79,9 @@ static DUET_WIDE void estimate_directed(const LightNodes& nodes, const Point3f& 
     // (d − r)² and (d + r)², over d².
     const float near = (1 - sin_u) * (1 - sin_u), far = (1 + sin_u) * (1 + sin_u);
     const float spare = LightEstimates::kEven * furthest * near - nearest * far;
-    const float least = std::min(std::min(spare, furthest - bound), -open);
+    // Above zero where the furthest angle is below π, from where on its cosine grows again.
+    const float turned = sine * cos_both + cosine * sin_both;
+    const float least = std::min(std::min(spare, furthest - bound), std::min(turned, -open));
     estimates.even[i] = least > 0 ? 1 : 0;
   }
 }

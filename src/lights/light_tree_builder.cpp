@@ -2,7 +2,6 @@
 #include <array>
 #include <bit>
 #include <cassert>
-#include <limits>
 
 #include "lights/light_tree.h"
 
@@ -74,17 +73,16 @@ struct Split {
   float cost = INFINITY;
 };
 
-/// Above zero, as power is.
-float share_of(float power, float total) {
-  return std::max(power / total, std::numeric_limits<float>::min());
-}
+/// The least share of a light in the power: what is made of it is far from where numbers lose
+/// digits.
+constexpr float kLeastShare = 1e-30f;
 
-/// A node of the lights with these bounds; `total` is the power of the whole tree.
-LightNode make_node(const LightBounds& b, float total, uint32_t child) {
+/// A node of the lights with these bounds, whose power is their share of the tree's.
+LightNode make_node(const LightBounds& b, uint32_t child) {
   LightNode n;
   n.center = b.box.center();
   n.radius = b.box.radius();
-  n.power = share_of(b.power, total);
+  n.power = b.power;
   // Narrow beams shall not let the importance overflow.
   n.intensity = n.power / std::max(b.measure(), 1e-3f);
   n.child = child;
@@ -100,15 +98,17 @@ class LightTreeBuilder {
  public:
   LightTreeBuilder(LightTree& tree, std::vector<LightTree::Entry> items, uint32_t leaf_size)
       : tree_(tree), leaf_size_(leaf_size), items_(std::move(items)) {
-    double total = 0;
-    for (const Item& item : items_) total += double(item.bounds.power);
-    total_ = float(total);
+    for (const Item& item : items_) total_ += double(item.bounds.power);
+    for (Item& item : items_)
+      item.bounds.power = std::max(float(double(item.bounds.power) / total_), kLeastShare);
     tree_.order_.reserve(items_.size());
     tree_.powers_.reserve(items_.size());
   }
 
   void build() {
-    if (!items_.empty()) group({0, uint32_t(items_.size())}, 0, 0, tree_.bounds_);
+    if (items_.empty()) return;
+    group({0, uint32_t(items_.size())}, 0, 0, tree_.bounds_);
+    tree_.bounds_.power = float(total_);
   }
 
  private:
@@ -143,7 +143,7 @@ class LightTreeBuilder {
       LightBounds b;
       const uint32_t child =
           part.size() <= leaf_size_ ? leaf(part, way, b) : group(part, depth + 1, way, b);
-      tree_.groups_[number].set(int(i++), make_node(b, total_, child));
+      tree_.groups_[number].set(int(i++), make_node(b, child));
       bounds.extend(b);
     }
     return number;
@@ -176,7 +176,7 @@ class LightTreeBuilder {
       tree_.directed_ |= item.bounds.normals.angle < kPi;
       tree_.places_[item.light] = {uint32_t(tree_.order_.size()), trail};
       tree_.order_.push_back(item.light);
-      tree_.powers_.push_back(share_of(item.bounds.power, total_));
+      tree_.powers_.push_back(item.bounds.power);
     }
     return LightTree::Leaf{first, range.size()}.child();
   }
@@ -240,7 +240,7 @@ class LightTreeBuilder {
   LightTree& tree_;
   uint32_t leaf_size_;
   std::vector<Item> items_;
-  float total_ = 0;
+  double total_ = 0;
 };
 
 LightTree::LightTree(std::vector<Entry> entries, uint32_t count, uint32_t leaf_size)

@@ -49,7 +49,7 @@ std::unique_ptr<Scene> SceneBuilder::build() {
   // Shapes are built, and their descriptions may be many.
   if (use_ == AccelUse::still) description_.shapes = std::vector<ShapeDescription>();
   for (const auto& m : scene.materials) scene.has_passable_surfaces |= m->passes_straight();
-  scene.skips_passed_surfaces = scene.has_passable_surfaces && !description_.counts_passed_surfaces;
+  scene.skips_passed_surfaces = scene.has_passable_surfaces && scene.features.skips_masks;
   scene.accel = std::make_unique<Accel>(scene.shapes, scene.top, scene.groups, scene.instances,
                                         options_.threads, use_);
   survey();
@@ -66,9 +66,11 @@ void SceneBuilder::survey() {
   scene.camera->surround(bounds.center(), bounds.radius());
   for (const auto& light : scene.lights) light->surround(bounds.center(), bounds.radius());
   scene.light_media.clear();
-  if (scene.needs_media_vertices())
-    for (const auto& light : scene.lights)
-      scene.light_media.push_back(medium_before(scene, *light));
+  // Vacuum, where there are no media.
+  if (scene.needs_media_vertices()) scene.light_media.resize(scene.lights.size());
+  if (!scene.media.empty())
+    for (size_t i = 0; i < scene.lights.size(); ++i)
+      scene.light_media[i] = medium_before(scene, *scene.lights[i]);
   scene.emission_picker =
       LightPicker(selection_weights(scene.lights, sampling_weights_, bounds.radius()));
   scene.direct_picker = DirectPicker(scene.lights, sampling_weights_, bounds.radius(),

@@ -53,7 +53,8 @@ class Survey {
     features_.mirrors += s.mirror;
     features_.smooth_glass += s.smooth_glass;
     features_.masks += s.see_through;
-    features_.skips_masks |= s.see_through && !scene_.counts_passed_surfaces;
+    features_.skips_masks |=
+        !scene_.counts_passed_surfaces && (model.is<NullMaterial>() || model.is<MaskMaterial>());
     features_.bumps += s.bumps;
     for (const MaterialId nested : model.nested()) add(nested);
   }

@@ -48,7 +48,7 @@ struct Scene {
   const Medium* camera_medium = nullptr;
   /// The medium that a ray from the camera is in when it has left the scene, or null.
   const Medium* outermost_medium = nullptr;
-  /// The medium that each light sends its rays into; empty without media.
+  /// The medium that each light sends its rays into; empty with PathVertex.
   std::vector<LightMedium> light_media;
   /// Whether light may pass straight through any surface.
   bool has_passable_surfaces = false;

@@ -51,6 +51,18 @@ TEST_CASE("what stops at surfaces that pbrt does not count says so") {
   }
 }
 
+TEST_CASE("the weights of the thesis are refused where surfaces are no vertices") {
+  const SceneDescription scene = two_half_open_disks();
+  for (const std::string weights : {"exact", "thesis"}) {
+    CAPTURE(weights);
+    IntegratorDescription integrator = scene.integrator;
+    apply_override(integrator, {"reuse", {{"weights", weights}}, {}});
+    Diagnostics diagnostics;
+    check_support(scene, integrator, diagnostics);
+    CHECK(diagnostics.has_errors() == (weights == "thesis"));
+  }
+}
+
 TEST_CASE("surfaces that light passes straight through count in Mitsuba's scenes") {
   SceneDescription description = two_half_open_disks();
   description.counts_passed_surfaces = true;

@@ -231,6 +231,28 @@ TEST_CASE("far lights that differ little are chosen by power") {
   CHECK(ratio({1, 0, 0.5f}) > 9);
 }
 
+TEST_CASE("lights of a wide cone are not alike from behind") {
+  LightNodes nodes{};
+  LightNode node;
+  node.center = Point3f(0, 0, 0), node.axis = Vector3f(0, 0, 1);
+  node.radius = 1, node.power = node.intensity = 1;
+  node.normals = std::cos(150 * kPi / 180);
+  nodes.set(0, node);
+  LightEstimates estimates;
+  estimate(nodes, true, {0, 0, -50}, estimates);
+  CHECK(estimates.importance[0] > 0);
+  CHECK(estimates.even[0] == 0);
+}
+
+TEST_CASE("lights of next to no power have probabilities") {
+  std::vector<LightBounds> lights{at({1000, 0, 0}, 1)};
+  for (int i = 0; i < 20; ++i) lights.push_back(at({float(i), 0, 0}, 1e-37f));
+  const LightTree tree = make_tree(lights, 1);
+  double sum = 0;
+  for (uint32_t l = 0; l < lights.size(); ++l) sum += double(tree.probability(l, {0, 1, 0}));
+  CHECK(sum == doctest::Approx(1).epsilon(1e-5));
+}
+
 TEST_CASE("lights in awkward places are all found") {
   const auto check = [](const std::vector<LightBounds>& lights, uint32_t leaf_size) {
     const LightTree tree = make_tree(lights, leaf_size);
