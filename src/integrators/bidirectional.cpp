@@ -5,6 +5,7 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "integrators/bidirectional_batches.h"
 #include "integrators/learn_emission.h"
 #include "integrators/motion_blur.h"
 
@@ -43,11 +44,13 @@ int depth_limit(const BidirectionalIntegratorDescription& d) {
 
 }  // namespace
 
-BidirectionalIntegrator::BidirectionalIntegrator(const Options& options, const CameraOutput& output)
+BidirectionalIntegrator::BidirectionalIntegrator(const Options& options, const CameraOutput& output,
+                                                 PathBatches batches)
     : CameraIntegrator(output),
       options_(options),
       max_depth_(depth_limit(options)),
-      is_thesis_(options.method == Method::reuse && options.weights != ReuseWeights::exact) {
+      is_thesis_(options.method == Method::reuse && options.weights != ReuseWeights::exact),
+      path_batches_(batches) {
   if (!(options_.light_paths > 0)) options_.light_paths = default_light_paths(options.method);
   windows_.eye = options.max_eye_depth;
   windows_.light = options.max_light_depth;
@@ -70,6 +73,8 @@ BidirectionalIntegrator::BidirectionalIntegrator(const Options& options, const C
             add_colour_layer(fmt::format("merge_s{}t{}", s + 1, t));
     }
 }
+
+BidirectionalIntegrator::~BidirectionalIntegrator() = default;
 
 bool BidirectionalIntegrator::has_technique(int s, int t) const {
   if (s == 0) return t == 2 || options_.method != Method::ptracer;
@@ -102,6 +107,7 @@ double BidirectionalIntegrator::memory_bytes(const FilmLayout& film) const {
   plan.subpaths = light_subpaths(film.full);
   plan.keep_vertices =
       merges(options_.method) || (connects(options_.method) && options_.connections != 0);
+  plan.keep_diffuse = may_take_batches() && options_.connections != 0;
   if (options_.method == Method::reuse && !is_thesis_) plan.windows = &windows_;
   return LightPass::memory_bytes(plan, vertices) +
          (merges(options_.method)
@@ -190,6 +196,7 @@ void BidirectionalIntegrator::choose(const Scene& scene, const RenderOutlook& ou
   if (options_.guide_emission) guide_ = learn_emission(scene, outlook.film, plan);
   plan.guide = guide_.get();
   pilot_ = run_pilot(scene, outlook.film, plan);
+  if (takes_batches(scene)) batches_ = make_batches(scene);
 }
 
 void BidirectionalIntegrator::iteration(const Scene& scene, Film& film, const SampleRange& samples,
@@ -204,6 +211,7 @@ void BidirectionalIntegrator::iteration(const Scene& scene, Film& film, const Sa
   plan.iteration = samples.first;
   plan.threads = control.threads;
   plan.keep_vertices = plan.set.merges || plan.set.connections;
+  plan.keep_diffuse = batches_ && plan.set.connections;
   // A sub-path counts 1 / N_L.
   plan.roulette_threshold = pilot_->roulette_threshold() * plan.set.light_paths;
   set_ = plan.set;
@@ -229,7 +237,10 @@ void BidirectionalIntegrator::iteration(const Scene& scene, Film& film, const Sa
         [&](uint32_t i) { return v[i].merges ? v[i].position : VertexGrid::nowhere(); },
         float(radius(samples.first)), control.threads);
   }
-  CameraIntegrator::render_samples(scene, sums, samples, control, counters);
+  if (batches_)
+    trace_batches(sums, samples, control, counters);
+  else
+    CameraIntegrator::render_samples(scene, sums, samples, control, counters);
   film.end_pass();
 }
 

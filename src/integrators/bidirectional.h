@@ -20,7 +20,9 @@ namespace duet {
 class BidirectionalIntegrator final : public CameraIntegrator {
  public:
   using Options = BidirectionalIntegratorDescription;
-  BidirectionalIntegrator(const Options& options, const CameraOutput& output);
+  BidirectionalIntegrator(const Options& options, const CameraOutput& output,
+                          PathBatches batches = PathBatches::where_possible);
+  ~BidirectionalIntegrator() override;
 
   std::string bias() const override;
   bool blurs() const override;
@@ -39,6 +41,7 @@ class BidirectionalIntegrator final : public CameraIntegrator {
  private:
   template <class Vertex>
   struct Eye;
+  struct Batches;
   template <class Vertex, class Weights>
   class EyeSubpath;
   using Method = BidirectionalMethod;
@@ -51,6 +54,12 @@ class BidirectionalIntegrator final : public CameraIntegrator {
   double radius(uint32_t iteration) const;
   uint32_t light_subpaths(Point2i film) const;
   bool has_technique(int s, int t) const;
+  /// Whether eye sub-paths are traced in batches; in whatever scene, and in this one.
+  bool may_take_batches() const;
+  bool takes_batches(const Scene& scene) const;
+  std::unique_ptr<Batches> make_batches(const Scene& scene) const;
+  void trace_batches(Film& film, const SampleRange& samples, const PassControl& control,
+                     RenderCounters& counters);
   void splat(Film& film, std::span<const LightSplat> splats, RenderCounters& counters) const;
 
   // bidirectional_eye.cpp, bidirectional_connect.h and bidirectional_thesis.cpp. `Vertex` is
@@ -95,6 +104,8 @@ class BidirectionalIntegrator final : public CameraIntegrator {
   Windows windows_;
   MergeMask mask_;
   std::optional<Pilot> pilot_;
+  PathBatches path_batches_;
+  std::unique_ptr<Batches> batches_;            ///< null where they are not taken
   std::unique_ptr<const EmissionGuide> guide_;  ///< null where it would not help
 
   // Of the iteration under way.

@@ -79,7 +79,7 @@ void BidirectionalIntegrator::connect_to_cache(const Weights& weights, const Ver
     const LightVertex& drawn =
         cache[std::min(size_t(double(eye.draw()) * double(cache.size())), cache.size() - 1)];
     if (int(drawn.depth) + v.depth + 1 > max_depth_) continue;
-    Connection found = connect_ends(connections, drawn.unpack<Vertex>(eye.scene), v);
+    Connection found = connect_ends(connections, drawn.unpack<Vertex>(eye.scene), v, i);
     found.value *= scale;
     add(eye, int(drawn.depth) + 1, v.depth + 1, found);
   }

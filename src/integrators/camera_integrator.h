@@ -14,6 +14,10 @@ inline constexpr uint32_t kFirstVertexDimension = 4;
 inline constexpr uint32_t kDimensionsPerVertex = 8;
 inline constexpr uint32_t kDistanceDimension = 3, kScatteringDimension = 4;
 
+/// Whether a method traces paths in batches (wide_walk.h) or one by one. The images are the same,
+/// to rounding.
+enum class PathBatches { where_possible, never };
+
 /// Whether each technique of a bidirectional method gets a layer of its own.
 enum class TechniqueOutput {
   none,

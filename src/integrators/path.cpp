@@ -5,6 +5,7 @@
 #include "integrators/next_event.h"
 #include "integrators/tile_work.h"
 #include "integrators/wide_tiles.h"
+#include "integrators/wide_tracer.h"
 #include "materials/plain_diffuse.h"
 #include "transport/roulette.h"
 
@@ -38,10 +39,11 @@ void PathIntegrator::render_samples(const Scene& scene, Film& film, const Sample
                                     const PassControl& control, RenderCounters& counters) {
   if (!takes_batches(scene))
     return CameraIntegrator::render_samples(scene, film, samples, control, counters);
-  WideTiles wide(scene, options_, film, samples);
+  const WideScene wide_scene(scene);
+  WideTiles wide(*scene.camera, [&] { return std::make_unique<WideTracer>(wide_scene, options_); });
   for_each_tile(film, samples, control, TileSplit::by_samples, counters,
                 [&](FilmTile& tile, const TileSamples& part, RenderCounters& c) {
-                  wide.render(tile, part, c);
+                  wide.render(film, tile, samples, part, c);
                 });
 }
 

@@ -6,10 +6,6 @@
 
 namespace duet {
 
-/// Whether PathIntegrator traces paths in batches (wide_tracer.h) or one by one. The images are the
-/// same.
-enum class PathBatches { where_possible, never };
-
 /// Unidirectional path tracing from the camera. Light is found by light samples and by BSDF
 /// samples, weighted by the power heuristic (Veach 1997, section 9.2.4).
 class PathIntegrator final : public CameraIntegrator {

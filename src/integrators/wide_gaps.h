@@ -51,12 +51,12 @@ class WideGaps {
     fill(s.contribution);
     fill(s.id);
   }
-
- private:
   template <class T>
   void fill(BatchArray<T>& a) const {
     for (int k = 0; k < count_; ++k) a[to_[k]] = a[from_[k]];
   }
+
+ private:
   void fill(BatchTriples& a) const {
     fill(a.x);
     fill(a.y);

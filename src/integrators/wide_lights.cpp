@@ -87,6 +87,7 @@ void set_sample(int i, const std::optional<LightSample>& sample, float probabili
   samples.probability[i] = probability;
   samples.finite[i] = sample->finite;
   samples.delta[i] = sample->delta;
+  samples.emission[i] = sample->emission;
 }
 
 }  // namespace
@@ -133,6 +134,17 @@ void WideLights::sample(int n, const WidePoints& points, const WideNumbers& numb
                scene_.lights[choice.light[i]]->sample_direct(
                    points.position.point(i), {numbers.light_x[i], numbers.light_y[i]}),
                choice.probability[i], samples);
+  }
+}
+
+void WideLights::find_emission(int n, const LightStarts& starts, const WidePoints& points,
+                               const WideLightChoice& choice, WideLightSamples& samples) const {
+  for (int i = 0; i < n; ++i) {
+    if (samples.pdf[i] < 0) continue;
+    const uint32_t light = only_ ? 0 : choice.light[i];
+    const float area = flat_[light].area;
+    samples.emission[i] = starts.density(light, area > 0 ? kInvPi / area : samples.emission[i],
+                                         samples.wi.vector(i), points.position.point(i));
   }
 }
 

@@ -3,7 +3,7 @@
 
 #include "integrators/wide_state.h"
 #include "lights/flat_light.h"
-#include "scene/scene.h"
+#include "transport/light_starts.h"
 
 namespace duet {
 
@@ -24,6 +24,10 @@ class WideLights {
   /// `choice` is room for what is chosen.
   void sample(int n, const WidePoints& points, const WideNumbers& numbers, WideLightChoice& choice,
               WideLightSamples& samples) const;
+  /// LightStarts::density() of the paths that leave the lights of the samples towards the points;
+  /// only where there are samples.
+  void find_emission(int n, const LightStarts& starts, const WidePoints& points,
+                     const WideLightChoice& choice, WideLightSamples& samples) const;
 
  private:
   void choose(int n, const WidePoints& points, const WideNumbers& numbers,

@@ -36,7 +36,7 @@ const Texture* if_large(const Texture* texture) {
 
 }  // namespace
 
-void WideScene::set_model(WideShape& w, const Shape& shape) {
+void WideScene::set_model(WideShape& w, const Shape& shape, bool has_glossy) {
   const Material& material = *scene.materials[shape.material];
   const auto set_reflectance = [&](const ColorSlot& slot) {
     w.reflectance = slot.constant;
@@ -49,7 +49,7 @@ void WideScene::set_model(WideShape& w, const Shape& shape) {
     w.model = WideModel::diffuse;
     w.two_sided = diffuse->two_sided;
     set_reflectance(diffuse->reflectance);
-  } else if (const auto surface = by_normal ? as_glossy(material) : std::nullopt) {
+  } else if (const auto surface = by_normal && has_glossy ? as_glossy(material) : std::nullopt) {
     w.model = WideModel::glossy;
     const auto known = std::find(glossy_materials.begin(), glossy_materials.end(), shape.material);
     w.glossy = int32_t(known - glossy_materials.begin());
@@ -62,12 +62,12 @@ void WideScene::set_model(WideShape& w, const Shape& shape) {
   }
 }
 
-WideScene::WideScene(const Scene& s) : scene(s), lights(s) {
+WideScene::WideScene(const Scene& s, bool has_glossy) : scene(s), lights(s) {
   shapes.reserve(s.shapes.size());
   for (const Shape& shape : s.shapes) {
     WideShape& w = shapes.emplace_back();
     w.emits = shape.light != kNone;
-    set_model(w, shape);
+    set_model(w, shape, has_glossy);
     if (shape.kind != ShapeKind::mesh) continue;
     w.positions = shape.mesh->positions.data();
     w.triangles = shape.mesh->triangles.data();

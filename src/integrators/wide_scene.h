@@ -36,7 +36,8 @@ struct alignas(64) WideShape {
 
 /// A scene, which must outlive this and stand still, as batches of paths see it.
 struct WideScene {
-  explicit WideScene(const Scene& scene);
+  /// Without `has_glossy` points of glossy materials are WideModel::other.
+  explicit WideScene(const Scene& scene, bool has_glossy = true);
 
   const Scene& scene;
   std::vector<WideShape> shapes;
@@ -46,7 +47,7 @@ struct WideScene {
   WideLights lights;
 
  private:
-  void set_model(WideShape& w, const Shape& shape);
+  void set_model(WideShape& w, const Shape& shape, bool has_glossy);
 };
 
 }  // namespace duet

@@ -46,7 +46,8 @@ struct WideLightSamples {
   BatchArray<float> pdf;          ///< with the probability of the choice; negative without a sample
   BatchArray<float> probability;  ///< of the choice
   BatchArray<int32_t> finite, delta;
-  BatchTriples value;  ///< of the BSDF
+  BatchArray<float> emission;  ///< LightSample::emission, but of flat lights
+  BatchTriples value;          ///< of the BSDF
   BatchArray<float> bsdf_pdf;
 };
 

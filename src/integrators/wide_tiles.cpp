@@ -26,14 +26,11 @@ PixelBounds whole_square(const Film& film, const FilmTile& tile) {
 
 /// What one thread needs for a tile.
 struct WideTiles::Workspace {
-  Workspace(const WideScene& scene, const PathLimits& limits, const SampleRange& range)
-      : camera(*scene.scene.camera),
-        tracer(scene, limits),
-        sampler(range.sequence, range.seed, range.scramble) {}
+  Workspace(const Camera& c, std::unique_ptr<WideWalk> w) : camera(c), walk(std::move(w)) {}
 
-  void enter(const PixelBounds& pixels, int width);
+  void enter(const PixelBounds& pixels, int width, const BatchSampler& sampler);
   /// Begins the paths of a sample; returns how many there are.
-  int start_paths(uint32_t index);
+  int start_paths(uint32_t index, BatchSampler& sampler);
   /// Weights samples by the camera's weights, and makes those black that no film can add.
   void weight_samples(const PixelBounds& bounds, RenderCounters& counters);
   void add_to(BatchAdder& sums) const {
@@ -43,10 +40,10 @@ struct WideTiles::Workspace {
   void add_to(SampleAdder& sums, const PixelBounds& bounds) const;
 
   const Camera& camera;
-  WideTracer tracer;
-  BatchSampler sampler;
+  std::unique_ptr<WideWalk> walk;
   PixelBounds square;
   int count = 0;
+  BatchArray<uint64_t> pixels{};
   BatchArray<uint64_t> pixel_keys{};
   BatchKeys keys{};
   BatchArray<float> x{}, y{}, lens_x{}, lens_y{};
@@ -54,20 +51,24 @@ struct WideTiles::Workspace {
   WideSamples samples{};
 };
 
-void WideTiles::Workspace::enter(const PixelBounds& pixels, int width) {
-  square = pixels;
+void WideTiles::Workspace::enter(const PixelBounds& bounds, int width,
+                                 const BatchSampler& sampler) {
+  square = bounds;
   count = 0;
   for (int py = square.y0; py < square.y1; ++py)
-    for (int px = square.x0; px < square.x1; ++px)
-      pixel_keys[count++] = sampler.pixel_key(uint64_t(py) * uint64_t(width) + uint64_t(px));
+    for (int px = square.x0; px < square.x1; ++px, ++count) {
+      pixels[count] = uint64_t(py) * uint64_t(width) + uint64_t(px);
+      pixel_keys[count] = sampler.pixel_key(pixels[count]);
+    }
+  walk->enter({pixels.data(), size_t(count)});
 }
 
-int WideTiles::Workspace::start_paths(uint32_t index) {
+int WideTiles::Workspace::start_paths(uint32_t index, BatchSampler& sampler) {
   sampler.start_sample(index, count, pixel_keys, keys);
   sampler.numbers_2d(count, keys, 0, x, y);
   if (camera.has_lens()) sampler.numbers_2d(count, keys, kLensDimension, lens_x, lens_y);
   samples = {};
-  WidePaths& paths = tracer.paths();
+  WidePaths& paths = walk->paths();
   int n = 0, id = 0;
   for (int py = square.y0; py < square.y1; ++py)
     for (int px = square.x0; px < square.x1; ++px, ++id) {
@@ -120,9 +121,8 @@ void WideTiles::Workspace::add_to(SampleAdder& sums, const PixelBounds& bounds) 
                  std::array{samples.r[id], samples.g[id], samples.b[id], samples.alpha[id]});
 }
 
-WideTiles::WideTiles(const Scene& scene, const PathLimits& limits, const Film& film,
-                     const SampleRange& range)
-    : wide_(scene), limits_(limits), film_(film), range_(range) {}
+WideTiles::WideTiles(const Camera& camera, MakeWalk make_walk)
+    : camera_(camera), make_walk_(std::move(make_walk)) {}
 
 WideTiles::~WideTiles() = default;
 
@@ -135,26 +135,28 @@ std::unique_ptr<WideTiles::Workspace> WideTiles::take_workspace() {
       return workspace;
     }
   }
-  return std::make_unique<Workspace>(wide_, limits_, range_);
+  return std::make_unique<Workspace>(camera_, make_walk_());
 }
 
-void WideTiles::render(FilmTile& tile, const TileSamples& samples, RenderCounters& counters) {
+void WideTiles::render(const Film& film, FilmTile& tile, const SampleRange& range,
+                       const TileSamples& samples, RenderCounters& counters) {
   std::unique_ptr<Workspace> workspace = take_workspace();
-  workspace->enter(whole_square(film_, tile), film_.full_size().x);
+  BatchSampler sampler(range.sequence, range.seed, range.scramble);
+  workspace->enter(whole_square(film, tile), film.full_size().x, sampler);
   const PixelBounds& bounds = tile.sampled();
   const auto trace = [&](auto&& add) {
     for (uint32_t i = samples.first; i < samples.first + samples.count; ++i) {
-      const int n = workspace->start_paths(i);
-      workspace->tracer.trace(n, workspace->sampler, workspace->samples, counters);
+      const int n = workspace->start_paths(i, sampler);
+      workspace->walk->trace(n, sampler, workspace->samples, counters);
       workspace->weight_samples(bounds, counters);
       add();
     }
   };
-  if (BatchAdder::suits(film_)) {
-    BatchAdder sums(film_, tile, workspace->square);
+  if (BatchAdder::suits(film)) {
+    BatchAdder sums(film, tile, workspace->square);
     trace([&] { workspace->add_to(sums); });
   } else {
-    SampleAdder sums(film_, tile);
+    SampleAdder sums(film, tile);
     trace([&] { workspace->add_to(sums, bounds); });
   }
   counters.camera_paths += uint64_t(bounds.width()) * uint64_t(bounds.height()) * samples.count;

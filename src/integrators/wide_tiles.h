@@ -1,11 +1,12 @@
 // The film's tiles, rendered by batches of paths.
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <mutex>
 #include <vector>
 
-#include "integrators/wide_tracer.h"
+#include "integrators/wide_walk.h"
 
 namespace duet {
 
@@ -14,21 +15,21 @@ namespace duet {
 /// same bits, in every window, and however samples are divided into passes.
 class WideTiles {
  public:
-  /// `film` and `range` must outlive this, as must the scene, which stands still.
-  WideTiles(const Scene& scene, const PathLimits& limits, const Film& film,
-            const SampleRange& range);
+  using MakeWalk = std::function<std::unique_ptr<WideWalk>()>;
+  /// `make_walk` is called once for each thread at work. The camera must outlive this.
+  WideTiles(const Camera& camera, MakeWalk make_walk);
   ~WideTiles();
 
-  void render(FilmTile& tile, const TileSamples& samples, RenderCounters& counters);
+  /// Samples `range` but for the part of it, which `samples` says.
+  void render(const Film& film, FilmTile& tile, const SampleRange& range,
+              const TileSamples& samples, RenderCounters& counters);
 
  private:
   struct Workspace;
   std::unique_ptr<Workspace> take_workspace();
 
-  WideScene wide_;
-  PathLimits limits_;
-  const Film& film_;
-  const SampleRange& range_;
+  const Camera& camera_;
+  MakeWalk make_walk_;
   std::mutex mutex_;
   std::vector<std::unique_ptr<Workspace>> idle_;  ///< those that no thread uses
 };

@@ -7,18 +7,6 @@
 
 namespace duet {
 
-namespace {
-
-inline void add(WideSamples& samples, int id, const Spectrum& s) {
-  samples.r[id] += s.r, samples.g[id] += s.g, samples.b[id] += s.b;
-}
-
-inline Hit hit_at(const HitBatch& hits, int i) {
-  return {hits.t[i], hits.u[i], hits.v[i], hits.primitive[i], hits.shape[i], hits.instance[i]};
-}
-
-}  // namespace
-
 void WideTracer::trace(int n, const BatchSampler& sampler, WideSamples& samples,
                        RenderCounters& counters) {
   for (int depth = 1; n > 0; ++depth) {
@@ -56,7 +44,7 @@ int WideTracer::end_outside(int n, WideSamples& samples) {
       if (hits_.shape[i] == kNone) {
         const Spectrum l = weighted_environment(scene, paths_.from.point(i),
                                                 paths_.ray.direction.vector(i), bsdf_pdf(i), {});
-        add(samples, paths_.id[i], throughput(i) * l);
+        samples.add(paths_.id[i], throughput(i) * l);
         samples.alpha[paths_.id[i]] = 1;
       }
   gaps_.fill(paths_);
@@ -64,116 +52,15 @@ int WideTracer::end_outside(int n, WideSamples& samples) {
   return found;
 }
 
-void WideTracer::find_points(int n) {
-  fetch(n);
-  if (wide_.has_normals)
-    make_smooth_points(n, triangles_, hits_, points_);
-  else
-    make_points(n, triangles_, hits_, points_);
-  surfaces_.resize(special_.size());
-  for (size_t k = 0; k < special_.size(); ++k) {
-    const int i = special_[k];
-    const Surface& s = surfaces_[k] = wide_.scene.surface(paths_.ray[i], hit_at(hits_, i));
-    points_.position.set(i, s.position);
-    points_.ng.set(i, s.ng);
-    points_.ns.set(i, s.shading.n);
-    points_.offset[i] = s.offset;
-    const WideShape& shape = wide_.shapes[hits_.shape[i]];
-    if (shape.textured) set_reflectance(i, (*shape.textured)(s));
-    if (!shape.textured && shape.prefetched) shape.prefetched->prefetch(s);
-  }
-  prefetch_textures();
-}
-
-/// What textures look up, without normals and tangents.
-static Surface textured_point(const Shape& shape, const Point3f& position, const Hit& hit) {
-  const TriangleMesh& m = *shape.mesh;
-  ShapePoint p;
-  p.position = position;
-  p.barycentric = p.uv = {hit.u, hit.v};
-  p.primitive = hit.primitive;
-  if (shape.needs.uv && !m.uvs.empty()) {
-    const std::array<uint32_t, 3>& t = m.triangles[hit.primitive];
-    p.uv = m.uvs[t[0]] * (1 - hit.u - hit.v) + m.uvs[t[1]] * hit.u + m.uvs[t[2]] * hit.v;
-  }
-  return textured_point(shape, p);
-}
-
-void WideTracer::prefetch_textures() {
-  textured_points_.resize(textured_.size());
-  for (size_t k = 0; k < textured_.size(); ++k) {
-    const int i = textured_[k];
-    const uint32_t shape = hits_.shape[i];
-    textured_points_[k] =
-        textured_point(wide_.scene.shapes[shape], points_.position.point(i), hit_at(hits_, i));
-    const Texture* const texture = wide_.shapes[shape].prefetched;
-    if (texture) texture->prefetch(textured_points_[k]);
-  }
-}
-
-void WideTracer::look_up_textures() {
-  for (size_t k = 0; k < textured_.size(); ++k) {
-    const int i = textured_[k];
-    set_reflectance(i, (*wide_.shapes[hits_.shape[i]].textured)(textured_points_[k]));
-  }
-}
-
-void WideTracer::fetch(int n) {
-  special_.clear();
-  emitting_.clear();
-  textured_.clear();
-  for (std::vector<int>& points : glossy_points_) points.clear();
-  has_glossy_points_ = false;
-  for (int i = 0; i < n; ++i) {
-    const WideShape& shape = wide_.shapes[hits_.shape[i]];
-    if (shape.emits) emitting_.push_back(i);
-    set_reflectance(i, shape.reflectance);
-    points_.two_sided[i] = shape.two_sided;
-    if (shape.model == WideModel::glossy) {
-      glossy_points_[size_t(shape.glossy)].push_back(i);
-      has_glossy_points_ = true;
-    }
-    if (shape.model == WideModel::other || !shape.positions || hits_.instance[i] != kNone) {
-      special_.push_back(i);
-      continue;
-    }
-    if (shape.textured) textured_.push_back(i);
-    const std::array<uint32_t, 3>& t = shape.triangles[hits_.primitive[i]];
-    triangles_.sign[i] = shape.sign;
-    triangles_.p0.set(i, shape.positions[t[0]]);
-    triangles_.p1.set(i, shape.positions[t[1]]);
-    triangles_.p2.set(i, shape.positions[t[2]]);
-    if (!wide_.has_normals) continue;
-    const Normal3f none(0);
-    triangles_.n0.set(i, shape.normals ? shape.normals[t[0]] : none);
-    triangles_.n1.set(i, shape.normals ? shape.normals[t[1]] : none);
-    triangles_.n2.set(i, shape.normals ? shape.normals[t[2]] : none);
-  }
-}
-
 void WideTracer::add_emission(WideSamples& samples) const {
   for (const int i : emitting_) {
     const Ray ray = paths_.ray[i];
-    const Surface s = wide_.scene.surface(ray, hit_at(hits_, i));
-    add(samples, paths_.id[i],
-        throughput(i) * weighted_emission(wide_.scene, s,
-                                          {paths_.from.point(i), ray.direction, hits_.t[i]},
-                                          bsdf_pdf(i), {}));
+    const Surface s = wide_.scene.surface(ray, hit(i));
+    samples.add(paths_.id[i],
+                throughput(i) * weighted_emission(wide_.scene, s,
+                                                  {paths_.from.point(i), ray.direction, hits_.t[i]},
+                                                  bsdf_pdf(i), {}));
   }
-}
-
-void WideTracer::draw_numbers(int n, const BatchSampler& sampler, int depth) {
-  const uint32_t light = kFirstVertexDimension + kDimensionsPerVertex * uint32_t(depth - 1);
-  const uint32_t scattering = light + kScatteringDimension;
-  sampler.numbers_2d(n, paths_.keys, light, numbers_.light_x, numbers_.light_y);
-  if (has_light_choice(wide_.scene))
-    sampler.numbers_1d(n, paths_.keys, light + 2, numbers_.light_choice);
-  sampler.numbers_2d(n, paths_.keys, scattering, numbers_.x, numbers_.y);
-  const bool chooses = !special_.empty() || has_glossy_points_;
-  if (chooses || has_roulette(depth))
-    sampler.numbers_1d(n, paths_.keys, scattering + 2, numbers_.first);
-  if (chooses && has_roulette(depth))
-    sampler.numbers_1d(n, paths_.keys, scattering + 3, numbers_.second);
 }
 
 void WideTracer::scatter_glossy() {
@@ -231,14 +118,7 @@ void WideTracer::scatter_one_by_one() {
 
 void WideTracer::add_light(int n, WideSamples& samples, RenderCounters& counters) {
   weigh_light_samples(n, paths_, points_, lights_, shadows_);
-  const int lit = gaps_.find(n, [&](int i) { return 1 - shadows_.blocked[i]; });
-  gaps_.fill(shadows_);
-  counters.shadow_rays += uint64_t(lit);
-  wide_.scene.accel->occluded(shadows_.ray, lit, shadows_.blocked);
-  for (int i = 0; i < lit; ++i)
-    if (!shadows_.blocked[i])
-      add(samples, shadows_.id[i],
-          {shadows_.contribution.x[i], shadows_.contribution.y[i], shadows_.contribution.z[i]});
+  counters.shadow_rays += uint64_t(test_shadows(n, shadows_, samples).rays);
 }
 
 int WideTracer::keep_alive(int n) {

@@ -88,6 +88,8 @@ class Bsdf {
   bool has_nearly_specular() const { return nearly_specular_share_ > 0; }
 
   const Frame& frame() const { return frame_; }
+  /// The only component, if it is a diffuse one without covers; else null.
+  const BsdfComponent* plain_diffuse() const { return is_plain_diffuse() ? components_ : nullptr; }
   int component_count() const { return count_; }
   const BsdfComponent& component(int i) const { return components_[i]; }
 

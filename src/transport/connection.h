@@ -27,18 +27,32 @@ namespace duet {
 class ConnectionRoulette {
  public:
   /// `key` seeds the decisions; a threshold of zero keeps everything.
-  ConnectionRoulette(float threshold, uint64_t key) : threshold_(threshold), key_(key) {}
-  /// 0 to drop the contribution, or what it is to be multiplied by.
-  float keep(const Spectrum& contribution) {
-    const float c = contribution.max();
-    if (!(c < threshold_)) return 1;
-    key_ = mix64(key_ + 0x9e3779b97f4a7c15ull);
-    return to_unit_float(uint32_t(key_ >> 32)) * threshold_ < c ? threshold_ / c : 0.0f;
+  ConnectionRoulette(float threshold, uint64_t key) : threshold_(threshold), key_(seed_of(key)) {}
+  /// 0 to drop the contribution, or what it is to be multiplied by. Numbers of connections
+  /// (event()) tell those of one key apart: in whatever order they are asked for, the decisions are
+  /// the same.
+  float keep(const Spectrum& contribution, uint32_t connection) const {
+    return keep(contribution.max(), threshold_, draw(key_, connection));
+  }
+
+  /// The number of the connection of two vertices, each given by its segments from its end, of
+  /// which several may be drawn. Numbers of very long paths may be the same.
+  static uint32_t event(int light_depth, int eye_depth, int drawn = 0) {
+    return uint32_t(light_depth) + (uint32_t(eye_depth) << 12) + (uint32_t(drawn) << 24);
+  }
+  /// What keep() is made of, for many keys at once.
+  static uint32_t seed_of(uint64_t key) { return uint32_t(mix64(key) >> 32); }
+  [[gnu::always_inline]] static float draw(uint32_t seed, uint32_t connection) {
+    return to_unit_float(mix32(seed + connection * 0x9e3779b9u));
+  }
+  [[gnu::always_inline]] static float keep(float contribution, float threshold, float drawn) {
+    const float kept = drawn * threshold < contribution ? threshold / contribution : 0.0f;
+    return contribution < threshold ? kept : 1.0f;
   }
 
  private:
   float threshold_;
-  uint64_t key_;
+  uint32_t key_;
 };
 
 /// Whether anything but a light lies on the ray: what blocks the view if emitters are hidden.
@@ -68,7 +82,7 @@ struct ConnectionContext {
   const Scene& scene;
   LightStarts starts;
   const Weights& weights;
-  ConnectionRoulette& roulette;
+  const ConnectionRoulette& roulette;
   RenderCounters& counters;
   bool strict_normals = false;
   RandomStream* random = nullptr;  ///< for shadow rays through media; null where there are none
@@ -124,7 +138,8 @@ inline Connection connect_light(const ConnectionContext<Weights>& c, const Verte
   eye_end.merges = eye.merges(f.pdf.value, eye_end.beyond);
   Connection connection{eye.throughput * f.value * sample->weight * (1 / probability),
                         c.weights.light_sample(eye, direct, hit, eye_end)};
-  const float kept = c.roulette.keep(connection.value * connection.weight);
+  const float kept = c.roulette.keep(connection.value * connection.weight,
+                                     ConnectionRoulette::event(0, eye.depth));
   if (kept == 0) return {};
   connection.value *= kept;
   if constexpr (Vertex::kMedia) {
@@ -197,7 +212,8 @@ inline std::optional<CameraConnection> connect_camera(const ConnectionContext<We
                           light.merges(f.pdf.value, f.reverse.value)};
   Connection connection{light.throughput * f.value * (adjoint * seen->importance),
                         camera_weight(c.weights, light, light_end, seen->film)};
-  const float kept = c.roulette.keep(connection.value * connection.weight);
+  const float kept = c.roulette.keep(connection.value * connection.weight,
+                                     ConnectionRoulette::event(light.depth, 0));
   if (kept == 0) return std::nullopt;
   connection.value *= kept;
   if constexpr (Vertex::kMedia) {
@@ -216,54 +232,77 @@ inline std::optional<CameraConnection> connect_camera(const ConnectionContext<We
   return CameraConnection{seen->film, connection};
 }
 
-/// A light vertex seen from an eye vertex.
+/// A light vertex and an eye vertex that light each other unless something lies between them.
+struct EndsConnection {
+  Connection connection;
+  Vector3f to_light;  ///< unit
+  Point3f target;     ///< of the shadow ray
+  ConnectionEnd light_end, eye_end;
+};
+
+/// What a light vertex and an eye vertex contribute if they see each other; empty if nothing.
+/// `drawn` tells connections of the same two ends apart.
 template <class Weights, class Vertex>
-inline Connection connect_ends(const ConnectionContext<Weights>& c, const Vertex& light,
-                               const Vertex& eye) {
-  const Scene& scene = c.scene;
-  RenderCounters& counters = c.counters;
-  const auto fails = [&](uint64_t& reason) {
+inline std::optional<EndsConnection> weigh_ends(const ConnectionContext<Weights>& c,
+                                                const Vertex& light, const Vertex& eye,
+                                                int drawn = 0) {
+  ConnectionCounters& counters = c.counters.connections;
+  const auto fails = [](uint64_t& reason) {
     ++reason;
-    return Connection{};
+    return std::optional<EndsConnection>();
   };
   const Vector3f d = light.position() - eye.position();
   const float d2 = length_squared(d);
-  if (!(d2 > 0)) return fails(counters.connections.failed_zero);
+  if (!(d2 > 0)) return fails(counters.failed_zero);
   const Vector3f to_light = d * (1 / std::sqrt(d2));
-  if (c.strict_normals && eye.has_two_sides(to_light))
-    return fails(counters.connections.failed_zero);
+  if (c.strict_normals && eye.has_two_sides(to_light)) return fails(counters.failed_zero);
   const BsdfPair f = eye.eval_both_ways(to_light, Transport::radiance);
-  if (f.value.is_black()) return fails(counters.connections.failed_zero);
+  if (f.value.is_black()) return fails(counters.failed_zero);
   const BsdfPair g = light.eval_both_ways(-to_light, Transport::importance);
-  if (g.value.is_black()) return fails(counters.connections.failed_zero);
+  if (g.value.is_black()) return fails(counters.failed_zero);
   const float adjoint = light.adjoint(-to_light);
-  if (!(adjoint > 0)) return fails(counters.connections.failed_zero);
+  if (!(adjoint > 0)) return fails(counters.failed_zero);
   const float inverse_d2 = 1 / d2;
-  ConnectionEnd light_end{f.pdf.value * light.cosine(to_light) * inverse_d2, g.reverse.value,
-                          light.merges(g.pdf.value, g.reverse.value)};
-  ConnectionEnd eye_end{g.pdf.value * eye.cosine(to_light) * inverse_d2, f.reverse.value,
-                        eye.merges(f.pdf.value, f.reverse.value)};
+  const ConnectionEnd light_end{f.pdf.value * light.cosine(to_light) * inverse_d2, g.reverse.value,
+                                light.merges(g.pdf.value, g.reverse.value)};
+  const ConnectionEnd eye_end{g.pdf.value * eye.cosine(to_light) * inverse_d2, f.reverse.value,
+                              eye.merges(f.pdf.value, f.reverse.value)};
   Connection connection{
       eye.throughput * f.value * light.throughput * g.value * (adjoint * inverse_d2),
       c.weights.connection(light, light_end, eye, eye_end)};
-  const float kept = c.roulette.keep(connection.value * connection.weight);
-  if (kept == 0) return fails(counters.connections.skipped);
+  const float kept = c.roulette.keep(connection.value * connection.weight,
+                                     ConnectionRoulette::event(light.depth, eye.depth, drawn));
+  if (kept == 0) return fails(counters.skipped);
   connection.value *= kept;
-  const Point3f target = light.outside(-to_light);
+  return EndsConnection{connection, to_light, light.outside(-to_light), light_end, eye_end};
+}
+
+/// A light vertex seen from an eye vertex.
+template <class Weights, class Vertex>
+inline Connection connect_ends(const ConnectionContext<Weights>& c, const Vertex& light,
+                               const Vertex& eye, int drawn = 0) {
+  std::optional<EndsConnection> ends = weigh_ends(c, light, eye, drawn);
+  if (!ends) return {};
+  ConnectionCounters& counters = c.counters.connections;
+  const auto fails = [&] {
+    ++counters.failed_occluded;
+    return Connection{};
+  };
+  Connection& connection = ends->connection;
   if constexpr (Vertex::kMedia) {
     const auto transmittance =
-        pass_through_media(scene, ray_to(eye.outside(to_light), target),
-                           eye.medium_towards(scene, to_light), *c.random, counters);
-    if (!transmittance) return fails(counters.connections.failed_occluded);
+        pass_through_media(c.scene, ray_to(eye.outside(ends->to_light), ends->target),
+                           eye.medium_towards(c.scene, ends->to_light), *c.random, c.counters);
+    if (!transmittance) return fails();
     connection.value *= transmittance->value;
-    light_end.arrival *= transmittance->nominal, eye_end.arrival *= transmittance->nominal;
-    connection.weight = c.weights.connection(light, light_end, eye, eye_end);
+    ends->light_end.arrival *= transmittance->nominal;
+    ends->eye_end.arrival *= transmittance->nominal;
+    connection.weight = c.weights.connection(light, ends->light_end, eye, ends->eye_end);
   } else {
-    ++counters.shadow_rays;
-    if (scene.accel->occluded(spawn_ray_to(eye.surface, target)))
-      return fails(counters.connections.failed_occluded);
+    ++c.counters.shadow_rays;
+    if (c.scene.accel->occluded(spawn_ray_to(eye.surface, ends->target))) return fails();
   }
-  ++counters.connections.contributed;
+  ++counters.contributed;
   return connection;
 }
 

@@ -50,11 +50,13 @@ double LightPass::memory_bytes(const LightPassPlan& plan, int vertices_per_subpa
       plan.windows
           ? kGrowth * ((vertices + 2) * sizeof(VertexPdfs) + 4 + vertices * sizeof(EndPdfs))
           : 0.0;
-  const double kept = plan.keep_vertices ? vertices * sizeof(LightVertex) + 6 : 0.0;
+  const double diffuse = plan.keep_diffuse ? sizeof(DiffuseVertex) : 0.0;
+  const double kept = plan.keep_vertices ? vertices * (sizeof(LightVertex) + diffuse) + 6 : 0.0;
   const double at_a_time =
       std::min(double(plan.subpaths), double(kSubpathsPerBlock) * blocks_at_a_time(plan.threads));
   return double(plan.subpaths) * (kept + pdfs) +
-         at_a_time * kGrowth * (vertices * (sizeof(LightVertex) + sizeof(LightSplat)) + pdfs);
+         at_a_time * kGrowth *
+             (vertices * (sizeof(LightVertex) + diffuse + sizeof(LightSplat)) + pdfs);
 }
 
 void LightPass::reserve(size_t vertices, size_t subpaths) {
@@ -67,6 +69,7 @@ template <class Vertex, class Weights>
 void LightPass::trace(const Scene& scene, const LightPassPlan& plan, const Weights& weights,
                       Range range, SubpathPdfs* pdfs, Block& block) const {
   block.vertices.clear();
+  block.diffuse.clear();
   block.splats.clear();
   block.pdf_lists.clear();
   block.pdf_ends.clear();
@@ -94,6 +97,8 @@ void LightPass::trace(const Scene& scene, const LightPassPlan& plan, const Weigh
       }
       if (plan.keep_vertices && (plan.set.connections || v.merges())) {
         block.vertices.vertices.emplace_back(v, hit);
+        if constexpr (!Vertex::kMedia)
+          if (plan.keep_diffuse) block.diffuse.emplace_back(v);
         if (Vertex::kMedia && pdfs) block.end_pdfs.push_back({pdfs->front(), pdfs->back()});
       }
     };
@@ -145,6 +150,8 @@ void LightPass::append_blocks(const LightPassPlan& plan, uint32_t count) {
         [&](uint32_t end, size_t i) { return uint32_t(begins[i]) + end; });
     append(
         vertices_.lengths, [&](uint32_t i) -> auto& { return blocks[i].vertices.lengths; }, same);
+    append(
+        diffuse_, [&](uint32_t i) -> auto& { return blocks[i].diffuse; }, same);
   }
   if (!plan.windows) return;
   const auto begins = append(
@@ -159,6 +166,7 @@ void LightPass::append_blocks(const LightPassPlan& plan, uint32_t count) {
 void LightPass::run(const Scene& scene, const LightPassPlan& plan, const TakeSplats& splats,
                     RenderCounters& counters) {
   vertices_.clear();
+  diffuse_.clear();
   pdf_lists_.clear();
   pdf_ends_.clear();
   end_pdfs_.clear();

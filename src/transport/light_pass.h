@@ -4,6 +4,7 @@
 #include <functional>
 
 #include "image/film.h"
+#include "transport/diffuse_vertex.h"
 #include "transport/weights.h"
 #include "transport/window_weights.h"
 
@@ -22,6 +23,7 @@ struct LightPassPlan {
   bool hide_emitters = false;
   float roulette_threshold = 0;  ///< for what a sub-path adds to the film; see ConnectionRoulette
   bool keep_vertices = false;
+  bool keep_diffuse = false;  ///< DiffuseVertex of each kept vertex as well; not where media are
   SampleSequence sequence = SampleSequence::sobol;
   uint64_t seed = 0;
   uint32_t scramble = 0, iteration = 0;
@@ -46,6 +48,8 @@ class LightPass {
            RenderCounters& counters);
 
   const LightVertices& vertices() const { return vertices_; }
+  /// One for each of the vertices, if the plan keeps them.
+  const std::vector<DiffuseVertex>& diffuse() const { return diffuse_; }
   /// Vertex pdfs of a sub-path; if there are windows.
   std::span<const VertexPdfs> pdfs(size_t subpath) const {
     const uint32_t first = subpath == 0 ? 0 : pdf_ends_[subpath - 1];
@@ -65,6 +69,7 @@ class LightPass {
  private:
   struct Block {
     LightVertices vertices;
+    std::vector<DiffuseVertex> diffuse;
     SubpathPdfs pdf_lists;
     std::vector<uint32_t> pdf_ends;
     std::vector<EndPdfs> end_pdfs;
@@ -85,6 +90,7 @@ class LightPass {
 
   std::vector<Block> blocks_;
   LightVertices vertices_;
+  std::vector<DiffuseVertex> diffuse_;
   SubpathPdfs pdf_lists_;
   std::vector<uint32_t> pdf_ends_;
   std::vector<EndPdfs> end_pdfs_;

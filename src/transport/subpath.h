@@ -75,6 +75,13 @@ inline bool survives(int depth, const SubpathOptions& options, Sampler& sampler,
   return true;
 }
 
+/// What leave_specular() asks of a delta lobe that was sampled at a vertex.
+inline float specular_jacobian(const PathVertex& v, const BsdfSample& s) {
+  if (s.eta == 1) return 1;
+  const Normal3f& n = v.surface.shading.n;
+  return std::abs(dot(n, v.wo)) / (std::abs(dot(n, s.wi)) * s.eta * s.eta);
+}
+
 /// Chooses where a sub-path goes on from a surface; see scatter(). With `passes` one that goes
 /// straight on stays the sub-path that had not come to the surface yet, but for ray and throughput.
 template <Transport transport, bool passes>
@@ -103,9 +110,7 @@ inline bool scatter_on_surface(const PathVertex& v, const TechniqueSet& set,
   if (!survives(v.depth, options, sampler, subpath)) return false;
   const float cosine_out = v.cosine(s->wi);
   if (s->delta) {
-    const float in = std::abs(dot(v.surface.shading.n, v.wo)),
-                out = std::abs(dot(v.surface.shading.n, s->wi));
-    const float jacobian = s->eta == 1 ? 1.0f : in / (out * s->eta * s->eta);
+    const float jacobian = specular_jacobian(v, *s);
     subpath.partials = leave_specular(v.partials, cosine_out, jacobian);
     subpath.forward = 1;
     record_departure(subpath, jacobian, true, false);

@@ -1,0 +1,112 @@
+// Connections of a batch of eye sub-paths with the light sub-paths of their pixels.
+#include <algorithm>
+
+#include "integrators/wide_eye.h"
+
+namespace duet {
+
+void WideEye::connect(int n, int depth, WideSamples& samples, RenderCounters& counters) {
+  const std::vector<DiffuseVertex>& diffuse = plan_.lights->diffuse();
+  const int most = limits_.max_depth - depth - 1;
+  if (!plan_.set.connections || diffuse.empty() || most <= 0) return;
+  for (int i = 0; i < n; ++i) {
+    const LightSubpath& light = light_[size_t(paths_.id[i])];
+    const PathVertex* const special = special_vertex(i);
+    const Vector3f flux = eye_.flux.vector(i);
+    const bool smooth = special ? special->is_smooth() : std::max({flux.x, flux.y, flux.z}) > 0;
+    int count = smooth ? light.count : 0;
+    while (count > 0 && diffuse[light.first + uint32_t(count) - 1].depth > most) --count;
+    counters.connections.failed_specular += uint64_t(std::min(most, light.length) - count);
+    if (!special)
+      find_pairs(i, count, depth, samples, counters);
+    else
+      for (int k = 0; k < count; ++k) connect_one_by_one(i, k, depth, samples, counters);
+  }
+  flush_pairs(depth, samples, counters);
+  flush_single(samples, counters);
+}
+
+void WideEye::find_pairs(int i, int count, int depth, WideSamples& samples,
+                         RenderCounters& counters) {
+  const LightSubpath& light = light_[size_t(paths_.id[i])];
+  const DiffuseVertex* const vertices = plan_.lights->diffuse().data() + light.first;
+  const Point3f position = points_.position.point(i);
+  const Vector3f lit = eye_.lit.vector(i);
+  for (int k = 0; k < count; ++k) {
+    const DiffuseVertex& l = vertices[k];
+    if (l.other) {
+      connect_one_by_one(i, k, depth, samples, counters);
+      continue;
+    }
+    if (pair_count_ == kBatch) flush_pairs(depth, samples, counters);
+    // Without branches: half of the vertices do not face each other, and which cannot be predicted.
+    const Vector3f d = l.position - position;
+    const int face = int(dot(lit, d) > 0) & int(dot(l.lit, d) < 0);
+    pairs_.eye[pair_count_] = i;
+    pairs_.light[pair_count_] = int32_t(light.first - first_light_) + k;
+    pair_count_ += face;
+    counters.connections.failed_zero += uint64_t(1 - face);
+  }
+}
+
+void WideEye::flush_pairs(int depth, WideSamples& samples, RenderCounters& counters) {
+  if (pair_count_ == 0) return;
+  weigh_pairs(pair_count_, pairs_, paths_, subpaths_, points_, eye_,
+              plan_.lights->diffuse().data() + first_light_, wide_weights(),
+              ConnectionRoulette::event(0, depth), shadows_);
+  const Tested tested = test_shadows(pair_count_, shadows_, samples);
+  counters.shadow_rays += uint64_t(tested.rays);
+  counters.connections.skipped += uint64_t(pair_count_ - tested.rays);
+  counters.connections.failed_occluded += uint64_t(tested.rays - tested.lit);
+  counters.connections.contributed += uint64_t(tested.lit);
+  pair_count_ = 0;
+}
+
+void WideEye::connect_one_by_one(int i, int number, int depth, WideSamples& samples,
+                                 RenderCounters& counters) {
+  const int id = paths_.id[i];
+  const ConnectionRoulette own = roulette(id);
+  const PathVertex& eye = eye_vertex(i, depth);
+  const auto ends = weigh_ends(context(own, counters), light_vertex(id, number), eye);
+  if (!ends) return;
+  const Ray ray = spawn_ray_to(eye.surface, ends->target);
+  const int k = single_count_++;
+  single_.ray.origin.set(k, ray.origin);
+  single_.ray.direction.set(k, ray.direction);
+  single_.ray.tmax[k] = ray.tmax;
+  const Spectrum value = ends->connection.value * ends->connection.weight;
+  single_.contribution.set(k, value.r, value.g, value.b);
+  single_.id[k] = id;
+  single_.blocked[k] = 0;
+  if (single_count_ == kBatch) flush_single(samples, counters);
+}
+
+void WideEye::flush_single(WideSamples& samples, RenderCounters& counters) {
+  const Tested tested = test_shadows(single_count_, single_, samples);
+  counters.shadow_rays += uint64_t(tested.rays);
+  counters.connections.failed_occluded += uint64_t(tested.rays - tested.lit);
+  counters.connections.contributed += uint64_t(tested.lit);
+  single_count_ = 0;
+}
+
+const PathVertex& WideEye::eye_vertex(int i, int depth) {
+  if (vertex_of_[i] < 0) {
+    vertex_of_[i] = int32_t(vertices_.size());
+    vertices_.emplace_back(wide_.scene, wide_.scene.surface(paths_.ray[i], hit(i)),
+                           -paths_.ray.direction.vector(i), throughput(i), partials(i), depth);
+  }
+  return vertices_[size_t(vertex_of_[i])];
+}
+
+const PathVertex& WideEye::light_vertex(int id, int number) {
+  LightSubpath& leader = light_[size_t(light_[size_t(id)].leader)];
+  if (leader.unpacked < 0) {
+    leader.unpacked = int(unpacked_.size());
+    const std::vector<LightVertex>& packed = plan_.lights->vertices().vertices;
+    for (int k = 0; k < leader.count; ++k)
+      unpacked_.emplace_back(Unpacked<PathVertex>{packed[leader.first + uint32_t(k)], wide_.scene});
+  }
+  return unpacked_[size_t(leader.unpacked + number)];
+}
+
+}  // namespace duet

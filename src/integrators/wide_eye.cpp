@@ -1,0 +1,188 @@
+#include "integrators/wide_eye.h"
+
+#include "transport/weights.h"
+
+namespace duet {
+
+void WideEye::enter(std::span<const uint64_t> pixels) {
+  starts_ = LightStarts(wide_.scene, plan_.guide);
+  weights_ = BalanceWeights(plan_.set);
+  keys_.resize(pixels.size());
+  light_.assign(pixels.size(), {});
+  leaders_.fill({});
+  const LightVertices& vertices = plan_.lights->vertices();
+  const size_t subpaths = vertices.ends.size();
+  first_light_ = ~0u;
+  for (size_t id = 0; id < pixels.size(); ++id) {
+    keys_[id] = ~hash_combine(plan_.key, pixels[id]);
+    if (subpaths == 0) continue;
+    const size_t subpath = plan_.sharing->subpath(pixels[id], subpaths);
+    const uint32_t first = subpath == 0 ? 0 : vertices.ends[subpath - 1];
+    light_[id] = {first, int(vertices.ends[subpath] - first), vertices.lengths[subpath],
+                  leader(subpath, int(id))};
+    first_light_ = std::min(first_light_, first);
+  }
+  unpacked_.clear();
+}
+
+int WideEye::leader(size_t subpath, int id) {
+  // Few slots are taken, so that the next free one is near.
+  size_t slot = mix64(subpath) % leaders_.size();
+  while (leaders_[slot].id >= 0 && leaders_[slot].subpath != subpath)
+    slot = (slot + 1) % leaders_.size();
+  if (leaders_[slot].id < 0) leaders_[slot] = {subpath, id};
+  return leaders_[slot].id;
+}
+
+void WideEye::begin(int n) {
+  for (int i = 0; i < n; ++i) {
+    subpaths_.vcm[i] = subpaths_.vc[i] = 0;
+    subpaths_.carried[i] = 1;
+  }
+}
+
+Subpath WideEye::subpath(int i) const {
+  Subpath s;
+  s.ray = paths_.ray[i];
+  s.throughput = throughput(i);
+  s.partials = partials(i);
+  s.from = paths_.from.point(i);
+  s.from_specular = paths_.bsdf_pdf[i] < 0;
+  return s;
+}
+
+void WideEye::trace(int n, const BatchSampler& sampler, WideSamples& samples,
+                    RenderCounters& counters) {
+  begin(n);
+  for (int depth = 1; n > 0; ++depth) {
+    counters.closest_rays += uint64_t(n);
+    wide_.scene.accel->closest_hits(paths_.ray, n, hits_);
+    n = end_outside(n, samples, counters);
+    counters.path_vertices += uint64_t(n);
+    find_points(n);
+    add_emission(samples, counters);
+    if (depth == limits_.max_depth) {
+      for (int i = 0; i < n; ++i) samples.alpha[paths_.id[i]] = 1;
+      break;
+    }
+    arrive_at_points(n, depth);
+    draw_numbers(n, sampler, depth);
+    wide_.lights.sample(n, points_, numbers_, choice_, lights_);
+    look_up_textures();
+    make_diffuse_ends(n, paths_, points_, eye_);
+    evaluate_diffuse(n, paths_, points_, lights_);
+    sample_diffuse(n, paths_, points_, numbers_, scattering_);
+    make_special_vertices(n, depth);
+    sample_lights(n, depth, samples, counters);
+    connect(n, depth, samples, counters);
+    scatter_special_vertices();
+    for (int i = 0; i < n; ++i)
+      if (!scattering_.null[i]) samples.alpha[paths_.id[i]] = 1;
+    go_on(n, has_roulette(depth), points_, eye_.reverse, scattering_, paths_, subpaths_);
+    n = gaps_.find(n, [&](int i) { return scattering_.alive[i]; });
+    fill_gaps();
+  }
+}
+
+int WideEye::end_outside(int n, WideSamples& samples, RenderCounters& counters) {
+  const int found = gaps_.find(n, [&](int i) { return int(hits_.shape[i] != kNone); });
+  if (found == n) return n;
+  if (wide_.scene.environment)
+    for (int i = 0; i < n; ++i) {
+      if (hits_.shape[i] != kNone) continue;
+      const int id = paths_.id[i];
+      const ConnectionRoulette own = roulette(id);
+      const Connection c = connect_escape(context(own, counters), subpath(i));
+      samples.add(id, c.value * c.weight);
+      samples.alpha[id] = 1;
+    }
+  gaps_.fill(hits_);
+  fill_gaps();
+  return found;
+}
+
+void WideEye::fill_gaps() {
+  gaps_.fill(paths_);
+  gaps_.fill(subpaths_.vcm);
+  gaps_.fill(subpaths_.vc);
+  gaps_.fill(subpaths_.carried);
+}
+
+void WideEye::add_emission(WideSamples& samples, RenderCounters& counters) {
+  for (const int i : emitting_) {
+    const Surface s = wide_.scene.surface(paths_.ray[i], hit(i));
+    const ConnectionRoulette own = roulette(paths_.id[i]);
+    const Connection c =
+        connect_hit(context(own, counters), subpath(i), s, hits_.t[i] * hits_.t[i]);
+    samples.add(paths_.id[i], c.value * c.weight);
+  }
+}
+
+void WideEye::arrive_at_points(int n, int depth) {
+  arrive(n, hits_, points_, plan_.set.connections, paths_, subpaths_);
+  for (int i = 0; i < n; ++i)
+    eye_.roulette[i] = ConnectionRoulette::seed_of(keys_[size_t(paths_.id[i])]);
+  if (depth > 1) return;
+  for (int i = 0; i < n; ++i) {
+    const Ray ray = paths_.ray[i];
+    const float cosine = std::abs(dot(points_.ng.vector(i), ray.direction));
+    Subpath unused;
+    const Partials p = first_eye_partials(
+        wide_.scene, ray, {points_.position.point(i), sqr(hits_.t[i]), cosine}, plan_.set, unused);
+    subpaths_.vcm[i] = cosine > 0 ? p.vcm : 0.0f;
+  }
+}
+
+void WideEye::sample_lights(int n, int depth, WideSamples& samples, RenderCounters& counters) {
+  if (wide_.scene.lights.empty()) return;
+  wide_.lights.find_emission(n, starts_, points_, choice_, lights_);
+  weigh_light_samples(n, paths_, subpaths_, points_, eye_, lights_, wide_weights(),
+                      ConnectionRoulette::event(0, depth), shadows_);
+  counters.shadow_rays += uint64_t(test_shadows(n, shadows_, samples).rays);
+}
+
+void WideEye::make_special_vertices(int n, int depth) {
+  for (int i = 0; i < n; ++i) vertex_of_[i] = -1;
+  vertices_.clear();
+  for (size_t k = 0; k < special_.size(); ++k) {
+    const int i = special_[k];
+    if (wide_.shapes[hits_.shape[i]].model != WideModel::other) continue;
+    vertex_of_[i] = int32_t(vertices_.size());
+    const PathVertex& v =
+        vertices_.emplace_back(wide_.scene, surfaces_[k], -paths_.ray.direction.vector(i),
+                               throughput(i), partials(i), depth);
+    BsdfPair f;
+    if (v.is_smooth() && !(lights_.pdf[i] < 0))
+      f = v.eval_both_ways(lights_.wi.vector(i), Transport::radiance);
+    lights_.value.set(i, f.value.r, f.value.g, f.value.b);
+    lights_.bsdf_pdf[i] = f.pdf.value;
+    eye_.reverse[i] = f.reverse.value;
+  }
+  special_vertices_ = int(vertices_.size());
+}
+
+void WideEye::scatter_special_vertices() {
+  for (const int i : special_) {
+    const PathVertex* const v = special_vertex(i);
+    if (!v) continue;
+    const bool chooses = v->bsdf.needs_choice();
+    const auto sample = v->bsdf.sample(chooses ? numbers_.first[i] : 0.5f,
+                                       {numbers_.x[i], numbers_.y[i]}, Transport::radiance);
+    scattering_.alive[i] = sample.has_value();
+    scattering_.null[i] = sample && sample->null;
+    if (!sample) continue;
+    scattering_.wi.set(i, sample->wi);
+    scattering_.weight.set(i, sample->weight.r, sample->weight.g, sample->weight.b);
+    scattering_.eta[i] = sample->eta;
+    if (chooses) scattering_.roulette[i] = numbers_.second[i];
+    if (sample->delta) {
+      scattering_.pdf[i] = -1;
+      eye_.reverse[i] = specular_jacobian(*v, *sample);
+    } else {
+      scattering_.pdf[i] = sample->pdf.value;
+      eye_.reverse[i] = v->reverse_pdf(sample->wi, Transport::radiance);
+    }
+  }
+}
+
+}  // namespace duet

@@ -1,0 +1,115 @@
+// Eye sub-paths of many pixels at once, stage by stage.
+#pragma once
+
+#include "integrators/wide_eye_kernels.h"
+#include "integrators/wide_walk.h"
+#include "transport/light_pass.h"
+#include "transport/subpath_sharing.h"
+
+namespace duet {
+
+/// Of the iteration under way, what its eye sub-paths are connected with. All but the set refers to
+/// what the method keeps.
+struct WideEyePlan {
+  TechniqueSet set;
+  uint64_t key = 0;  ///< of the iteration's random numbers beside the sampler's
+  float roulette_threshold = 0;
+  const LightPass* lights = nullptr;  ///< with LightPassPlan::keep_diffuse
+  const SubpathSharing* sharing = nullptr;
+  const EmissionGuide* guide = nullptr;  ///< or null
+};
+
+/// Traces eye sub-paths of bidirectional path tracing without media, in the same way as
+/// BidirectionalIntegrator traces one: the same random numbers give the same sub-paths and, to
+/// rounding, the same contributions. Connections of diffuse vertices are weighed in loops over
+/// pairs, those of others one by one; all shadow rays are tested together.
+class WideEye final : public WideWalk {
+ public:
+  /// What is referred to must outlive this; the plan may change between batches.
+  WideEye(const WideScene& scene, const PathLimits& limits, const WideEyePlan& plan)
+      : WideWalk(scene, limits), plan_(plan), starts_(scene.scene) {
+    vertices_.reserve(kBatch);
+  }
+
+  void enter(std::span<const uint64_t> pixels) override;
+  void trace(int n, const BatchSampler& sampler, WideSamples& samples,
+             RenderCounters& counters) override;
+
+ private:
+  /// The light sub-path of a pixel.
+  struct LightSubpath {
+    uint32_t first = 0;
+    int count = 0;      ///< vertices
+    int length = 0;     ///< the same with those that cannot be connected
+    int leader = 0;     ///< the first pixel of the batch that has it, by id
+    int unpacked = -1;  ///< of a leader: where its vertices are, once they are needed
+  };
+
+  void begin(int n);
+  int end_outside(int n, WideSamples& samples, RenderCounters& counters);
+  void add_emission(WideSamples& samples, RenderCounters& counters);
+  /// Makes Partials of the points; at the first, where light tracing competes, of their own.
+  void arrive_at_points(int n, int depth);
+  void sample_lights(int n, int depth, WideSamples& samples, RenderCounters& counters);
+  /// Binds BSDFs that are not diffuse, and evaluates them for the light samples.
+  void make_special_vertices(int n, int depth);
+  void scatter_special_vertices();
+  void fill_gaps();
+  int leader(size_t subpath, int id);
+
+  // wide_connections.cpp
+  void connect(int n, int depth, WideSamples& samples, RenderCounters& counters);
+  /// Of a vertex on a diffuse surface, with the first `count` vertices of its light sub-path.
+  void find_pairs(int i, int count, int depth, WideSamples& samples, RenderCounters& counters);
+  /// One vertex with one of its light sub-path; at least one of them is not diffuse.
+  void connect_one_by_one(int i, int number, int depth, WideSamples& samples,
+                          RenderCounters& counters);
+  void flush_pairs(int depth, WideSamples& samples, RenderCounters& counters);
+  void flush_single(WideSamples& samples, RenderCounters& counters);
+  const PathVertex& eye_vertex(int i, int depth);
+  const PathVertex& light_vertex(int id, int number);
+
+  ConnectionRoulette roulette(int id) const {
+    return {plan_.roulette_threshold, keys_[size_t(id)]};
+  }
+  ConnectionContext<BalanceWeights> context(const ConnectionRoulette& roulette,
+                                            RenderCounters& counters) const {
+    return {wide_.scene, starts_, weights_, roulette, counters};
+  }
+  WideWeights wide_weights() const {
+    return {plan_.set.connection_share, plan_.roulette_threshold};
+  }
+  /// As the code for one sub-path has it, on its way to the next vertex.
+  Subpath subpath(int i) const;
+  Partials partials(int i) const { return {subpaths_.vcm[i], subpaths_.vc[i], 0}; }
+  PathVertex* special_vertex(int i) {
+    return vertex_of_[i] >= 0 && vertex_of_[i] < special_vertices_
+               ? &vertices_[size_t(vertex_of_[i])]
+               : nullptr;
+  }
+
+  const WideEyePlan& plan_;
+  LightStarts starts_;
+  BalanceWeights weights_{TechniqueSet{}};
+  WideSubpaths subpaths_{};
+  WideEyeVertices eye_{};
+  std::vector<uint64_t> keys_;       ///< of ConnectionRoulette, by id
+  std::vector<LightSubpath> light_;  ///< by id
+  struct Leader {
+    size_t subpath = 0;
+    int id = -1;
+  };
+  std::array<Leader, 4 * kBatch> leaders_;  ///< a hash table
+  std::vector<PathVertex> unpacked_;        ///< light vertices that were needed as such
+  /// Vertices of the eye sub-paths at this depth: first those that are not diffuse, then others
+  /// that were needed as such. Never more than there is room for.
+  std::vector<PathVertex> vertices_;
+  int special_vertices_ = 0;
+  BatchArray<int32_t> vertex_of_{};  ///< numbers of the vertices, or −1
+  WidePairs pairs_{};
+  WideShadowRays single_{};  ///< of connections that were weighed one by one
+  int pair_count_ = 0, single_count_ = 0;
+  uint32_t first_light_ = 0;  ///< the light vertex that pairs count from
+};
+
+}  // namespace duet

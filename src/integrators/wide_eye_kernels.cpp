@@ -1,0 +1,214 @@
+#include "integrators/wide_eye_kernels.h"
+
+#include "base/instruction_sets.h"
+#include "materials/plain_diffuse.h"
+#include "transport/connection.h"
+
+namespace duet {
+
+DUET_WIDEST void arrive(int n, const HitBatch& hits, const WidePoints& points, bool connections,
+                        WidePaths& paths, WideSubpaths& subpaths) {
+  const float connects = connections ? 1.0f : 0.0f;
+  DUET_LANES
+  for (int i = 0; i < n; ++i) {
+    const float cosine = std::abs(dot(points.ng.vector(i), paths.ray.direction.vector(i)));
+    const float inverse = cosine > 0 ? 1 / cosine : 0.0f, goes_on = cosine > 0 ? 1.0f : 0.0f;
+    subpaths.vcm[i] = connects * subpaths.vcm[i] * (hits.t[i] * hits.t[i]) * inverse;
+    subpaths.vc[i] = subpaths.vc[i] * inverse;
+    paths.throughput.set(i, paths.throughput.x[i] * goes_on, paths.throughput.y[i] * goes_on,
+                         paths.throughput.z[i] * goes_on);
+  }
+}
+
+DUET_WIDEST void make_diffuse_ends(int n, const WidePaths& paths, const WidePoints& points,
+                                   WideEyeVertices& out) {
+  DUET_LANES
+  for (int i = 0; i < n; ++i) {
+    const Vector3f ns = points.ns.vector(i);
+    const float cosine = -dot(ns, paths.ray.direction.vector(i));
+    const float side = PlainDiffuse::lit_side(cosine, points.two_sided[i] != 0);
+    out.lit.set(i, ns * side);
+    out.reverse[i] = std::abs(cosine) * kInvPi;
+    out.flux.set(i, paths.throughput.x[i] * points.reflectance.x[i],
+                 paths.throughput.y[i] * points.reflectance.y[i],
+                 paths.throughput.z[i] * points.reflectance.z[i]);
+  }
+}
+
+namespace {
+
+/// A ray from one point to another, both moved off their surfaces; see spawn_ray_to().
+[[gnu::always_inline]] inline Point3f moved_off(const Point3f& p, const Vector3f& ng, float offset,
+                                                float cosine) {
+  return p + ng * (cosine < 0 ? -offset : offset);
+}
+
+[[gnu::always_inline]] inline float beyond(float arrival, float vcm, float reverse, float vc) {
+  return arrival * (vcm + reverse * vc);
+}
+
+/// Roulette for a contribution; nothing is left of those that it drops.
+[[gnu::always_inline]] inline void set_contribution(int i, float r, float g, float b, float weight,
+                                                    float threshold, float drawn,
+                                                    WideShadowRays& out) {
+  const float wr = r * weight, wg = g * weight, wb = b * weight;
+  const float most = std::max(std::max(wr, wg), wb);
+  const float kept = ConnectionRoulette::keep(most, threshold, drawn);
+  out.contribution.set(i, wr * kept, wg * kept, wb * kept);
+  const int32_t dropped = kept > 0 ? 0 : 1;
+  out.blocked[i] = most > 0 ? dropped : 1;
+}
+
+}  // namespace
+
+DUET_WIDEST void weigh_light_samples(int n, const WidePaths& paths, const WideSubpaths& subpaths,
+                                     const WidePoints& points, const WideEyeVertices& eye,
+                                     const WideLightSamples& samples, const WideWeights& weights,
+                                     uint32_t connection, WideShadowRays& out) {
+  DUET_LANES
+  for (int i = 0; i < n; ++i) {
+    const Point3f position = points.position.point(i), target = samples.target.point(i);
+    const Vector3f ng = points.ng.vector(i), wi = samples.wi.vector(i), away = target - position;
+    const bool finite = samples.finite[i] != 0, delta = samples.delta[i] != 0;
+    const float pdf = samples.pdf[i], probability = samples.probability[i];
+    const float delta_density = (finite ? length_squared(away) : 1.0f) * probability;
+    const float direct = delta ? delta_density : pdf;
+    const float hit = delta ? 0.0f : samples.bsdf_pdf[i];
+    const float arrival = samples.emission[i] * std::abs(dot(ng, wi)) / direct;
+    const float weight =
+        1 / (1 + hit / direct +
+             weights.share * beyond(arrival, subpaths.vcm[i], eye.reverse[i], subpaths.vc[i]));
+    const float valid = pdf < 0 ? 0.0f : 1 / probability;
+    set_contribution(i, paths.throughput.x[i] * samples.value.x[i] * samples.weight.x[i] * valid,
+                     paths.throughput.y[i] * samples.value.y[i] * samples.weight.y[i] * valid,
+                     paths.throughput.z[i] * samples.value.z[i] * samples.weight.z[i] * valid,
+                     weight, weights.threshold,
+                     ConnectionRoulette::draw(eye.roulette[i], connection), out);
+    out.id[i] = paths.id[i];
+    const Point3f origin =
+        moved_off(position, ng, points.offset[i], finite ? dot(ng, away) : dot(ng, wi));
+    const Vector3f to_target = target - origin;
+    out.ray.origin.set(i, origin);
+    out.ray.direction.set(i, finite ? to_target.x : wi.x, finite ? to_target.y : wi.y,
+                          finite ? to_target.z : wi.z);
+    out.ray.tmax[i] = finite ? 0x1.fffep-1f : INFINITY;
+  }
+}
+
+namespace {
+
+constexpr int kVertexNumbers = sizeof(DiffuseVertex) / sizeof(float);
+static_assert(kVertexNumbers == 19);
+
+/// See flat_light_at() (wide_lights.cpp).
+struct GatheredVertex {
+  Point3f position;
+  float offset;
+  Vector3f ng, lit;
+  float flux[3], reverse, adjoint, vcm, vc;
+  int32_t depth;
+};
+[[gnu::always_inline]] inline GatheredVertex vertex_at(const float* f, int i) {
+  GatheredVertex v;
+  v.position = Point3f(f[i], f[i + 1], f[i + 2]);
+  v.offset = f[i + 3];
+  v.ng = Vector3f(f[i + 4], f[i + 5], f[i + 6]);
+  v.lit = Vector3f(f[i + 7], f[i + 8], f[i + 9]);
+  v.flux[0] = f[i + 10], v.flux[1] = f[i + 11], v.flux[2] = f[i + 12];
+  v.reverse = f[i + 13], v.adjoint = f[i + 14];
+  v.vcm = f[i + 15], v.vc = f[i + 16];
+  v.depth = std::bit_cast<int32_t>(f[i + 17]);
+  return v;
+}
+
+}  // namespace
+
+DUET_WIDEST void weigh_pairs(int n, const WidePairs& pairs, const WidePaths& paths,
+                             const WideSubpaths& subpaths, const WidePoints& points,
+                             const WideEyeVertices& eye, const DiffuseVertex* light,
+                             const WideWeights& weights, uint32_t connection, WideShadowRays& out) {
+  const float* const numbers = &light->position.x;
+  DUET_LANES
+  for (int k = 0; k < n; ++k) {
+    const int i = pairs.eye[k];
+    const GatheredVertex l = vertex_at(numbers, pairs.light[k] * kVertexNumbers);
+    const Point3f position = points.position.point(i);
+    const Vector3f ng = points.ng.vector(i);
+    const Vector3f d = l.position - position;
+    const float d2 = length_squared(d), inverse_d2 = 1 / d2;
+    const Vector3f to_light = d * (1 / std::sqrt(d2));
+    const float f = dot(eye.lit.vector(i), to_light) * kInvPi;
+    const float cosine = -dot(l.lit, to_light), g = cosine * kInvPi;
+    const float eye_geometric = dot(ng, to_light), light_geometric = -dot(l.ng, to_light);
+    const float adjoint = l.adjoint * std::abs(light_geometric) / cosine;
+    const float weight =
+        1 / (1 + beyond(f * std::abs(light_geometric) * inverse_d2, l.vcm, l.reverse, l.vc) +
+             beyond(g * std::abs(eye_geometric) * inverse_d2, subpaths.vcm[i], eye.reverse[i],
+                    subpaths.vc[i]));
+    const float both = f * g * (adjoint * inverse_d2);
+    set_contribution(k, eye.flux.x[i] * l.flux[0] * both, eye.flux.y[i] * l.flux[1] * both,
+                     eye.flux.z[i] * l.flux[2] * both, weight, weights.threshold,
+                     ConnectionRoulette::draw(eye.roulette[i], connection + uint32_t(l.depth)),
+                     out);
+    out.id[k] = paths.id[i];
+    const Point3f target = moved_off(l.position, l.ng, l.offset, light_geometric);
+    const Point3f origin = moved_off(position, ng, points.offset[i], dot(ng, target - position));
+    out.ray.origin.set(k, origin);
+    out.ray.direction.set(k, target - origin);
+    out.ray.tmax[k] = 0x1.fffep-1f;
+  }
+}
+
+namespace {
+
+template <bool kRoulette>
+[[gnu::always_inline]] inline void continue_subpaths(int n, const WidePoints& points,
+                                                     const BatchArray<float>& reverse,
+                                                     WideScattering& scattering, WidePaths& paths,
+                                                     WideSubpaths& subpaths) {
+  DUET_LANES
+  for (int i = 0; i < n; ++i) {
+    const float x = scattering.weight.x[i], y = scattering.weight.y[i], z = scattering.weight.z[i];
+    const float r = paths.throughput.x[i] * x, g = paths.throughput.y[i] * y,
+                b = paths.throughput.z[i] * z;
+    const float eta = scattering.eta[i];
+    float carried = subpaths.carried[i] * std::max(std::max(x, y), z) * (eta * eta);
+    int32_t alive = scattering.alive[i];
+    alive = std::max(std::max(r, g), b) > 0 ? alive : 0;
+    float scale = 1;
+    if constexpr (kRoulette) {
+      const float survival = roulette_probability(carried);
+      alive = scattering.roulette[i] < survival ? alive : 0;
+      scale = 1 / survival;
+    }
+    scattering.alive[i] = alive;
+    paths.throughput.set(i, r * scale, g * scale, b * scale);
+    subpaths.carried[i] = carried * scale;
+    const Vector3f ng = points.ng.vector(i), wi = scattering.wi.vector(i);
+    const float pdf = scattering.pdf[i], out = dot(ng, wi);
+    const bool delta = pdf < 0;
+    const float inverse = 1 / pdf, to_next = std::abs(out) * (delta ? reverse[i] : inverse);
+    const float vc = subpaths.vc[i], sum = subpaths.vcm[i] + reverse[i] * vc;
+    subpaths.vcm[i] = delta ? 0.0f : inverse;
+    subpaths.vc[i] = to_next * (delta ? vc : sum);
+    paths.bsdf_pdf[i] = pdf;
+    const Point3f position = points.position.point(i);
+    paths.from.set(i, position);
+    paths.ray.origin.set(i, moved_off(position, ng, points.offset[i], out));
+    paths.ray.direction.set(i, wi);
+    paths.ray.tmax[i] = INFINITY;
+  }
+}
+
+}  // namespace
+
+DUET_WIDEST void go_on(int n, bool roulette, const WidePoints& points,
+                       const BatchArray<float>& reverse, WideScattering& scattering,
+                       WidePaths& paths, WideSubpaths& subpaths) {
+  if (roulette)
+    continue_subpaths<true>(n, points, reverse, scattering, paths, subpaths);
+  else
+    continue_subpaths<false>(n, points, reverse, scattering, paths, subpaths);
+}
+
+}  // namespace duet

@@ -1,0 +1,60 @@
+// The stages of a batch of eye sub-paths that are loops over numbers: the same formulas as those of
+// one sub-path (subpath.h, connection.h, mis.h), so that the results are the same to rounding.
+#pragma once
+
+#include "integrators/wide_state.h"
+#include "transport/diffuse_vertex.h"
+
+namespace duet {
+
+/// What eye sub-paths carry beside what paths do. WidePaths::bsdf_pdf is Subpath::forward, negative
+/// after delta lobes; WidePaths::eta is not used.
+struct WideSubpaths {
+  BatchArray<float> vcm, vc;  ///< Partials, on leaving a vertex or once arrived at the next
+  BatchArray<float> carried;  ///< Subpath::carried
+};
+
+/// The eye vertices of a batch as connections see them.
+struct WideEyeVertices {
+  BatchTriples flux;              ///< throughput times reflectance, of diffuse surfaces
+  BatchTriples lit;               ///< their shading normal on the lit side, or zero
+  BatchArray<float> reverse;      ///< density of going back from where light comes in
+  BatchArray<uint32_t> roulette;  ///< seeds of ConnectionRoulette
+};
+
+/// What is the same for all connections of an iteration.
+struct WideWeights {
+  float share;      ///< TechniqueSet::connection_share
+  float threshold;  ///< of ConnectionRoulette
+};
+
+/// Pairs of diffuse vertices.
+struct WidePairs {
+  BatchArray<int32_t> eye;    ///< number in the batch
+  BatchArray<int32_t> light;  ///< number in the list of light vertices
+};
+
+/// arrive() at the points of a batch. Sub-paths that arrive along the surface carry nothing on.
+void arrive(int n, const HitBatch& hits, const WidePoints& points, bool connections,
+            WidePaths& paths, WideSubpaths& subpaths);
+/// Plainly diffuse surfaces as ends of connections.
+void make_diffuse_ends(int n, const WidePaths& paths, const WidePoints& points,
+                       WideEyeVertices& out);
+/// Contributions of light samples and their shadow rays: connect_light(). `connection` is the
+/// number of the connection for roulette.
+void weigh_light_samples(int n, const WidePaths& paths, const WideSubpaths& subpaths,
+                         const WidePoints& points, const WideEyeVertices& eye,
+                         const WideLightSamples& samples, const WideWeights& weights,
+                         uint32_t connection, WideShadowRays& out);
+/// Contributions of `n` pairs and their shadow rays: weigh_ends(). `connection` is the number of
+/// the connection of the eye vertices with the light itself.
+void weigh_pairs(int n, const WidePairs& pairs, const WidePaths& paths,
+                 const WideSubpaths& subpaths, const WidePoints& points, const WideEyeVertices& eye,
+                 const DiffuseVertex* light, const WideWeights& weights, uint32_t connection,
+                 WideShadowRays& out);
+/// The next rays and the sums that go with them. `reverse` is the density of the reverse direction,
+/// or for delta lobes the factor of leave_specular().
+void go_on(int n, bool roulette, const WidePoints& points, const BatchArray<float>& reverse,
+           WideScattering& scattering, WidePaths& paths, WideSubpaths& subpaths);
+
+}  // namespace duet

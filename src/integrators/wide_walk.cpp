@@ -1,0 +1,122 @@
+#include "integrators/wide_walk.h"
+
+#include "transport/light_choice.h"
+
+namespace duet {
+
+void WideWalk::find_points(int n) {
+  fetch(n);
+  if (wide_.has_normals)
+    make_smooth_points(n, triangles_, hits_, points_);
+  else
+    make_points(n, triangles_, hits_, points_);
+  surfaces_.resize(special_.size());
+  for (size_t k = 0; k < special_.size(); ++k) {
+    const int i = special_[k];
+    const Surface& s = surfaces_[k] = wide_.scene.surface(paths_.ray[i], hit(i));
+    points_.position.set(i, s.position);
+    points_.ng.set(i, s.ng);
+    points_.ns.set(i, s.shading.n);
+    points_.offset[i] = s.offset;
+    const WideShape& shape = wide_.shapes[hits_.shape[i]];
+    if (shape.textured) set_reflectance(i, (*shape.textured)(s));
+    if (!shape.textured && shape.prefetched) shape.prefetched->prefetch(s);
+  }
+  prefetch_textures();
+}
+
+/// What textures look up, without normals and tangents.
+static Surface textured_point(const Shape& shape, const Point3f& position, const Hit& hit) {
+  const TriangleMesh& m = *shape.mesh;
+  ShapePoint p;
+  p.position = position;
+  p.barycentric = p.uv = {hit.u, hit.v};
+  p.primitive = hit.primitive;
+  if (shape.needs.uv && !m.uvs.empty()) {
+    const std::array<uint32_t, 3>& t = m.triangles[hit.primitive];
+    p.uv = m.uvs[t[0]] * (1 - hit.u - hit.v) + m.uvs[t[1]] * hit.u + m.uvs[t[2]] * hit.v;
+  }
+  return textured_point(shape, p);
+}
+
+void WideWalk::prefetch_textures() {
+  textured_points_.resize(textured_.size());
+  for (size_t k = 0; k < textured_.size(); ++k) {
+    const int i = textured_[k];
+    const uint32_t shape = hits_.shape[i];
+    textured_points_[k] =
+        textured_point(wide_.scene.shapes[shape], points_.position.point(i), hit(i));
+    const Texture* const texture = wide_.shapes[shape].prefetched;
+    if (texture) texture->prefetch(textured_points_[k]);
+  }
+}
+
+void WideWalk::look_up_textures() {
+  for (size_t k = 0; k < textured_.size(); ++k) {
+    const int i = textured_[k];
+    set_reflectance(i, (*wide_.shapes[hits_.shape[i]].textured)(textured_points_[k]));
+  }
+}
+
+void WideWalk::fetch(int n) {
+  special_.clear();
+  emitting_.clear();
+  textured_.clear();
+  for (std::vector<int>& points : glossy_points_) points.clear();
+  has_glossy_points_ = false;
+  for (int i = 0; i < n; ++i) {
+    const WideShape& shape = wide_.shapes[hits_.shape[i]];
+    if (shape.emits) emitting_.push_back(i);
+    set_reflectance(i, shape.reflectance);
+    points_.two_sided[i] = shape.two_sided;
+    if (shape.model == WideModel::glossy) {
+      glossy_points_[size_t(shape.glossy)].push_back(i);
+      has_glossy_points_ = true;
+    }
+    if (shape.model == WideModel::other || !shape.positions || hits_.instance[i] != kNone) {
+      special_.push_back(i);
+      continue;
+    }
+    if (shape.textured) textured_.push_back(i);
+    const std::array<uint32_t, 3>& t = shape.triangles[hits_.primitive[i]];
+    triangles_.sign[i] = shape.sign;
+    triangles_.p0.set(i, shape.positions[t[0]]);
+    triangles_.p1.set(i, shape.positions[t[1]]);
+    triangles_.p2.set(i, shape.positions[t[2]]);
+    if (!wide_.has_normals) continue;
+    const Normal3f none(0);
+    triangles_.n0.set(i, shape.normals ? shape.normals[t[0]] : none);
+    triangles_.n1.set(i, shape.normals ? shape.normals[t[1]] : none);
+    triangles_.n2.set(i, shape.normals ? shape.normals[t[2]] : none);
+  }
+}
+
+void WideWalk::draw_numbers(int n, const BatchSampler& sampler, int depth) {
+  const uint32_t light = kFirstVertexDimension + kDimensionsPerVertex * uint32_t(depth - 1);
+  const uint32_t scattering = light + kScatteringDimension;
+  sampler.numbers_2d(n, paths_.keys, light, numbers_.light_x, numbers_.light_y);
+  if (has_light_choice(wide_.scene))
+    sampler.numbers_1d(n, paths_.keys, light + 2, numbers_.light_choice);
+  sampler.numbers_2d(n, paths_.keys, scattering, numbers_.x, numbers_.y);
+  const bool chooses = !special_.empty() || has_glossy_points_;
+  if (chooses || has_roulette(depth))
+    sampler.numbers_1d(n, paths_.keys, scattering + 2, numbers_.first);
+  if (chooses && has_roulette(depth))
+    sampler.numbers_1d(n, paths_.keys, scattering + 3, numbers_.second);
+}
+
+WideWalk::Tested WideWalk::test_shadows(int n, WideShadowRays& rays, WideSamples& samples) {
+  Tested tested{};
+  tested.rays = gaps_.find(n, [&](int i) { return 1 - rays.blocked[i]; });
+  gaps_.fill(rays);
+  wide_.scene.accel->occluded(rays.ray, tested.rays, rays.blocked);
+  for (int i = 0; i < tested.rays; ++i) {
+    if (rays.blocked[i]) continue;
+    ++tested.lit;
+    const BatchTriples& c = rays.contribution;
+    samples.add(rays.id[i], {c.x[i], c.y[i], c.z[i]});
+  }
+  return tested;
+}
+
+}  // namespace duet

@@ -1,0 +1,87 @@
+#include "integrators/wide_eye.h"
+
+#include "integrators/batch_cases.h"
+#include "integrators/bidirectional.h"
+
+using namespace duet;
+using namespace duet::test;
+
+namespace {
+
+RenderResult render_bdpt(const TransportScene& s, PathBatches batches, const RenderRequest& r,
+                         const BidirectionalIntegratorDescription& options = {}) {
+  BidirectionalIntegrator bdpt(options, {}, batches);
+  return render(*s.scene, bdpt, s.layout, r);
+}
+
+void check_close(uint64_t a, uint64_t b) {
+  CHECK(double(a) == doctest::Approx(double(b)).epsilon(2e-3));
+}
+
+void check_same_work(const RenderCounters& a, const RenderCounters& b) {
+  check_close(a.closest_rays, b.closest_rays);
+  check_close(a.shadow_rays, b.shadow_rays);
+  check_close(a.path_vertices, b.path_vertices);
+  check_close(a.connections.contributed, b.connections.contributed);
+  check_close(a.connections.failed_occluded, b.connections.failed_occluded);
+  check_close(a.connections.failed_specular, b.connections.failed_specular);
+  check_close(a.connections.failed_zero, b.connections.failed_zero);
+  check_close(a.connections.skipped, b.connections.skipped);
+  CHECK(a.camera_paths == b.camera_paths);
+}
+
+}  // namespace
+
+TEST_CASE("eye sub-paths of a batch are those that are traced one by one") {
+  for (const BatchCase& c : kBatchCases) {
+    CAPTURE(std::string(c.name));
+    const TransportScene scene(c.content);
+    for (const int depth : {1, 3, 20})
+      for (const double light_paths : {0.25, 1.0}) {
+        CAPTURE(depth);
+        CAPTURE(light_paths);
+        BidirectionalIntegratorDescription options;
+        options.max_depth = depth;
+        options.rr_depth = 3;
+        options.light_paths = light_paths;
+        const RenderRequest r =
+            batch_request(4, light_paths < 1 ? SampleSequence::sobol : SampleSequence::independent);
+        const RenderResult batches = render_bdpt(scene, PathBatches::where_possible, r, options),
+                           singly = render_bdpt(scene, PathBatches::never, r, options);
+        // But for rays that meet an edge, and what rounding decides otherwise.
+        CHECK(differences(batches.image, singly.image) <= int(singly.image.data.size() / 200));
+        check_same_work(batches.counters, singly.counters);
+      }
+  }
+}
+
+TEST_CASE("batches of eye sub-paths need no connections") {
+  const TransportScene scene(kBatchCases[0].content);
+  BidirectionalIntegratorDescription options;
+  options.connections = 0;
+  const RenderRequest r = batch_request(4, SampleSequence::sobol);
+  const RenderResult batches = render_bdpt(scene, PathBatches::where_possible, r, options),
+                     singly = render_bdpt(scene, PathBatches::never, r, options);
+  CHECK(differences(batches.image, singly.image) <= int(singly.image.data.size() / 200));
+  check_same_work(batches.counters, singly.counters);
+}
+
+TEST_CASE("batches of eye sub-paths make the same image on any number of threads") {
+  const TransportScene scene(coplanar());
+  RenderRequest r = batch_request(6, SampleSequence::sobol, 1);
+  const Image one = render_bdpt(scene, PathBatches::where_possible, r).image;
+  for (const int threads : {2, 7}) {
+    r.threads = threads;
+    CHECK(render_bdpt(scene, PathBatches::where_possible, r).image.data == one.data);
+  }
+  r.pass_seconds = 0;
+  CHECK(render_bdpt(scene, PathBatches::where_possible, r).image.data == one.data);
+}
+
+TEST_CASE("what is not finite is counted and left out of batches of eye sub-paths, too") {
+  const TransportScene scene(camera() + room_xml(grey("0.5")) + lamp_xml("0.4", "1e38,1e38,1e38"));
+  const RenderRequest r = batch_request(2, SampleSequence::sobol);
+  const RenderResult batches = render_bdpt(scene, PathBatches::where_possible, r);
+  CHECK(batches.counters.nonfinite_samples > 0);
+  for (const float v : batches.image.data) REQUIRE(std::isfinite(v));
+}
