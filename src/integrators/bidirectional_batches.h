@@ -10,7 +10,7 @@ namespace duet {
 /// What the batches of all iterations have in common.
 struct BidirectionalIntegrator::Batches {
   Batches(const Scene& s, const PathLimits& limits)
-      : scene(s, false), tiles(*s.camera, [this, limits] {
+      : scene(s), tiles(*s.camera, [this, limits] {
           return std::make_unique<WideEye>(scene, limits, plan);
         }) {}
 

@@ -16,8 +16,7 @@ namespace {
 /// See RoughConductorModel::eval().
 template <class Facets>
 [[gnu::always_inline]] inline void evaluate_all(int n, const RoughConductorSurface& surface,
-                                                const WideVertices& vertices,
-                                                const BatchTriples& light, WideGlossy& out) {
+                                                const WideVertices& vertices, WideGlossy& out) {
   const RoughConductorModel conductor = surface.conductor;
   const Facets facets(conductor.microfacet);
   const bool two_sided = surface.two_sided;
@@ -26,7 +25,7 @@ template <class Facets>
   for (int k = 0; k < n; ++k) {
     const int i = out.at[k];
     const LocalPoint at = local_point(v, i, two_sided);
-    const Vector3f wi = at.to_local(light.vector(i));
+    const Vector3f wi = at.to_local(out.towards.vector(k));
     const Microfacet::Reflection r = facets.reflection(above_horizon(at.wo), above_horizon(wi));
     const Spectrum reflected = model_at(conductor, v.points, i).by_index(r.cosine) * r.value;
     const ModelEval e = if_above(at.wo, wi, {reflected, r.density});
@@ -63,15 +62,29 @@ template <class Facets>
   }
 }
 
+template <class Facets>
+[[gnu::always_inline]] inline void reverse_all(int n, const RoughConductorSurface& surface,
+                                               const WideVertices& vertices, WideGlossy& out) {
+  const Facets facets(surface.conductor.microfacet);
+  const bool two_sided = surface.two_sided;
+  const WideVertices v = vertices;
+  DUET_LANES
+  for (int k = 0; k < n; ++k) {
+    const LocalPoint at = local_point(v, out.at[k], two_sided);
+    const Vector3f wi = at.to_local(out.towards.vector(k));
+    const Microfacet::Reflection r = facets.reflection(above_horizon(wi), above_horizon(at.wo));
+    out.reverse[k] = if_above(wi, at.wo, {Spectrum(0), r.density}).pdf;
+  }
+}
+
 }  // namespace
 
 DUET_WIDEST void evaluate_glossy(int n, const RoughConductorSurface& surface,
-                                 const WideVertices& vertices, const BatchTriples& light,
-                                 WideGlossy& out) {
+                                 const WideVertices& vertices, WideGlossy& out) {
   if (surface.conductor.microfacet.is_visible_beckmann())
-    evaluate_all<WideBeckmann>(n, surface, vertices, light, out);
+    evaluate_all<WideBeckmann>(n, surface, vertices, out);
   else
-    evaluate_all<WideGgx>(n, surface, vertices, light, out);
+    evaluate_all<WideGgx>(n, surface, vertices, out);
 }
 
 DUET_WIDEST void sample_glossy(int n, const RoughConductorSurface& surface,
@@ -80,6 +93,14 @@ DUET_WIDEST void sample_glossy(int n, const RoughConductorSurface& surface,
     sample_all<WideBeckmann>(n, surface, vertices, out);
   else
     sample_all<WideGgx>(n, surface, vertices, out);
+}
+
+DUET_WIDEST void reverse_glossy(int n, const RoughConductorSurface& surface,
+                                const WideVertices& vertices, WideGlossy& out) {
+  if (surface.conductor.microfacet.is_visible_beckmann())
+    reverse_all<WideBeckmann>(n, surface, vertices, out);
+  else
+    reverse_all<WideGgx>(n, surface, vertices, out);
 }
 
 }  // namespace duet

@@ -6,12 +6,15 @@
 
 namespace duet {
 
-/// Values for the light samples, at `n` points of one conductor; the reflectance is the specular
-/// one.
+/// Values for the directions `out.towards`, at `n` points of one conductor; the reflectance is the
+/// specular one.
 void evaluate_glossy(int n, const RoughConductorSurface& surface, const WideVertices& vertices,
-                     const BatchTriples& light, WideGlossy& out);
+                     WideGlossy& out);
 /// Directions from there.
 void sample_glossy(int n, const RoughConductorSurface& surface, const WideVertices& vertices,
                    WideGlossy& out);
+/// The reverse densities for `out.towards`.
+void reverse_glossy(int n, const RoughConductorSurface& surface, const WideVertices& vertices,
+                    WideGlossy& out);
 
 }  // namespace duet

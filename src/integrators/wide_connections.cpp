@@ -1,7 +1,9 @@
 // Connections of a batch of eye sub-paths with the light sub-paths of their pixels.
 #include <algorithm>
 
+#include "integrators/wide_conductor.h"
 #include "integrators/wide_eye.h"
+#include "integrators/wide_plastic.h"
 
 namespace duet {
 
@@ -12,9 +14,7 @@ void WideEye::connect(int n, int depth, WideSamples& samples, RenderCounters& co
   for (int i = 0; i < n; ++i) {
     const LightSubpath& light = light_[size_t(paths_.id[i])];
     const PathVertex* const special = special_vertex(i);
-    const Vector3f flux = eye_.flux.vector(i);
-    const bool smooth = special ? special->is_smooth() : std::max({flux.x, flux.y, flux.z}) > 0;
-    int count = smooth ? light.count : 0;
+    int count = (special ? special->is_smooth() : is_smooth(i)) ? light.count : 0;
     while (count > 0 && diffuse[light.first + uint32_t(count) - 1].depth > most) --count;
     counters.connections.failed_specular += uint64_t(std::min(most, light.length) - count);
     if (!special)
@@ -22,8 +22,17 @@ void WideEye::connect(int n, int depth, WideSamples& samples, RenderCounters& co
     else
       for (int k = 0; k < count; ++k) connect_one_by_one(i, k, depth, samples, counters);
   }
-  flush_pairs(depth, samples, counters);
+  for (size_t list = 0; list < pairs_.size(); ++list) flush_pairs(list, depth, samples, counters);
   flush_single(samples, counters);
+}
+
+/// Of a point that is diffuse or glossy.
+bool WideEye::is_smooth(int i) const {
+  const WideShape& shape = wide_.shapes[hits_.shape[i]];
+  if (shape.model == WideModel::glossy &&
+      std::holds_alternative<RoughPlasticSurface>(wide_.glossy[size_t(shape.glossy)]))
+    return true;
+  return std::max({eye_.flux.x[i], eye_.flux.y[i], eye_.flux.z[i]}) > 0;
 }
 
 void WideEye::find_pairs(int i, int count, int depth, WideSamples& samples,
@@ -32,34 +41,53 @@ void WideEye::find_pairs(int i, int count, int depth, WideSamples& samples,
   const DiffuseVertex* const vertices = plan_.lights->diffuse().data() + light.first;
   const Point3f position = points_.position.point(i);
   const Vector3f lit = eye_.lit.vector(i);
+  const WideShape& shape = wide_.shapes[hits_.shape[i]];
+  const size_t number = shape.model == WideModel::glossy ? 1 + size_t(shape.glossy) : 0;
+  PairList& list = pairs_[number];
   for (int k = 0; k < count; ++k) {
     const DiffuseVertex& l = vertices[k];
     if (l.other) {
       connect_one_by_one(i, k, depth, samples, counters);
       continue;
     }
-    if (pair_count_ == kBatch) flush_pairs(depth, samples, counters);
+    if (list.count == kBatch) flush_pairs(number, depth, samples, counters);
     // Without branches: half of the vertices do not face each other, and which cannot be predicted.
     const Vector3f d = l.position - position;
     const int face = int(dot(lit, d) > 0) & int(dot(l.lit, d) < 0);
-    pairs_.eye[pair_count_] = i;
-    pairs_.light[pair_count_] = int32_t(light.first - first_light_) + k;
-    pair_count_ += face;
+    list.pairs.eye[list.count] = i;
+    list.pairs.light[list.count] = int32_t(light.first - first_light_) + k;
+    list.count += face;
     counters.connections.failed_zero += uint64_t(1 - face);
   }
 }
 
-void WideEye::flush_pairs(int depth, WideSamples& samples, RenderCounters& counters) {
-  if (pair_count_ == 0) return;
-  weigh_pairs(pair_count_, pairs_, paths_, subpaths_, points_, eye_,
-              plan_.lights->diffuse().data() + first_light_, wide_weights(),
-              ConnectionRoulette::event(0, depth), shadows_);
-  const Tested tested = test_shadows(pair_count_, shadows_, samples);
+void WideEye::weigh(size_t number, int depth) {
+  const auto& [pairs, count] = pairs_[number];
+  const DiffuseVertex* const light = plan_.lights->diffuse().data() + first_light_;
+  if (number == 0) return weigh_pairs(count, pairs, connections(depth), light, shadows_);
+  const WideVertices vertices{paths_, points_, numbers_};
+  WideGlossy& g = glossy_;
+  std::copy_n(pairs.eye.begin(), count, g.at.begin());
+  find_directions(count, pairs, points_, light, g.towards);
+  const auto evaluate = [&, n = count](const auto& material) {
+    evaluate_glossy(n, material, vertices, g);
+    reverse_glossy(n, material, vertices, g);
+  };
+  std::visit(evaluate, wide_.glossy[number - 1]);
+  weigh_glossy_pairs(count, pairs, connections(depth), light, g, shadows_);
+}
+
+void WideEye::flush_pairs(size_t number, int depth, WideSamples& samples,
+                          RenderCounters& counters) {
+  int& count = pairs_[number].count;
+  if (count == 0) return;
+  weigh(number, depth);
+  const Tested tested = test_shadows(count, shadows_, samples);
   counters.shadow_rays += uint64_t(tested.rays);
-  counters.connections.skipped += uint64_t(pair_count_ - tested.rays);
+  counters.connections.skipped += uint64_t(count - tested.rays);
   counters.connections.failed_occluded += uint64_t(tested.rays - tested.lit);
   counters.connections.contributed += uint64_t(tested.lit);
-  pair_count_ = 0;
+  count = 0;
 }
 
 void WideEye::connect_one_by_one(int i, int number, int depth, WideSamples& samples,

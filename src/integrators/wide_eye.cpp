@@ -69,12 +69,14 @@ void WideEye::trace(int n, const BatchSampler& sampler, WideSamples& samples,
     draw_numbers(n, sampler, depth);
     wide_.lights.sample(n, points_, numbers_, choice_, lights_);
     look_up_textures();
-    make_diffuse_ends(n, paths_, points_, eye_);
+    make_ends(n, paths_, points_, eye_);
     evaluate_diffuse(n, paths_, points_, lights_);
+    evaluate_glossy_points(&eye_.reverse);
     sample_diffuse(n, paths_, points_, numbers_, scattering_);
     make_special_vertices(n, depth);
     sample_lights(n, depth, samples, counters);
     connect(n, depth, samples, counters);
+    sample_glossy_points(&eye_.reverse);
     scatter_special_vertices();
     for (int i = 0; i < n; ++i)
       if (!scattering_.null[i]) samples.alpha[paths_.id[i]] = 1;
@@ -136,8 +138,7 @@ void WideEye::arrive_at_points(int n, int depth) {
 void WideEye::sample_lights(int n, int depth, WideSamples& samples, RenderCounters& counters) {
   if (wide_.scene.lights.empty()) return;
   wide_.lights.find_emission(n, starts_, points_, choice_, lights_);
-  weigh_light_samples(n, paths_, subpaths_, points_, eye_, lights_, wide_weights(),
-                      ConnectionRoulette::event(0, depth), shadows_);
+  weigh_light_samples(n, connections(depth), lights_, shadows_);
   counters.shadow_rays += uint64_t(test_shadows(n, shadows_, samples).rays);
 }
 

@@ -27,7 +27,10 @@ class WideEye final : public WideWalk {
  public:
   /// What is referred to must outlive this; the plan may change between batches.
   WideEye(const WideScene& scene, const PathLimits& limits, const WideEyePlan& plan)
-      : WideWalk(scene, limits), plan_(plan), starts_(scene.scene) {
+      : WideWalk(scene, limits),
+        plan_(plan),
+        starts_(scene.scene),
+        pairs_(1 + scene.glossy.size()) {
     vertices_.reserve(kBatch);
   }
 
@@ -60,11 +63,13 @@ class WideEye final : public WideWalk {
   // wide_connections.cpp
   void connect(int n, int depth, WideSamples& samples, RenderCounters& counters);
   /// Of a vertex on a diffuse surface, with the first `count` vertices of its light sub-path.
+  bool is_smooth(int i) const;
   void find_pairs(int i, int count, int depth, WideSamples& samples, RenderCounters& counters);
+  void weigh(size_t list, int depth);
   /// One vertex with one of its light sub-path; at least one of them is not diffuse.
   void connect_one_by_one(int i, int number, int depth, WideSamples& samples,
                           RenderCounters& counters);
-  void flush_pairs(int depth, WideSamples& samples, RenderCounters& counters);
+  void flush_pairs(size_t list, int depth, WideSamples& samples, RenderCounters& counters);
   void flush_single(WideSamples& samples, RenderCounters& counters);
   const PathVertex& eye_vertex(int i, int depth);
   const PathVertex& light_vertex(int id, int number);
@@ -76,8 +81,14 @@ class WideEye final : public WideWalk {
                                             RenderCounters& counters) const {
     return {wide_.scene, starts_, weights_, roulette, counters};
   }
-  WideWeights wide_weights() const {
-    return {plan_.set.connection_share, plan_.roulette_threshold};
+  WideConnections connections(int depth) const {
+    return {paths_,
+            subpaths_,
+            points_,
+            eye_,
+            plan_.set.connection_share,
+            plan_.roulette_threshold,
+            ConnectionRoulette::event(0, depth)};
   }
   /// As the code for one sub-path has it, on its way to the next vertex.
   Subpath subpath(int i) const;
@@ -106,9 +117,14 @@ class WideEye final : public WideWalk {
   std::vector<PathVertex> vertices_;
   int special_vertices_ = 0;
   BatchArray<int32_t> vertex_of_{};  ///< numbers of the vertices, or −1
-  WidePairs pairs_{};
+  /// That are found, of eye vertices of one material each: the diffuse ones, then the glossy ones.
+  struct PairList {
+    WidePairs pairs{};
+    int count = 0;
+  };
+  std::vector<PairList> pairs_;
   WideShadowRays single_{};  ///< of connections that were weighed one by one
-  int pair_count_ = 0, single_count_ = 0;
+  int single_count_ = 0;
   uint32_t first_light_ = 0;  ///< the light vertex that pairs count from
 };
 

@@ -20,8 +20,8 @@ DUET_WIDEST void arrive(int n, const HitBatch& hits, const WidePoints& points, b
   }
 }
 
-DUET_WIDEST void make_diffuse_ends(int n, const WidePaths& paths, const WidePoints& points,
-                                   WideEyeVertices& out) {
+DUET_WIDEST void make_ends(int n, const WidePaths& paths, const WidePoints& points,
+                           WideEyeVertices& out) {
   DUET_LANES
   for (int i = 0; i < n; ++i) {
     const Vector3f ns = points.ns.vector(i);
@@ -55,38 +55,40 @@ namespace {
   const float most = std::max(std::max(wr, wg), wb);
   const float kept = ConnectionRoulette::keep(most, threshold, drawn);
   out.contribution.set(i, wr * kept, wg * kept, wb * kept);
+  // What is not a number is to be seen, and counted.
   const int32_t dropped = kept > 0 ? 0 : 1;
-  out.blocked[i] = most > 0 ? dropped : 1;
+  out.blocked[i] = most <= 0 ? 1 : dropped;
 }
 
 }  // namespace
 
-DUET_WIDEST void weigh_light_samples(int n, const WidePaths& paths, const WideSubpaths& subpaths,
-                                     const WidePoints& points, const WideEyeVertices& eye,
-                                     const WideLightSamples& samples, const WideWeights& weights,
-                                     uint32_t connection, WideShadowRays& out) {
+DUET_WIDEST void weigh_light_samples(int n, const WideConnections& c,
+                                     const WideLightSamples& samples, WideShadowRays& out) {
+  const WideConnections all = c;
   DUET_LANES
   for (int i = 0; i < n; ++i) {
-    const Point3f position = points.position.point(i), target = samples.target.point(i);
-    const Vector3f ng = points.ng.vector(i), wi = samples.wi.vector(i), away = target - position;
+    const Point3f position = all.points.position.point(i), target = samples.target.point(i);
+    const Vector3f ng = all.points.ng.vector(i), wi = samples.wi.vector(i),
+                   away = target - position;
     const bool finite = samples.finite[i] != 0, delta = samples.delta[i] != 0;
     const float pdf = samples.pdf[i], probability = samples.probability[i];
     const float delta_density = (finite ? length_squared(away) : 1.0f) * probability;
     const float direct = delta ? delta_density : pdf;
     const float hit = delta ? 0.0f : samples.bsdf_pdf[i];
     const float arrival = samples.emission[i] * std::abs(dot(ng, wi)) / direct;
-    const float weight =
-        1 / (1 + hit / direct +
-             weights.share * beyond(arrival, subpaths.vcm[i], eye.reverse[i], subpaths.vc[i]));
-    const float valid = pdf < 0 ? 0.0f : 1 / probability;
-    set_contribution(i, paths.throughput.x[i] * samples.value.x[i] * samples.weight.x[i] * valid,
-                     paths.throughput.y[i] * samples.value.y[i] * samples.weight.y[i] * valid,
-                     paths.throughput.z[i] * samples.value.z[i] * samples.weight.z[i] * valid,
-                     weight, weights.threshold,
-                     ConnectionRoulette::draw(eye.roulette[i], connection), out);
-    out.id[i] = paths.id[i];
+    const float weight = 1 / (1 + hit / direct +
+                              all.share * beyond(arrival, all.subpaths.vcm[i], all.eye.reverse[i],
+                                                 all.subpaths.vc[i]));
+    const float inverse = 1 / probability;
+    set_contribution(
+        i, all.paths.throughput.x[i] * samples.value.x[i] * samples.weight.x[i] * inverse,
+        all.paths.throughput.y[i] * samples.value.y[i] * samples.weight.y[i] * inverse,
+        all.paths.throughput.z[i] * samples.value.z[i] * samples.weight.z[i] * inverse, weight,
+        all.threshold, ConnectionRoulette::draw(all.eye.roulette[i], all.connection), out);
+    out.blocked[i] = pdf < 0 ? 1 : out.blocked[i];
+    out.id[i] = all.paths.id[i];
     const Point3f origin =
-        moved_off(position, ng, points.offset[i], finite ? dot(ng, away) : dot(ng, wi));
+        moved_off(position, ng, all.points.offset[i], finite ? dot(ng, away) : dot(ng, wi));
     const Vector3f to_target = target - origin;
     out.ray.origin.set(i, origin);
     out.ray.direction.set(i, finite ? to_target.x : wi.x, finite ? to_target.y : wi.y,
@@ -123,40 +125,92 @@ struct GatheredVertex {
 
 }  // namespace
 
-DUET_WIDEST void weigh_pairs(int n, const WidePairs& pairs, const WidePaths& paths,
-                             const WideSubpaths& subpaths, const WidePoints& points,
-                             const WideEyeVertices& eye, const DiffuseVertex* light,
-                             const WideWeights& weights, uint32_t connection, WideShadowRays& out) {
+DUET_WIDEST void find_directions(int n, const WidePairs& pairs, const WidePoints& points,
+                                 const DiffuseVertex* light, BatchTriples& out) {
   const float* const numbers = &light->position.x;
+  DUET_LANES
+  for (int k = 0; k < n; ++k) {
+    const int l = pairs.light[k] * kVertexNumbers;
+    const Vector3f d =
+        Point3f(numbers[l], numbers[l + 1], numbers[l + 2]) - points.position.point(pairs.eye[k]);
+    out.set(k, d * (1 / std::sqrt(length_squared(d))));
+  }
+}
+
+namespace {
+
+/// What an eye vertex makes of the light of a pair: its BSDF times the throughput, and densities.
+struct Scattered {
+  float r, g, b, pdf, reverse;
+};
+
+/// `scattered(k, i, direction)` is of pair k, whose eye vertex is i.
+template <class F>
+[[gnu::always_inline]] inline void weigh_all_pairs(int n, const WidePairs& pairs,
+                                                   const WideConnections& c,
+                                                   const DiffuseVertex* light, const F& scattered,
+                                                   WideShadowRays& out) {
+  const float* const numbers = &light->position.x;
+  const WideConnections all = c;
   DUET_LANES
   for (int k = 0; k < n; ++k) {
     const int i = pairs.eye[k];
     const GatheredVertex l = vertex_at(numbers, pairs.light[k] * kVertexNumbers);
-    const Point3f position = points.position.point(i);
-    const Vector3f ng = points.ng.vector(i);
+    const Point3f position = all.points.position.point(i);
+    const Vector3f ng = all.points.ng.vector(i);
     const Vector3f d = l.position - position;
     const float d2 = length_squared(d), inverse_d2 = 1 / d2;
     const Vector3f to_light = d * (1 / std::sqrt(d2));
-    const float f = dot(eye.lit.vector(i), to_light) * kInvPi;
+    const Scattered f = scattered(k, i, to_light);
     const float cosine = -dot(l.lit, to_light), g = cosine * kInvPi;
     const float eye_geometric = dot(ng, to_light), light_geometric = -dot(l.ng, to_light);
     const float adjoint = l.adjoint * std::abs(light_geometric) / cosine;
     const float weight =
-        1 / (1 + beyond(f * std::abs(light_geometric) * inverse_d2, l.vcm, l.reverse, l.vc) +
-             beyond(g * std::abs(eye_geometric) * inverse_d2, subpaths.vcm[i], eye.reverse[i],
-                    subpaths.vc[i]));
-    const float both = f * g * (adjoint * inverse_d2);
-    set_contribution(k, eye.flux.x[i] * l.flux[0] * both, eye.flux.y[i] * l.flux[1] * both,
-                     eye.flux.z[i] * l.flux[2] * both, weight, weights.threshold,
-                     ConnectionRoulette::draw(eye.roulette[i], connection + uint32_t(l.depth)),
-                     out);
-    out.id[k] = paths.id[i];
+        1 / (1 + beyond(f.pdf * std::abs(light_geometric) * inverse_d2, l.vcm, l.reverse, l.vc) +
+             beyond(g * std::abs(eye_geometric) * inverse_d2, all.subpaths.vcm[i], f.reverse,
+                    all.subpaths.vc[i]));
+    const float both = g * (adjoint * inverse_d2);
+    set_contribution(
+        k, f.r * l.flux[0] * both, f.g * l.flux[1] * both, f.b * l.flux[2] * both, weight,
+        all.threshold,
+        ConnectionRoulette::draw(all.eye.roulette[i], all.connection + uint32_t(l.depth)), out);
+    out.id[k] = all.paths.id[i];
     const Point3f target = moved_off(l.position, l.ng, l.offset, light_geometric);
-    const Point3f origin = moved_off(position, ng, points.offset[i], dot(ng, target - position));
+    const Point3f origin =
+        moved_off(position, ng, all.points.offset[i], dot(ng, target - position));
     out.ray.origin.set(k, origin);
     out.ray.direction.set(k, target - origin);
     out.ray.tmax[k] = 0x1.fffep-1f;
   }
+}
+
+}  // namespace
+
+DUET_WIDEST void weigh_pairs(int n, const WidePairs& pairs, const WideConnections& c,
+                             const DiffuseVertex* light, WideShadowRays& out) {
+  const WideEyeVertices& eye = c.eye;
+  weigh_all_pairs(
+      n, pairs, c, light,
+      [&](int, int i, const Vector3f& to_light) __attribute__((always_inline)) {
+        const float pdf = dot(eye.lit.vector(i), to_light) * kInvPi;
+        return Scattered{eye.flux.x[i] * pdf, eye.flux.y[i] * pdf, eye.flux.z[i] * pdf, pdf,
+                         eye.reverse[i]};
+      },
+      out);
+}
+
+DUET_WIDEST void weigh_glossy_pairs(int n, const WidePairs& pairs, const WideConnections& c,
+                                    const DiffuseVertex* light, const WideGlossy& glossy,
+                                    WideShadowRays& out) {
+  const WidePaths& paths = c.paths;
+  weigh_all_pairs(
+      n, pairs, c, light,
+      [&](int k, int i, const Vector3f&) __attribute__((always_inline)) {
+        return Scattered{
+            paths.throughput.x[i] * glossy.value.x[k], paths.throughput.y[i] * glossy.value.y[k],
+            paths.throughput.z[i] * glossy.value.z[k], glossy.value_pdf[k], glossy.reverse[k]};
+      },
+      out);
 }
 
 namespace {

@@ -2,7 +2,7 @@
 // one sub-path (subpath.h, connection.h, mis.h), so that the results are the same to rounding.
 #pragma once
 
-#include "integrators/wide_state.h"
+#include "integrators/wide_glossy.h"
 #include "transport/diffuse_vertex.h"
 
 namespace duet {
@@ -22,13 +22,18 @@ struct WideEyeVertices {
   BatchArray<uint32_t> roulette;  ///< seeds of ConnectionRoulette
 };
 
-/// What is the same for all connections of an iteration.
-struct WideWeights {
-  float share;      ///< TechniqueSet::connection_share
-  float threshold;  ///< of ConnectionRoulette
+/// What connections of the eye vertices of a batch, all at one depth, have in common.
+struct WideConnections {
+  const WidePaths& paths;
+  const WideSubpaths& subpaths;
+  const WidePoints& points;
+  const WideEyeVertices& eye;
+  float share;          ///< TechniqueSet::connection_share
+  float threshold;      ///< of ConnectionRoulette
+  uint32_t connection;  ///< ConnectionRoulette::event() of the connection with the light itself
 };
 
-/// Pairs of diffuse vertices.
+/// Pairs of an eye vertex of one material with a diffuse light vertex.
 struct WidePairs {
   BatchArray<int32_t> eye;    ///< number in the batch
   BatchArray<int32_t> light;  ///< number in the list of light vertices
@@ -37,21 +42,21 @@ struct WidePairs {
 /// arrive() at the points of a batch. Sub-paths that arrive along the surface carry nothing on.
 void arrive(int n, const HitBatch& hits, const WidePoints& points, bool connections,
             WidePaths& paths, WideSubpaths& subpaths);
-/// Plainly diffuse surfaces as ends of connections.
-void make_diffuse_ends(int n, const WidePaths& paths, const WidePoints& points,
-                       WideEyeVertices& out);
-/// Contributions of light samples and their shadow rays: connect_light(). `connection` is the
-/// number of the connection for roulette.
-void weigh_light_samples(int n, const WidePaths& paths, const WideSubpaths& subpaths,
-                         const WidePoints& points, const WideEyeVertices& eye,
-                         const WideLightSamples& samples, const WideWeights& weights,
-                         uint32_t connection, WideShadowRays& out);
-/// Contributions of `n` pairs and their shadow rays: weigh_ends(). `connection` is the number of
-/// the connection of the eye vertices with the light itself.
-void weigh_pairs(int n, const WidePairs& pairs, const WidePaths& paths,
-                 const WideSubpaths& subpaths, const WidePoints& points, const WideEyeVertices& eye,
-                 const DiffuseVertex* light, const WideWeights& weights, uint32_t connection,
-                 WideShadowRays& out);
+/// Surfaces that reflect, diffuse or glossy, as ends of connections; `reverse` is that of diffuse
+/// ones.
+void make_ends(int n, const WidePaths& paths, const WidePoints& points, WideEyeVertices& out);
+/// Contributions of light samples and their shadow rays: connect_light().
+void weigh_light_samples(int n, const WideConnections& c, const WideLightSamples& samples,
+                         WideShadowRays& out);
+/// Unit directions from the eye vertices of pairs to the light vertices.
+void find_directions(int n, const WidePairs& pairs, const WidePoints& points,
+                     const DiffuseVertex* light, BatchTriples& out);
+/// Contributions of pairs and their shadow rays: weigh_ends().
+void weigh_pairs(int n, const WidePairs& pairs, const WideConnections& c,
+                 const DiffuseVertex* light, WideShadowRays& out);
+/// The same with eye vertices that are glossy: `glossy` has what they make of the directions.
+void weigh_glossy_pairs(int n, const WidePairs& pairs, const WideConnections& c,
+                        const DiffuseVertex* light, const WideGlossy& glossy, WideShadowRays& out);
 /// The next rays and the sums that go with them. `reverse` is the density of the reverse direction,
 /// or for delta lobes the factor of leave_specular().
 void go_on(int n, bool roulette, const WidePoints& points, const BatchArray<float>& reverse,

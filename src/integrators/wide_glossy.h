@@ -17,9 +17,11 @@ struct WideVertices {
 /// Some of the points, and what is made of them, without gaps.
 struct WideGlossy {
   BatchArray<int32_t> at;  ///< numbers of the points
-  BatchTriples value;      ///< of the BSDF, for the light samples
+  BatchTriples towards;    ///< unit directions that the material is asked about
+  BatchTriples value;      ///< of the BSDF
   BatchArray<float> value_pdf;
-  BatchTriples wi, weight;  ///< see WideScattering
+  BatchArray<float> reverse;  ///< density of going back from the direction, in the other transport
+  BatchTriples wi, weight;    ///< see WideScattering
   BatchArray<float> pdf, roulette;
   BatchArray<int32_t> alive;
 };

@@ -25,8 +25,7 @@ template <class Facets>
 
 template <class Facets>
 [[gnu::always_inline]] inline void evaluate_all(int n, const RoughPlasticSurface& surface,
-                                                const WideVertices& vertices,
-                                                const BatchTriples& light, WideGlossy& out) {
+                                                const WideVertices& vertices, WideGlossy& out) {
   const UniformRoughPlastic plastic = lanes_of(surface);
   const Facets facets(plastic.microfacet);
   const bool two_sided = surface.two_sided;
@@ -36,7 +35,7 @@ template <class Facets>
     const int i = out.at[k];
     const LocalPoint at = local_point(v, i, two_sided);
     const ModelEval e = evaluate(plastic.model(reflectance_at(v.points, i)), facets, at.wo,
-                                 at.to_local(light.vector(i)));
+                                 at.to_local(out.towards.vector(k)));
     out.value.set(k, e.value.r, e.value.g, e.value.b);
     out.value_pdf[k] = e.pdf;
   }
@@ -77,15 +76,31 @@ template <class Facets>
   }
 }
 
+template <class Facets>
+[[gnu::always_inline]] inline void reverse_all(int n, const RoughPlasticSurface& surface,
+                                               const WideVertices& vertices, WideGlossy& out) {
+  const UniformRoughPlastic plastic = lanes_of(surface);
+  const Facets facets(plastic.microfacet);
+  const bool two_sided = surface.two_sided;
+  const WideVertices v = vertices;
+  DUET_LANES
+  for (int k = 0; k < n; ++k) {
+    const int i = out.at[k];
+    const LocalPoint at = local_point(v, i, two_sided);
+    out.reverse[k] = evaluate(plastic.model(reflectance_at(v.points, i)), facets,
+                              at.to_local(out.towards.vector(k)), at.wo)
+                         .pdf;
+  }
+}
+
 }  // namespace
 
 DUET_WIDEST void evaluate_glossy(int n, const RoughPlasticSurface& surface,
-                                 const WideVertices& vertices, const BatchTriples& light,
-                                 WideGlossy& out) {
+                                 const WideVertices& vertices, WideGlossy& out) {
   if (surface.plastic.microfacet.is_visible_beckmann())
-    evaluate_all<WideBeckmann>(n, surface, vertices, light, out);
+    evaluate_all<WideBeckmann>(n, surface, vertices, out);
   else
-    evaluate_all<WideGgx>(n, surface, vertices, light, out);
+    evaluate_all<WideGgx>(n, surface, vertices, out);
 }
 
 DUET_WIDEST void sample_glossy(int n, const RoughPlasticSurface& surface,
@@ -94,6 +109,14 @@ DUET_WIDEST void sample_glossy(int n, const RoughPlasticSurface& surface,
     sample_all<WideBeckmann>(n, surface, vertices, out);
   else
     sample_all<WideGgx>(n, surface, vertices, out);
+}
+
+DUET_WIDEST void reverse_glossy(int n, const RoughPlasticSurface& surface,
+                                const WideVertices& vertices, WideGlossy& out) {
+  if (surface.plastic.microfacet.is_visible_beckmann())
+    reverse_all<WideBeckmann>(n, surface, vertices, out);
+  else
+    reverse_all<WideGgx>(n, surface, vertices, out);
 }
 
 }  // namespace duet

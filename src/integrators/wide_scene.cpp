@@ -15,14 +15,15 @@ bool has_frame_of_normal(const Shape& shape) {
 
 struct GlossySurface {
   WideGlossyMaterial material;
+  bool two_sided;
   const ColorSlot& reflectance;  ///< which may depend on the point
 };
 
 std::optional<GlossySurface> as_glossy(const Material& material) {
   if (const auto plastic = as_rough_plastic(material))
-    return GlossySurface{*plastic, plastic->base};
+    return GlossySurface{*plastic, plastic->two_sided, plastic->base};
   if (const auto conductor = as_rough_conductor(material))
-    return GlossySurface{*conductor, conductor->reflectance};
+    return GlossySurface{*conductor, conductor->two_sided, conductor->reflectance};
   return std::nullopt;
 }
 
@@ -36,7 +37,7 @@ const Texture* if_large(const Texture* texture) {
 
 }  // namespace
 
-void WideScene::set_model(WideShape& w, const Shape& shape, bool has_glossy) {
+void WideScene::set_model(WideShape& w, const Shape& shape) {
   const Material& material = *scene.materials[shape.material];
   const auto set_reflectance = [&](const ColorSlot& slot) {
     w.reflectance = slot.constant;
@@ -49,10 +50,11 @@ void WideScene::set_model(WideShape& w, const Shape& shape, bool has_glossy) {
     w.model = WideModel::diffuse;
     w.two_sided = diffuse->two_sided;
     set_reflectance(diffuse->reflectance);
-  } else if (const auto surface = by_normal && has_glossy ? as_glossy(material) : std::nullopt) {
+  } else if (const auto surface = by_normal ? as_glossy(material) : std::nullopt) {
     w.model = WideModel::glossy;
     const auto known = std::find(glossy_materials.begin(), glossy_materials.end(), shape.material);
     w.glossy = int32_t(known - glossy_materials.begin());
+    w.two_sided = surface->two_sided;
     set_reflectance(surface->reflectance);
     if (known != glossy_materials.end()) return;
     glossy.push_back(surface->material);
@@ -62,12 +64,12 @@ void WideScene::set_model(WideShape& w, const Shape& shape, bool has_glossy) {
   }
 }
 
-WideScene::WideScene(const Scene& s, bool has_glossy) : scene(s), lights(s) {
+WideScene::WideScene(const Scene& s) : scene(s), lights(s) {
   shapes.reserve(s.shapes.size());
   for (const Shape& shape : s.shapes) {
     WideShape& w = shapes.emplace_back();
     w.emits = shape.light != kNone;
-    set_model(w, shape, has_glossy);
+    set_model(w, shape);
     if (shape.kind != ShapeKind::mesh) continue;
     w.positions = shape.mesh->positions.data();
     w.triangles = shape.mesh->triangles.data();

@@ -29,15 +29,14 @@ struct alignas(64) WideShape {
   Spectrum reflectance;                 ///< otherwise
   float sign = 1;                       ///< −1 if the normals are to be turned
   WideModel model = WideModel::other;
-  bool two_sided = false;  ///< see DiffuseSurface
+  bool two_sided = false;  ///< see DiffuseSurface; not of WideModel::other
   bool emits = false;
   int32_t glossy = 0;  ///< its number in WideScene::glossy, if it is that
 };
 
 /// A scene, which must outlive this and stand still, as batches of paths see it.
 struct WideScene {
-  /// Without `has_glossy` points of glossy materials are WideModel::other.
-  explicit WideScene(const Scene& scene, bool has_glossy = true);
+  explicit WideScene(const Scene& scene);
 
   const Scene& scene;
   std::vector<WideShape> shapes;
@@ -47,7 +46,7 @@ struct WideScene {
   WideLights lights;
 
  private:
-  void set_model(WideShape& w, const Shape& shape, bool has_glossy);
+  void set_model(WideShape& w, const Shape& shape);
 };
 
 }  // namespace duet

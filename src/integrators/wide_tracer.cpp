@@ -1,8 +1,6 @@
 #include "integrators/wide_tracer.h"
 
 #include "integrators/next_event.h"
-#include "integrators/wide_conductor.h"
-#include "integrators/wide_plastic.h"
 #include "materials/bsdf.h"
 
 namespace duet {
@@ -25,7 +23,8 @@ void WideTracer::trace(int n, const BatchSampler& sampler, WideSamples& samples,
     look_up_textures();
     evaluate_diffuse(n, paths_, points_, lights_);
     sample_diffuse(n, paths_, points_, numbers_, scattering_);
-    scatter_glossy();
+    evaluate_glossy_points(nullptr);
+    sample_glossy_points(nullptr);
     scatter_one_by_one();
     add_light(n, samples, counters);
     for (int i = 0; i < n; ++i)
@@ -60,33 +59,6 @@ void WideTracer::add_emission(WideSamples& samples) const {
                 throughput(i) * weighted_emission(wide_.scene, s,
                                                   {paths_.from.point(i), ray.direction, hits_.t[i]},
                                                   bsdf_pdf(i), {}));
-  }
-}
-
-void WideTracer::scatter_glossy() {
-  const WideVertices vertices{paths_, points_, numbers_};
-  WideGlossy& p = glossy_;
-  for (size_t number = 0; number < glossy_points_.size(); ++number) {
-    const std::vector<int>& points = glossy_points_[number];
-    if (points.empty()) continue;
-    const int count = int(points.size());
-    std::copy(points.begin(), points.end(), p.at.begin());
-    const auto scatter = [&](const auto& material) {
-      evaluate_glossy(count, material, vertices, lights_.wi, p);
-      sample_glossy(count, material, vertices, p);
-    };
-    std::visit(scatter, wide_.glossy[number]);
-    for (int k = 0; k < count; ++k) {
-      const int i = p.at[k];
-      lights_.value.set(i, p.value.vector(k));
-      lights_.bsdf_pdf[i] = p.value_pdf[k];
-      scattering_.wi.set(i, p.wi.vector(k));
-      scattering_.weight.set(i, p.weight.vector(k));
-      scattering_.pdf[i] = p.pdf[k];
-      scattering_.roulette[i] = p.roulette[k];
-      scattering_.alive[i] = p.alive[k];
-      // sample_diffuse() has set the rest.
-    }
   }
 }
 

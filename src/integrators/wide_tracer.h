@@ -1,7 +1,6 @@
 // Path tracing of many pixels at once, stage by stage.
 #pragma once
 
-#include "integrators/wide_glossy.h"
 #include "integrators/wide_walk.h"
 
 namespace duet {
@@ -20,9 +19,8 @@ class WideTracer final : public WideWalk {
   /// Adds what those find that have left the scene; the rest is left in front.
   int end_outside(int n, WideSamples& samples);
   void add_emission(WideSamples& samples) const;
-  /// At points of glossy materials: the value for the light sample, and the next direction.
-  void scatter_glossy();
-  /// The same at points that the code for one path has to look at.
+  /// The values for the light samples, and the next directions, at points that the code for one
+  /// path has to look at.
   void scatter_one_by_one();
   void add_light(int n, WideSamples& samples, RenderCounters& counters);
   int keep_alive(int n);
@@ -30,8 +28,6 @@ class WideTracer final : public WideWalk {
   std::optional<PdfW> bsdf_pdf(int i) const {
     return paths_.bsdf_pdf[i] < 0 ? std::nullopt : std::optional(PdfW{paths_.bsdf_pdf[i]});
   }
-
-  WideGlossy glossy_{};
 };
 
 }  // namespace duet

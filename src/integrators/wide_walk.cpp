@@ -1,5 +1,7 @@
 #include "integrators/wide_walk.h"
 
+#include "integrators/wide_conductor.h"
+#include "integrators/wide_plastic.h"
 #include "transport/light_choice.h"
 
 namespace duet {
@@ -103,6 +105,55 @@ void WideWalk::draw_numbers(int n, const BatchSampler& sampler, int depth) {
     sampler.numbers_1d(n, paths_.keys, scattering + 2, numbers_.first);
   if (chooses && has_roulette(depth))
     sampler.numbers_1d(n, paths_.keys, scattering + 3, numbers_.second);
+}
+
+template <class F>
+void WideWalk::for_each_glossy(F&& f) {
+  for (size_t number = 0; number < glossy_points_.size(); ++number) {
+    const std::vector<int>& points = glossy_points_[number];
+    if (points.empty()) continue;
+    std::copy(points.begin(), points.end(), glossy_.at.begin());
+    std::visit([&](const auto& material) { f(int(points.size()), material); },
+               wide_.glossy[number]);
+  }
+}
+
+void WideWalk::evaluate_glossy_points(BatchArray<float>* reverse) {
+  const WideVertices vertices{paths_, points_, numbers_};
+  WideGlossy& p = glossy_;
+  for_each_glossy([&](int count, const auto& material) {
+    for (int k = 0; k < count; ++k) p.towards.set(k, lights_.wi.vector(p.at[k]));
+    evaluate_glossy(count, material, vertices, p);
+    if (reverse) reverse_glossy(count, material, vertices, p);
+    for (int k = 0; k < count; ++k) {
+      const int i = p.at[k];
+      lights_.value.set(i, p.value.vector(k));
+      lights_.bsdf_pdf[i] = p.value_pdf[k];
+      if (reverse) (*reverse)[i] = p.reverse[k];
+    }
+  });
+}
+
+void WideWalk::sample_glossy_points(BatchArray<float>* reverse) {
+  const WideVertices vertices{paths_, points_, numbers_};
+  WideGlossy& p = glossy_;
+  for_each_glossy([&](int count, const auto& material) {
+    sample_glossy(count, material, vertices, p);
+    if (reverse) {
+      p.towards = p.wi;
+      reverse_glossy(count, material, vertices, p);
+    }
+    for (int k = 0; k < count; ++k) {
+      const int i = p.at[k];
+      scattering_.wi.set(i, p.wi.vector(k));
+      scattering_.weight.set(i, p.weight.vector(k));
+      scattering_.pdf[i] = p.pdf[k];
+      scattering_.roulette[i] = p.roulette[k];
+      scattering_.alive[i] = p.alive[k];
+      // sample_diffuse() has set the rest.
+      if (reverse) (*reverse)[i] = p.reverse[k];
+    }
+  });
 }
 
 WideWalk::Tested WideWalk::test_shadows(int n, WideShadowRays& rays, WideSamples& samples) {

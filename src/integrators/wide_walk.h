@@ -3,6 +3,7 @@
 
 #include "integrators/camera_integrator.h"
 #include "integrators/wide_gaps.h"
+#include "integrators/wide_glossy.h"
 #include "integrators/wide_kernels.h"
 #include "integrators/wide_scene.h"
 #include "scene/path_limits.h"
@@ -41,6 +42,11 @@ class WideWalk {
   /// Later than find_points(), when what was prefetched has arrived.
   void look_up_textures();
   void draw_numbers(int n, const BatchSampler& sampler, int depth);
+  /// At points of glossy materials, the values for the light samples; and where not null, the
+  /// reverse densities.
+  void evaluate_glossy_points(BatchArray<float>* reverse);
+  /// From there, the next directions; likewise.
+  void sample_glossy_points(BatchArray<float>* reverse);
   bool has_roulette(int depth) const { return depth >= limits_.rr_depth; }
   Hit hit(int i) const {
     return {hits_.t[i],         hits_.u[i],     hits_.v[i],
@@ -70,11 +76,16 @@ class WideWalk {
   std::vector<int> emitting_;                    ///< numbers of points on lights
   std::vector<std::vector<int>> glossy_points_;  ///< by WideShape::glossy
   bool has_glossy_points_ = false;
+  WideGlossy glossy_{};
   /// Numbers of the points that Scene::surface() makes, and those surfaces.
   std::vector<int> special_;
   std::vector<Surface> surfaces_;
 
  private:
+  /// Calls `f(count, material)` for the glossy points of each material, whose numbers stand in
+  /// `glossy_` then.
+  template <class F>
+  void for_each_glossy(F&& f);
   void fetch(int n);
   void prefetch_textures();
   void set_reflectance(int i, const Spectrum& r) { points_.reflectance.set(i, r.r, r.g, r.b); }

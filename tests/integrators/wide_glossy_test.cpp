@@ -55,7 +55,10 @@ struct Points {
       const Point2f v = sampler.next_2d();
       numbers.x[i] = v.x, numbers.y[i] = v.y;
       numbers.first[i] = sampler.next_1d(), numbers.second[i] = sampler.next_1d();
-      if (i % 3 != 0) out.at[count++] = i;
+      if (i % 3 != 0) {
+        out.towards.set(count, light.vector(i));
+        out.at[count++] = i;
+      }
     }
     numbers.x[16] = numbers.y[16] = 0;
     numbers.x[17] = numbers.y[17] = kBelowOne;
@@ -72,6 +75,8 @@ bool check_point(const Material& material, const Points& p, int k) {
   const BsdfEval e = bsdf.eval(p.light.vector(i), Transport::radiance);
   CHECK(e.value == Spectrum(p.out.value.x[k], p.out.value.y[k], p.out.value.z[k]));
   CHECK(e.pdf.value == p.out.value_pdf[k]);
+  if (!e.value.is_black())
+    CHECK(bsdf.reverse_pdf(p.light.vector(i), Transport::radiance).value == p.out.reverse[k]);
   const bool chooses = bsdf.needs_choice();
   const auto s = bsdf.sample(chooses ? p.numbers.first[i] : 0.5f, {p.numbers.x[i], p.numbers.y[i]},
                              Transport::radiance);
@@ -98,7 +103,8 @@ void compare(const std::string& description, AsSurface&& as_surface,
     CAPTURE(seed);
     Points p(reflectance_of(*surface).constant, seed);
     const WideVertices vertices{p.paths, p.points, p.numbers};
-    evaluate_glossy(p.count, *surface, vertices, p.light, p.out);
+    evaluate_glossy(p.count, *surface, vertices, p.out);
+    reverse_glossy(p.count, *surface, vertices, p.out);
     sample_glossy(p.count, *surface, vertices, p.out);
     for (int k = 0; k < p.count; ++k) alive += check_point(*material, p, k);
   }
