@@ -9,8 +9,8 @@ namespace duet {
 
 /// What the batches of all iterations have in common.
 struct BidirectionalIntegrator::Batches {
-  Batches(const Scene& s, const PathLimits& limits)
-      : scene(s), tiles(*s.camera, [this, limits] {
+  Batches(const Scene& s, const PathLimits& limits, bool merges)
+      : scene(s, merges), tiles(*s.camera, [this, limits] {
           return std::make_unique<WideEye>(scene, limits, plan);
         }) {}
 

@@ -6,10 +6,6 @@
 
 namespace duet {
 
-/// Photons in the cells around a vertex from which on only some of them are merged: all light on
-/// one spot must not make the time grow with the square of the photons.
-inline constexpr size_t kMostMergedPhotons = 4096;
-
 template <class Vertex, class Weights>
 void BidirectionalIntegrator::connect(const Weights& weights, const Vertex& v, bool light_sample,
                                       Eye<Vertex>& eye) const {

@@ -188,9 +188,7 @@ void BidirectionalIntegrator::subpath(const Weights& weights, SubpathPdfs* pdfs,
 }
 
 bool BidirectionalIntegrator::merges_in(uint64_t pixel) const {
-  if (!set_.partly_merged) return set_.merges;
-  const uint64_t width = uint64_t(mask_.film.x);
-  return mask_.merges({float(pixel % width) + 0.5f, float(pixel / width) + 0.5f});
+  return set_.partly_merged ? mask_.merges_in(pixel) : set_.merges;
 }
 
 template <class Vertex>

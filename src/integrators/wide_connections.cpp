@@ -95,7 +95,7 @@ void WideEye::connect_one_by_one(int i, int number, int depth, WideSamples& samp
   const int id = paths_.id[i];
   const ConnectionRoulette own = roulette(id);
   const PathVertex& eye = eye_vertex(i, depth);
-  const auto ends = weigh_ends(context(own, counters), light_vertex(id, number), eye);
+  const auto ends = weigh_ends(context(id, own, counters), light_vertex(id, number), eye);
   if (!ends) return;
   const Ray ray = spawn_ray_to(eye.surface, ends->target);
   const int k = single_count_++;

@@ -6,15 +6,21 @@ namespace duet {
 
 void WideEye::enter(std::span<const uint64_t> pixels) {
   starts_ = LightStarts(wide_.scene, plan_.guide);
-  weights_ = BalanceWeights(plan_.set);
+  weights_[0] = BalanceWeights(plan_.set, false);
+  weights_[1] = BalanceWeights(plan_.set);
   keys_.resize(pixels.size());
+  random_.resize(pixels.size());
+  merging_.resize(pixels.size());
   light_.assign(pixels.size(), {});
   leaders_.fill({});
   const LightVertices& vertices = plan_.lights->vertices();
   const size_t subpaths = vertices.ends.size();
   first_light_ = ~0u;
   for (size_t id = 0; id < pixels.size(); ++id) {
-    keys_[id] = ~hash_combine(plan_.key, pixels[id]);
+    const uint64_t key = hash_combine(plan_.key, pixels[id]);
+    keys_[id] = ~key;
+    random_[id] = key;
+    merging_[id] = plan_.set.merges && plan_.merges_in(pixels[id]);
     if (subpaths == 0) continue;
     const size_t subpath = plan_.sharing->subpath(pixels[id], subpaths);
     const uint32_t first = subpath == 0 ? 0 : vertices.ends[subpath - 1];
@@ -36,7 +42,7 @@ int WideEye::leader(size_t subpath, int id) {
 
 void WideEye::begin(int n) {
   for (int i = 0; i < n; ++i) {
-    subpaths_.vcm[i] = subpaths_.vc[i] = 0;
+    subpaths_.vcm[i] = subpaths_.vc[i] = subpaths_.vm[i] = 0;
     subpaths_.carried[i] = 1;
   }
 }
@@ -60,6 +66,7 @@ void WideEye::trace(int n, const BatchSampler& sampler, WideSamples& samples,
     n = end_outside(n, samples, counters);
     counters.path_vertices += uint64_t(n);
     find_points(n);
+    if (plan_.set.merges) locate_photons(n);
     add_emission(samples, counters);
     if (depth == limits_.max_depth) {
       for (int i = 0; i < n; ++i) samples.alpha[paths_.id[i]] = 1;
@@ -76,11 +83,12 @@ void WideEye::trace(int n, const BatchSampler& sampler, WideSamples& samples,
     make_special_vertices(n, depth);
     sample_lights(n, depth, samples, counters);
     connect(n, depth, samples, counters);
+    if (plan_.set.merges) merge(n, depth, samples, counters);
     sample_glossy_points(&eye_.reverse);
     scatter_special_vertices();
     for (int i = 0; i < n; ++i)
       if (!scattering_.null[i]) samples.alpha[paths_.id[i]] = 1;
-    go_on(n, has_roulette(depth), points_, eye_.reverse, scattering_, paths_, subpaths_);
+    go_on(n, has_roulette(depth), plan_.set, eye_, points_, scattering_, paths_, subpaths_);
     n = gaps_.find(n, [&](int i) { return scattering_.alive[i]; });
     fill_gaps();
   }
@@ -94,7 +102,7 @@ int WideEye::end_outside(int n, WideSamples& samples, RenderCounters& counters) 
       if (hits_.shape[i] != kNone) continue;
       const int id = paths_.id[i];
       const ConnectionRoulette own = roulette(id);
-      const Connection c = connect_escape(context(own, counters), subpath(i));
+      const Connection c = connect_escape(context(id, own, counters), subpath(i));
       samples.add(id, c.value * c.weight);
       samples.alpha[id] = 1;
     }
@@ -107,23 +115,29 @@ void WideEye::fill_gaps() {
   gaps_.fill(paths_);
   gaps_.fill(subpaths_.vcm);
   gaps_.fill(subpaths_.vc);
+  gaps_.fill(subpaths_.vm);
   gaps_.fill(subpaths_.carried);
 }
 
 void WideEye::add_emission(WideSamples& samples, RenderCounters& counters) {
   for (const int i : emitting_) {
     const Surface s = wide_.scene.surface(paths_.ray[i], hit(i));
-    const ConnectionRoulette own = roulette(paths_.id[i]);
+    const int id = paths_.id[i];
+    const ConnectionRoulette own = roulette(id);
     const Connection c =
-        connect_hit(context(own, counters), subpath(i), s, hits_.t[i] * hits_.t[i]);
-    samples.add(paths_.id[i], c.value * c.weight);
+        connect_hit(context(id, own, counters), subpath(i), s, hits_.t[i] * hits_.t[i]);
+    samples.add(id, c.value * c.weight);
   }
 }
 
 void WideEye::arrive_at_points(int n, int depth) {
   arrive(n, hits_, points_, plan_.set.connections, paths_, subpaths_);
-  for (int i = 0; i < n; ++i)
-    eye_.roulette[i] = ConnectionRoulette::seed_of(keys_[size_t(paths_.id[i])]);
+  for (int i = 0; i < n; ++i) {
+    const auto id = size_t(paths_.id[i]);
+    eye_.roulette[i] = ConnectionRoulette::seed_of(keys_[id]);
+    eye_.merge_term[i] = merging_[id] ? plan_.set.merge_term() : 0.0f;
+    eye_.unmerged[i] = plan_.set.partly_merged && !merging_[id];
+  }
   if (depth > 1) return;
   for (int i = 0; i < n; ++i) {
     const Ray ray = paths_.ray[i];
@@ -158,6 +172,7 @@ void WideEye::make_special_vertices(int n, int depth) {
     lights_.value.set(i, f.value.r, f.value.g, f.value.b);
     lights_.bsdf_pdf[i] = f.pdf.value;
     eye_.reverse[i] = f.reverse.value;
+    eye_.merges[i] = v.merges(f.pdf.value, f.reverse.value);
   }
   special_vertices_ = int(vertices_.size());
 }
@@ -182,6 +197,7 @@ void WideEye::scatter_special_vertices() {
     } else {
       scattering_.pdf[i] = sample->pdf.value;
       eye_.reverse[i] = v->reverse_pdf(sample->wi, Transport::radiance);
+      eye_.merges[i] = v->merges(sample->pdf.value, eye_.reverse[i]);
     }
   }
 }

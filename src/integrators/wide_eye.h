@@ -5,6 +5,7 @@
 #include "integrators/wide_walk.h"
 #include "transport/light_pass.h"
 #include "transport/subpath_sharing.h"
+#include "transport/vertex_grid.h"
 
 namespace duet {
 
@@ -17,6 +18,12 @@ struct WideEyePlan {
   const LightPass* lights = nullptr;  ///< with LightPassPlan::keep_diffuse
   const SubpathSharing* sharing = nullptr;
   const EmissionGuide* guide = nullptr;  ///< or null
+  const VertexGrid* photons = nullptr;   ///< if the set merges
+  const MergeMask* mask = nullptr;       ///< if it does so in part
+
+  bool merges_in(uint64_t pixel) const {
+    return set.partly_merged ? mask->merges_in(pixel) : set.merges;
+  }
 };
 
 /// Traces eye sub-paths of bidirectional path tracing without media, in the same way as
@@ -72,14 +79,23 @@ class WideEye final : public WideWalk {
   void flush_pairs(size_t list, int depth, WideSamples& samples, RenderCounters& counters);
   void flush_single(WideSamples& samples, RenderCounters& counters);
   const PathVertex& eye_vertex(int i, int depth);
+
+  // wide_merges.cpp
+  /// Finds the cells of photons around all points, and asks the memory for them.
+  void locate_photons(int n);
+  void merge(int n, int depth, WideSamples& samples, RenderCounters& counters);
+  /// Finds the photons near a point; returns for how many each of them stands.
+  size_t find_photons(int i, const std::vector<LightVertex>& photons);
+  /// connect_merge() of a point that is diffuse.
+  Connection merge_diffuse(int i, const LightVertex& photon, float kernel) const;
   const PathVertex& light_vertex(int id, int number);
 
   ConnectionRoulette roulette(int id) const {
     return {plan_.roulette_threshold, keys_[size_t(id)]};
   }
-  ConnectionContext<BalanceWeights> context(const ConnectionRoulette& roulette,
+  ConnectionContext<BalanceWeights> context(int id, const ConnectionRoulette& roulette,
                                             RenderCounters& counters) const {
-    return {wide_.scene, starts_, weights_, roulette, counters};
+    return {wide_.scene, starts_, weights_[merging_[size_t(id)]], roulette, counters};
   }
   WideConnections connections(int depth) const {
     return {paths_,
@@ -92,7 +108,7 @@ class WideEye final : public WideWalk {
   }
   /// As the code for one sub-path has it, on its way to the next vertex.
   Subpath subpath(int i) const;
-  Partials partials(int i) const { return {subpaths_.vcm[i], subpaths_.vc[i], 0}; }
+  Partials partials(int i) const { return {subpaths_.vcm[i], subpaths_.vc[i], subpaths_.vm[i]}; }
   PathVertex* special_vertex(int i) {
     return vertex_of_[i] >= 0 && vertex_of_[i] < special_vertices_
                ? &vertices_[size_t(vertex_of_[i])]
@@ -101,11 +117,16 @@ class WideEye final : public WideWalk {
 
   const WideEyePlan& plan_;
   LightStarts starts_;
-  BalanceWeights weights_{TechniqueSet{}};
+  /// In pixels that do not merge, and in those that do.
+  std::array<BalanceWeights, 2> weights_{BalanceWeights({}), BalanceWeights({})};
   WideSubpaths subpaths_{};
   WideEyeVertices eye_{};
-  std::vector<uint64_t> keys_;       ///< of ConnectionRoulette, by id
-  std::vector<LightSubpath> light_;  ///< by id
+  std::vector<uint64_t> keys_;                    ///< of ConnectionRoulette, by id
+  std::vector<uint64_t> random_;                  ///< state of numbers beside the sampler's, by id
+  std::vector<uint8_t> merging_;                  ///< whether the pixel merges, by id
+  std::vector<VertexGrid::Neighborhood> around_;  ///< of the points
+  std::vector<uint32_t> photons_;                 ///< near the point under way
+  std::vector<LightSubpath> light_;               ///< by id
   struct Leader {
     size_t subpath = 0;
     int id = -1;

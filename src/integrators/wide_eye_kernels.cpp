@@ -15,6 +15,7 @@ DUET_WIDEST void arrive(int n, const HitBatch& hits, const WidePoints& points, b
     const float inverse = cosine > 0 ? 1 / cosine : 0.0f, goes_on = cosine > 0 ? 1.0f : 0.0f;
     subpaths.vcm[i] = connects * subpaths.vcm[i] * (hits.t[i] * hits.t[i]) * inverse;
     subpaths.vc[i] = subpaths.vc[i] * inverse;
+    subpaths.vm[i] = subpaths.vm[i] * inverse;
     paths.throughput.set(i, paths.throughput.x[i] * goes_on, paths.throughput.y[i] * goes_on,
                          paths.throughput.z[i] * goes_on);
   }
@@ -29,6 +30,7 @@ DUET_WIDEST void make_ends(int n, const WidePaths& paths, const WidePoints& poin
     const float side = PlainDiffuse::lit_side(cosine, points.two_sided[i] != 0);
     out.lit.set(i, ns * side);
     out.reverse[i] = std::abs(cosine) * kInvPi;
+    out.merges[i] = 1;
     out.flux.set(i, paths.throughput.x[i] * points.reflectance.x[i],
                  paths.throughput.y[i] * points.reflectance.y[i],
                  paths.throughput.z[i] * points.reflectance.z[i]);
@@ -43,8 +45,16 @@ namespace {
   return p + ng * (cosine < 0 ? -offset : offset);
 }
 
-[[gnu::always_inline]] inline float beyond(float arrival, float vcm, float reverse, float vc) {
-  return arrival * (vcm + reverse * vc);
+/// beyond_end(); `merge_term` is zero where the end does not merge.
+[[gnu::always_inline]] inline float beyond(float arrival, float merge_term, float vcm,
+                                           float reverse, float vc) {
+  return arrival * (merge_term + vcm + reverse * vc);
+}
+
+/// The sums at an eye vertex that connections go by: BalanceWeights::connections().
+[[gnu::always_inline]] inline float connection_sum(const WideConnections& c, int i) {
+  const float vc = c.subpaths.vc[i], vm = c.subpaths.vm[i];
+  return c.eye.unmerged[i] != 0 ? vm : vc;
 }
 
 /// Roulette for a contribution; nothing is left of those that it drops.
@@ -76,9 +86,10 @@ DUET_WIDEST void weigh_light_samples(int n, const WideConnections& c,
     const float direct = delta ? delta_density : pdf;
     const float hit = delta ? 0.0f : samples.bsdf_pdf[i];
     const float arrival = samples.emission[i] * std::abs(dot(ng, wi)) / direct;
+    const float merge_term = all.eye.merges[i] != 0 ? all.eye.merge_term[i] : 0.0f;
     const float weight = 1 / (1 + hit / direct +
-                              all.share * beyond(arrival, all.subpaths.vcm[i], all.eye.reverse[i],
-                                                 all.subpaths.vc[i]));
+                              all.share * beyond(arrival, merge_term, all.subpaths.vcm[i],
+                                                 all.eye.reverse[i], connection_sum(all, i)));
     const float inverse = 1 / probability;
     set_contribution(
         i, all.paths.throughput.x[i] * samples.value.x[i] * samples.weight.x[i] * inverse,
@@ -100,14 +111,14 @@ DUET_WIDEST void weigh_light_samples(int n, const WideConnections& c,
 namespace {
 
 constexpr int kVertexNumbers = sizeof(DiffuseVertex) / sizeof(float);
-static_assert(kVertexNumbers == 19);
+static_assert(kVertexNumbers == 20);
 
 /// See flat_light_at() (wide_lights.cpp).
 struct GatheredVertex {
   Point3f position;
   float offset;
   Vector3f ng, lit;
-  float flux[3], reverse, adjoint, vcm, vc;
+  float flux[3], reverse, adjoint, vcm, vc, vm;
   int32_t depth;
 };
 [[gnu::always_inline]] inline GatheredVertex vertex_at(const float* f, int i) {
@@ -118,8 +129,8 @@ struct GatheredVertex {
   v.lit = Vector3f(f[i + 7], f[i + 8], f[i + 9]);
   v.flux[0] = f[i + 10], v.flux[1] = f[i + 11], v.flux[2] = f[i + 12];
   v.reverse = f[i + 13], v.adjoint = f[i + 14];
-  v.vcm = f[i + 15], v.vc = f[i + 16];
-  v.depth = std::bit_cast<int32_t>(f[i + 17]);
+  v.vcm = f[i + 15], v.vc = f[i + 16], v.vm = f[i + 17];
+  v.depth = std::bit_cast<int32_t>(f[i + 18]);
   return v;
 }
 
@@ -165,10 +176,14 @@ template <class F>
     const float cosine = -dot(l.lit, to_light), g = cosine * kInvPi;
     const float eye_geometric = dot(ng, to_light), light_geometric = -dot(l.ng, to_light);
     const float adjoint = l.adjoint * std::abs(light_geometric) / cosine;
-    const float weight =
-        1 / (1 + beyond(f.pdf * std::abs(light_geometric) * inverse_d2, l.vcm, l.reverse, l.vc) +
-             beyond(g * std::abs(eye_geometric) * inverse_d2, all.subpaths.vcm[i], f.reverse,
-                    all.subpaths.vc[i]));
+    // Both vertices merge, if the pixel does: neither is nearly specular.
+    const float merge_term = all.eye.merge_term[i];
+    const float light_sum = all.eye.unmerged[i] != 0 ? l.vm : l.vc;
+    const float weight = 1 / (1 +
+                              beyond(f.pdf * std::abs(light_geometric) * inverse_d2, merge_term,
+                                     l.vcm, l.reverse, light_sum) +
+                              beyond(g * std::abs(eye_geometric) * inverse_d2, merge_term,
+                                     all.subpaths.vcm[i], f.reverse, connection_sum(all, i)));
     const float both = g * (adjoint * inverse_d2);
     set_contribution(
         k, f.r * l.flux[0] * both, f.g * l.flux[1] * both, f.b * l.flux[2] * both, weight,
@@ -216,10 +231,13 @@ DUET_WIDEST void weigh_glossy_pairs(int n, const WidePairs& pairs, const WideCon
 namespace {
 
 template <bool kRoulette>
-[[gnu::always_inline]] inline void continue_subpaths(int n, const WidePoints& points,
-                                                     const BatchArray<float>& reverse,
+[[gnu::always_inline]] inline void continue_subpaths(int n, const TechniqueSet& set,
+                                                     const WideEyeVertices& eye,
+                                                     const WidePoints& points,
                                                      WideScattering& scattering, WidePaths& paths,
                                                      WideSubpaths& subpaths) {
+  const float merge_term = set.merge_term(), connection_term = set.subpath_connection_term(),
+              merges = set.merges ? set.subpath_merges() : 0.0f;
   DUET_LANES
   for (int i = 0; i < n; ++i) {
     const float x = scattering.weight.x[i], y = scattering.weight.y[i], z = scattering.weight.z[i];
@@ -241,10 +259,15 @@ template <bool kRoulette>
     const Vector3f ng = points.ng.vector(i), wi = scattering.wi.vector(i);
     const float pdf = scattering.pdf[i], out = dot(ng, wi);
     const bool delta = pdf < 0;
-    const float inverse = 1 / pdf, to_next = std::abs(out) * (delta ? reverse[i] : inverse);
-    const float vc = subpaths.vc[i], sum = subpaths.vcm[i] + reverse[i] * vc;
+    const float reverse = eye.reverse[i], inverse = 1 / pdf,
+                to_next = std::abs(out) * (delta ? reverse : inverse);
+    const bool merged = eye.merges[i] != 0;
+    const float vcm = subpaths.vcm[i], vc = subpaths.vc[i], vm = subpaths.vm[i];
+    const float vc_sum = (merged ? merge_term : 0.0f) + vcm + reverse * vc,
+                vm_sum = (merged ? merges : 0.0f) + vcm * connection_term + reverse * vm;
     subpaths.vcm[i] = delta ? 0.0f : inverse;
-    subpaths.vc[i] = to_next * (delta ? vc : sum);
+    subpaths.vc[i] = to_next * (delta ? vc : vc_sum);
+    subpaths.vm[i] = to_next * (delta ? vm : vm_sum);
     paths.bsdf_pdf[i] = pdf;
     const Point3f position = points.position.point(i);
     paths.from.set(i, position);
@@ -256,13 +279,13 @@ template <bool kRoulette>
 
 }  // namespace
 
-DUET_WIDEST void go_on(int n, bool roulette, const WidePoints& points,
-                       const BatchArray<float>& reverse, WideScattering& scattering,
-                       WidePaths& paths, WideSubpaths& subpaths) {
+DUET_WIDEST void go_on(int n, bool roulette, const TechniqueSet& set, const WideEyeVertices& eye,
+                       const WidePoints& points, WideScattering& scattering, WidePaths& paths,
+                       WideSubpaths& subpaths) {
   if (roulette)
-    continue_subpaths<true>(n, points, reverse, scattering, paths, subpaths);
+    continue_subpaths<true>(n, set, eye, points, scattering, paths, subpaths);
   else
-    continue_subpaths<false>(n, points, reverse, scattering, paths, subpaths);
+    continue_subpaths<false>(n, set, eye, points, scattering, paths, subpaths);
 }
 
 }  // namespace duet

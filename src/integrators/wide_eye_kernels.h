@@ -10,8 +10,8 @@ namespace duet {
 /// What eye sub-paths carry beside what paths do. WidePaths::bsdf_pdf is Subpath::forward, negative
 /// after delta lobes; WidePaths::eta is not used.
 struct WideSubpaths {
-  BatchArray<float> vcm, vc;  ///< Partials, on leaving a vertex or once arrived at the next
-  BatchArray<float> carried;  ///< Subpath::carried
+  BatchArray<float> vcm, vc, vm;  ///< Partials, on leaving a vertex or once arrived at the next
+  BatchArray<float> carried;      ///< Subpath::carried
 };
 
 /// The eye vertices of a batch as connections see them.
@@ -20,6 +20,11 @@ struct WideEyeVertices {
   BatchTriples lit;               ///< their shading normal on the lit side, or zero
   BatchArray<float> reverse;      ///< density of going back from where light comes in
   BatchArray<uint32_t> roulette;  ///< seeds of ConnectionRoulette
+  /// 1 if photons may be merged for what is scattered at the vertex: PathVertex::merges().
+  BatchArray<int32_t> merges;
+  /// TechniqueSet::merge_term(), or zero where the pixel does not merge.
+  BatchArray<float> merge_term;
+  BatchArray<int32_t> unmerged;  ///< 1 in pixels that do not merge if the method merges in others
 };
 
 /// What connections of the eye vertices of a batch, all at one depth, have in common.
@@ -57,9 +62,10 @@ void weigh_pairs(int n, const WidePairs& pairs, const WideConnections& c,
 /// The same with eye vertices that are glossy: `glossy` has what they make of the directions.
 void weigh_glossy_pairs(int n, const WidePairs& pairs, const WideConnections& c,
                         const DiffuseVertex* light, const WideGlossy& glossy, WideShadowRays& out);
-/// The next rays and the sums that go with them. `reverse` is the density of the reverse direction,
-/// or for delta lobes the factor of leave_specular().
-void go_on(int n, bool roulette, const WidePoints& points, const BatchArray<float>& reverse,
-           WideScattering& scattering, WidePaths& paths, WideSubpaths& subpaths);
+/// The next rays and the sums that go with them: leave(). For delta lobes `eye.reverse` is the
+/// factor of leave_specular().
+void go_on(int n, bool roulette, const TechniqueSet& set, const WideEyeVertices& eye,
+           const WidePoints& points, WideScattering& scattering, WidePaths& paths,
+           WideSubpaths& subpaths);
 
 }  // namespace duet

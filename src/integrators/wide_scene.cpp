@@ -15,15 +15,18 @@ bool has_frame_of_normal(const Shape& shape) {
 
 struct GlossySurface {
   WideGlossyMaterial material;
-  bool two_sided;
+  bool two_sided, nearly_specular;
   const ColorSlot& reflectance;  ///< which may depend on the point
 };
 
 std::optional<GlossySurface> as_glossy(const Material& material) {
   if (const auto plastic = as_rough_plastic(material))
-    return GlossySurface{*plastic, plastic->two_sided, plastic->base};
+    return GlossySurface{*plastic, plastic->two_sided,
+                         plastic->plastic.microfacet.is_nearly_specular(), plastic->base};
   if (const auto conductor = as_rough_conductor(material))
-    return GlossySurface{*conductor, conductor->two_sided, conductor->reflectance};
+    return GlossySurface{*conductor, conductor->two_sided,
+                         conductor->conductor.microfacet.is_nearly_specular(),
+                         conductor->reflectance};
   return std::nullopt;
 }
 
@@ -37,7 +40,7 @@ const Texture* if_large(const Texture* texture) {
 
 }  // namespace
 
-void WideScene::set_model(WideShape& w, const Shape& shape) {
+void WideScene::set_model(WideShape& w, const Shape& shape, bool merges) {
   const Material& material = *scene.materials[shape.material];
   const auto set_reflectance = [&](const ColorSlot& slot) {
     w.reflectance = slot.constant;
@@ -50,7 +53,8 @@ void WideScene::set_model(WideShape& w, const Shape& shape) {
     w.model = WideModel::diffuse;
     w.two_sided = diffuse->two_sided;
     set_reflectance(diffuse->reflectance);
-  } else if (const auto surface = by_normal ? as_glossy(material) : std::nullopt) {
+  } else if (const auto surface = by_normal ? as_glossy(material) : std::nullopt;
+             surface && !(merges && surface->nearly_specular)) {
     w.model = WideModel::glossy;
     const auto known = std::find(glossy_materials.begin(), glossy_materials.end(), shape.material);
     w.glossy = int32_t(known - glossy_materials.begin());
@@ -64,12 +68,12 @@ void WideScene::set_model(WideShape& w, const Shape& shape) {
   }
 }
 
-WideScene::WideScene(const Scene& s) : scene(s), lights(s) {
+WideScene::WideScene(const Scene& s, bool merges) : scene(s), lights(s) {
   shapes.reserve(s.shapes.size());
   for (const Shape& shape : s.shapes) {
     WideShape& w = shapes.emplace_back();
     w.emits = shape.light != kNone;
-    set_model(w, shape);
+    set_model(w, shape, merges);
     if (shape.kind != ShapeKind::mesh) continue;
     w.positions = shape.mesh->positions.data();
     w.triangles = shape.mesh->triangles.data();

@@ -36,7 +36,9 @@ struct alignas(64) WideShape {
 
 /// A scene, which must outlive this and stand still, as batches of paths see it.
 struct WideScene {
-  explicit WideScene(const Scene& scene);
+  /// If photons are merged, points of nearly specular materials are WideModel::other: it depends on
+  /// the path whether they merge.
+  explicit WideScene(const Scene& scene, bool merges = false);
 
   const Scene& scene;
   std::vector<WideShape> shapes;
@@ -46,7 +48,7 @@ struct WideScene {
   WideLights lights;
 
  private:
-  void set_model(WideShape& w, const Shape& shape);
+  void set_model(WideShape& w, const Shape& shape, bool merges);
 };
 
 }  // namespace duet

@@ -11,12 +11,12 @@ struct DiffuseVertex {
   Point3f position{0};
   float offset = 0;
   Normal3f ng{0};
-  Normal3f lit{0};        ///< the shading normal on the lit side; zero where nothing is reflected
-  Spectrum flux;          ///< throughput times reflectance
-  float reverse = 0;      ///< density of going back to the previous vertex
-  float adjoint = 0;      ///< what adjoint_factor() has of the direction back: |l·n_s| / |l·n_g|
-  float vcm = 0, vc = 0;  ///< Partials
-  int32_t depth = 0;      ///< as a vertex's
+  Normal3f lit{0};    ///< the shading normal on the lit side; zero where nothing is reflected
+  Spectrum flux;      ///< throughput times reflectance
+  float reverse = 0;  ///< density of going back to the previous vertex
+  float adjoint = 0;  ///< what adjoint_factor() has of the direction back: |l·n_s| / |l·n_g|
+  float vcm = 0, vc = 0, vm = 0;  ///< Partials
+  int32_t depth = 0;              ///< as a vertex's
   int32_t other = 1;  ///< 1 for vertices on surfaces that are not diffuse; then nothing is valid
                       ///< but the depth, and `lit`, which is zero
 
@@ -33,7 +33,7 @@ struct DiffuseVertex {
     flux = v.throughput * diffuse->model.diffuse.reflectance;
     reverse = std::abs(cosine) * kInvPi;
     adjoint = geometric != 0 ? std::abs(cosine / geometric) : 0.0f;
-    vcm = v.partials.vcm, vc = v.partials.vc;
+    vcm = v.partials.vcm, vc = v.partials.vc, vm = v.partials.vm;
     other = 0;
   }
 };

@@ -22,6 +22,11 @@ struct MergeMask {
     };
     return parts[size_t(part(position.y, film.y) * kSide + part(position.x, film.x))] != 0;
   }
+  /// The same for the pixel y · width + x.
+  bool merges_in(uint64_t pixel) const {
+    const auto width = uint64_t(film.x);
+    return merges({float(pixel % width) + 0.5f, float(pixel / width) + 0.5f});
+  }
 };
 
 }  // namespace duet

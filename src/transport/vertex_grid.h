@@ -13,6 +13,10 @@
 
 namespace duet {
 
+/// Photons in the cells around a vertex from which on only some of them are merged: all light on
+/// one spot must not make the time grow with the square of the photons.
+inline constexpr size_t kMostMergedPhotons = 4096;
+
 /// Space is divided into cubic cells, a little wider than two radii, so that a query looks at
 /// 2×2×2 of them. Cells are hashed into buckets, and the points are sorted by bucket, those of one
 /// bucket by index.

@@ -61,8 +61,11 @@ class BalanceWeights {
   }
   float merge(const LightVertex& light, float light_reverse, const PathVertex& eye,
               float eye_reverse) const {
-    return merge_weight(merges(light.partials), light_reverse, merges(eye.partials), eye_reverse,
-                        connection_term_);
+    return merge(light.partials, light_reverse, eye.partials, eye_reverse);
+  }
+  float merge(const Partials& light, float light_reverse, const Partials& eye,
+              float eye_reverse) const {
+    return merge_weight(merges(light), light_reverse, merges(eye), eye_reverse, connection_term_);
   }
 
  private:

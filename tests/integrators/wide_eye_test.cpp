@@ -66,6 +66,32 @@ TEST_CASE("batches of eye sub-paths need no connections") {
   check_same_work(batches.counters, singly.counters);
 }
 
+TEST_CASE("batches merge photons as one eye sub-path does, everywhere or in parts of the image") {
+  for (const BatchCase& c : kBatchCases) {
+    CAPTURE(std::string(c.name));
+    const TransportScene scene(c.content);
+    for (const bool in_parts : {false, true}) {
+      CAPTURE(in_parts);
+      BidirectionalIntegratorDescription options;
+      options.method = BidirectionalMethod::vcm;
+      options.rr_depth = 3;
+      options.radius = 0.05;
+      if (in_parts) {
+        options.merge_parts.assign(MergeMask::kSide * MergeMask::kSide, 0);
+        for (size_t i = 0; i < options.merge_parts.size(); i += 3) options.merge_parts[i] = 1;
+      }
+      const RenderRequest r = batch_request(3, SampleSequence::sobol);
+      const RenderResult batches = render_bdpt(scene, PathBatches::where_possible, r, options),
+                         singly = render_bdpt(scene, PathBatches::never, r, options);
+      CHECK(differences(batches.image, singly.image) <= int(singly.image.data.size() / 200));
+      check_same_work(batches.counters, singly.counters);
+      check_close(batches.counters.merges, singly.counters.merges);
+      check_close(batches.counters.merge_queries, singly.counters.merge_queries);
+      CHECK(singly.counters.merges > 0);
+    }
+  }
+}
+
 TEST_CASE("batches of eye sub-paths make the same image on any number of threads") {
   const TransportScene scene(coplanar());
   RenderRequest r = batch_request(6, SampleSequence::sobol, 1);
