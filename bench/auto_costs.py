@@ -6,7 +6,7 @@
 Renders each scene with path tracing and with methods that walk from both ends, in turn, as whole processes with one
 thread, and counts what they do by --stats. CPU seconds per sample, less those of starting up, are then explained by
 the counts with non-negative least squares of relative errors: one set of costs for path, which traces paths in batches, one for
-volpath, which takes its place where there are media, and one for the rest. In media there is no ppm. With --json FILE
+volpath, which takes its place where there are media, and two for the rest: sub-paths one by one, and eye sub-paths in batches. In media there is no ppm. With --json FILE
 the counts of a file that is there are fitted, or are written to it.
 Prints the lines of the source file and how well they explain what was measured. Needs numpy and scipy.
 """
@@ -99,6 +99,7 @@ def measure(o):
                 row = work(stats[m], stats['path'], stats['light'])
                 row['microseconds'] = 1e6 * (min(cpu[m]) - min(start)) / stats[m]['paths']['camera']
                 row['scene'], row['method'] = name, methods[m][0] if m == 'path' else m
+                row['batches'] = m != 'ppm' and methods['path'] != ['volpath']
                 rows.append(row)
             print(name, ' '.join(f'{r["method"]} {r["microseconds"]:.2f}' for r in rows[-len(methods):]), flush=True)
     return rows
@@ -125,15 +126,16 @@ def main():
     others = [r for r in rows if r['method'] not in ('path', 'volpath')]
     for title, part, terms in (('path_cost', [r for r in rows if r['method'] == 'path'], names[:3]),
                                ('volpath_cost', [r for r in rows if r['method'] == 'volpath'], names),
-                               ('bidirectional_cost', others, both)):
+                               ('bidirectional_cost', [r for r in others if not r['batches']], both),
+                               ('batched_cost', [r for r in others if r['batches']], both)):
         if not part:
             continue
         x, explained = fit(part, terms)
         print(title, ' + '.join(f'{v:.3f} {n}' for v, n in zip(x, terms)))
         spread = np.abs(np.log(np.maximum(explained, 1e-9)))
         print(f'  explained within a factor of {np.exp(np.median(spread)):.2f} (median), {np.exp(spread.max()):.2f} (worst)')
-    for r, e in zip(others, explained):
-        print(f'  {r["scene"]:18} {r["method"]:10} {r["microseconds"]:7.2f} µs, fitted {e * r["microseconds"]:7.2f}')
+        for r, e in zip(part, explained):
+            print(f'  {r["scene"]:18} {r["method"]:10} {r["microseconds"]:7.2f} µs, fitted {e * r["microseconds"]:7.2f}')
 
 
 if __name__ == '__main__':

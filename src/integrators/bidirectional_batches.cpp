@@ -7,11 +7,12 @@ namespace duet {
 bool BidirectionalIntegrator::may_take_batches() const {
   return path_batches_ == PathBatches::where_possible && only_colours() && max_depth_ > 0 &&
          (options_.method == Method::bdpt || options_.method == Method::vcm) &&
-         options_.connections <= 0 && !options_.hide_emitters && !options_.strict_normals;
+         options_.connections <= 0;
 }
 
 bool BidirectionalIntegrator::takes_batches(const Scene& scene) const {
-  return may_take_batches() && !scene.needs_media_vertices() && !scene.motion;
+  return may_take_batches() && !scene.needs_media_vertices() &&
+         suits_batches(scene, options_.hide_emitters, options_.strict_normals);
 }
 
 std::unique_ptr<BidirectionalIntegrator::Batches> BidirectionalIntegrator::make_batches(

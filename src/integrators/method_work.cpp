@@ -42,7 +42,7 @@ double predicted_cost(const PricingRecord& record, const MethodCandidate& c) {
     w.medium_steps += double(record.connection_counters.medium_steps) / subpaths;
   }
   if (c.merges > 0) add_merges(record, c, record.merge_counters, w);
-  return bidirectional_cost(w);
+  return record.batches ? batched_cost(w) : bidirectional_cost(w);
 }
 
 }  // namespace duet

@@ -30,8 +30,8 @@ static bool has_shapes_lit_beside(const Scene& scene) {
 }
 
 bool PathIntegrator::takes_batches(const Scene& scene) const {
-  return batches_ == PathBatches::where_possible && only_colours() && !scene.motion &&
-         options_.max_depth != 0 && !options_.hide_emitters && !options_.strict_normals &&
+  return batches_ == PathBatches::where_possible && only_colours() && options_.max_depth != 0 &&
+         suits_batches(scene, options_.hide_emitters, options_.strict_normals) &&
          !options_.only_specular && !has_shapes_lit_beside(scene);
 }
 

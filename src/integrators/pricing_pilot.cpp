@@ -7,6 +7,7 @@
 #include "integrators/learn_emission.h"
 #include "integrators/pilot.h"
 #include "integrators/pilot_eye_subpath.h"
+#include "integrators/wide_scene.h"
 #include "transport/light_subpath.h"
 
 namespace duet {
@@ -162,8 +163,10 @@ class PricingPilot {
 }  // namespace
 
 PricingRecord run_pricing_pilot(const Scene& scene, const PricingPlan& plan) {
-  return scene.needs_media_vertices() ? PricingPilot<MediaVertex>(scene, plan).run()
-                                      : PricingPilot<PathVertex>(scene, plan).run();
+  if (scene.needs_media_vertices()) return PricingPilot<MediaVertex>(scene, plan).run();
+  PricingRecord record = PricingPilot<PathVertex>(scene, plan).run();
+  record.batches = suits_batches(scene, plan.hide_emitters, plan.strict_normals);
+  return record;
 }
 
 }  // namespace duet

@@ -58,6 +58,7 @@ struct PricingRecord {
   RenderCounters first_counters;
   RenderCounters light_counters;  ///< light sub-paths and what the camera sees of them
   double light_vertices = 0;      ///< that can be connected
+  bool batches = false;  ///< whether bdpt and vcm trace eye sub-paths in batches (wide_eye.h)
 
   size_t subpaths() const { return ends.size(); }
 };

@@ -47,7 +47,11 @@ void WideEye::find_pairs(int i, int count, int depth, WideSamples& samples,
   for (int k = 0; k < count; ++k) {
     const DiffuseVertex& l = vertices[k];
     if (l.other) {
-      connect_one_by_one(i, k, depth, samples, counters);
+      const Vector3f d = l.position - position;
+      if (l.faces && !(dot(lit, d) > 0 && dot(l.lit, d) < 0))
+        ++counters.connections.failed_zero;
+      else
+        connect_one_by_one(i, k, depth, samples, counters);
       continue;
     }
     if (list.count == kBatch) flush_pairs(number, depth, samples, counters);

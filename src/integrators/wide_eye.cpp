@@ -76,7 +76,7 @@ void WideEye::trace(int n, const BatchSampler& sampler, WideSamples& samples,
     draw_numbers(n, sampler, depth);
     wide_.lights.sample(n, points_, numbers_, choice_, lights_);
     look_up_textures();
-    make_ends(n, paths_, points_, eye_);
+    make_ends(n, paths_, subpaths_, points_, eye_);
     evaluate_diffuse(n, paths_, points_, lights_);
     evaluate_glossy_points(&eye_.reverse);
     sample_diffuse(n, paths_, points_, numbers_, scattering_);

@@ -21,8 +21,8 @@ DUET_WIDEST void arrive(int n, const HitBatch& hits, const WidePoints& points, b
   }
 }
 
-DUET_WIDEST void make_ends(int n, const WidePaths& paths, const WidePoints& points,
-                           WideEyeVertices& out) {
+DUET_WIDEST void make_ends(int n, const WidePaths& paths, const WideSubpaths& subpaths,
+                           const WidePoints& points, WideEyeVertices& out) {
   DUET_LANES
   for (int i = 0; i < n; ++i) {
     const Vector3f ns = points.ns.vector(i);
@@ -31,6 +31,8 @@ DUET_WIDEST void make_ends(int n, const WidePaths& paths, const WidePoints& poin
     out.lit.set(i, ns * side);
     out.reverse[i] = std::abs(cosine) * kInvPi;
     out.merges[i] = 1;
+    const float vc = subpaths.vc[i], vm = subpaths.vm[i];
+    out.sum[i] = out.unmerged[i] != 0 ? vm : vc;
     out.flux.set(i, paths.throughput.x[i] * points.reflectance.x[i],
                  paths.throughput.y[i] * points.reflectance.y[i],
                  paths.throughput.z[i] * points.reflectance.z[i]);
@@ -49,12 +51,6 @@ namespace {
 [[gnu::always_inline]] inline float beyond(float arrival, float merge_term, float vcm,
                                            float reverse, float vc) {
   return arrival * (merge_term + vcm + reverse * vc);
-}
-
-/// The sums at an eye vertex that connections go by: BalanceWeights::connections().
-[[gnu::always_inline]] inline float connection_sum(const WideConnections& c, int i) {
-  const float vc = c.subpaths.vc[i], vm = c.subpaths.vm[i];
-  return c.eye.unmerged[i] != 0 ? vm : vc;
 }
 
 /// Roulette for a contribution; nothing is left of those that it drops.
@@ -89,7 +85,7 @@ DUET_WIDEST void weigh_light_samples(int n, const WideConnections& c,
     const float merge_term = all.eye.merges[i] != 0 ? all.eye.merge_term[i] : 0.0f;
     const float weight = 1 / (1 + hit / direct +
                               all.share * beyond(arrival, merge_term, all.subpaths.vcm[i],
-                                                 all.eye.reverse[i], connection_sum(all, i)));
+                                                 all.eye.reverse[i], all.eye.sum[i]));
     const float inverse = 1 / probability;
     set_contribution(
         i, all.paths.throughput.x[i] * samples.value.x[i] * samples.weight.x[i] * inverse,
@@ -111,7 +107,7 @@ DUET_WIDEST void weigh_light_samples(int n, const WideConnections& c,
 namespace {
 
 constexpr int kVertexNumbers = sizeof(DiffuseVertex) / sizeof(float);
-static_assert(kVertexNumbers == 20);
+static_assert(kVertexNumbers == 21);
 
 /// See flat_light_at() (wide_lights.cpp).
 struct GatheredVertex {
@@ -183,7 +179,7 @@ template <class F>
                               beyond(f.pdf * std::abs(light_geometric) * inverse_d2, merge_term,
                                      l.vcm, l.reverse, light_sum) +
                               beyond(g * std::abs(eye_geometric) * inverse_d2, merge_term,
-                                     all.subpaths.vcm[i], f.reverse, connection_sum(all, i)));
+                                     all.subpaths.vcm[i], f.reverse, all.eye.sum[i]));
     const float both = g * (adjoint * inverse_d2);
     set_contribution(
         k, f.r * l.flux[0] * both, f.g * l.flux[1] * both, f.b * l.flux[2] * both, weight,

@@ -25,6 +25,7 @@ struct WideEyeVertices {
   /// TechniqueSet::merge_term(), or zero where the pixel does not merge.
   BatchArray<float> merge_term;
   BatchArray<int32_t> unmerged;  ///< 1 in pixels that do not merge if the method merges in others
+  BatchArray<float> sum;         ///< BalanceWeights::connections() of the sums there
 };
 
 /// What connections of the eye vertices of a batch, all at one depth, have in common.
@@ -49,7 +50,8 @@ void arrive(int n, const HitBatch& hits, const WidePoints& points, bool connecti
             WidePaths& paths, WideSubpaths& subpaths);
 /// Surfaces that reflect, diffuse or glossy, as ends of connections; `reverse` is that of diffuse
 /// ones.
-void make_ends(int n, const WidePaths& paths, const WidePoints& points, WideEyeVertices& out);
+void make_ends(int n, const WidePaths& paths, const WideSubpaths& subpaths,
+               const WidePoints& points, WideEyeVertices& out);
 /// Contributions of light samples and their shadow rays: connect_light().
 void weigh_light_samples(int n, const WideConnections& c, const WideLightSamples& samples,
                          WideShadowRays& out);

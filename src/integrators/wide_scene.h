@@ -10,6 +10,11 @@
 
 namespace duet {
 
+/// Whether paths of a method without media can be traced in batches.
+inline bool suits_batches(const Scene& scene, bool hide_emitters, bool strict_normals) {
+  return !scene.motion && !hide_emitters && !strict_normals;
+}
+
 /// How points of a shape scatter.
 enum class WideModel : uint8_t {
   diffuse,  ///< DiffuseSurface

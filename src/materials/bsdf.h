@@ -88,8 +88,10 @@ class Bsdf {
   bool has_nearly_specular() const { return nearly_specular_share_ > 0; }
 
   const Frame& frame() const { return frame_; }
-  /// The only component, if it is a diffuse one without covers; else null.
-  const BsdfComponent* plain_diffuse() const { return is_plain_diffuse() ? components_ : nullptr; }
+  /// The only component, if there is one without covers; else null.
+  const BsdfComponent* only_component() const {
+    return count_ == 1 && components_[0].covers[0] < 0 ? components_ : nullptr;
+  }
   int component_count() const { return count_; }
   const BsdfComponent& component(int i) const { return components_[i]; }
 

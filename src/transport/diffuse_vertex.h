@@ -17,24 +17,34 @@ struct DiffuseVertex {
   float adjoint = 0;  ///< what adjoint_factor() has of the direction back: |l·n_s| / |l·n_g|
   float vcm = 0, vc = 0, vm = 0;  ///< Partials
   int32_t depth = 0;              ///< as a vertex's
-  int32_t other = 1;  ///< 1 for vertices on surfaces that are not diffuse; then nothing is valid
-                      ///< but the depth, and `lit`, which is zero
+  int32_t other = 1;  ///< 1 where the BSDF is not a reflectance: then only the depth is valid
+  int32_t faces = 0;  ///< 1 if position and `lit` are valid, also where the rest is not: all light
+                      ///< stays on that side
 
   DiffuseVertex() = default;
   explicit DiffuseVertex(const PathVertex& v) : depth(v.depth) {
-    const BsdfComponent* const diffuse = v.bsdf.plain_diffuse();
-    if (!diffuse || diffuse->share != 1) return;
+    const BsdfComponent* const only = v.bsdf.only_component();
+    if (!only || !reflects(only->kind)) return;
     const Surface& s = v.surface;
     const float cosine = dot(s.shading.n, v.wo), geometric = dot(s.ng, v.wo);
     position = s.position;
+    if (cosine * only->side > 0) lit = Normal3f(Vector3f(s.shading.n) * only->side);
+    faces = 1;
+    if (only->kind != ModelKind::diffuse || only->share != 1) return;
     offset = s.offset;
     ng = s.ng;
-    if (cosine * diffuse->side > 0) lit = Normal3f(Vector3f(s.shading.n) * diffuse->side);
-    flux = v.throughput * diffuse->model.diffuse.reflectance;
+    flux = v.throughput * only->model.diffuse.reflectance;
     reverse = std::abs(cosine) * kInvPi;
     adjoint = geometric != 0 ? std::abs(cosine / geometric) : 0.0f;
     vcm = v.partials.vcm, vc = v.partials.vc, vm = v.partials.vm;
     other = 0;
+  }
+
+ private:
+  /// Whether all light stays on the side of the shading normal that it comes from.
+  static bool reflects(ModelKind kind) {
+    return kind == ModelKind::diffuse || kind == ModelKind::rough_plastic ||
+           kind == ModelKind::rough_conductor;
   }
 };
 
