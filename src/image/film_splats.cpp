@@ -99,6 +99,23 @@ void Film::add_splat_means(std::span<const Film> films, Rows rows, Image& image)
   }
 }
 
+/// Adds the splats of those numbers, each to the three sums that `sum_of` has for it, or null.
+template <class F>
+static void add_to_pixels(std::span<const Splat> splats, std::span<const uint32_t> numbers,
+                          const F& sum_of, double scale) {
+  // Splats lie anywhere: the memory is asked for so many before they are added.
+  constexpr size_t kAhead = 8;
+  for (size_t i = 0; i < numbers.size(); ++i) {
+    if (i + kAhead < numbers.size())
+      if (const ExactSum* const later = sum_of(splats[numbers[i + kAhead]])) {
+        __builtin_prefetch(later, 1);
+        __builtin_prefetch(later + 2, 1);
+      }
+    const Splat& s = splats[numbers[i]];
+    if (ExactSum* const sum = sum_of(s)) add(sum, s.value, scale);
+  }
+}
+
 void Film::add_splats(size_t layer, std::span<const Splat> splats, float scale) {
   // More at a time would be read from memory, in the order of their bands, and not from caches.
   constexpr size_t kAtATime = 1 << 16;
@@ -128,13 +145,16 @@ void Film::add_splats(size_t layer, std::span<const Splat> splats, float scale) 
     b.y0 = crop().y0 + int(band) * kTileSize;
     b.y1 = std::min(b.y0 + kTileSize, crop().y1);
     const std::lock_guard lock(splat_locks_[band]);
+    if (filter_.is_unit_box()) {
+      const auto sum_of = [&](const Splat& s) -> ExactSum* {
+        const int x = int(std::floor(s.position.x)), y = int(std::floor(s.position.y));
+        return b.contains(x, y) ? &sums[3 * window_pixel(x, y)] : nullptr;
+      };
+      add_to_pixels(splats, numbers, sum_of, double(scale));
+      continue;
+    }
     for (const uint32_t number : numbers) {
       const Splat& s = splats[number];
-      if (filter_.is_unit_box()) {
-        const int x = int(std::floor(s.position.x)), y = int(std::floor(s.position.y));
-        if (b.contains(x, y)) add(&sums[3 * window_pixel(x, y)], s.value, double(scale));
-        continue;
-      }
       for_reached_rows(filter_, s.position, b,
                        [&](int x0, int y, std::span<const float> wx, float wy) {
                          ExactSum* to = &sums[3 * window_pixel(x0, y)];

@@ -160,6 +160,8 @@ TechniqueSet BidirectionalIntegrator::techniques(Point2i film, uint32_t iteratio
 void BidirectionalIntegrator::render_samples(const Scene& scene, Film& film,
                                              const SampleRange& samples, const PassControl& control,
                                              RenderCounters& counters) {
+  // Other calls may be for other scenes.
+  if (takes_batches(scene)) batches_ = make_batches(scene);
   for_each_sample(samples, control, [&](const SampleRange& one, const PassControl& part) {
     PassControl whole = part;
     // Eye and light sub-paths belong together: an iteration that has begun is finished.
@@ -167,6 +169,7 @@ void BidirectionalIntegrator::render_samples(const Scene& scene, Film& film,
     whole.is_finished = true;
     iteration(scene, film, one, whole, counters);
   });
+  batches_.reset();
 }
 
 LightPassPlan BidirectionalIntegrator::light_plan(Point2i film) const {
@@ -196,7 +199,6 @@ void BidirectionalIntegrator::choose(const Scene& scene, const RenderOutlook& ou
   if (options_.guide_emission) guide_ = learn_emission(scene, outlook.film, plan);
   plan.guide = guide_.get();
   pilot_ = run_pilot(scene, outlook.film, plan);
-  if (takes_batches(scene)) batches_ = make_batches(scene);
 }
 
 void BidirectionalIntegrator::iteration(const Scene& scene, Film& film, const SampleRange& samples,

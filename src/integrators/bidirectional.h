@@ -105,7 +105,7 @@ class BidirectionalIntegrator final : public CameraIntegrator {
   MergeMask mask_;
   std::optional<Pilot> pilot_;
   PathBatches path_batches_;
-  std::unique_ptr<Batches> batches_;            ///< null where they are not taken
+  std::unique_ptr<Batches> batches_;  ///< of the call under way; null where they are not taken
   std::unique_ptr<const EmissionGuide> guide_;  ///< null where it would not help
 
   // Of the iteration under way.

@@ -23,7 +23,7 @@ constexpr int kFewestPixels = 16, kMostPixels = 64;  ///< per side
 /// How much better than path tracing a method has to be: that gains more from Sobol' points.
 constexpr double kHysteresis = 1.2;
 /// And one that merges than all that do not: those gain more from Sobol' points, and are unbiased.
-constexpr double kMergingHysteresis = 1.5;
+constexpr double kMergingHysteresis = 1.3;
 /// Probability that another method is so much better above which the choice is not sure.
 constexpr double kDoubt = 0.1;
 /// Share of the image above which merging in a part of it is merging in all of it.

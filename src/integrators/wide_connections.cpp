@@ -26,7 +26,6 @@ void WideEye::connect(int n, int depth, WideSamples& samples, RenderCounters& co
   flush_single(samples, counters);
 }
 
-/// Of a point that is diffuse or glossy.
 bool WideEye::is_smooth(int i) const {
   const WideShape& shape = wide_.shapes[hits_.shape[i]];
   if (shape.model == WideModel::glossy &&

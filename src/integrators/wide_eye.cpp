@@ -88,7 +88,7 @@ void WideEye::trace(int n, const BatchSampler& sampler, WideSamples& samples,
     scatter_special_vertices();
     for (int i = 0; i < n; ++i)
       if (!scattering_.null[i]) samples.alpha[paths_.id[i]] = 1;
-    go_on(n, has_roulette(depth), plan_.set, eye_, points_, scattering_, paths_, subpaths_);
+    go_on(n, has_roulette(depth), {plan_.set, eye_, points_}, scattering_, paths_, subpaths_);
     n = gaps_.find(n, [&](int i) { return scattering_.alive[i]; });
     fill_gaps();
   }

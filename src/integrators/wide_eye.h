@@ -28,8 +28,9 @@ struct WideEyePlan {
 
 /// Traces eye sub-paths of bidirectional path tracing without media, in the same way as
 /// BidirectionalIntegrator traces one: the same random numbers give the same sub-paths and, to
-/// rounding, the same contributions. Connections of diffuse vertices are weighed in loops over
-/// pairs, those of others one by one; all shadow rays are tested together.
+/// rounding, the same contributions. Connections of diffuse and glossy points with diffuse light
+/// vertices are weighed in loops over pairs, others one by one; their shadow rays are tested
+/// together.
 class WideEye final : public WideWalk {
  public:
   /// What is referred to must outlive this; the plan may change between batches.
@@ -61,17 +62,20 @@ class WideEye final : public WideWalk {
   /// Makes Partials of the points; at the first, where light tracing competes, of their own.
   void arrive_at_points(int n, int depth);
   void sample_lights(int n, int depth, WideSamples& samples, RenderCounters& counters);
-  /// Binds BSDFs that are not diffuse, and evaluates them for the light samples.
+  /// Binds the BSDFs of WideModel::other, special here, and evaluates them for the light samples.
   void make_special_vertices(int n, int depth);
   void scatter_special_vertices();
   void fill_gaps();
+  /// The first pixel of the batch that has the light sub-path, which is this one if there is none.
   int leader(size_t subpath, int id);
 
   // wide_connections.cpp
   void connect(int n, int depth, WideSamples& samples, RenderCounters& counters);
-  /// Of a vertex on a diffuse surface, with the first `count` vertices of its light sub-path.
+  /// Whether a point that is not special scatters anything.
   bool is_smooth(int i) const;
+  /// Of such a point, with the first `count` vertices of its light sub-path.
   void find_pairs(int i, int count, int depth, WideSamples& samples, RenderCounters& counters);
+  /// Makes shadow rays of the pairs in a list.
   void weigh(size_t list, int depth);
   /// One vertex with one of its light sub-path; at least one of them is not diffuse.
   void connect_one_by_one(int i, int number, int depth, WideSamples& samples,
@@ -79,6 +83,7 @@ class WideEye final : public WideWalk {
   void flush_pairs(size_t list, int depth, WideSamples& samples, RenderCounters& counters);
   void flush_single(WideSamples& samples, RenderCounters& counters);
   const PathVertex& eye_vertex(int i, int depth);
+  const PathVertex& light_vertex(int id, int number);
 
   // wide_merges.cpp
   /// Finds the cells of photons around all points, and asks the memory for them.
@@ -88,7 +93,6 @@ class WideEye final : public WideWalk {
   size_t find_photons(int i, const std::vector<LightVertex>& photons);
   /// connect_merge() of a point that is diffuse.
   Connection merge_diffuse(int i, const LightVertex& photon, float kernel) const;
-  const PathVertex& light_vertex(int id, int number);
 
   ConnectionRoulette roulette(int id) const {
     return {plan_.roulette_threshold, keys_[size_t(id)]};
@@ -133,12 +137,13 @@ class WideEye final : public WideWalk {
   };
   std::array<Leader, 4 * kBatch> leaders_;  ///< a hash table
   std::vector<PathVertex> unpacked_;        ///< light vertices that were needed as such
-  /// Vertices of the eye sub-paths at this depth: first those that are not diffuse, then others
-  /// that were needed as such. Never more than there is room for.
+  /// Vertices of the eye sub-paths at this depth: first the special ones, then others that were
+  /// needed as such. Never more than there is room for.
   std::vector<PathVertex> vertices_;
   int special_vertices_ = 0;
   BatchArray<int32_t> vertex_of_{};  ///< numbers of the vertices, or −1
-  /// That are found, of eye vertices of one material each: the diffuse ones, then the glossy ones.
+  /// Those of eye vertices of one material: the first list has all diffuse ones, the others have
+  /// one glossy material each.
   struct PairList {
     WidePairs pairs{};
     int count = 0;

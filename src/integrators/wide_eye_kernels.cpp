@@ -53,14 +53,14 @@ namespace {
   return arrival * (merge_term + vcm + reverse * vc);
 }
 
-/// Roulette for a contribution; nothing is left of those that it drops.
-[[gnu::always_inline]] inline void set_contribution(int i, float r, float g, float b, float weight,
+/// Roulette for what a connection contributes: nothing is left of those that it drops.
+[[gnu::always_inline]] inline void set_contribution(int i, const Spectrum& value, float weight,
                                                     float threshold, float drawn,
                                                     WideShadowRays& out) {
-  const float wr = r * weight, wg = g * weight, wb = b * weight;
-  const float most = std::max(std::max(wr, wg), wb);
+  const float r = value.r * weight, g = value.g * weight, b = value.b * weight;
+  const float most = std::max(std::max(r, g), b);
   const float kept = ConnectionRoulette::keep(most, threshold, drawn);
-  out.contribution.set(i, wr * kept, wg * kept, wb * kept);
+  out.contribution.set(i, r * kept, g * kept, b * kept);
   // What is not a number is to be seen, and counted.
   const int32_t dropped = kept > 0 ? 0 : 1;
   out.blocked[i] = most <= 0 ? 1 : dropped;
@@ -87,11 +87,12 @@ DUET_WIDEST void weigh_light_samples(int n, const WideConnections& c,
                               all.share * beyond(arrival, merge_term, all.subpaths.vcm[i],
                                                  all.eye.reverse[i], all.eye.sum[i]));
     const float inverse = 1 / probability;
-    set_contribution(
-        i, all.paths.throughput.x[i] * samples.value.x[i] * samples.weight.x[i] * inverse,
+    const Spectrum value(
+        all.paths.throughput.x[i] * samples.value.x[i] * samples.weight.x[i] * inverse,
         all.paths.throughput.y[i] * samples.value.y[i] * samples.weight.y[i] * inverse,
-        all.paths.throughput.z[i] * samples.value.z[i] * samples.weight.z[i] * inverse, weight,
-        all.threshold, ConnectionRoulette::draw(all.eye.roulette[i], all.connection), out);
+        all.paths.throughput.z[i] * samples.value.z[i] * samples.weight.z[i] * inverse);
+    set_contribution(i, value, weight, all.threshold,
+                     ConnectionRoulette::draw(all.eye.roulette[i], all.connection), out);
     out.blocked[i] = pdf < 0 ? 1 : out.blocked[i];
     out.id[i] = all.paths.id[i];
     const Point3f origin =
@@ -181,9 +182,9 @@ template <class F>
                               beyond(g * std::abs(eye_geometric) * inverse_d2, merge_term,
                                      all.subpaths.vcm[i], f.reverse, all.eye.sum[i]));
     const float both = g * (adjoint * inverse_d2);
+    const Spectrum value(f.r * l.flux[0] * both, f.g * l.flux[1] * both, f.b * l.flux[2] * both);
     set_contribution(
-        k, f.r * l.flux[0] * both, f.g * l.flux[1] * both, f.b * l.flux[2] * both, weight,
-        all.threshold,
+        k, value, weight, all.threshold,
         ConnectionRoulette::draw(all.eye.roulette[i], all.connection + uint32_t(l.depth)), out);
     out.id[k] = all.paths.id[i];
     const Point3f target = moved_off(l.position, l.ng, l.offset, light_geometric);
@@ -227,11 +228,12 @@ DUET_WIDEST void weigh_glossy_pairs(int n, const WidePairs& pairs, const WideCon
 namespace {
 
 template <bool kRoulette>
-[[gnu::always_inline]] inline void continue_subpaths(int n, const TechniqueSet& set,
-                                                     const WideEyeVertices& eye,
-                                                     const WidePoints& points,
+[[gnu::always_inline]] inline void continue_subpaths(int n, const WideDepartures& from,
                                                      WideScattering& scattering, WidePaths& paths,
                                                      WideSubpaths& subpaths) {
+  const WideEyeVertices& eye = from.eye;
+  const WidePoints& points = from.points;
+  const TechniqueSet& set = from.set;
   const float merge_term = set.merge_term(), connection_term = set.subpath_connection_term(),
               merges = set.merges ? set.subpath_merges() : 0.0f;
   DUET_LANES
@@ -275,13 +277,12 @@ template <bool kRoulette>
 
 }  // namespace
 
-DUET_WIDEST void go_on(int n, bool roulette, const TechniqueSet& set, const WideEyeVertices& eye,
-                       const WidePoints& points, WideScattering& scattering, WidePaths& paths,
-                       WideSubpaths& subpaths) {
+DUET_WIDEST void go_on(int n, bool roulette, const WideDepartures& from, WideScattering& scattering,
+                       WidePaths& paths, WideSubpaths& subpaths) {
   if (roulette)
-    continue_subpaths<true>(n, set, eye, points, scattering, paths, subpaths);
+    continue_subpaths<true>(n, from, scattering, paths, subpaths);
   else
-    continue_subpaths<false>(n, set, eye, points, scattering, paths, subpaths);
+    continue_subpaths<false>(n, from, scattering, paths, subpaths);
 }
 
 }  // namespace duet

@@ -39,6 +39,13 @@ struct WideConnections {
   uint32_t connection;  ///< ConnectionRoulette::event() of the connection with the light itself
 };
 
+/// Where sub-paths go on from.
+struct WideDepartures {
+  const TechniqueSet& set;
+  const WideEyeVertices& eye;
+  const WidePoints& points;
+};
+
 /// Pairs of an eye vertex of one material with a diffuse light vertex.
 struct WidePairs {
   BatchArray<int32_t> eye;    ///< number in the batch
@@ -64,10 +71,9 @@ void weigh_pairs(int n, const WidePairs& pairs, const WideConnections& c,
 /// The same with eye vertices that are glossy: `glossy` has what they make of the directions.
 void weigh_glossy_pairs(int n, const WidePairs& pairs, const WideConnections& c,
                         const DiffuseVertex* light, const WideGlossy& glossy, WideShadowRays& out);
-/// The next rays and the sums that go with them: leave(). For delta lobes `eye.reverse` is the
-/// factor of leave_specular().
-void go_on(int n, bool roulette, const TechniqueSet& set, const WideEyeVertices& eye,
-           const WidePoints& points, WideScattering& scattering, WidePaths& paths,
-           WideSubpaths& subpaths);
+/// The next rays and the sums that go with them: leave(). For delta lobes the reverse density of
+/// `from` is the factor of leave_specular().
+void go_on(int n, bool roulette, const WideDepartures& from, WideScattering& scattering,
+           WidePaths& paths, WideSubpaths& subpaths);
 
 }  // namespace duet
