@@ -149,8 +149,7 @@ class SceneRenderer {
   /// Finds out before rendering what would be a pity to find out afterwards.
   void check_outputs(const std::vector<std::string>& planned) const {
     for (const std::string& path : planned)
-      if (const std::string why = prepare_file(path); !why.empty())
-        throw SceneFailure(fmt::format("cannot write {}: {}", path, why));
+      if (const std::string why = prepare_file(path); !why.empty()) throw SceneFailure(why);
     check_formats(planned, written_channels(), options_.files);
   }
 
