@@ -251,7 +251,8 @@ void bind_compare(nb::module_& m) {
             return ComparedImage::from_pixels(numbers(p), int(p.shape(1)), int(p.shape(0)),
                                               channels);
           },
-          "pixels"_a, "channels"_a);
+          "pixels"_a, "channels"_a)
+      .def_static("from_image", &ComparedImage::from_image);
   nb::class_<ReferenceVariance>(m, "Variance").def(nb::init<ComparedImage, double, double>());
   m.def("compare", &compare_images, "image"_a, "reference"_a, "variance"_a.none(), "threads"_a = 0,
         nb::call_guard<nb::gil_scoped_release>());

@@ -89,6 +89,12 @@ assert "denoised by Open Image Denoise" in clean.metadata["bias"], clean.metadat
 assert "denoiser" not in image.metadata and "bias" not in image.metadata
 clean.save("clean.exr")
 assert duet.compare("clean.exr", clean)["rmse"] == 0
+variance = numpy.full((16, 24), 1e-3)
+for denoised in [clean, "clean.exr"]:
+    assert "warning" not in duet.compare(denoised, plain)
+    tested = duet.compare(denoised, plain, variance=variance, image_spp=1)
+    assert "denoised by Open Image Denoise 2.99.7 and is biased" in tested["warning"], tested
+assert "warning" not in duet.compare(image, plain, variance=variance)
 mattes = duet.render(scene, spp=1, denoise=True, cryptomatte=["object"])
 assert mattes.denoised.channels == ["R", "G", "B", "A"]
 assert not any(name.startswith("cryptomatte") for name in mattes.denoised.metadata)

@@ -124,7 +124,7 @@ HeaderFields denoised_header(HeaderFields header, const std::string& denoiser) {
       ++field;
     }
   }
-  header.emplace_back("denoiser", denoiser);
+  header.emplace_back(kDenoiserField, denoiser);
   header.emplace_back("bias", bias);
   return header;
 }

@@ -26,8 +26,10 @@ Image without_channels(const Image& image, const std::vector<std::string>& names
 /// std::runtime_error if the denoiser fails.
 Image denoised_image(const Denoiser& denoiser, const Image& image, bool tells_noise);
 
-/// The header of the denoised image: that of the noisy one, with the denoiser's name as `denoiser`
-/// and the bias.
+/// The header field that names the denoiser.
+inline constexpr const char* kDenoiserField = "denoiser";
+
+/// The header of the denoised image: that of the noisy one, with the denoiser's name and the bias.
 HeaderFields denoised_header(HeaderFields header, const std::string& denoiser);
 
 /// "folder/image.denoised.exr" for "folder/image.exr".
