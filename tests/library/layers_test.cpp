@@ -145,10 +145,12 @@ TEST_CASE("the library's denoiser: missing, failing, and what stands in for one"
   settings.layers = {"denoise_albedo", "denoise_normal"};
   const RenderedImage noisy = render_file(scene, settings).value();
   const RenderedImage clean = noisy.denoised().value();
-  CHECK(clean.channels() == std::vector<std::string>{"R", "G", "B"});
-  CHECK(noisy.channels().size() == 3 + 6 + 12);  // denoise_split was for the denoiser alone
+  CHECK(clean.channels() == std::vector<std::string>{"R", "G", "B", "A"});
+  REQUIRE(plain.channels() == clean.channels());
+  CHECK(noisy.channels().size() == 4 + 6 + 12);  // denoise_split was for the denoiser alone
   CHECK(!clean.denoised());
-  for (size_t i = 0; i < plain.pixels().size() / 3; ++i)
+  for (size_t i = 0; i < plain.pixels().size() / 4; ++i) {
+    CHECK(value(clean, i, "A") == value(plain, i, "A"));
     for (const std::string c : {"R", "G", "B"}) {
       CHECK(value(noisy, i, c) == value(plain, i, c));
       const std::string axis(1, char('X' + std::string("RGB").find(c)));
@@ -157,6 +159,7 @@ TEST_CASE("the library's denoiser: missing, failing, and what stands in for one"
                             100 * value(noisy, i, "denoise_normal." + axis))
                 .epsilon(1e-5));
     }
+  }
   CHECK(field(clean, "denoiser") == "Open Image Denoise 2.99.7");
   CHECK(contains(field(clean, "bias"), "denoised by Open Image Denoise"));
   CHECK(field(noisy, "denoiser").empty());
