@@ -217,9 +217,7 @@ RenderCommandLine RenderOptionParser::finish() {
   if (!light_selection_.empty())
     o.integrator.parameters.emplace_back("light_selection", light_selection_);
   o.integrator.layers = layers_;
-  for (size_t kind = 0; kind < std::size(kMatteKinds); ++kind)
-    if (std::find(mattes_.begin(), mattes_.end(), kMatteKinds[kind]) != mattes_.end())
-      o.mattes.push_back(MatteKind(kind));
+  o.mattes = matte_kinds(mattes_);
   if (!techniques_.empty())
     o.techniques = techniques_ == "raw" ? TechniqueOutput::raw : TechniqueOutput::weighted;
   o.progress = progress_style(progress_);

@@ -20,8 +20,7 @@ int view(const ViewOptions& o, Program& program) {
   try {
     const std::string html = image_page(o.image, load_linear(o.image));
     if (!o.page.empty()) {
-      if (const std::string why = prepare_file(o.page); !why.empty())
-        throw std::runtime_error(fmt::format("cannot write {}: {}", o.page, why));
+      if (const std::string why = prepare_file(o.page); !why.empty()) throw std::runtime_error(why);
       write_file_atomically(o.page, html);
       return kSuccess;
     }

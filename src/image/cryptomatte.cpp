@@ -1,9 +1,10 @@
 #include "image/cryptomatte.h"
 
-#include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <bit>
+#include <stdexcept>
 
 namespace duet {
 
@@ -22,6 +23,18 @@ uint32_t scrambled(uint32_t word) {
 }
 
 }  // namespace
+
+std::vector<MatteKind> matte_kinds(const std::vector<std::string>& names) {
+  std::vector<MatteKind> kinds;
+  for (const std::string& name : names)
+    if (std::ranges::find(kMatteKinds, name) == std::end(kMatteKinds))
+      throw std::invalid_argument(fmt::format("there are no mattes of \"{}\"; there are {}", name,
+                                              fmt::join(kMatteKinds, " ")));
+  for (size_t kind = 0; kind < std::size(kMatteKinds); ++kind)
+    if (std::ranges::find(names, kMatteKinds[kind]) != names.end())
+      kinds.push_back(MatteKind(kind));
+  return kinds;
+}
 
 uint32_t murmur3_32(std::string_view text) {
   uint32_t hash = 0;

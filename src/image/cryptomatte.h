@@ -17,6 +17,9 @@ namespace duet {
 enum class MatteKind { object, material };
 inline constexpr std::string_view kMatteKinds[] = {"object", "material"};
 
+/// The kinds of these names, each once and in this order. Throws std::invalid_argument for others.
+std::vector<MatteKind> matte_kinds(const std::vector<std::string>& names);
+
 /// How many things a pixel can have, those that cover most of it. A layer holds two of them.
 inline constexpr size_t kMatteRanks = 6;
 

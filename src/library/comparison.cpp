@@ -8,6 +8,7 @@
 
 #include "evaluate/compare/compare.h"
 #include "evaluate/compare/json.h"
+#include "evaluate/report/denoised_image.h"
 #include "evaluate/report/scene_json.h"
 #include "library/contents.h"
 
@@ -44,6 +45,14 @@ ComparedImage ComparedImage::from_pixels(std::span<const float> pixels, int widt
                                             height, width, channels.size()));
   made.linear.image = Image(width, height, channels);
   std::copy(pixels.begin(), pixels.end(), made.linear.image.data.begin());
+  return ComparedImage(std::make_shared<const Contents>(std::move(made)));
+}
+
+ComparedImage ComparedImage::from_image(const RenderedImage& image) {
+  Contents made;
+  made.linear.image = image.contents().image;
+  for (const auto& [name, value] : image.metadata())
+    if (name == kDenoiserField) made.linear.denoiser = std::get<std::string>(value);
   return ComparedImage(std::make_shared<const Contents>(std::move(made)));
 }
 

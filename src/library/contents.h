@@ -1,6 +1,7 @@
 // What is behind the handles of the public headers.
 #pragma once
 
+#include <memory>
 #include <string>
 
 #include "duet/comparison.h"
@@ -24,6 +25,8 @@ struct RenderedImage::Contents {
   ImageForm form;
   HeaderFields header;
   bool interrupted = false;
+  std::shared_ptr<const Contents> denoised = {};  ///< or null
+  std::string denoiser_failure = {};              ///< or ""
 };
 
 struct ComparedImage::Contents {

@@ -6,7 +6,9 @@
 #include "base/memory_limit.h"
 #include "base/parallel.h"
 #include "duet/version.h"
+#include "evaluate/report/denoised_image.h"
 #include "evaluate/report/memory_estimate.h"
+#include "evaluate/report/scene_mattes.h"
 #include "evaluate/report/scene_render.h"
 #include "library/contents.h"
 #include "scene/build.h"
@@ -15,21 +17,6 @@
 namespace duet {
 
 namespace {
-
-/// Throws errors and passes warnings on.
-void report(const Diagnostics& diagnostics, const RenderWatch& watch) {
-  std::vector<SceneMessage> messages = scene_messages(diagnostics);
-  if (diagnostics.has_errors()) throw SceneError(std::move(messages));
-  if (!watch.warning) return;
-  for (const SceneMessage& m : messages) watch.warning(m.text);
-}
-
-void check_memory(const Integrator& integrator, const FilmLayout& layout,
-                  const RenderBudget& budget, bool half) {
-  const MemoryEstimate estimate = estimate_memory(integrator, layout, budget, half);
-  const std::string why = memory_refusal(estimate, memory_in_use(), memory_limit());
-  if (!why.empty()) throw MemoryError(why);
-}
 
 FilmLayout layout_of(FilmDescription& film, const RenderSettings& settings) {
   std::optional<Point2i> size;
@@ -55,42 +42,169 @@ TechniqueOutput technique_output(RenderedTechniques layers) {
                                                   : TechniqueOutput::none;
 }
 
-/// The facts of one render that its images tell.
-struct RenderFacts {
-  SensorDescription view;
-  ImageForm form;
-  FilmLayout layout;
-  RenderRecord record;
+/// One call of render_file().
+class FileRender {
+ public:
+  FileRender(const SceneFile& scene, const RenderSettings& settings, const RenderWatch& watch)
+      : scene_file_(scene.name()),
+        settings_(settings),
+        watch_(watch),
+        description_(scene.contents().loaded.description) {}
 
-  RenderedImage image_of(RenderResult result) const {
-    RenderedImage::Contents made{
-        {}, form, scene_header(record, view, layout.full), result.interrupted};
-    for (HeaderField& field : samples_header(record, result))
-      made.header.push_back(std::move(field));
-    made.image = std::move(result.image);
-    return RenderedImage(std::make_shared<const RenderedImage::Contents>(std::move(made)));
+  std::optional<RenderedImage> run() {
+    prepare();
+    build();
+    decide();
+    check_memory();
+    watch_render();
+    RenderResult result = render(*scene_, *integrator_, layout_, request_);
+    if (result.spp == 0) return std::nullopt;
+    return finished(std::move(result));
   }
-};
 
-/// Passes on what is there of a render while it is under way.
-void watch_render(const RenderWatch& watch, const RenderFacts& facts, RenderRequest& request) {
-  request.cancel = watch.cancel;
-  if (watch.progress)
-    request.progress = [&watch](const RenderProgress& p) {
-      watch.progress({p.fraction, p.spp, p.seconds});
+ private:
+  using Contents = RenderedImage::Contents;
+
+  /// Everything that can be wrong with the settings for this scene shows here.
+  void prepare() {
+    if (settings_.sensor >= description_.sensors.size())
+      throw std::out_of_range(fmt::format("sensor {}: the scene has {}", settings_.sensor,
+                                          description_.sensors.size()));
+    SensorDescription& sensor = description_.sensors[settings_.sensor];
+    layout_ = layout_of(sensor.film, settings_);
+    const IntegratorOverride method{settings_.integrator, settings_.parameters, settings_.layers};
+    if (settings_.denoise) hidden_ = add_denoiser_layers(description_.integrator, method);
+    integrator_ = method_of(description_, sensor, method, technique_output(settings_.techniques),
+                            diagnostics_);
+    mattes_.emplace(matte_kinds(settings_.cryptomatte), description_.integrator);
+    std::string warning;
+    request_ = request_of(sensor.sampler, sample_options(settings_), *integrator_, warning);
+    if (settings_.denoise) load_denoiser();
+    record_ = record_of(description_.integrator, *integrator_, request_);
+    record_.scene_file = scene_file_;
+    warn(record_.bias);
+    warn(warning);
+    view_ = opening_view(sensor);
+    planned_spp_ = request_.budget.spp.value_or(sensor.sampler.sample_count);
+  }
+
+  void load_denoiser() {
+    try {
+      denoiser_.emplace(request_.threads);
+    } catch (const std::runtime_error& e) {
+      throw DenoiserError(e.what());
+    }
+  }
+
+  void warn(const std::string& text) const {
+    if (watch_.warning && !text.empty()) watch_.warning(text);
+  }
+
+  void build() {
+    BuildOptions build{settings_.sensor, request_.threads,
+                       integrator_needs(description_.integrator)};
+    mattes_->ask_for_names(description_, build);
+    scene_ = build_scene(std::move(description_), build, diagnostics_);
+    std::vector<SceneMessage> messages = scene_messages(diagnostics_);
+    if (diagnostics_.has_errors()) throw SceneError(std::move(messages));
+    for (const SceneMessage& m : messages) warn(m.text);
+  }
+
+  /// Lets a method that chooses another one do so.
+  void decide() {
+    integrator_->begin(*scene_, {layout_.full, planned_spp_, request_.threads});
+    if (const MethodDecision* decision = integrator_->decision()) record_.decision = *decision;
+    record_.bias = integrator_->bias();
+    record_.noise_only = integrator_->blurs() || !record_.bias.empty();
+  }
+
+  void check_memory() const {
+    MemoryEstimate estimate = estimate_memory(*integrator_, layout_, request_.budget,
+                                              view_.film.component_format == ComponentFormat::half);
+    estimate.copies += mattes_->memory_bytes(layout_, scene_->motion != nullptr);
+    const std::string why = memory_refusal(estimate, memory_in_use(), memory_limit());
+    if (!why.empty()) throw MemoryError(why);
+  }
+
+  /// Passes on what is there of the render while it is under way.
+  void watch_render() {
+    request_.cancel = watch_.cancel;
+    if (watch_.progress)
+      request_.progress = [this](const RenderProgress& p) {
+        watch_.progress({p.fraction, p.spp, p.seconds});
+      };
+    if (!watch_.image_so_far) return;
+    using Clock = std::chrono::steady_clock;
+    request_.wants_snapshot = [this, last = Clock::now()]() mutable {
+      if (std::chrono::duration<double>(Clock::now() - last).count() < watch_.image_seconds)
+        return false;
+      last = Clock::now();
+      return true;
     };
-  if (!watch.image_so_far) return;
-  using Clock = std::chrono::steady_clock;
-  request.wants_snapshot = [&watch, last = Clock::now()]() mutable {
-    if (std::chrono::duration<double>(Clock::now() - last).count() < watch.image_seconds)
-      return false;
-    last = Clock::now();
-    return true;
-  };
-  request.snapshot = [&](RenderResult result) {
-    watch.image_so_far(facts.image_of(std::move(result)));
-  };
-}
+    request_.snapshot = [this](RenderResult result) {
+      Contents made = facts_of(result);
+      made.image = shown(std::move(result.image));
+      watch_.image_so_far(handle(std::move(made)));
+    };
+  }
+
+  /// All of an image but its pixels.
+  Contents facts_of(const RenderResult& result) const {
+    Contents made{{},
+                  form_of(view_, layout_, *integrator_),
+                  scene_header(record_, view_, layout_.full),
+                  result.interrupted};
+    for (HeaderField& field : samples_header(record_, result))
+      made.header.push_back(std::move(field));
+    return made;
+  }
+
+  /// Without what was rendered for the denoiser alone.
+  Image shown(Image image) const {
+    return hidden_.empty() ? std::move(image) : without_channels(image, hidden_);
+  }
+
+  static RenderedImage handle(Contents made) {
+    return RenderedImage(std::make_shared<const Contents>(std::move(made)));
+  }
+
+  RenderedImage finished(RenderResult result) const {
+    Contents made = facts_of(result);
+    mattes_->add(*scene_, layout_, request_, result, made.form, made.header);
+    if (denoiser_) denoise(result.image, made);
+    made.image = shown(std::move(result.image));
+    return handle(std::move(made));
+  }
+
+  /// If it fails the noisy image is there nevertheless.
+  void denoise(const Image& noisy, Contents& made) const {
+    try {
+      Contents clean{denoised_image(*denoiser_, noisy, integrator_->layers_tell_noise()), made.form,
+                     denoised_header(made.header, denoiser_->name()), made.interrupted};
+      made.denoised = std::make_shared<const Contents>(std::move(clean));
+    } catch (const std::bad_alloc&) {
+      made.denoiser_failure = "there is not enough memory for the denoised image";
+    } catch (const std::runtime_error& e) {
+      made.denoiser_failure = e.what();
+    }
+  }
+
+  const std::string& scene_file_;
+  const RenderSettings& settings_;
+  const RenderWatch& watch_;
+  SceneDescription description_;
+  SensorDescription view_;
+  FilmLayout layout_;
+  RenderRequest request_;
+  RenderRecord record_;
+  int planned_spp_ = 0;
+  Diagnostics diagnostics_;
+  std::optional<SceneMattes> mattes_;
+  std::optional<Denoiser> denoiser_;
+  std::vector<std::string> hidden_;  ///< channels that are rendered for the denoiser alone
+  std::unique_ptr<Integrator> integrator_;
+  std::unique_ptr<Scene> scene_;
+};
 
 }  // namespace
 
@@ -106,42 +220,7 @@ const char* library_version() {
 
 std::optional<RenderedImage> render_file(const SceneFile& scene, const RenderSettings& settings,
                                          const RenderWatch& watch) {
-  SceneDescription description = scene.contents().loaded.description;
-  if (settings.sensor >= description.sensors.size())
-    throw std::out_of_range(
-        fmt::format("sensor {}: the scene has {}", settings.sensor, description.sensors.size()));
-  SensorDescription& sensor = description.sensors[settings.sensor];
-  RenderFacts facts;
-  facts.layout = layout_of(sensor.film, settings);
-  Diagnostics diagnostics;
-  const std::unique_ptr<Integrator> integrator =
-      method_of(description, sensor, {settings.integrator, settings.parameters, settings.layers},
-                technique_output(settings.techniques), diagnostics);
-  std::string warning;
-  RenderRequest request =
-      request_of(sensor.sampler, sample_options(settings), *integrator, warning);
-  facts.record = record_of(description.integrator, *integrator, request);
-  facts.record.scene_file = scene.name();
-  if (watch.warning)
-    for (const std::string& text : {facts.record.bias, warning})
-      if (!text.empty()) watch.warning(text);
-  facts.view = opening_view(sensor);
-  const int spp = request.budget.spp.value_or(sensor.sampler.sample_count);
-
-  BuildOptions build{settings.sensor, request.threads, integrator_needs(description.integrator)};
-  const std::unique_ptr<Scene> built = build_scene(std::move(description), build, diagnostics);
-  report(diagnostics, watch);
-  integrator->begin(*built, {facts.layout.full, spp, request.threads});
-  if (const MethodDecision* decision = integrator->decision()) facts.record.decision = *decision;
-  facts.record.bias = integrator->bias();
-  facts.record.noise_only = integrator->blurs() || !facts.record.bias.empty();
-  facts.form = form_of(facts.view, facts.layout, *integrator);
-  check_memory(*integrator, facts.layout, request.budget, facts.form.half);
-
-  watch_render(watch, facts, request);
-  RenderResult result = render(*built, *integrator, facts.layout, request);
-  if (result.spp == 0) return std::nullopt;
-  return facts.image_of(std::move(result));
+  return FileRender(scene, settings, watch).run();
 }
 
 }  // namespace duet

@@ -72,16 +72,22 @@ bool RenderedImage::interrupted() const {
   return contents_->interrupted;
 }
 
+std::optional<RenderedImage> RenderedImage::denoised() const {
+  if (!contents_->denoiser_failure.empty()) throw DenoiserError(contents_->denoiser_failure);
+  if (!contents_->denoised) return std::nullopt;
+  return RenderedImage(contents_->denoised);
+}
+
 void RenderedImage::save(const std::string& path, const DisplayForm& display,
                          const ExrForm& exr) const {
   if (image_format(path).empty())
     throw std::invalid_argument(fmt::format("{}: images are written as .exr, .png or .jpg", path));
-  const auto& [image, form, header, interrupted] = *contents_;
+  const Image& image = contents_->image;
   if (is_display_format(path) && image.channels[0] != "R")
     throw std::invalid_argument(
         fmt::format("{}: the image has layers only, which .exr files can hold", path));
   const std::vector<uint8_t> bytes =
-      image_file_bytes(path, image, form, header, settings_of(display, exr));
+      image_file_bytes(path, image, contents_->form, contents_->header, settings_of(display, exr));
   try {
     write_file_atomically(path, bytes);
   } catch (const std::runtime_error& e) {
@@ -90,10 +96,11 @@ void RenderedImage::save(const std::string& path, const DisplayForm& display,
 }
 
 std::vector<uint8_t> RenderedImage::png(const DisplayForm& display) const {
-  const auto& [image, form, header, interrupted] = *contents_;
+  const Image& image = contents_->image;
   if (image.channels[0] != "R")
     throw std::invalid_argument("the image has layers only, no colours to show");
-  return image_file_bytes("image.png", image, form, header, settings_of(display, {}));
+  return image_file_bytes("image.png", image, contents_->form, contents_->header,
+                          settings_of(display, {}));
 }
 
 }  // namespace duet

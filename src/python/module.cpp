@@ -159,6 +159,8 @@ void bind_exceptions(nb::module_& m) {
           e.what(), first.file.empty() ? nb::none() : nb::cast(first.file), first.line,
           first.column, all);
       PyErr_SetObject(reinterpret_cast<PyObject*>(Py_TYPE(error.ptr())), error.ptr());
+    } catch (const DenoiserError& e) {
+      PyErr_SetString(nb::module_::import_("duet").attr("DenoiserError").ptr(), e.what());
     } catch (const MemoryError& e) {
       PyErr_SetString(PyExc_MemoryError, e.what());
     } catch (const FileError& e) {
@@ -188,6 +190,8 @@ void bind_render(nb::module_& m) {
       .def_rw("integrator", &RenderSettings::integrator)
       .def_rw("parameters", &RenderSettings::parameters)
       .def_rw("layers", &RenderSettings::layers)
+      .def_rw("cryptomatte", &RenderSettings::cryptomatte)
+      .def_rw("denoise", &RenderSettings::denoise)
       .def_prop_rw(
           "techniques", [](const RenderSettings&) { return nb::none(); },
           [](RenderSettings& s, const std::string& name) { s.techniques = technique_layers(name); })
@@ -224,6 +228,7 @@ void bind_image(nb::module_& m) {
                   })
       .def_prop_ro("channels", &RenderedImage::channels)
       .def_prop_ro("interrupted", &RenderedImage::interrupted)
+      .def_prop_ro("denoised", &RenderedImage::denoised)
       .def_prop_ro("metadata", &metadata_of)
       .def("pixels", &pixels)
       .def(
@@ -246,7 +251,8 @@ void bind_compare(nb::module_& m) {
             return ComparedImage::from_pixels(numbers(p), int(p.shape(1)), int(p.shape(0)),
                                               channels);
           },
-          "pixels"_a, "channels"_a);
+          "pixels"_a, "channels"_a)
+      .def_static("from_image", &ComparedImage::from_image);
   nb::class_<ReferenceVariance>(m, "Variance").def(nb::init<ComparedImage, double, double>());
   m.def("compare", &compare_images, "image"_a, "reference"_a, "variance"_a.none(), "threads"_a = 0,
         nb::call_guard<nb::gil_scoped_release>());

@@ -21,7 +21,7 @@ void check_files(const std::string& list, const std::vector<Job>& jobs, const Re
     for (const std::string& output : job.outputs) {
       taken.insert(fs::weakly_canonical(output, ignored));
       if (const std::string why = prepare_file(output); !why.empty())
-        diagnostics.error(job.where, "cannot write {}: {}", output, why);
+        diagnostics.error(job.where, "{}", why);
     }
   const std::pair<const char*, const std::string&> reports[] = {
       {"--report", paths.page}, {"--junit", paths.junit}, {"--csv", paths.csv}};

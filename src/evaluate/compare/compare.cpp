@@ -54,6 +54,7 @@ void measure(const LinearImage& image, const LinearImage& reference,
   c.missed = missed_of(settings.requirements, m);
   c.verdict = judge(m, settings.requirements, c.missed);
   c.warning = clipping_warning(image, reference);
+  if (noise && c.warning.empty()) c.warning = denoised_warning(image);
   c.tells_noise = noise.has_value() || m.tiles.has_value();
   if (settings.for_page) add_images(image.image, reference.image, flip, longest, c);
 }

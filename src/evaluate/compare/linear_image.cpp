@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "evaluate/report/aov_names.h"
+#include "evaluate/report/denoised_image.h"
 #include "image/colours.h"
 #include "image/image_io.h"
 #include "math/spectrum.h"
@@ -19,7 +20,7 @@ LinearImage load_linear(const std::string& path) {
   linear.display_encoded = file.display_encoded;
   for (const auto& [name, value] : file.header) {
     if (name == "spp") linear.spp = value;
-    if (name == "denoiser") linear.denoiser = value;
+    if (name == kDenoiserField) linear.denoiser = value;
   }
   linear.header = std::move(file.header);
   if (!file.display_encoded) return linear;

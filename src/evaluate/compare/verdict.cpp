@@ -83,4 +83,12 @@ std::string clipping_warning(const LinearImage& image, const LinearImage& refere
       which ? "image" : "reference", percent(share), which ? "reference" : "image");
 }
 
+std::string denoised_warning(const LinearImage& image) {
+  if (image.denoiser.empty()) return "";
+  return fmt::format(
+      "the image was denoised by {} and is biased: tests for bias are for images as they were "
+      "rendered",
+      image.denoiser);
+}
+
 }  // namespace duet

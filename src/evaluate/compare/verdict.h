@@ -18,5 +18,7 @@ std::string bias_test_text(const BiasTest& test);
 
 /// What makes figures of these two images misleading, or "".
 std::string clipping_warning(const LinearImage& image, const LinearImage& reference);
+/// That tests for bias are not for this image, if it was denoised, or "".
+std::string denoised_warning(const LinearImage& image);
 
 }  // namespace duet

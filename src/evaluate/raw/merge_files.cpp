@@ -19,8 +19,7 @@ std::vector<std::string> prepared_files(const MergeRequest& r) {
   for (const std::string& path : {r.raw, r.stats})
     if (!path.empty()) planned.push_back(path);
   for (const std::string& path : planned)
-    if (const std::string why = prepare_file(path); !why.empty())
-      throw std::runtime_error(fmt::format("cannot write {}: {}", path, why));
+    if (const std::string why = prepare_file(path); !why.empty()) throw std::runtime_error(why);
   return planned;
 }
 

@@ -23,6 +23,21 @@ bool is_directory(const std::string& path) {
   return path.ends_with('/') || fs::is_directory(path, ignored);
 }
 
+/// Why there can be no file of this name, or "".
+std::string obstacle_to(const std::string& path) {
+  if (is_standard_output(path)) return standard_output_refusal();
+  std::error_code error;
+  const fs::file_status status = fs::status(path, error);
+  if (fs::is_directory(status)) return "it is a directory";
+  if (fs::exists(status) && !fs::is_regular_file(status)) return "it is not a regular file";
+  const fs::path parent = fs::path(path).has_parent_path() ? fs::path(path).parent_path() : ".";
+  if (!make_directories(parent, error))
+    return fmt::format("the directory \"{}\" cannot be made: {}", parent.string(), error.message());
+  if (access(parent.c_str(), W_OK) != 0)
+    return fmt::format("the directory \"{}\" is not writable", parent.string());
+  return "";
+}
+
 }  // namespace
 
 OutputNames output_names(const std::string& scene_file) {
@@ -84,17 +99,8 @@ bool make_directories(const fs::path& directory, std::error_code& error) {
 }
 
 std::string prepare_file(const std::string& path) {
-  if (is_standard_output(path)) return standard_output_refusal();
-  std::error_code error;
-  const fs::file_status status = fs::status(path, error);
-  if (fs::is_directory(status)) return "it is a directory";
-  if (fs::exists(status) && !fs::is_regular_file(status)) return "it is not a regular file";
-  const fs::path parent = fs::path(path).has_parent_path() ? fs::path(path).parent_path() : ".";
-  if (!make_directories(parent, error))
-    return fmt::format("the directory \"{}\" cannot be made: {}", parent.string(), error.message());
-  if (access(parent.c_str(), W_OK) != 0)
-    return fmt::format("the directory \"{}\" is not writable", parent.string());
-  return "";
+  const std::string why = obstacle_to(path);
+  return why.empty() ? "" : fmt::format("cannot write {}: {}", path, why);
 }
 
 void write_image(const std::string& path, const Image& image, const ImageForm& form,

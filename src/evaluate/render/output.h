@@ -37,8 +37,8 @@ void check_formats(const std::vector<std::string>& paths, const std::vector<std:
 /// name.
 bool make_directories(const std::filesystem::path& directory, std::error_code& error);
 
-/// Makes the directories in which a file is to be created or replaced. Empty, or why it could not
-/// be.
+/// Makes the directories in which a file is to be created or replaced. Empty, or for people why it
+/// could not be: "cannot write folder/image.exr: it is a directory".
 std::string prepare_file(const std::string& path);
 
 /// Writes an image (image_file_bytes()) into directories that are made if they are missing. If that

@@ -62,7 +62,7 @@ void check_parts(const RenderOptions& o) {
 void check_writable(const std::string& option, const std::string& path) {
   if (path.empty()) return;
   if (const std::string why = prepare_file(path); !why.empty())
-    throw UsageError(fmt::format("{}: cannot write {}: {}", option, path, why));
+    throw UsageError(fmt::format("{}: {}", option, why));
 }
 
 void check_outputs(const RenderOptions& o) {

@@ -33,9 +33,7 @@ RawOutput::RawOutput(const RenderOptions& options, const OutputNames& names,
 }
 
 std::string RawOutput::obstacle() const {
-  if (path_.empty()) return "";
-  const std::string why = prepare_file(path_);
-  return why.empty() ? "" : fmt::format("cannot write {}: {}", path_, why);
+  return path_.empty() ? "" : prepare_file(path_);
 }
 
 std::optional<RawFilm> RawOutput::source() const {

@@ -12,11 +12,11 @@
 #include "evaluate/render/raw_output.h"
 #include "evaluate/render/scene_denoiser.h"
 #include "evaluate/render/scene_images.h"
-#include "evaluate/render/scene_mattes.h"
 #include "evaluate/render/scene_method.h"
 #include "evaluate/render/scene_operand.h"
 #include "evaluate/report/memory_estimate.h"
 #include "evaluate/report/render_report.h"
+#include "evaluate/report/scene_mattes.h"
 #include "evaluate/report/scene_render.h"
 #include "scene/build.h"
 #include "scene/features.h"
@@ -149,8 +149,7 @@ class SceneRenderer {
   /// Finds out before rendering what would be a pity to find out afterwards.
   void check_outputs(const std::vector<std::string>& planned) const {
     for (const std::string& path : planned)
-      if (const std::string why = prepare_file(path); !why.empty())
-        throw SceneFailure(fmt::format("cannot write {}: {}", path, why));
+      if (const std::string why = prepare_file(path); !why.empty()) throw SceneFailure(why);
     check_formats(planned, written_channels(), options_.files);
   }
 

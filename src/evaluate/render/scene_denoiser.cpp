@@ -12,10 +12,11 @@ namespace duet {
 SceneDenoiser::SceneDenoiser(const RenderOptions& options, IntegratorDescription& integrator)
     : options_(options) {
   if (!options.denoise) return;
-  const std::string& method = options.integrator.name;
-  if (method.empty() ? !integrator.image : method == "aov")
-    throw UsageError("--denoise: the image has layers only, no colours to denoise");
-  hidden_ = add_denoiser_layers(integrator.aovs, options.integrator.layers);
+  try {
+    hidden_ = add_denoiser_layers(integrator, options.integrator);
+  } catch (const std::invalid_argument& e) {
+    throw UsageError(fmt::format("--denoise: {}", e.what()));
+  }
 }
 
 void SceneDenoiser::load() {

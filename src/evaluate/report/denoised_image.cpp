@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <optional>
+#include <stdexcept>
 
 #include "image/cryptomatte.h"
 #include "image/denoiser_bias.h"
@@ -56,15 +57,18 @@ std::optional<ImageWithNoise> noise_of(const Image& image) {
 
 }  // namespace
 
-std::vector<std::string> add_denoiser_layers(AovDescription& layers,
-                                             const std::vector<std::string>& asked) {
+std::vector<std::string> add_denoiser_layers(IntegratorDescription& integrator,
+                                             const IntegratorOverride& override_with) {
+  const std::string& method = override_with.name;
+  if (method.empty() ? !integrator.image : method == "aov")
+    throw std::invalid_argument("the image has layers only, no colours to denoise");
+  std::vector<AovDescription::Layer>& layers = integrator.aovs.layers;
   std::vector<std::string> added;
   for (const std::string name : {kAlbedo, kNormal, kSplit}) {
     const AovDescription::Layer layer{name, name};
-    if (std::find(layers.layers.begin(), layers.layers.end(), layer) != layers.layers.end())
-      continue;
-    layers.layers.push_back(layer);
-    if (is_among(asked, name)) continue;
+    if (std::find(layers.begin(), layers.end(), layer) != layers.end()) continue;
+    layers.push_back(layer);
+    if (is_among(override_with.layers, name)) continue;
     for (const std::string& channel : layer_channels({*find_layer(name), name}))
       added.push_back(channel);
   }
@@ -120,7 +124,7 @@ HeaderFields denoised_header(HeaderFields header, const std::string& denoiser) {
       ++field;
     }
   }
-  header.emplace_back("denoiser", denoiser);
+  header.emplace_back(kDenoiserField, denoiser);
   header.emplace_back("bias", bias);
   return header;
 }

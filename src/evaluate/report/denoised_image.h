@@ -1,4 +1,4 @@
-// Images without noise (--denoise): what a denoiser needs of a render, and what is said of what it
+// Images without noise: what a denoiser needs of a render, and what is said of what it
 // makes.
 #pragma once
 
@@ -7,14 +7,16 @@
 
 #include "evaluate/report/header.h"
 #include "image/denoiser.h"
-#include "scene/description.h"
+#include "integrators/make_integrator.h"
 
 namespace duet {
 
-/// Adds the layers that guide the denoiser to those that a scene asks for. Returns the names of
-/// channels that are in the image only for that: of layers that neither the scene nor `asked` name.
-std::vector<std::string> add_denoiser_layers(AovDescription& layers,
-                                             const std::vector<std::string>& asked);
+/// Adds the layers that guide the denoiser to those that a scene asks for. `override_with` is what
+/// will take the place of its method. Returns the names of channels that are in the image only for
+/// that: of layers that neither of the two names. Throws std::invalid_argument if the image will
+/// have no colours.
+std::vector<std::string> add_denoiser_layers(IntegratorDescription& integrator,
+                                             const IntegratorOverride& override_with);
 
 /// An image without some of its channels.
 Image without_channels(const Image& image, const std::vector<std::string>& names);
@@ -24,8 +26,10 @@ Image without_channels(const Image& image, const std::vector<std::string>& names
 /// std::runtime_error if the denoiser fails.
 Image denoised_image(const Denoiser& denoiser, const Image& image, bool tells_noise);
 
-/// The header of the denoised image: that of the noisy one, with the denoiser's name as `denoiser`
-/// and the bias.
+/// The header field that names the denoiser.
+inline constexpr const char* kDenoiserField = "denoiser";
+
+/// The header of the denoised image: that of the noisy one, with the denoiser's name and the bias.
 HeaderFields denoised_header(HeaderFields header, const std::string& denoiser);
 
 /// "folder/image.denoised.exr" for "folder/image.exr".

@@ -7,6 +7,8 @@
 #include <string>
 #include <vector>
 
+#include <duet/rendered_image.h>
+
 namespace duet {
 
 /// An image in linear values that is compared.
@@ -17,6 +19,8 @@ class [[gnu::visibility("default")]] ComparedImage {
   /// A copy of height × width × channels values, rows from the top.
   static ComparedImage from_pixels(std::span<const float> pixels, int width, int height,
                                    const std::vector<std::string>& channels);
+  /// A copy of a rendered image, with what its metadata say of how it was denoised.
+  static ComparedImage from_image(const RenderedImage& image);
 
   /// The library's own.
   struct Contents;
@@ -38,7 +42,8 @@ struct ReferenceVariance {
 };
 
 /// The figures, tests and verdict of `duet compare --json`, as the text of a JSON object. `threads`
-/// as in RenderSettings. Throws std::invalid_argument for images that cannot be compared.
+/// as in RenderSettings. With a variance there is a "warning" if the image was denoised: such are
+/// biased. Throws std::invalid_argument for images that cannot be compared.
 [[gnu::visibility("default")]] std::string compare_images(
     const ComparedImage& image, const ComparedImage& reference,
     const std::optional<ReferenceVariance>& variance = {}, int threads = 0);

@@ -36,6 +36,12 @@ class [[gnu::visibility("default")]] FileError : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
+/// Open Image Denoise is asked for, and cannot be loaded or has failed.
+class [[gnu::visibility("default")]] DenoiserError : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
 /// There is not enough memory, or not as much as DUET_MEMORY_LIMIT allows.
 class [[gnu::visibility("default")]] MemoryError : public std::runtime_error {
  public:

@@ -28,6 +28,8 @@ struct RenderSettings {
   std::string integrator;  ///< a method instead of the scene's: "auto", "path", "bdpt", "vcm" …
   std::vector<std::pair<std::string, std::string>> parameters;  ///< of the method
   std::vector<std::string> layers;                              ///< "albedo", "depth" …
+  std::vector<std::string> cryptomatte;  ///< "object", "material": mattes as further layers
+  bool denoise = false;                  ///< whether RenderedImage::denoised() has an image
   RenderedTechniques techniques = RenderedTechniques::none;
 
   std::optional<uint64_t> seed;
@@ -47,17 +49,20 @@ struct RenderedShare {
 
 /// How a render is watched and stopped.
 struct RenderWatch {
-  std::function<void(const RenderedShare&)> progress = {};      ///< from any thread, one at a time
-  std::function<void(const std::string&)> warning = {};         ///< from the calling thread
-  std::function<void(const RenderedImage&)> image_so_far = {};  ///< from the calling thread
-  double image_seconds = 10;                                    ///< between images so far
-  const std::atomic<bool>* cancel = nullptr;                    ///< to be set by any thread
+  std::function<void(const RenderedShare&)> progress = {};  ///< from any thread, one at a time
+  std::function<void(const std::string&)> warning = {};     ///< from the calling thread
+  /// From the calling thread. Such images have no mattes and no denoised one beside them, which are
+  /// made when the render has ended.
+  std::function<void(const RenderedImage&)> image_so_far = {};
+  double image_seconds = 10;                  ///< between images so far
+  const std::atomic<bool>* cancel = nullptr;  ///< to be set by any thread
 };
 
 /// The image, which has the same bits as that of `duet render` with the same settings, whatever the
 /// number of threads; nothing if it was cancelled before every pixel had a sample. Throws
 /// SceneError for what the method cannot render, std::invalid_argument, std::out_of_range and
-/// MemoryError.
+/// MemoryError; and DenoiserError, before it renders, if Open Image Denoise is asked for and cannot
+/// be loaded.
 [[gnu::visibility("default")]] std::optional<RenderedImage> render_file(
     const SceneFile& scene, const RenderSettings& settings, const RenderWatch& watch = {});
 

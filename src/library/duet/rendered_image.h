@@ -4,6 +4,7 @@
 #include <array>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <utility>
@@ -36,7 +37,9 @@ class [[gnu::visibility("default")]] RenderedImage {
 
   int width() const;
   int height() const;
-  /// "R", "G", "B", "A", if it has colours, then layers such as "depth.Y".
+  /// "R", "G", "B", "A", if it has colours, then layers such as "depth.T", and mattes, such as
+  /// "CryptoObject00.R", an id whose bits are those of the float, and "CryptoObject00.G", its
+  /// coverage (docs/layers.md).
   const std::vector<std::string>& channels() const;
   /// Rows from the top, channels interleaved.
   std::span<const float> pixels() const;
@@ -44,6 +47,10 @@ class [[gnu::visibility("default")]] RenderedImage {
   const std::vector<std::pair<std::string, MetadataValue>>& metadata() const;
   /// Whether it was cancelled before it had all samples.
   bool interrupted() const;
+  /// What Open Image Denoise makes of it (R, G, B and the same A), if RenderSettings::denoise asked
+  /// for it: a guess, biased by an unknown amount, as its metadata say (`denoiser`, `bias`). Throws
+  /// DenoiserError if the denoiser has failed.
+  std::optional<RenderedImage> denoised() const;
 
   /// Writes a file as a whole, in the format of the path's extension: .exr (linear, all layers),
   /// .png or .jpg (sRGB, as `display` says). Throws std::invalid_argument for other extensions,

@@ -11,7 +11,7 @@ The images have the same bits as those of the command `duet` with the same setti
 from . import util
 from ._compare import Welch, compare, welch
 from ._duet import __version__
-from ._image import Image
+from ._image import DenoiserError, Image
 from ._render import merge, render
 from ._scene import Scene, SceneError, SceneWarning, load_dict, load_file, load_string
 from ._transform import Transform4f
@@ -20,5 +20,5 @@ from ._variant import set_variant, variant
 #: Mitsuba 3's name for it.
 ScalarTransform4f = Transform4f
 
-__all__ = ["Image", "ScalarTransform4f", "Scene", "SceneError", "SceneWarning", "Transform4f", "Welch", "__version__",
+__all__ = ["DenoiserError", "Image", "ScalarTransform4f", "Scene", "SceneError", "SceneWarning", "Transform4f", "Welch", "__version__",
            "compare", "load_dict", "load_file", "load_string", "merge", "render", "set_variant", "util", "variant", "welch"]

@@ -13,6 +13,8 @@ def _linear(image, what):
     """A file, an Image or an array as linear colours."""
     if isinstance(image, (str, os.PathLike)):
         return _duet.ComparedImage.load(os.fspath(image))
+    if isinstance(image, Image):
+        return _duet.ComparedImage.from_image(image._pixels)
     return _duet.ComparedImage.from_pixels(*pixels_of(image, what))
 
 
@@ -50,7 +52,7 @@ def compare(image, reference, *, variance=None, image_spp: float | None = None,
 
     Images are files, duet.Image, or arrays of linear values (height × width, or with 1, 3 or 4 channels). `variance` is
     that of one sample of the reference, likewise; with it bias and noise are told apart ("bias_test"), for which the
-    samples per pixel of both images are needed: their own if they are a duet.Image. Raises ValueError for images that do
+    samples per pixel of both images are needed: their own if they are a duet.Image. Denoised images are biased, which the "warning" says then. Raises ValueError for images that do
     not go together and OSError for files that cannot be read.
     """
     noise = None

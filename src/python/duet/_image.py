@@ -12,6 +12,10 @@ from ._duet import DisplayForm as _DisplayForm, ExrForm as _ExrForm, Image as _P
 _CHANNELS = {1: ["Y"], 3: ["R", "G", "B"], 4: ["R", "G", "B", "A"]}
 
 
+class DenoiserError(RuntimeError):
+    """Open Image Denoise is asked for, and cannot be loaded or has failed."""
+
+
 def pixels_of(image, what: str = "the image") -> tuple[numpy.ndarray, list[str]]:
     """An array as height × width × channels float32, and the names of its channels."""
     pixels = numpy.asarray(image)
@@ -51,7 +55,13 @@ class Image(NDArrayOperatorsMixin):
 
     @property
     def channels(self) -> Sequence[str]:
-        """Names of the channels: "R", "G", "B", "A", then layers such as "depth.Y"."""
+        """Names of the channels: "R", "G", "B", "A", then layers such as "depth.T", then mattes.
+
+        A matte is three layers of four channels: "CryptoObject00.R" is the id of what covers most of the pixel, its bits
+        those of the float (numpy's `view(numpy.uint32)`), and "CryptoObject00.G" the share of the pixel that it covers,
+        from 0 to 1; B and A are the same of what comes second, and so on to the sixth in "CryptoObject02". The metadata
+        have the names' ids.
+        """
         return self._pixels.channels
 
     @property
@@ -63,6 +73,17 @@ class Image(NDArrayOperatorsMixin):
     def interrupted(self) -> bool:
         """Whether Ctrl-C ended the render before it had all samples."""
         return self._pixels.interrupted
+
+    @property
+    def denoised(self) -> Image | None:
+        """The image without most of its noise if `denoise=True` asked for it, otherwise None: height × width × 3 or 4,
+        linear, R, G, B and the A of this image, without its other layers.
+
+        It is a guess by Open Image Denoise, biased by an unknown amount: its metadata have the "denoiser" and the "bias".
+        This image is not changed by it. Raises DenoiserError if the denoiser has failed.
+        """
+        pixels = self._pixels.denoised
+        return None if pixels is None else Image(pixels)
 
     @property
     def shape(self) -> tuple[int, int, int]:

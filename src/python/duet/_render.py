@@ -55,10 +55,16 @@ def _texts(parameters):
     return [(str(name), text(value)) for name, value in parameters.items()]
 
 
+def _names(names):
+    """A sequence of names, or a text in which they are separated by commas."""
+    return [n.strip() for n in names.split(",")] if isinstance(names, str) else list(names)
+
+
 def render(scene: Scene, *, spp: int | None = None, time: float | None = None, target_error: float | None = None,
            integrator: str = "", parameters: Mapping | None = None, seed: int | None = None,
            size: tuple[int, int] | None = None, crop: tuple[int, int, int, int] | None = None, sensor: int = 0,
-           aovs: Sequence[str] = (), techniques: str | None = None, strict_sampler: bool = False, threads: int = 0,
+           aovs: Sequence[str] = (), cryptomatte: Sequence[str] = (), techniques: str | None = None,
+           denoise: bool = False, strict_sampler: bool = False, threads: int = 0,
            progress: bool | Callable[[float, int, float], object] | None = None) -> Image:
     """Renders a scene to an Image, with the same bits as `duet` with the same settings.
 
@@ -69,7 +75,9 @@ def render(scene: Scene, *, spp: int | None = None, time: float | None = None, t
     size, crop                (width, height) instead of the scene's; the window (x, y, width, height), in pixels
     sensor                    which of the scene's sensors, from 0
     aovs                      further layers, such as ["albedo", "depth"]
+    cryptomatte               mattes of the "object" and "material" of each pixel as further layers (Image.channels)
     techniques                "weighted" or "raw": a layer for each technique
+    denoise                   whether the image has a denoised one as `image.denoised`, by Open Image Denoise
     strict_sampler            the sampler that the scene names, instead of Sobol' points
     threads                   0: all
     progress                  True for a bar (of tqdm, if it is installed), or a function of the fraction that is done,
@@ -77,12 +85,11 @@ def render(scene: Scene, *, spp: int | None = None, time: float | None = None, t
 
     Other Python threads run meanwhile. Ctrl-C gets the image of the samples so far (`image.interrupted`), or
     KeyboardInterrupt if a pixel has none. Raises SceneError, ValueError and TypeError for settings that make no sense,
-    IndexError for a sensor or a window that there is not, MemoryError if the image would not fit.
+    IndexError for a sensor or a window that there is not, MemoryError if the image would not fit, and DenoiserError,
+    before anything is rendered, if Open Image Denoise is asked for and cannot be loaded.
     """
     if not isinstance(scene, Scene):
         raise TypeError(f"a scene is a duet.Scene, not {type(scene).__name__}")
-    if isinstance(aovs, str):
-        aovs = [a.strip() for a in aovs.split(",")]
     if techniques not in (None, "weighted", "raw"):
         raise ValueError(f'techniques: "weighted" or "raw", not {techniques!r}')
     if seed is not None and not (isinstance(seed, numbers.Integral) and 0 <= seed < 2**64):
@@ -95,7 +102,9 @@ def render(scene: Scene, *, spp: int | None = None, time: float | None = None, t
     settings.crop = _window("crop", crop, (0, 0, 1, 1))
     settings.integrator = integrator or ""
     settings.parameters = _texts(parameters or {})
-    settings.layers = list(aovs)
+    settings.layers = _names(aovs)
+    settings.cryptomatte = _names(cryptomatte)
+    settings.denoise = bool(denoise)
     settings.techniques = techniques or ""
     settings.seed = None if seed is None else int(seed)
     settings.strict_sampler = bool(strict_sampler)

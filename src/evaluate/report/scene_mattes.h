@@ -1,10 +1,9 @@
-// The mattes of one scene (--cryptomatte), if they are asked for.
+// The mattes of one scene (Cryptomatte), if they are asked for.
 #pragma once
 
 #include <string>
 #include <vector>
 
-#include "evaluate/render/render_options.h"
 #include "evaluate/report/header.h"
 #include "evaluate/report/image_form.h"
 #include "integrators/matte_pass.h"

@@ -1,4 +1,4 @@
-#include "evaluate/render/scene_mattes.h"
+#include "evaluate/report/scene_mattes.h"
 
 #include <algorithm>
 
