@@ -236,7 +236,7 @@ TEST_CASE("photons are merged on a body in rough glass") {
   }
 }
 
-TEST_CASE("methods that merge have to promise half as much again, and no rule overrules more") {
+TEST_CASE("methods that merge have to promise 1.3 times as much, and no rule overrules more") {
   const auto taken = [](double path, double bdpt, double vcm) {
     MethodPrices prices;
     const std::pair<const char*, double> methods[] = {{"path", path}, {"bdpt", bdpt}, {"vcm", vcm}};
@@ -255,8 +255,8 @@ TEST_CASE("methods that merge have to promise half as much again, and no rule ov
   };
   CHECK(taken(1, 2, 3) == "path");
   CHECK(taken(1.15, 1, 0.9) == "path");
-  CHECK(taken(1.25, 1, 0.7) == "bdpt");
-  CHECK(taken(1.25, 1, 0.6) == "vcm");
+  CHECK(taken(1.25, 1, 0.8) == "bdpt");
+  CHECK(taken(1.25, 1, 0.7) == "vcm");
   CHECK(taken(1, 1, 0.01) == "vcm");
 }
 

@@ -50,8 +50,8 @@ TEST_CASE("the loss of even prices is their ratio, and that of uneven ones is la
   CHECK(all.doubt(2, 1.15) < 0.7);
 }
 
-// Pilots of this length take path tracing too often if they go by their prices alone, because they
-// have met too few of its rare contributions.
+// Pilots of this length have met few of the rare contributions of path tracing, whose price looks
+// lower than it is.
 TEST_CASE("a short pilot takes what loses least, and says that it is short") {
   const TransportScene s("door-ajar", 64);
   const MethodRules rules = method_rules(s.scene->features);
@@ -78,24 +78,15 @@ TEST_CASE("a short pilot takes what loses least, and says that it is short") {
   double least = INFINITY;
   for (const MethodCandidate& c : known[0].candidates) least = std::min(least, true_price(c.name));
   constexpr int kPilots = 12;
-  double sum = 0, by_price = 0;
+  double sum = 0;
   for (uint64_t seed = 0; seed < kPilots; ++seed) {
     const MethodPrices prices = price_methods(*s.scene, options, outlook, {0, seed});
     CHECK(prices.subpaths == 512);
     const MethodChoice c = take(prices, rules);
     sum += true_price(c.reason.substr(0, c.reason.find(':'))) / least;
-    // What would be taken by prices alone: path tracing, unless it costs a fifth more.
-    const auto cheapest = std::min_element(
-        prices.predictions.begin(), prices.predictions.end(),
-        [](const auto& a, const auto& b) { return a.error * a.cost < b.error * b.cost; });
-    const size_t index = size_t(cheapest - prices.predictions.begin());
-    const std::string& name = prices.candidates[index].name;
-    const bool path = price(prices, "path") <= 1.2 * price(prices, name);
-    by_price += true_price(path ? "path" : name) / least;
   }
   CHECK(true_price("path") > 1.4 * least);
   CHECK(sum / kPilots < 1.1);
-  CHECK(by_price / kPilots > 1.1);
   // A pilot that is shorter still cannot tell the best from others.
   int unsure = 0;
   for (uint64_t seed = 0; seed < kPilots; ++seed)
