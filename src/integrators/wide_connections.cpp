@@ -12,6 +12,7 @@ void WideEye::connect(int n, int depth, WideSamples& samples, RenderCounters& co
   const int most = limits_.max_depth - depth - 1;
   if (!plan_.set.connections || diffuse.empty() || most <= 0) return;
   for (int i = 0; i < n; ++i) {
+    if (!carries(i)) continue;
     const LightSubpath& light = light_[size_t(paths_.id[i])];
     const PathVertex* const special = special_vertex(i);
     int count = (special ? special->is_smooth() : is_smooth(i)) ? light.count : 0;

@@ -167,7 +167,7 @@ void WideEye::make_special_vertices(int n, int depth) {
         vertices_.emplace_back(wide_.scene, surfaces_[k], -paths_.ray.direction.vector(i),
                                throughput(i), partials(i), depth);
     BsdfPair f;
-    if (v.is_smooth() && !(lights_.pdf[i] < 0))
+    if (v.is_smooth() && carries(i) && !(lights_.pdf[i] < 0))
       f = v.eval_both_ways(lights_.wi.vector(i), Transport::radiance);
     lights_.value.set(i, f.value.r, f.value.g, f.value.b);
     lights_.bsdf_pdf[i] = f.pdf.value;

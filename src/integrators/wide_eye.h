@@ -113,6 +113,8 @@ class WideEye final : public WideWalk {
   /// As the code for one sub-path has it, on its way to the next vertex.
   Subpath subpath(int i) const;
   Partials partials(int i) const { return {subpaths_.vcm[i], subpaths_.vc[i], subpaths_.vm[i]}; }
+  /// Whether a sub-path goes on: arrive() ends those that arrive along the surface.
+  bool carries(int i) const { return throughput(i).max() > 0; }
   PathVertex* special_vertex(int i) {
     return vertex_of_[i] >= 0 && vertex_of_[i] < special_vertices_
                ? &vertices_[size_t(vertex_of_[i])]

@@ -58,12 +58,14 @@ namespace {
                                                     float threshold, float drawn,
                                                     WideShadowRays& out) {
   const float r = value.r * weight, g = value.g * weight, b = value.b * weight;
-  const float most = std::max(std::max(r, g), b);
+  const float most = std::max(std::max(r, g), b),
+              unweighted = std::max(std::max(value.r, value.g), value.b);
   const float kept = ConnectionRoulette::keep(most, threshold, drawn);
   out.contribution.set(i, r * kept, g * kept, b * kept);
-  // What is not a number is to be seen, and counted.
-  const int32_t dropped = kept > 0 ? 0 : 1;
-  out.blocked[i] = most <= 0 ? 1 : dropped;
+  // What is not a number is to be seen, and counted; but not the weight of nothing, which a surface
+  // without a normal may have.
+  const int32_t dropped = kept > 0 ? 0 : 1, nothing = most <= 0 ? 1 : dropped;
+  out.blocked[i] = unweighted <= 0 ? 1 : nothing;
 }
 
 }  // namespace
@@ -172,7 +174,9 @@ template <class F>
     const Scattered f = scattered(k, i, to_light);
     const float cosine = -dot(l.lit, to_light), g = cosine * kInvPi;
     const float eye_geometric = dot(ng, to_light), light_geometric = -dot(l.ng, to_light);
-    const float adjoint = l.adjoint * std::abs(light_geometric) / cosine;
+    // Vertices that faced each other may not do so by the unit direction.
+    const float facing = l.adjoint * std::abs(light_geometric) / cosine;
+    const float adjoint = cosine > 0 ? facing : 0.0f;
     // Both vertices merge, if the pixel does: neither is nearly specular.
     const float merge_term = all.eye.merge_term[i];
     const float light_sum = all.eye.unmerged[i] != 0 ? l.vm : l.vc;

@@ -15,7 +15,8 @@ void WideEye::merge(int n, int depth, WideSamples& samples, RenderCounters& coun
   for (int i = 0; i < n; ++i) {
     const int id = paths_.id[i];
     const PathVertex* const special = special_vertex(i);
-    if (!merging_[size_t(id)] || !(special ? special->is_smooth() : is_smooth(i))) continue;
+    if (!merging_[size_t(id)] || !carries(i) || !(special ? special->is_smooth() : is_smooth(i)))
+      continue;
     if (special && !special->merges()) continue;
     ++counters.merge_queries;
     size_t share = find_photons(i, photons);

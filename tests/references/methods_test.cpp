@@ -61,6 +61,12 @@ bool is_without_noise(const ReferenceCase& c) {
   return c.reference == "sunsky";
 }
 
+/// The error down to which a scene is rendered. Where parallel lights are met by few light
+/// sub-paths, and those bring much, tiles of fewer samples are not normally distributed.
+double most_error(const ReferenceCase& c) {
+  return c.reference == "directional-area" ? kMostError / 3 : kMostError;
+}
+
 /// Whether light sub-paths can be connected with the sensor, which `reuse` needs.
 bool has_light_image(const ReferenceCase& c) {
   return c.reference != "batch";
@@ -91,7 +97,7 @@ TEST_SUITE("references") {
             (name == "reuse" && !has_light_image(c)))
           continue;
         const Reference reference(c.reference);
-        const ReferenceComparison r = compare_tiles(render(c, name, kMostError), reference);
+        const ReferenceComparison r = compare_tiles(render(c, name, most_error(c)), reference);
         CAPTURE(c.reference);
         CAPTURE(r.ratio);
         CHECK(r.ratio_error < kMostError);
