@@ -181,21 +181,11 @@ void WideEye::scatter_special_vertices() {
   for (const int i : special_) {
     const PathVertex* const v = special_vertex(i);
     if (!v) continue;
-    const bool chooses = v->bsdf.needs_choice();
-    const auto sample = v->bsdf.sample(chooses ? numbers_.first[i] : 0.5f,
-                                       {numbers_.x[i], numbers_.y[i]}, Transport::radiance);
-    scattering_.alive[i] = sample.has_value();
-    scattering_.null[i] = sample && sample->null;
+    const auto sample = scatter_at(i, v->bsdf);
     if (!sample) continue;
-    scattering_.wi.set(i, sample->wi);
-    scattering_.weight.set(i, sample->weight.r, sample->weight.g, sample->weight.b);
-    scattering_.eta[i] = sample->eta;
-    if (chooses) scattering_.roulette[i] = numbers_.second[i];
     if (sample->delta) {
-      scattering_.pdf[i] = -1;
       eye_.reverse[i] = specular_jacobian(*v, *sample);
     } else {
-      scattering_.pdf[i] = sample->pdf.value;
       eye_.reverse[i] = v->reverse_pdf(sample->wi, Transport::radiance);
       eye_.merges[i] = v->merges(sample->pdf.value, eye_.reverse[i]);
     }

@@ -1,6 +1,7 @@
 #include "integrators/wide_eye_kernels.h"
 
 #include "base/instruction_sets.h"
+#include "integrators/wide_kernels.h"
 #include "materials/plain_diffuse.h"
 #include "transport/connection.h"
 
@@ -40,12 +41,6 @@ DUET_WIDEST void make_ends(int n, const WidePaths& paths, const WideSubpaths& su
 }
 
 namespace {
-
-/// A ray from one point to another, both moved off their surfaces; see spawn_ray_to().
-[[gnu::always_inline]] inline Point3f moved_off(const Point3f& p, const Vector3f& ng, float offset,
-                                                float cosine) {
-  return p + ng * (cosine < 0 ? -offset : offset);
-}
 
 /// beyond_end(); `merge_term` is zero where the end does not merge.
 [[gnu::always_inline]] inline float beyond(float arrival, float merge_term, float vcm,
@@ -97,13 +92,7 @@ DUET_WIDEST void weigh_light_samples(int n, const WideConnections& c,
                      ConnectionRoulette::draw(all.eye.roulette[i], all.connection), out);
     out.blocked[i] = pdf < 0 ? 1 : out.blocked[i];
     out.id[i] = all.paths.id[i];
-    const Point3f origin =
-        moved_off(position, ng, all.points.offset[i], finite ? dot(ng, away) : dot(ng, wi));
-    const Vector3f to_target = target - origin;
-    out.ray.origin.set(i, origin);
-    out.ray.direction.set(i, finite ? to_target.x : wi.x, finite ? to_target.y : wi.y,
-                          finite ? to_target.z : wi.z);
-    out.ray.tmax[i] = finite ? 0x1.fffep-1f : INFINITY;
+    set_shadow_ray(i, all.points, samples, out.ray);
   }
 }
 

@@ -95,17 +95,7 @@ DUET_WIDEST void weigh_light_samples(int n, const WidePaths& paths, const WidePo
     const int32_t black = r == 0 ? (g == 0 ? (b == 0 ? 1 : 0) : 0) : 0;
     out.blocked[i] = pdf < 0 ? 1 : black;
     out.id[i] = paths.id[i];
-    const Point3f position = points.position.point(i), target = samples.target.point(i);
-    const Vector3f ng = points.ng.vector(i), wi = samples.wi.vector(i), away = target - position;
-    const bool finite = samples.finite[i] != 0;
-    const float offset = points.offset[i];
-    const float cosine = finite ? dot(ng, away) : dot(ng, wi);
-    const Point3f origin = position + ng * (cosine < 0 ? -offset : offset);
-    const Vector3f to_target = target - origin;
-    out.ray.origin.set(i, origin);
-    out.ray.direction.set(i, finite ? to_target.x : wi.x, finite ? to_target.y : wi.y,
-                          finite ? to_target.z : wi.z);
-    out.ray.tmax[i] = finite ? 0x1.fffep-1f : INFINITY;
+    set_shadow_ray(i, points, samples, out.ray);
   }
 }
 
@@ -135,9 +125,8 @@ template <bool kRoulette>
     paths.bsdf_pdf[i] = scattering.pdf[i];
     const Point3f position = points.position.point(i);
     const Vector3f ng = points.ng.vector(i), wi = scattering.wi.vector(i);
-    const float offset = points.offset[i];
     paths.from.set(i, position);
-    paths.ray.origin.set(i, position + ng * (dot(ng, wi) < 0 ? -offset : offset));
+    paths.ray.origin.set(i, moved_off(position, ng, points.offset[i], dot(ng, wi)));
     paths.ray.direction.set(i, wi);
     paths.ray.tmax[i] = INFINITY;
   }

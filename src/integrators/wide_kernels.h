@@ -7,6 +7,28 @@
 
 namespace duet {
 
+/// The place where a ray starts or ends that leaves a surface under a cosine with its normal: see
+/// offset_position().
+[[gnu::always_inline]] inline Point3f moved_off(const Point3f& p, const Vector3f& ng, float offset,
+                                                float cosine) {
+  return p + ng * (cosine < 0 ? -offset : offset);
+}
+
+/// The shadow ray of a light sample: spawn_ray_to() or spawn_ray().
+[[gnu::always_inline]] inline void set_shadow_ray(int i, const WidePoints& points,
+                                                  const WideLightSamples& samples, RayBatch& out) {
+  const Point3f position = points.position.point(i), target = samples.target.point(i);
+  const Vector3f ng = points.ng.vector(i), wi = samples.wi.vector(i), away = target - position;
+  const bool finite = samples.finite[i] != 0;
+  const Point3f origin =
+      moved_off(position, ng, points.offset[i], finite ? dot(ng, away) : dot(ng, wi));
+  const Vector3f to_target = target - origin;
+  out.origin.set(i, origin);
+  out.direction.set(i, finite ? to_target.x : wi.x, finite ? to_target.y : wi.y,
+                    finite ? to_target.z : wi.z);
+  out.tmax[i] = finite ? 0x1.fffep-1f : INFINITY;
+}
+
 /// What make_mesh_surface() makes of hits, but for texture coordinates and tangents.
 void make_points(int n, const WideTriangles& triangles, const HitBatch& hits, WidePoints& points);
 /// The same with shading normals.

@@ -74,17 +74,7 @@ void WideTracer::scatter_one_by_one() {
       f = bsdf.eval(lights_.wi.vector(i), Transport::radiance);
     lights_.value.set(i, f.value.r, f.value.g, f.value.b);
     lights_.bsdf_pdf[i] = f.pdf.value;
-    const bool chooses = bsdf.needs_choice();
-    const auto sample = bsdf.sample(chooses ? numbers_.first[i] : 0.5f,
-                                    {numbers_.x[i], numbers_.y[i]}, Transport::radiance);
-    scattering_.alive[i] = sample.has_value();
-    scattering_.null[i] = sample && sample->null;
-    if (!sample) continue;
-    scattering_.wi.set(i, sample->wi);
-    scattering_.weight.set(i, sample->weight.r, sample->weight.g, sample->weight.b);
-    scattering_.pdf[i] = sample->delta ? -1.0f : sample->pdf.value;
-    scattering_.eta[i] = sample->eta;
-    if (chooses) scattering_.roulette[i] = numbers_.second[i];
+    scatter_at(i, bsdf);
   }
 }
 

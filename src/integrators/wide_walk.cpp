@@ -156,6 +156,21 @@ void WideWalk::sample_glossy_points(BatchArray<float>* reverse) {
   });
 }
 
+std::optional<BsdfSample> WideWalk::scatter_at(int i, const Bsdf& bsdf) {
+  const bool chooses = bsdf.needs_choice();
+  const auto sample = bsdf.sample(chooses ? numbers_.first[i] : 0.5f,
+                                  {numbers_.x[i], numbers_.y[i]}, Transport::radiance);
+  scattering_.alive[i] = sample.has_value();
+  scattering_.null[i] = sample && sample->null;
+  if (!sample) return sample;
+  scattering_.wi.set(i, sample->wi);
+  scattering_.weight.set(i, sample->weight.r, sample->weight.g, sample->weight.b);
+  scattering_.pdf[i] = sample->delta ? -1.0f : sample->pdf.value;
+  scattering_.eta[i] = sample->eta;
+  if (chooses) scattering_.roulette[i] = numbers_.second[i];
+  return sample;
+}
+
 WideWalk::Tested WideWalk::test_shadows(int n, WideShadowRays& rays, WideSamples& samples) {
   Tested tested{};
   tested.rays = gaps_.find(n, [&](int i) { return 1 - rays.blocked[i]; });

@@ -47,6 +47,8 @@ class WideWalk {
   void evaluate_glossy_points(BatchArray<float>* reverse);
   /// From there, the next directions; likewise.
   void sample_glossy_points(BatchArray<float>* reverse);
+  /// Samples a BSDF at a point that has no loop of its own; the sample is empty if the path ends.
+  std::optional<BsdfSample> scatter_at(int i, const Bsdf& bsdf);
   bool has_roulette(int depth) const { return depth >= limits_.rr_depth; }
   Hit hit(int i) const {
     return {hits_.t[i],         hits_.u[i],     hits_.v[i],
