@@ -107,7 +107,7 @@ double BidirectionalIntegrator::memory_bytes(const FilmLayout& film) const {
   plan.subpaths = light_subpaths(film.full);
   plan.keep_vertices =
       merges(options_.method) || (connects(options_.method) && options_.connections != 0);
-  plan.keep_diffuse = may_take_batches() && options_.connections != 0;
+  plan.keep_diffuse = may_take_eye_batches() && options_.connections != 0;
   if (options_.method == Method::reuse && !is_thesis_) plan.windows = &windows_;
   return LightPass::memory_bytes(plan, vertices) +
          (merges(options_.method)
@@ -161,7 +161,7 @@ void BidirectionalIntegrator::render_samples(const Scene& scene, Film& film,
                                              const SampleRange& samples, const PassControl& control,
                                              RenderCounters& counters) {
   // Other calls may be for other scenes.
-  if (takes_batches(scene)) batches_ = make_batches(scene);
+  batches_ = make_batches(scene);
   for_each_sample(samples, control, [&](const SampleRange& one, const PassControl& part) {
     PassControl whole = part;
     // Eye and light sub-paths belong together: an iteration that has begun is finished.
@@ -213,7 +213,9 @@ void BidirectionalIntegrator::iteration(const Scene& scene, Film& film, const Sa
   plan.iteration = samples.first;
   plan.threads = control.threads;
   plan.keep_vertices = plan.set.merges || plan.set.connections;
-  plan.keep_diffuse = batches_ && plan.set.connections;
+  plan.tracer = batches_ ? &batches_->lights : nullptr;
+  const bool eye_batches = batches_ && batches_->eye;
+  plan.keep_diffuse = eye_batches && plan.set.connections;
   // A sub-path counts 1 / N_L.
   plan.roulette_threshold = pilot_->roulette_threshold() * plan.set.light_paths;
   set_ = plan.set;
@@ -239,7 +241,7 @@ void BidirectionalIntegrator::iteration(const Scene& scene, Film& film, const Sa
         [&](uint32_t i) { return v[i].merges ? v[i].position : VertexGrid::nowhere(); },
         float(radius(samples.first)), control.threads);
   }
-  if (batches_)
+  if (eye_batches)
     trace_batches(sums, samples, control, counters);
   else
     CameraIntegrator::render_samples(scene, sums, samples, control, counters);

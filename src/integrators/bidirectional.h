@@ -54,9 +54,10 @@ class BidirectionalIntegrator final : public CameraIntegrator {
   double radius(uint32_t iteration) const;
   uint32_t light_subpaths(Point2i film) const;
   bool has_technique(int s, int t) const;
-  /// Whether eye sub-paths are traced in batches; in whatever scene, and in this one.
+  /// Whether sub-paths may be traced in batches, and whether those from the camera may.
   bool may_take_batches() const;
-  bool takes_batches(const Scene& scene) const;
+  bool may_take_eye_batches() const;
+  /// Null if they are not in this scene.
   std::unique_ptr<Batches> make_batches(const Scene& scene) const;
   void trace_batches(Film& film, const SampleRange& samples, const PassControl& control,
                      RenderCounters& counters);

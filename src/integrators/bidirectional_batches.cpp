@@ -5,21 +5,26 @@
 namespace duet {
 
 bool BidirectionalIntegrator::may_take_batches() const {
-  return path_batches_ == PathBatches::where_possible && only_colours() && max_depth_ > 0 &&
+  return path_batches_ == PathBatches::where_possible && max_depth_ > 0 &&
+         (options_.method != Method::reuse || is_thesis_);
+}
+
+bool BidirectionalIntegrator::may_take_eye_batches() const {
+  return may_take_batches() && only_colours() &&
          (options_.method == Method::bdpt || options_.method == Method::vcm) &&
          options_.connections <= 0;
 }
 
-bool BidirectionalIntegrator::takes_batches(const Scene& scene) const {
-  return may_take_batches() && !scene.needs_media_vertices() &&
-         suits_batches(scene, options_.hide_emitters, options_.strict_normals);
-}
-
 std::unique_ptr<BidirectionalIntegrator::Batches> BidirectionalIntegrator::make_batches(
     const Scene& scene) const {
+  if (!may_take_batches() || scene.needs_media_vertices() ||
+      !suits_batches(scene, options_.hide_emitters, options_.strict_normals))
+    return nullptr;
+  auto batches = std::make_unique<Batches>(scene, blurs());
   PathLimits limits;
   limits.max_depth = max_depth_, limits.rr_depth = options_.rr_depth;
-  return std::make_unique<Batches>(scene, limits, options_.method == Method::vcm);
+  if (may_take_eye_batches()) batches->begin_eye(limits);
+  return batches;
 }
 
 void BidirectionalIntegrator::trace_batches(Film& film, const SampleRange& samples,
@@ -28,7 +33,7 @@ void BidirectionalIntegrator::trace_batches(Film& film, const SampleRange& sampl
                     &grid_, &mask_};
   for_each_tile(film, samples, control, TileSplit::by_samples, counters,
                 [&](FilmTile& tile, const TileSamples& part, RenderCounters& c) {
-                  batches_->tiles.render(film, tile, samples, part, c);
+                  batches_->eye->render(film, tile, samples, part, c);
                 });
 }
 

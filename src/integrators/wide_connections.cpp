@@ -27,20 +27,12 @@ void WideEye::connect(int n, int depth, WideSamples& samples, RenderCounters& co
   flush_single(samples, counters);
 }
 
-bool WideEye::is_smooth(int i) const {
-  const WideShape& shape = wide_.shapes[hits_.shape[i]];
-  if (shape.model == WideModel::glossy &&
-      std::holds_alternative<RoughPlasticSurface>(wide_.glossy[size_t(shape.glossy)]))
-    return true;
-  return std::max({eye_.flux.x[i], eye_.flux.y[i], eye_.flux.z[i]}) > 0;
-}
-
 void WideEye::find_pairs(int i, int count, int depth, WideSamples& samples,
                          RenderCounters& counters) {
   const LightSubpath& light = light_[size_t(paths_.id[i])];
   const DiffuseVertex* const vertices = plan_.lights->diffuse().data() + light.first;
   const Point3f position = points_.position.point(i);
-  const Vector3f lit = eye_.lit.vector(i);
+  const Vector3f lit = ends_.lit.vector(i);
   const WideShape& shape = wide_.shapes[hits_.shape[i]];
   const size_t number = shape.model == WideModel::glossy ? 1 + size_t(shape.glossy) : 0;
   PairList& list = pairs_[number];
@@ -86,7 +78,8 @@ void WideEye::flush_pairs(size_t number, int depth, WideSamples& samples,
   int& count = pairs_[number].count;
   if (count == 0) return;
   weigh(number, depth);
-  const Tested tested = test_shadows(count, shadows_, samples);
+  const auto add = [&](int id, const Spectrum& s) { samples.add(id, s); };
+  const Tested tested = test_shadows(count, shadows_, add);
   counters.shadow_rays += uint64_t(tested.rays);
   counters.connections.skipped += uint64_t(count - tested.rays);
   counters.connections.failed_occluded += uint64_t(tested.rays - tested.lit);
@@ -114,7 +107,8 @@ void WideEye::connect_one_by_one(int i, int number, int depth, WideSamples& samp
 }
 
 void WideEye::flush_single(WideSamples& samples, RenderCounters& counters) {
-  const Tested tested = test_shadows(single_count_, single_, samples);
+  const auto add = [&](int id, const Spectrum& s) { samples.add(id, s); };
+  const Tested tested = test_shadows(single_count_, single_, add);
   counters.shadow_rays += uint64_t(tested.rays);
   counters.connections.failed_occluded += uint64_t(tested.rays - tested.lit);
   counters.connections.contributed += uint64_t(tested.lit);

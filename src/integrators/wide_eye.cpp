@@ -76,19 +76,19 @@ void WideEye::trace(int n, const BatchSampler& sampler, WideSamples& samples,
     draw_numbers(n, sampler, depth);
     wide_.lights.sample(n, points_, numbers_, choice_, lights_);
     look_up_textures();
-    make_ends(n, paths_, subpaths_, points_, eye_);
+    make_ends(n, paths_, subpaths_, points_, ends_);
     evaluate_diffuse(n, paths_, points_, lights_);
-    evaluate_glossy_points(&eye_.reverse);
+    evaluate_glossy_points(&ends_.reverse);
     sample_diffuse(n, paths_, points_, numbers_, scattering_);
-    make_special_vertices(n, depth);
+    make_special_vertices(n, depth, Transport::radiance);
     sample_lights(n, depth, samples, counters);
     connect(n, depth, samples, counters);
     if (plan_.set.merges) merge(n, depth, samples, counters);
-    sample_glossy_points(&eye_.reverse);
-    scatter_special_vertices();
+    sample_glossy_points(&ends_.reverse);
+    scatter_special_vertices(Transport::radiance);
     for (int i = 0; i < n; ++i)
       if (!scattering_.null[i]) samples.alpha[paths_.id[i]] = 1;
-    go_on(n, has_roulette(depth), {plan_.set, eye_, points_}, scattering_, paths_, subpaths_);
+    go_on(n, has_roulette(depth), {plan_.set, ends_, points_}, scattering_, paths_, subpaths_);
     n = gaps_.find(n, [&](int i) { return scattering_.alive[i]; });
     fill_gaps();
   }
@@ -111,14 +111,6 @@ int WideEye::end_outside(int n, WideSamples& samples, RenderCounters& counters) 
   return found;
 }
 
-void WideEye::fill_gaps() {
-  gaps_.fill(paths_);
-  gaps_.fill(subpaths_.vcm);
-  gaps_.fill(subpaths_.vc);
-  gaps_.fill(subpaths_.vm);
-  gaps_.fill(subpaths_.carried);
-}
-
 void WideEye::add_emission(WideSamples& samples, RenderCounters& counters) {
   for (const int i : emitting_) {
     const Surface s = wide_.scene.surface(paths_.ray[i], hit(i));
@@ -134,9 +126,9 @@ void WideEye::arrive_at_points(int n, int depth) {
   arrive(n, hits_, points_, plan_.set.connections, paths_, subpaths_);
   for (int i = 0; i < n; ++i) {
     const auto id = size_t(paths_.id[i]);
-    eye_.roulette[i] = ConnectionRoulette::seed_of(keys_[id]);
-    eye_.merge_term[i] = merging_[id] ? plan_.set.merge_term() : 0.0f;
-    eye_.unmerged[i] = plan_.set.partly_merged && !merging_[id];
+    ends_.roulette[i] = ConnectionRoulette::seed_of(keys_[id]);
+    ends_.merge_term[i] = merging_[id] ? plan_.set.merge_term() : 0.0f;
+    ends_.unmerged[i] = plan_.set.partly_merged && !merging_[id];
   }
   if (depth > 1) return;
   for (int i = 0; i < n; ++i) {
@@ -153,43 +145,8 @@ void WideEye::sample_lights(int n, int depth, WideSamples& samples, RenderCounte
   if (wide_.scene.lights.empty()) return;
   wide_.lights.find_emission(n, starts_, points_, choice_, lights_);
   weigh_light_samples(n, connections(depth), lights_, shadows_);
-  counters.shadow_rays += uint64_t(test_shadows(n, shadows_, samples).rays);
-}
-
-void WideEye::make_special_vertices(int n, int depth) {
-  for (int i = 0; i < n; ++i) vertex_of_[i] = -1;
-  vertices_.clear();
-  for (size_t k = 0; k < special_.size(); ++k) {
-    const int i = special_[k];
-    if (wide_.shapes[hits_.shape[i]].model != WideModel::other) continue;
-    vertex_of_[i] = int32_t(vertices_.size());
-    const PathVertex& v =
-        vertices_.emplace_back(wide_.scene, surfaces_[k], -paths_.ray.direction.vector(i),
-                               throughput(i), partials(i), depth);
-    BsdfPair f;
-    if (v.is_smooth() && carries(i) && !(lights_.pdf[i] < 0))
-      f = v.eval_both_ways(lights_.wi.vector(i), Transport::radiance);
-    lights_.value.set(i, f.value.r, f.value.g, f.value.b);
-    lights_.bsdf_pdf[i] = f.pdf.value;
-    eye_.reverse[i] = f.reverse.value;
-    eye_.merges[i] = v.merges(f.pdf.value, f.reverse.value);
-  }
-  special_vertices_ = int(vertices_.size());
-}
-
-void WideEye::scatter_special_vertices() {
-  for (const int i : special_) {
-    const PathVertex* const v = special_vertex(i);
-    if (!v) continue;
-    const auto sample = scatter_at(i, v->bsdf);
-    if (!sample) continue;
-    if (sample->delta) {
-      eye_.reverse[i] = specular_jacobian(*v, *sample);
-    } else {
-      eye_.reverse[i] = v->reverse_pdf(sample->wi, Transport::radiance);
-      eye_.merges[i] = v->merges(sample->pdf.value, eye_.reverse[i]);
-    }
-  }
+  const auto add = [&](int id, const Spectrum& s) { samples.add(id, s); };
+  counters.shadow_rays += uint64_t(test_shadows(n, shadows_, add).rays);
 }
 
 }  // namespace duet

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "integrators/wide_eye_kernels.h"
+#include "integrators/wide_subpath_stages.h"
 #include "integrators/wide_walk.h"
 #include "transport/light_pass.h"
 #include "transport/subpath_sharing.h"
@@ -31,17 +32,16 @@ struct WideEyePlan {
 /// rounding, the same contributions. Connections of diffuse and glossy points with diffuse light
 /// vertices are weighed in loops over pairs, others one by one; their shadow rays are tested
 /// together.
-class WideEye final : public WideWalk {
+class WideEye final : public WideWalk, private WideSubpathStages {
  public:
   /// What is referred to must outlive this; the plan may change between batches.
   WideEye(const WideScene& scene, const PathLimits& limits, const WideEyePlan& plan)
-      : WideWalk(scene, limits),
+      : WideSubpathStages(scene, limits),
         plan_(plan),
         starts_(scene.scene),
-        pairs_(1 + scene.glossy.size()) {
-    vertices_.reserve(kBatch);
-  }
+        pairs_(1 + scene.glossy.size()) {}
 
+  WidePaths& paths() override { return paths_; }
   void enter(std::span<const uint64_t> pixels) override;
   void trace(int n, const BatchSampler& sampler, WideSamples& samples,
              RenderCounters& counters) override;
@@ -62,17 +62,11 @@ class WideEye final : public WideWalk {
   /// Makes Partials of the points; at the first, where light tracing competes, of their own.
   void arrive_at_points(int n, int depth);
   void sample_lights(int n, int depth, WideSamples& samples, RenderCounters& counters);
-  /// Binds the BSDFs of WideModel::other, special here, and evaluates them for the light samples.
-  void make_special_vertices(int n, int depth);
-  void scatter_special_vertices();
-  void fill_gaps();
   /// The first pixel of the batch that has the light sub-path, which is this one if there is none.
   int leader(size_t subpath, int id);
 
   // wide_connections.cpp
   void connect(int n, int depth, WideSamples& samples, RenderCounters& counters);
-  /// Whether a point that is not special scatters anything.
-  bool is_smooth(int i) const;
   /// Of such a point, with the first `count` vertices of its light sub-path.
   void find_pairs(int i, int count, int depth, WideSamples& samples, RenderCounters& counters);
   /// Makes shadow rays of the pairs in a list.
@@ -105,28 +99,18 @@ class WideEye final : public WideWalk {
     return {paths_,
             subpaths_,
             points_,
-            eye_,
+            ends_,
             plan_.set.connection_share,
             plan_.roulette_threshold,
             ConnectionRoulette::event(0, depth)};
   }
   /// As the code for one sub-path has it, on its way to the next vertex.
   Subpath subpath(int i) const;
-  Partials partials(int i) const { return {subpaths_.vcm[i], subpaths_.vc[i], subpaths_.vm[i]}; }
-  /// Whether a sub-path goes on: arrive() ends those that arrive along the surface.
-  bool carries(int i) const { return throughput(i).max() > 0; }
-  PathVertex* special_vertex(int i) {
-    return vertex_of_[i] >= 0 && vertex_of_[i] < special_vertices_
-               ? &vertices_[size_t(vertex_of_[i])]
-               : nullptr;
-  }
 
   const WideEyePlan& plan_;
   LightStarts starts_;
   /// In pixels that do not merge, and in those that do.
   std::array<BalanceWeights, 2> weights_{BalanceWeights({}), BalanceWeights({})};
-  WideSubpaths subpaths_{};
-  WideEyeVertices eye_{};
   std::vector<uint64_t> keys_;                    ///< of ConnectionRoulette, by id
   std::vector<uint64_t> random_;                  ///< state of numbers beside the sampler's, by id
   std::vector<uint8_t> merging_;                  ///< whether the pixel merges, by id
@@ -139,11 +123,6 @@ class WideEye final : public WideWalk {
   };
   std::array<Leader, 4 * kBatch> leaders_;  ///< a hash table
   std::vector<PathVertex> unpacked_;        ///< light vertices that were needed as such
-  /// Vertices of the eye sub-paths at this depth: first the special ones, then others that were
-  /// needed as such. Never more than there is room for.
-  std::vector<PathVertex> vertices_;
-  int special_vertices_ = 0;
-  BatchArray<int32_t> vertex_of_{};  ///< numbers of the vertices, or −1
   /// Those of eye vertices of one material: the first list has all diffuse ones, the others have
   /// one glossy material each.
   struct PairList {

@@ -57,11 +57,11 @@ size_t WideEye::find_photons(int i, const std::vector<LightVertex>& photons) {
 Connection WideEye::merge_diffuse(int i, const LightVertex& photon, float kernel) const {
   const Vector3f wi = photon.direction_to_previous();
   const float cosine = std::abs(dot(points_.ng.vector(i), wi));
-  const float pdf = dot(eye_.lit.vector(i), wi) * kInvPi;
+  const float pdf = dot(ends_.lit.vector(i), wi) * kInvPi;
   if (!(cosine > 0 && pdf > 0)) return {};
-  const Vector3f flux = eye_.flux.vector(i);
+  const Vector3f flux = ends_.flux.vector(i);
   return {Spectrum(flux.x, flux.y, flux.z) * photon.throughput * (pdf * kernel / cosine),
-          weights_[1].merge(photon.partials, pdf, partials(i), eye_.reverse[i])};
+          weights_[1].merge(photon.partials, pdf, partials(i), ends_.reverse[i])};
 }
 
 }  // namespace duet

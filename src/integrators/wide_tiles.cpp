@@ -126,21 +126,10 @@ WideTiles::WideTiles(const Camera& camera, MakeWalk make_walk)
 
 WideTiles::~WideTiles() = default;
 
-std::unique_ptr<WideTiles::Workspace> WideTiles::take_workspace() {
-  {
-    const std::lock_guard lock(mutex_);
-    if (!idle_.empty()) {
-      auto workspace = std::move(idle_.back());
-      idle_.pop_back();
-      return workspace;
-    }
-  }
-  return std::make_unique<Workspace>(camera_, make_walk_());
-}
-
 void WideTiles::render(const Film& film, FilmTile& tile, const SampleRange& range,
                        const TileSamples& samples, RenderCounters& counters) {
-  std::unique_ptr<Workspace> workspace = take_workspace();
+  auto workspace =
+      workspaces_.take([&] { return std::make_unique<Workspace>(camera_, make_walk_()); });
   BatchSampler sampler(range.sequence, range.seed, range.scramble);
   workspace->enter(whole_square(film, tile), film.full_size().x, sampler);
   const PixelBounds& bounds = tile.sampled();
@@ -160,8 +149,7 @@ void WideTiles::render(const Film& film, FilmTile& tile, const SampleRange& rang
     trace([&] { workspace->add_to(sums, bounds); });
   }
   counters.camera_paths += uint64_t(bounds.width()) * uint64_t(bounds.height()) * samples.count;
-  const std::lock_guard lock(mutex_);
-  idle_.push_back(std::move(workspace));
+  workspaces_.give_back(std::move(workspace));
 }
 
 }  // namespace duet

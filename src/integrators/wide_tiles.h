@@ -2,10 +2,9 @@
 #pragma once
 
 #include <functional>
-#include <memory>
-#include <mutex>
-#include <vector>
 
+#include "base/object_pool.h"
+#include "integrators/camera_integrator.h"
 #include "integrators/wide_walk.h"
 
 namespace duet {
@@ -26,12 +25,10 @@ class WideTiles {
 
  private:
   struct Workspace;
-  std::unique_ptr<Workspace> take_workspace();
 
   const Camera& camera_;
   MakeWalk make_walk_;
-  std::mutex mutex_;
-  std::vector<std::unique_ptr<Workspace>> idle_;  ///< those that no thread uses
+  ObjectPool<Workspace> workspaces_;
 };
 
 }  // namespace duet

@@ -74,13 +74,14 @@ void WideTracer::scatter_one_by_one() {
       f = bsdf.eval(lights_.wi.vector(i), Transport::radiance);
     lights_.value.set(i, f.value.r, f.value.g, f.value.b);
     lights_.bsdf_pdf[i] = f.pdf.value;
-    scatter_at(i, bsdf);
+    scatter_at(i, bsdf, Transport::radiance);
   }
 }
 
 void WideTracer::add_light(int n, WideSamples& samples, RenderCounters& counters) {
   weigh_light_samples(n, paths_, points_, lights_, shadows_);
-  counters.shadow_rays += uint64_t(test_shadows(n, shadows_, samples).rays);
+  const auto add = [&](int id, const Spectrum& s) { samples.add(id, s); };
+  counters.shadow_rays += uint64_t(test_shadows(n, shadows_, add).rays);
 }
 
 int WideTracer::keep_alive(int n) {

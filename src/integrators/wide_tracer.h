@@ -1,6 +1,7 @@
 // Path tracing of many pixels at once, stage by stage.
 #pragma once
 
+#include "integrators/wide_stages.h"
 #include "integrators/wide_walk.h"
 
 namespace duet {
@@ -8,10 +9,11 @@ namespace duet {
 /// Traces paths in the same way as PathIntegrator traces one path: with the same random numbers
 /// every path is the same bit for bit, unless it meets two surfaces that are equally near or, by
 /// rounding, the edge of one. Usual rough plastics and conductors are scattered in loops, too.
-class WideTracer final : public WideWalk {
+class WideTracer final : public WideWalk, private WideStages {
  public:
-  WideTracer(const WideScene& scene, const PathLimits& limits) : WideWalk(scene, limits) {}
+  WideTracer(const WideScene& scene, const PathLimits& limits) : WideStages(scene, limits) {}
 
+  WidePaths& paths() override { return paths_; }
   void trace(int n, const BatchSampler& sampler, WideSamples& samples,
              RenderCounters& counters) override;
 

@@ -42,6 +42,24 @@ constexpr uint64_t kMediaStream = 0x6d65646961ull;
 
 }  // namespace
 
+uint64_t LightPassPlan::sampler_seed() const {
+  return seed ^ kLightStream;
+}
+
+uint64_t LightPassPlan::key(uint32_t i) const {
+  return hash_combine(hash_combine(seed, scramble ^ kLightStream), (uint64_t(iteration) << 32) + i);
+}
+
+void LightBlock::clear() {
+  vertices.clear();
+  diffuse.clear();
+  pdf_lists.clear();
+  pdf_ends.clear();
+  end_pdfs.clear();
+  splats.clear();
+  counters = {};
+}
+
 double LightPass::memory_bytes(const LightPassPlan& plan, int vertices_per_subpath) {
   // Arrays that grow by doubling may hold twice as much as they need to.
   constexpr double kGrowth = 2;
@@ -67,22 +85,14 @@ void LightPass::reserve(size_t vertices, size_t subpaths) {
 
 template <class Vertex, class Weights>
 void LightPass::trace(const Scene& scene, const LightPassPlan& plan, const Weights& weights,
-                      Range range, SubpathPdfs* pdfs, Block& block) const {
-  block.vertices.clear();
-  block.diffuse.clear();
-  block.splats.clear();
-  block.pdf_lists.clear();
-  block.pdf_ends.clear();
-  block.end_pdfs.clear();
-  block.counters = {};
+                      LightRange range, SubpathPdfs* pdfs, LightBlock& block) const {
   const bool has_lens = scene.camera->has_lens();
   const LightStarts starts(scene, plan.guide);
   for (uint32_t i = range.first; i < range.end; ++i) {
-    const uint64_t key = hash_combine(hash_combine(plan.seed, plan.scramble ^ kLightStream),
-                                      (uint64_t(plan.iteration) << 32) + i);
+    const uint64_t key = plan.key(i);
     ConnectionRoulette roulette(plan.roulette_threshold, key);
     RandomStream random(key ^ kMediaStream);
-    Sampler sampler(plan.sequence, plan.seed ^ kLightStream, plan.scramble, i);
+    Sampler sampler(plan.sequence, plan.sampler_seed(), plan.scramble, i);
     sampler.start_sample(plan.iteration);
     const ConnectionContext<Weights> connections{scene,          starts, weights, roulette,
                                                  block.counters, false,  &random};
@@ -106,8 +116,7 @@ void LightPass::trace(const Scene& scene, const LightPassPlan& plan, const Weigh
         trace_light_subpath<Vertex>({scene, starts, plan.set, plan.subpath, plan.max_depth, sampler,
                                      block.counters, pdfs, ~key ^ kMediaStream},
                                     visit);
-    block.vertices.ends.push_back(uint32_t(block.vertices.vertices.size()));
-    block.vertices.lengths.push_back(uint16_t(std::min(length, 0xffff)));
+    block.end_subpath(block.vertices.vertices.size(), length);
     if (pdfs) {
       block.pdf_lists.insert(block.pdf_lists.end(), pdfs->begin(), pdfs->end());
       block.pdf_ends.push_back(uint32_t(block.pdf_lists.size()));
@@ -116,8 +125,8 @@ void LightPass::trace(const Scene& scene, const LightPassPlan& plan, const Weigh
 }
 
 template <class Vertex>
-void LightPass::trace(const Scene& scene, const LightPassPlan& plan, Range range,
-                      Block& block) const {
+void LightPass::trace(const Scene& scene, const LightPassPlan& plan, LightRange range,
+                      LightBlock& block) const {
   if (plan.windows) {
     SubpathPdfs pdfs;
     trace<Vertex>(scene, plan, WindowWeights(*plan.windows, &pdfs, nullptr), range, &pdfs, block);
@@ -178,8 +187,11 @@ void LightPass::run(const Scene& scene, const LightPassPlan& plan, const TakeSpl
     parallel_for(count, plan.threads, [&](size_t i) {
       const uint32_t first = wave + uint32_t(i) * size;
       const uint32_t end = std::min(first + size, plan.subpaths);
-      Block& block = blocks_[i];
-      if (scene.needs_media_vertices())
+      LightBlock& block = blocks_[i];
+      block.clear();
+      if (plan.tracer)
+        plan.tracer->trace(plan, {first, end}, block);
+      else if (scene.needs_media_vertices())
         trace<MediaVertex>(scene, plan, {first, end}, block);
       else
         trace<PathVertex>(scene, plan, {first, end}, block);

@@ -1,6 +1,7 @@
 // All light sub-paths of an iteration: their vertices, and what the camera sees of them.
 #pragma once
 
+#include <algorithm>
 #include <functional>
 
 #include "image/film.h"
@@ -9,6 +10,23 @@
 #include "transport/window_weights.h"
 
 namespace duet {
+
+struct LightBlock;
+struct LightPassPlan;
+
+/// Some of a pass's light sub-paths, by their numbers.
+struct LightRange {
+  uint32_t first, end;
+};
+
+/// Traces light sub-paths in another way than one by one, for a plan without windows: from any
+/// thread.
+class LightTracer {
+ public:
+  virtual ~LightTracer() = default;
+  /// Adds what comes of them to an empty block.
+  virtual void trace(const LightPassPlan& plan, LightRange range, LightBlock& block) = 0;
+};
 
 /// What a pass over the lights is to do.
 struct LightPassPlan {
@@ -28,6 +46,12 @@ struct LightPassPlan {
   uint64_t seed = 0;
   uint32_t scramble = 0, iteration = 0;
   int threads = 1;
+  LightTracer* tracer = nullptr;  ///< if they are not traced one by one
+
+  /// Of the sampler of sub-path i, for which i stands in the place of the pixel.
+  uint64_t sampler_seed() const;
+  /// Seeds what is decided about sub-path i beside its samples.
+  uint64_t key(uint32_t i) const;
 };
 
 /// A splat with the number of light vertices of its technique.
@@ -35,6 +59,24 @@ struct LightSplat {
   Splat splat;
   float weight;
   int depth;
+};
+
+/// What comes of some of a pass's sub-paths.
+struct LightBlock {
+  LightVertices vertices;
+  std::vector<DiffuseVertex> diffuse;
+  SubpathPdfs pdf_lists;
+  std::vector<uint32_t> pdf_ends;
+  std::vector<EndPdfs> end_pdfs;
+  std::vector<LightSplat> splats;
+  RenderCounters counters;
+
+  void clear();
+  /// Ends a sub-path whose kept vertices end there, and that had so many with those that were not.
+  void end_subpath(size_t end, int length) {
+    vertices.ends.push_back(uint32_t(end));
+    vertices.lengths.push_back(uint16_t(std::min(length, 0xffff)));
+  }
 };
 
 /// Runs light passes; keeps its memory from one to the next.
@@ -67,28 +109,17 @@ class LightPass {
   void reserve(size_t vertices, size_t subpaths);
 
  private:
-  struct Block {
-    LightVertices vertices;
-    std::vector<DiffuseVertex> diffuse;
-    SubpathPdfs pdf_lists;
-    std::vector<uint32_t> pdf_ends;
-    std::vector<EndPdfs> end_pdfs;
-    std::vector<LightSplat> splats;
-    RenderCounters counters;
-  };
-  struct Range {
-    uint32_t first, end;  ///< of the sub-paths
-  };
   template <class Vertex, class Weights>
-  void trace(const Scene& scene, const LightPassPlan& plan, const Weights& weights, Range range,
-             SubpathPdfs* pdfs, Block& block) const;
+  void trace(const Scene& scene, const LightPassPlan& plan, const Weights& weights,
+             LightRange range, SubpathPdfs* pdfs, LightBlock& block) const;
   template <class Vertex>
-  void trace(const Scene& scene, const LightPassPlan& plan, Range range, Block& block) const;
+  void trace(const Scene& scene, const LightPassPlan& plan, LightRange range,
+             LightBlock& block) const;
 
   /// Adds the results of the first blocks to those of the pass, in their order.
   void append_blocks(const LightPassPlan& plan, uint32_t count);
 
-  std::vector<Block> blocks_;
+  std::vector<LightBlock> blocks_;
   LightVertices vertices_;
   std::vector<DiffuseVertex> diffuse_;
   SubpathPdfs pdf_lists_;

@@ -32,13 +32,23 @@ struct LightStart {
   float direct(const Point3f& at) const {
     return light->direct_density(emission, at) * direct_picker->probability(index, at);
   }
+  /// Whether light samples at a first vertex find nothing, because the light has not entered yet.
+  bool is_before_entry(const Point3f& p) const {
+    return emission.entry > 0 &&
+           dot(p - emission.ray.origin, emission.ray.direction) < emission.entry;
+  }
+};
+
+/// The random numbers of a start.
+struct LightStartNumbers {
+  float choice;
+  Point2f position, direction;
 };
 
 /// Empty if the ray carries nothing.
 inline std::optional<LightStart> start_light_subpath(const Scene& scene, const LightStarts& starts,
-                                                     Sampler& sampler) {
-  const float choice = sampler.next_1d();
-  const Point2f position = sampler.next_2d(), direction = sampler.next_2d();
+                                                     const LightStartNumbers& u) {
+  const auto& [choice, position, direction] = u;
   const LightPicker::Pick pick = starts.pick(choice, position);
   const auto e = starts.emit(pick.light, position, direction);
   if (!e || !(pick.probability > 0)) return std::nullopt;
@@ -51,6 +61,14 @@ inline std::optional<LightStart> start_light_subpath(const Scene& scene, const L
   start.direct_picker = &scene.direct_picker;
   start.emission = *e;
   return start;
+}
+
+/// The same of the numbers that the sampler has next.
+inline std::optional<LightStart> start_light_subpath(const Scene& scene, const LightStarts& starts,
+                                                     Sampler& sampler) {
+  const float choice = sampler.next_1d();
+  const Point2f position = sampler.next_2d(), direction = sampler.next_2d();
+  return start_light_subpath(scene, starts, {choice, position, direction});
 }
 
 /// The sums at the first vertex of a light sub-path, at which light samples and rays that find the
@@ -192,16 +210,10 @@ class LightSubpath {
                   c_.set.subpath_connections());
   }
 
-  /// Whether light samples at the point find nothing, because the light has not entered yet.
-  bool is_before_entry(const Point3f& p) const {
-    const EmissionSample& e = start_.emission;
-    return e.entry > 0 && depth_ == 1 && dot(p - e.ray.origin, e.ray.direction) < e.entry;
-  }
-
   /// Whether the sub-path goes on behind the vertex.
   bool pass(const Vertex& v, const Hit& hit, bool may_be_passed) {
     c_.sampler.start_dimension(dimension_ + kLensOffset);
-    const bool is_dark = is_before_entry(v.position());
+    const bool is_dark = depth_ == 1 && start_.is_before_entry(v.position());
     if (!is_dark) visit_(v, hit);
     if (depth_ == c_.max_depth && !may_be_passed) return is_dark && miss();
     c_.sampler.start_dimension(dimension_);

@@ -19,25 +19,31 @@ uint16_t quantize_unit(float x) {
   return uint16_t(std::clamp(x, 0.0f, 1.0f) * 65535.0f + 0.5f);
 }
 
+/// Where nothing is interpolated, zero.
+Point2f barycentric_of(const Surface& s) {
+  const ShapeKind kind = s.shape->kind;
+  return kind == ShapeKind::mesh || kind == ShapeKind::curves ? s.barycentric : Point2f{};
+}
+
 }  // namespace
 
-LightVertex::LightVertex(const PathVertex& v, const Hit& hit)
-    : position(v.surface.position),
-      throughput(v.throughput),
-      partials(v.partials),
+LightVertex::LightVertex(const SurfaceArrival& a, const Hit& hit)
+    : position(a.position),
+      throughput(a.throughput),
+      partials(a.partials),
       shape(hit.shape),
       primitive(hit.primitive),
       instance(hit.instance),
-      barycentric{0, 0},
-      depth(uint16_t(v.depth)),
-      merges(v.merges()) {
-  if (const ShapeKind kind = v.surface.shape->kind;
-      kind == ShapeKind::mesh || kind == ShapeKind::curves) {
-    barycentric[0] = quantize_unit(v.surface.barycentric.x);
-    barycentric[1] = quantize_unit(v.surface.barycentric.y);
-  }
-  set_direction_to_previous(v.wo);
+      barycentric{quantize_unit(a.barycentric.x), quantize_unit(a.barycentric.y)},
+      depth(uint16_t(a.depth)),
+      merges(a.merges) {
+  set_direction_to_previous(a.wo);
 }
+
+LightVertex::LightVertex(const PathVertex& v, const Hit& hit)
+    : LightVertex({v.surface.position, v.wo, v.throughput, v.partials, v.depth, v.merges(),
+                   barycentric_of(v.surface)},
+                  hit) {}
 
 LightVertex::LightVertex(const MediaVertex& v, const Hit& hit) {
   if (!v.in_medium) {

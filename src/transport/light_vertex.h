@@ -7,6 +7,17 @@
 
 namespace duet {
 
+/// How a light sub-path arrives at a surface.
+struct SurfaceArrival {
+  Point3f position;
+  Vector3f wo;  ///< unit, towards the previous vertex
+  Spectrum throughput;
+  Partials partials;
+  int depth;
+  bool merges;          ///< PathVertex::merges()
+  Point2f barycentric;  ///< of triangles and curves
+};
+
 /// A vertex of a light sub-path, packed: its BSDF is bound again when it is needed. In a medium
 /// `shape` is kNone and the address of the medium stands in place of the primitive and the
 /// instance.
@@ -21,6 +32,7 @@ struct LightVertex {
   bool merges;  ///< whether photons are merged there
 
   LightVertex() = default;
+  LightVertex(const SurfaceArrival& a, const Hit& hit);
   LightVertex(const PathVertex& v, const Hit& hit);
   LightVertex(const MediaVertex& v, const Hit& hit);
 

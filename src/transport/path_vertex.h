@@ -66,11 +66,16 @@ struct PathVertex {
 /// By how much scattering of particles from direction `l` into direction `v` differs from the BSDF
 /// times the cosine between v and the shading normal, where shading normals are not geometric ones.
 /// Unbounded at grazing angles. Source: Veach 1997, equation 5.19.
+/// `ns` and `ng` are the normals.
+[[gnu::always_inline]] inline float adjoint_factor(const Normal3f& ns, const Normal3f& ng,
+                                                   const Vector3f& l, const Vector3f& v) {
+  const float shading = dot(ns, v) * dot(ng, l);
+  const float geometric = dot(ns, l) * dot(ng, v);
+  const float ratio = std::abs(geometric / shading), bounded = shading != 0 ? ratio : 0.0f;
+  return shading == geometric ? 1.0f : bounded;
+}
 inline float adjoint_factor(const Surface& s, const Vector3f& l, const Vector3f& v) {
-  const float shading = dot(s.shading.n, v) * dot(s.ng, l);
-  const float geometric = dot(s.shading.n, l) * dot(s.ng, v);
-  if (shading == geometric) return 1;
-  return shading != 0 ? std::abs(geometric / shading) : 0.0f;
+  return adjoint_factor(s.shading.n, s.ng, l, v);
 }
 
 inline float PathVertex::adjoint(const Vector3f& w) const {

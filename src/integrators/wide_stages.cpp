@@ -1,4 +1,4 @@
-#include "integrators/wide_walk.h"
+#include "integrators/wide_stages.h"
 
 #include "integrators/wide_conductor.h"
 #include "integrators/wide_plastic.h"
@@ -6,7 +6,7 @@
 
 namespace duet {
 
-void WideWalk::find_points(int n) {
+void WideStages::find_points(int n) {
   fetch(n);
   if (wide_.has_normals)
     make_smooth_points(n, triangles_, hits_, points_);
@@ -41,7 +41,7 @@ static Surface textured_point(const Shape& shape, const Point3f& position, const
   return textured_point(shape, p);
 }
 
-void WideWalk::prefetch_textures() {
+void WideStages::prefetch_textures() {
   textured_points_.resize(textured_.size());
   for (size_t k = 0; k < textured_.size(); ++k) {
     const int i = textured_[k];
@@ -53,14 +53,14 @@ void WideWalk::prefetch_textures() {
   }
 }
 
-void WideWalk::look_up_textures() {
+void WideStages::look_up_textures() {
   for (size_t k = 0; k < textured_.size(); ++k) {
     const int i = textured_[k];
     set_reflectance(i, (*wide_.shapes[hits_.shape[i]].textured)(textured_points_[k]));
   }
 }
 
-void WideWalk::fetch(int n) {
+void WideStages::fetch(int n) {
   special_.clear();
   emitting_.clear();
   textured_.clear();
@@ -93,22 +93,26 @@ void WideWalk::fetch(int n) {
   }
 }
 
-void WideWalk::draw_numbers(int n, const BatchSampler& sampler, int depth) {
+void WideStages::draw_numbers(int n, const BatchSampler& sampler, int depth) {
   const uint32_t light = kFirstVertexDimension + kDimensionsPerVertex * uint32_t(depth - 1);
-  const uint32_t scattering = light + kScatteringDimension;
   sampler.numbers_2d(n, paths_.keys, light, numbers_.light_x, numbers_.light_y);
   if (has_light_choice(wide_.scene))
     sampler.numbers_1d(n, paths_.keys, light + 2, numbers_.light_choice);
-  sampler.numbers_2d(n, paths_.keys, scattering, numbers_.x, numbers_.y);
+  draw_scattering(n, sampler, light + kScatteringDimension, depth);
+}
+
+void WideStages::draw_scattering(int n, const BatchSampler& sampler, uint32_t dimension,
+                                 int depth) {
+  sampler.numbers_2d(n, paths_.keys, dimension, numbers_.x, numbers_.y);
   const bool chooses = !special_.empty() || has_glossy_points_;
   if (chooses || has_roulette(depth))
-    sampler.numbers_1d(n, paths_.keys, scattering + 2, numbers_.first);
+    sampler.numbers_1d(n, paths_.keys, dimension + 2, numbers_.first);
   if (chooses && has_roulette(depth))
-    sampler.numbers_1d(n, paths_.keys, scattering + 3, numbers_.second);
+    sampler.numbers_1d(n, paths_.keys, dimension + 3, numbers_.second);
 }
 
 template <class F>
-void WideWalk::for_each_glossy(F&& f) {
+void WideStages::for_each_glossy(F&& f) {
   for (size_t number = 0; number < glossy_points_.size(); ++number) {
     const std::vector<int>& points = glossy_points_[number];
     if (points.empty()) continue;
@@ -118,7 +122,7 @@ void WideWalk::for_each_glossy(F&& f) {
   }
 }
 
-void WideWalk::evaluate_glossy_points(BatchArray<float>* reverse) {
+void WideStages::evaluate_glossy_points(BatchArray<float>* reverse) {
   const WideVertices vertices{paths_, points_, numbers_};
   WideGlossy& p = glossy_;
   for_each_glossy([&](int count, const auto& material) {
@@ -134,7 +138,7 @@ void WideWalk::evaluate_glossy_points(BatchArray<float>* reverse) {
   });
 }
 
-void WideWalk::sample_glossy_points(BatchArray<float>* reverse) {
+void WideStages::sample_glossy_points(BatchArray<float>* reverse) {
   const WideVertices vertices{paths_, points_, numbers_};
   WideGlossy& p = glossy_;
   for_each_glossy([&](int count, const auto& material) {
@@ -156,33 +160,27 @@ void WideWalk::sample_glossy_points(BatchArray<float>* reverse) {
   });
 }
 
-std::optional<BsdfSample> WideWalk::scatter_at(int i, const Bsdf& bsdf) {
+std::optional<BsdfSample> WideStages::scatter_at(int i, const Bsdf& bsdf, Transport transport) {
   const bool chooses = bsdf.needs_choice();
-  const auto sample = bsdf.sample(chooses ? numbers_.first[i] : 0.5f,
-                                  {numbers_.x[i], numbers_.y[i]}, Transport::radiance);
+  const auto sample =
+      bsdf.sample(chooses ? numbers_.first[i] : 0.5f, {numbers_.x[i], numbers_.y[i]}, transport);
   scattering_.alive[i] = sample.has_value();
   scattering_.null[i] = sample && sample->null;
   if (!sample) return sample;
   scattering_.wi.set(i, sample->wi);
   scattering_.weight.set(i, sample->weight.r, sample->weight.g, sample->weight.b);
   scattering_.pdf[i] = sample->delta ? -1.0f : sample->pdf.value;
-  scattering_.eta[i] = sample->eta;
+  // Sub-paths from the lights carry no more into a denser medium.
+  scattering_.eta[i] = transport == Transport::radiance ? sample->eta : 1.0f;
   if (chooses) scattering_.roulette[i] = numbers_.second[i];
   return sample;
 }
 
-WideWalk::Tested WideWalk::test_shadows(int n, WideShadowRays& rays, WideSamples& samples) {
-  Tested tested{};
-  tested.rays = gaps_.find(n, [&](int i) { return 1 - rays.blocked[i]; });
+int WideStages::find_unblocked(int n, WideShadowRays& rays) {
+  const int count = gaps_.find(n, [&](int i) { return 1 - rays.blocked[i]; });
   gaps_.fill(rays);
-  wide_.scene.accel->occluded(rays.ray, tested.rays, rays.blocked);
-  for (int i = 0; i < tested.rays; ++i) {
-    if (rays.blocked[i]) continue;
-    ++tested.lit;
-    const BatchTriples& c = rays.contribution;
-    samples.add(rays.id[i], {c.x[i], c.y[i], c.z[i]});
-  }
-  return tested;
+  wide_.scene.accel->occluded(rays.ray, count, rays.blocked);
+  return count;
 }
 
 }  // namespace duet

@@ -1,0 +1,35 @@
+// What batches of light sub-paths do in loops over numbers: the same formulas as those of one
+// (connection.h, subpath.h), so that the results are the same to rounding.
+#pragma once
+
+#include "integrators/wide_subpaths.h"
+
+namespace duet {
+
+/// How the lens sees the vertices of a batch; directions and targets are light samples.
+struct WideSeen {
+  BatchArray<float> film_x, film_y, importance;  ///< see CameraSample
+  BatchArray<float> weight;                      ///< of the connections
+};
+
+/// What connections of the vertices of a batch with the lens have in common.
+struct WideCameraConnections {
+  const WidePaths& paths;
+  const WideSubpaths& subpaths;
+  const WidePoints& points;
+  const WideEnds& ends;
+  bool unit_weights;    ///< see LightPassPlan
+  float scale;          ///< share of connections over the number of light sub-paths
+  float threshold;      ///< of ConnectionRoulette
+  uint32_t connection;  ///< ConnectionRoulette::event()
+};
+
+/// connect_camera(): contributions without weights, the weights, and the shadow rays, whose ids are
+/// the numbers in the batch.
+void weigh_camera(int n, const WideCameraConnections& c, const WideLightSamples& samples,
+                  WideSeen& seen, WideShadowRays& out);
+/// Multiplies the weights of the next directions by adjoint_factor().
+void weigh_by_adjoint(int n, const WidePaths& paths, const WidePoints& points,
+                      WideScattering& scattering);
+
+}  // namespace duet

@@ -1,0 +1,98 @@
+// What batches of paths do at their vertices, wherever they come from and whatever is estimated
+// there.
+#pragma once
+
+#include "integrators/camera_integrator.h"
+#include "integrators/wide_gaps.h"
+#include "integrators/wide_glossy.h"
+#include "integrators/wide_kernels.h"
+#include "integrators/wide_scene.h"
+#include "scene/path_limits.h"
+
+namespace duet {
+
+/// The stages of batches of paths that one thread traces. What is rare goes through the code for
+/// one path within the same stages: surfaces that are no plain meshes, materials that have no loop
+/// of their own, lights that are not flat. Source: Laine et al., "Megakernels Considered Harmful:
+/// Wavefront Path Tracing on GPUs", 2013; Lee et al., "Vectorized Production Path Tracing", 2017.
+class WideStages {
+ protected:
+  WideStages(const WideScene& scene, const PathLimits& limits)
+      : wide_(scene), limits_(limits), glossy_points_(scene.glossy.size()) {}
+
+  void find_points(int n);
+  /// Later than find_points(), when what was prefetched has arrived.
+  void look_up_textures();
+  /// Random numbers of vertices of paths from the camera.
+  void draw_numbers(int n, const BatchSampler& sampler, int depth);
+  /// Those of scattering, which begin at a dimension.
+  void draw_scattering(int n, const BatchSampler& sampler, uint32_t dimension, int depth);
+  /// At points of glossy materials, the values for the directions of `lights_`; and where not null,
+  /// the reverse densities.
+  void evaluate_glossy_points(BatchArray<float>* reverse);
+  /// From there, the next directions; likewise.
+  void sample_glossy_points(BatchArray<float>* reverse);
+  /// Samples a BSDF at a point that has no loop of its own; the sample is empty if the path ends.
+  std::optional<BsdfSample> scatter_at(int i, const Bsdf& bsdf, Transport transport);
+  bool has_roulette(int depth) const { return depth >= limits_.rr_depth; }
+  Hit hit(int i) const {
+    return {hits_.t[i],         hits_.u[i],     hits_.v[i],
+            hits_.primitive[i], hits_.shape[i], hits_.instance[i]};
+  }
+  Spectrum throughput(int i) const {
+    return {paths_.throughput.x[i], paths_.throughput.y[i], paths_.throughput.z[i]};
+  }
+  /// Tests the first `n` shadow rays, of which some are blocked already, and calls `add(id,
+  /// contribution)` for those that meet nothing. Returns how many rays there were and how many of
+  /// them met nothing.
+  struct Tested {
+    int rays, lit;
+  };
+  template <class F>
+  Tested test_shadows(int n, WideShadowRays& rays, const F& add) {
+    Tested tested{find_unblocked(n, rays), 0};
+    for (int i = 0; i < tested.rays; ++i) {
+      if (rays.blocked[i]) continue;
+      ++tested.lit;
+      const BatchTriples& c = rays.contribution;
+      add(rays.id[i], Spectrum(c.x[i], c.y[i], c.z[i]));
+    }
+    return tested;
+  }
+
+  const WideScene& wide_;
+  PathLimits limits_;
+  WidePaths paths_{};
+  HitBatch hits_{};
+  WidePoints points_{};
+  WideNumbers numbers_{};
+  WideLightChoice choice_{};
+  WideLightSamples lights_{};  ///< or, of sub-paths from the lights, samples of the lens
+  WideShadowRays shadows_{};
+  WideScattering scattering_{};
+  WideGaps gaps_;
+  std::vector<int> emitting_;                    ///< numbers of points on lights
+  std::vector<std::vector<int>> glossy_points_;  ///< by WideShape::glossy
+  bool has_glossy_points_ = false;
+  WideGlossy glossy_{};
+  /// Numbers of the points that Scene::surface() makes, and those surfaces.
+  std::vector<int> special_;
+  std::vector<Surface> surfaces_;
+
+ private:
+  /// Calls `f(count, material)` for the glossy points of each material, whose numbers stand in
+  /// `glossy_` then.
+  template <class F>
+  void for_each_glossy(F&& f);
+  /// Moves the rays that nothing blocks yet to the front and tests them; returns how many.
+  int find_unblocked(int n, WideShadowRays& rays);
+  void fetch(int n);
+  void prefetch_textures();
+  void set_reflectance(int i, const Spectrum& r) { points_.reflectance.set(i, r.r, r.g, r.b); }
+
+  WideTriangles triangles_{};
+  std::vector<int> textured_;
+  std::vector<Surface> textured_points_;  ///< of `textured_`
+};
+
+}  // namespace duet
