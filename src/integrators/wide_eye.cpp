@@ -11,6 +11,11 @@ void WideEye::enter(std::span<const uint64_t> pixels) {
   keys_.resize(pixels.size());
   random_.resize(pixels.size());
   merging_.resize(pixels.size());
+  if (plan_.set.merges) {
+    const size_t most = 2 * size_t(kPhotonsAtOnce) + VertexGrid::kListAtOnce;
+    photon_entries_.resize(most);
+    photon_points_.resize(most);
+  }
   light_.assign(pixels.size(), {});
   leaders_.fill({});
   const LightVertices& vertices = plan_.lights->vertices();
@@ -66,7 +71,7 @@ void WideEye::trace(int n, const BatchSampler& sampler, WideSamples& samples,
     n = end_outside(n, samples, counters);
     counters.path_vertices += uint64_t(n);
     find_points(n);
-    if (plan_.set.merges) locate_photons(n);
+    if (plan_.set.merges) plan_.photons->locate(n, points_.position, around_);
     add_emission(samples, counters);
     if (depth == limits_.max_depth) {
       for (int i = 0; i < n; ++i) samples.alpha[paths_.id[i]] = 1;

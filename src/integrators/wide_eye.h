@@ -2,6 +2,7 @@
 #pragma once
 
 #include "integrators/wide_eye_kernels.h"
+#include "integrators/wide_merge_kernels.h"
 #include "integrators/wide_subpath_stages.h"
 #include "integrators/wide_walk.h"
 #include "transport/light_pass.h"
@@ -80,13 +81,18 @@ class WideEye final : public WideWalk, private WideSubpathStages {
   const PathVertex& light_vertex(int id, int number);
 
   // wide_merges.cpp
-  /// Finds the cells of photons around all points, and asks the memory for them.
-  void locate_photons(int n);
   void merge(int n, int depth, WideSamples& samples, RenderCounters& counters);
-  /// Finds the photons near a point; returns for how many each of them stands.
-  size_t find_photons(int i, const std::vector<LightVertex>& photons);
-  /// connect_merge() of a point that is diffuse.
-  Connection merge_diffuse(int i, const LightVertex& photon, float kernel) const;
+  bool merges_at(int i);
+  /// Lists the photons that may be near a point; returns for how many each of them stands.
+  size_t list_photons(int i, int& count);
+  /// Merges those of the first `count` listed photons that are near their points.
+  void merge_listed(int count, int depth, RenderCounters& counters);
+  /// With a point that is not diffuse.
+  void merge_one(int i, const LightVertex& photon, int depth, RenderCounters& counters);
+  void merge_near(int count, int depth, RenderCounters& counters);
+  void add_merged(int i, const Spectrum& s) {
+    merged_.set(i, merged_.x[i] + s.r, merged_.y[i] + s.g, merged_.z[i] + s.b);
+  }
 
   ConnectionRoulette roulette(int id) const {
     return {plan_.roulette_threshold, keys_[size_t(id)]};
@@ -111,12 +117,22 @@ class WideEye final : public WideWalk, private WideSubpathStages {
   LightStarts starts_;
   /// In pixels that do not merge, and in those that do.
   std::array<BalanceWeights, 2> weights_{BalanceWeights({}), BalanceWeights({})};
-  std::vector<uint64_t> keys_;                    ///< of ConnectionRoulette, by id
-  std::vector<uint64_t> random_;                  ///< state of numbers beside the sampler's, by id
-  std::vector<uint8_t> merging_;                  ///< whether the pixel merges, by id
-  std::vector<VertexGrid::Neighborhood> around_;  ///< of the points
-  std::vector<uint32_t> photons_;                 ///< near the point under way
-  std::vector<LightSubpath> light_;               ///< by id
+  std::vector<uint64_t> keys_;    ///< of ConnectionRoulette, by id
+  std::vector<uint64_t> random_;  ///< state of numbers beside the sampler's, by id
+  std::vector<uint8_t> merging_;  ///< whether the pixel merges, by id
+  /// If the set merges:
+  VertexGrid::NeighborhoodBatch around_{};  ///< of the points
+  BatchArray<float> kernel_{};              ///< WideMerges::kernel
+  BatchTriples merged_{};                   ///< what has been merged at the points
+  /// Entries of the grid, then indices of photons, with the numbers of their points. Listed are so
+  /// many at a time, and those of one more point.
+  static constexpr int kPhotonsAtOnce = kMostMergedPhotons;
+  std::vector<uint32_t> photon_entries_;
+  std::vector<int32_t> photon_points_;
+  WidePhotons near_{};  ///< diffuse points' photons
+  BatchTriples near_sums_{};
+  BatchArray<int32_t> near_merged_{};
+  std::vector<LightSubpath> light_;  ///< by id
   struct Leader {
     size_t subpath = 0;
     int id = -1;

@@ -1,67 +1,84 @@
 // Photons that a batch of eye sub-paths merges.
+#include <algorithm>
+#include <utility>
+
 #include "integrators/wide_eye.h"
 
 namespace duet {
 
-void WideEye::locate_photons(int n) {
-  around_.resize(size_t(n));
-  for (int i = 0; i < n; ++i)
-    if (merging_[size_t(paths_.id[i])])
-      around_[size_t(i)] = plan_.photons->locate(points_.position.point(i));
-}
-
 void WideEye::merge(int n, int depth, WideSamples& samples, RenderCounters& counters) {
-  const std::vector<LightVertex>& photons = plan_.lights->vertices().vertices;
+  int count = 0;
   for (int i = 0; i < n; ++i) {
-    const int id = paths_.id[i];
-    const PathVertex* const special = special_vertex(i);
-    if (!merging_[size_t(id)] || !carries(i) || !(special ? special->is_smooth() : is_smooth(i)))
-      continue;
-    if (special && !special->merges()) continue;
+    merged_.set(i, 0, 0, 0);
+    if (!merges_at(i)) continue;
     ++counters.merge_queries;
-    size_t share = find_photons(i, photons);
-    const float kernel = float(share) / (plan_.set.merge_area * plan_.set.light_paths);
-    const bool diffuse = wide_.shapes[hits_.shape[i]].model == WideModel::diffuse;
-    Spectrum sum;
-    for (const uint32_t index : photons_) {
-      const LightVertex& photon = photons[index];
-      if (int(photon.depth) + depth > limits_.max_depth) continue;
-      const Connection found =
-          diffuse ? merge_diffuse(i, photon, kernel)
-                  : connect_merge(weights_[1], photon, eye_vertex(i, depth), kernel, false);
-      if (found.value.is_black()) continue;
-      ++counters.merges;
-      sum += found.value * found.weight;
-    }
-    samples.add(id, sum);
+    if (count > kPhotonsAtOnce) merge_listed(std::exchange(count, 0), depth, counters);
+    const int first = count;
+    const size_t share = list_photons(i, count);
+    std::fill(photon_points_.begin() + first, photon_points_.begin() + count, i);
+    kernel_[i] = float(share) / (plan_.set.merge_area * plan_.set.light_paths);
   }
+  merge_listed(count, depth, counters);
+  for (int i = 0; i < n; ++i) samples.add(paths_.id[i], {merged_.x[i], merged_.y[i], merged_.z[i]});
 }
 
-size_t WideEye::find_photons(int i, const std::vector<LightVertex>& photons) {
+bool WideEye::merges_at(int i) {
+  if (!merging_[size_t(paths_.id[i])] || !carries(i)) return false;
+  const PathVertex* const special = special_vertex(i);
+  return special ? special->is_smooth() && special->merges() : is_smooth(i);
+}
+
+size_t WideEye::list_photons(int i, int& count) {
   uint64_t& random = random_[size_t(paths_.id[i])];
   const auto draw = [&] {
     random = mix64(random + 0x9e3779b97f4a7c15ull);
     return to_unit_float(uint32_t(random >> 32));
   };
-  photons_.clear();
-  size_t share = 1;
-  plan_.photons->sample(points_.position.point(i), around_[size_t(i)], kMostMergedPhotons, draw,
-                        [&](uint32_t index, float, size_t of) {
-                          __builtin_prefetch(&photons[index]);
-                          photons_.push_back(index);
-                          share = of;
-                        });
-  return share;
+  return plan_.photons->list(around_, i, kMostMergedPhotons, draw, photon_entries_.data(), count);
 }
 
-Connection WideEye::merge_diffuse(int i, const LightVertex& photon, float kernel) const {
-  const Vector3f wi = photon.direction_to_previous();
-  const float cosine = std::abs(dot(points_.ng.vector(i), wi));
-  const float pdf = dot(ends_.lit.vector(i), wi) * kInvPi;
-  if (!(cosine > 0 && pdf > 0)) return {};
-  const Vector3f flux = ends_.flux.vector(i);
-  return {Spectrum(flux.x, flux.y, flux.z) * photon.throughput * (pdf * kernel / cosine),
-          weights_[1].merge(photon.partials, pdf, partials(i), ends_.reverse[i])};
+void WideEye::merge_listed(int count, int depth, RenderCounters& counters) {
+  const LightVertex* const photons = plan_.lights->vertices().vertices.data();
+  uint32_t* const indices = photon_entries_.data();
+  const int near =
+      plan_.photons->select(count, points_.position, indices, photon_points_.data(), indices);
+  // They lie anywhere in memory.
+  constexpr int kAhead = 16;
+  for (int k = 0; k < std::min(kAhead, near); ++k) __builtin_prefetch(photons + indices[k]);
+  int diffuse = 0;
+  for (int k = 0; k < near; ++k) {
+    __builtin_prefetch(photons + indices[std::min(k + kAhead, near - 1)]);
+    const int i = photon_points_[size_t(k)];
+    const LightVertex& photon = photons[indices[k]];
+    if (wide_.shapes[hits_.shape[i]].model != WideModel::diffuse) {
+      merge_one(i, photon, depth, counters);
+      continue;
+    }
+    near_.set(diffuse++, i, photon);
+    if (diffuse == kBatch) merge_near(std::exchange(diffuse, 0), depth, counters);
+  }
+  merge_near(diffuse, depth, counters);
+}
+
+void WideEye::merge_one(int i, const LightVertex& photon, int depth, RenderCounters& counters) {
+  if (int(photon.depth) + depth > limits_.max_depth) return;
+  const Connection found =
+      connect_merge(weights_[1], photon, eye_vertex(i, depth), kernel_[i], false);
+  if (found.value.is_black()) return;
+  ++counters.merges;
+  add_merged(i, found.value * found.weight);
+}
+
+void WideEye::merge_near(int count, int depth, RenderCounters& counters) {
+  const TechniqueSet& set = plan_.set;
+  merge_photons(count, near_,
+                {subpaths_, points_, ends_, kernel_, set.connection_term(), set.partly_merged,
+                 limits_.max_depth - depth},
+                near_sums_, near_merged_);
+  for (int k = 0; k < count; ++k) {
+    counters.merges += uint64_t(near_merged_[k]);
+    add_merged(near_.point[k], {near_sums_.x[k], near_sums_.y[k], near_sums_.z[k]});
+  }
 }
 
 }  // namespace duet

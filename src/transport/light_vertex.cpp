@@ -7,13 +7,8 @@ namespace duet {
 
 namespace {
 
-constexpr double kScale = 2147483647.0;
-
 uint32_t quantize(float x) {
-  return uint32_t(int32_t(std::clamp(double(x), -1.0, 1.0) * kScale));
-}
-float restore(uint32_t q) {
-  return float(int32_t(q)) * float(1 / kScale);
+  return uint32_t(int32_t(std::clamp(double(x), -1.0, 1.0) * kOctahedronScale));
 }
 uint16_t quantize_unit(float x) {
   return uint16_t(std::clamp(x, 0.0f, 1.0f) * 65535.0f + 0.5f);
@@ -63,22 +58,12 @@ LightVertex::LightVertex(const MediaVertex& v, const Hit& hit) {
   set_direction_to_previous(v.wo);
 }
 
-// The direction as a point of the octahedron |x| + |y| + |z| = 1, its lower half folded over the
-// upper. Source: Cigolle et al., "A Survey of Efficient Representations for Independent Unit
-// Vectors", JCGT 3(2), 2014.
+// See decode_direction().
 void LightVertex::set_direction_to_previous(const Vector3f& v) {
   const Vector3f w = v / (std::abs(v.x) + std::abs(v.y) + std::abs(v.z));
   const float x = w.z < 0 ? std::copysign(1 - std::abs(w.y), w.x) : w.x;
   const float y = w.z < 0 ? std::copysign(1 - std::abs(w.x), w.y) : w.y;
   wo[0] = quantize(x), wo[1] = quantize(y);
-}
-
-Vector3f LightVertex::direction_to_previous() const {
-  const float x = restore(wo[0]), y = restore(wo[1]);
-  const float z = 1 - std::abs(x) - std::abs(y);
-  if (z >= 0) return normalize(Vector3f(x, y, z));
-  return normalize(
-      Vector3f(std::copysign(1 - std::abs(y), x), std::copysign(1 - std::abs(x), y), z));
 }
 
 inline Surface LightVertex::surface(const Scene& scene, const Vector3f& towards_previous) const {

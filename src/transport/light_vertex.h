@@ -7,6 +7,20 @@
 
 namespace duet {
 
+/// What stands for a coordinate of 1 on an octahedron.
+inline constexpr double kOctahedronScale = 2147483647.0;
+/// A unit vector of its place on the octahedron |x| + |y| + |z| = 1, whose lower half is folded
+/// over the upper: 32 bits per coordinate, in two's complement. Source: Cigolle et al., "A Survey
+/// of Efficient Representations for Independent Unit Vectors", JCGT 3(2), 2014.
+[[gnu::always_inline]] inline Vector3f decode_direction(uint32_t u, uint32_t v) {
+  constexpr auto unit = float(1 / kOctahedronScale);
+  const float x = float(int32_t(u)) * unit, y = float(int32_t(v)) * unit;
+  const float z = 1 - std::abs(x) - std::abs(y);
+  const float folded_x = std::copysign(1 - std::abs(y), x),
+              folded_y = std::copysign(1 - std::abs(x), y);
+  return normalize(Vector3f(z < 0 ? folded_x : x, z < 0 ? folded_y : y, z));
+}
+
 /// How a light sub-path arrives at a surface.
 struct SurfaceArrival {
   Point3f position;
@@ -36,7 +50,7 @@ struct LightVertex {
   LightVertex(const PathVertex& v, const Hit& hit);
   LightVertex(const MediaVertex& v, const Hit& hit);
 
-  Vector3f direction_to_previous() const;
+  Vector3f direction_to_previous() const { return decode_direction(wo[0], wo[1]); }
   bool in_medium() const { return shape == kNone; }
   /// `Vertex` is the kind of vertex that was packed. What the segment towards the light went
   /// through is not kept on surfaces.

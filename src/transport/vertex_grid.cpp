@@ -3,6 +3,8 @@
 #include <bit>
 #include <utility>
 
+#include "base/instruction_sets.h"
+
 namespace duet {
 
 namespace {
@@ -33,9 +35,9 @@ size_t VertexGrid::memory_bytes() const {
 VertexGrid::Plan VertexGrid::start(uint32_t count, float radius, int threads) {
   size_ = 0;
   radius_ = radius;
-  inverse_cell_size_ = 1 / (2 * double(radius) * kCellScale);
+  cells_.inverse_size = 1 / (2 * double(radius) * kCellScale);
   const size_t buckets = std::max(kMinBuckets, std::bit_ceil(size_t(count)));
-  bucket_mask_ = uint32_t(buckets - 1);
+  cells_.bucket_mask = uint32_t(buckets - 1);
   provide(entries_, entry_capacity_, count);
   provide(starts_, start_capacity_, buckets + 1);
   const size_t parts = std::clamp<size_t>(buckets / kMinPartBuckets, 1, kMaxParts);
@@ -77,7 +79,7 @@ void VertexGrid::sort_part(uint32_t part, uint32_t begin, uint32_t end) {
   std::vector<uint32_t> targets(end - begin);
   Entry* const entries = entries_.get() + begin;
   for (size_t i = 0; i < targets.size(); ++i) {
-    targets[i] = bucket(entries[i].position) - first_bucket;
+    targets[i] = cells_.bucket(entries[i].position) - first_bucket;
     ++bounds[targets[i]];
   }
   uint32_t next = begin;
@@ -95,6 +97,59 @@ void VertexGrid::sort_part(uint32_t part, uint32_t begin, uint32_t end) {
       targets[target] = target;
     }
   }
+}
+
+namespace {
+
+DUET_WIDEST void find_coordinates(int n, const GridCells& grid, double radius,
+                                  const BatchArray<float>& points, BatchArray<uint32_t>& out) {
+  const GridCells cells = grid;
+  DUET_LANES
+  for (int i = 0; i < n; ++i) out[i] = cells.coordinate(double(points[i]) - radius);
+}
+
+DUET_WIDEST void find_buckets(int n, const GridCells& grid, const BatchArray<uint32_t>& x,
+                              const BatchArray<uint32_t>& y, const BatchArray<uint32_t>& z,
+                              BatchArray<uint32_t>& out) {
+  const GridCells cells = grid;
+  DUET_LANES
+  for (int i = 0; i < n; ++i) out[i] = cells.bucket(x[i], y[i], z[i]);
+}
+
+}  // namespace
+
+void VertexGrid::locate(int n, const BatchTriples& points, NeighborhoodBatch& around) const {
+  BatchArray<uint32_t> lowest[3], next[3];
+  const BatchArray<float>* const coordinates[]{&points.x, &points.y, &points.z};
+  for (int axis = 0; axis < 3; ++axis) {
+    find_coordinates(n, cells_, double(radius_), *coordinates[axis], lowest[axis]);
+    for (int i = 0; i < n; ++i) next[axis][i] = lowest[axis][i] + 1;
+  }
+  for (int k = 0; k < 8; ++k) {
+    const auto at = [&](int axis) -> auto& {
+      return (k >> axis & 1) ? next[axis] : lowest[axis];
+    };
+    find_buckets(n, cells_, at(0), at(1), at(2), around[size_t(k)]);
+  }
+  if (size_ == 0) return;
+  for (const BatchArray<uint32_t>& buckets : around)
+    for (int i = 0; i < n; ++i) __builtin_prefetch(starts_.get() + buckets[i]);
+}
+
+int VertexGrid::select(int count, const BatchTriples& points, const uint32_t* entries,
+                       int32_t* numbers, uint32_t* indices) const {
+  const float radius_squared = sqr(radius_);
+  int found = 0;
+  constexpr int kAhead = 16;
+  // Without branches: which entries are near cannot be predicted.
+  for (int c = 0; c < count; ++c) {
+    __builtin_prefetch(&entries_[entries[std::min(c + kAhead, count - 1)]]);
+    const Entry& e = entries_[entries[c]];
+    const int32_t number = numbers[c];
+    numbers[found] = number, indices[found] = e.index;
+    found += length_squared(e.position - points.point(number)) < radius_squared;
+  }
+  return found;
 }
 
 }  // namespace duet

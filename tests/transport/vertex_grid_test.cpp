@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <memory>
 
 #include "math/sampler.h"
 
@@ -47,6 +48,30 @@ std::vector<Found> ask(const VertexGrid& grid, const Point3f& p) {
   return found;
 }
 
+/// What list() and select() find for the first points of a list, in order: indices by query.
+std::vector<std::vector<uint32_t>> ask_batch(const VertexGrid& grid, const Points& queries,
+                                             size_t most, float random = 0) {
+  const int n = int(std::min(queries.size(), size_t(kBatch)));
+  auto around = std::make_unique<VertexGrid::NeighborhoodBatch>();
+  auto points = std::make_unique<BatchTriples>();
+  for (int i = 0; i < n; ++i) points->set(i, queries[size_t(i)]);
+  grid.locate(n, *points, *around);
+  std::vector<std::vector<uint32_t>> found(static_cast<size_t>(n));
+  for (int i = 0; i < n; ++i) {
+    std::vector<uint32_t> list(std::min(most, size_t(1) << 16) + VertexGrid::kListAtOnce);
+    int count = 0;
+    grid.list(
+        *around, i, most, [&] { return random; }, list.data(), count);
+    std::vector<int32_t> numbers(size_t(count), i);
+    const int near = grid.select(count, *points, list.data(), numbers.data(), list.data());
+    for (int k = 0; k < near; ++k) {
+      REQUIRE(numbers[size_t(k)] == i);
+      found[size_t(i)].push_back(list[size_t(k)]);
+    }
+  }
+  return found;
+}
+
 /// What a query has to find, by index.
 std::vector<Found> brute_force(const Points& points, const Point3f& p, float radius) {
   std::vector<Found> found;
@@ -63,8 +88,12 @@ size_t compare(const Points& points, const Points& queries, float radius) {
   build(grid, points, radius);
   CHECK(grid.radius() == radius);
   size_t wrong = 0, total = 0;
+  const auto batch = ask_batch(grid, queries, points.size());
   for (const Point3f& q : queries) {
     auto found = ask(grid, q);
+    if (const auto i = size_t(&q - queries.data()); i < batch.size())
+      wrong += !std::equal(found.begin(), found.end(), batch[i].begin(), batch[i].end(),
+                           [](const Found& f, uint32_t index) { return f.index == index; });
     std::sort(found.begin(), found.end(),
               [](const Found& a, const Found& b) { return a.index < b.index; });
     wrong += found != brute_force(points, q, radius);
@@ -105,6 +134,13 @@ TEST_CASE("vertex grid looks at some of the points of a crowd, each with the sam
     CAPTURE(most);
     std::vector<int> visits(points.size());
     size_t share = 0, passes = 0;
+    for (const float random : {0.0f, 0.3f, 0.999f}) {
+      std::vector<uint32_t> indices;
+      grid.sample(
+          p, grid.locate(p), most, [&] { return random; },
+          [&](uint32_t index, float, size_t) { indices.push_back(index); });
+      CHECK(ask_batch(grid, {p}, most, random)[0] == indices);
+    }
     // Every way to begin: each point is found once, and counted as often as there are ways.
     for (size_t first = 0; first == 0 || first < share; ++first, ++passes) {
       size_t looked = 0;

@@ -1,0 +1,42 @@
+// Photons merged with the points of a batch of eye sub-paths: the same formulas as those of one
+// point (connection.h), so that the results are the same to rounding.
+#pragma once
+
+#include "integrators/wide_subpaths.h"
+#include "transport/light_vertex.h"
+
+namespace duet {
+
+/// Photons, each near one of the points.
+struct WidePhotons {
+  BatchArray<int32_t> point;  ///< number in the batch
+  BatchTriples throughput;
+  BatchArray<float> vcm, vc, vm;  ///< Partials
+  BatchArray<uint32_t> u, v;      ///< LightVertex::wo
+  BatchArray<int32_t> depth;
+
+  void set(int k, int number, const LightVertex& photon) {
+    point[k] = number;
+    throughput.set(k, photon.throughput.r, photon.throughput.g, photon.throughput.b);
+    vcm[k] = photon.partials.vcm, vc[k] = photon.partials.vc, vm[k] = photon.partials.vm;
+    u[k] = photon.wo[0], v[k] = photon.wo[1];
+    depth[k] = photon.depth;
+  }
+};
+
+/// What merges at the points of a batch have in common.
+struct WideMerges {
+  const WideSubpaths& subpaths;
+  const WidePoints& points;
+  const WideEnds& ends;
+  const BatchArray<float>& kernel;  ///< weights of the photons, by point
+  float connection_term;            ///< TechniqueSet::connection_term()
+  bool partly_merged;               ///< TechniqueSet::partly_merged
+  int most;                         ///< segments that a photon's sub-path may have
+};
+
+/// What `n` photons contribute at diffuse points: connect_merge(). `merged` is 1 for those that do.
+void merge_photons(int n, const WidePhotons& photons, const WideMerges& m, BatchTriples& out,
+                   BatchArray<int32_t>& merged);
+
+}  // namespace duet
