@@ -3,6 +3,7 @@ import ast
 import importlib.util
 import inspect
 import pathlib
+import site
 import subprocess
 import sys
 import tempfile
@@ -102,9 +103,15 @@ class Stubs(unittest.TestCase):
                 file = pathlib.Path(folder) / "user.py"
                 file.write_text(text, encoding="utf-8")
                 arguments = [*arguments, str(file)]
-            return subprocess.run(
+            # mypy finds by itself what is installed, and refuses to be told of it.
+            installed = str(PACKAGE.parent) in site.getsitepackages()
+            done = subprocess.run(
                 [sys.executable, "-m", "mypy", "--strict", "--no-error-summary", "--cache-dir", folder, *arguments],
-                capture_output=True, text=True, env={"MYPYPATH": str(PACKAGE.parent)}, cwd=folder, check=False).stdout
+                capture_output=True, text=True, env={} if installed else {"MYPYPATH": str(PACKAGE.parent)}, cwd=folder,
+                check=False)
+        self.assertEqual(done.stderr, "")
+        self.assertEqual(done.returncode, 1 if done.stdout else 0)
+        return done.stdout
 
     def test_mypy_of_the_package(self):
         self.assertEqual(self.check("-p", "duet"), "")
