@@ -14,6 +14,7 @@ declare -A about=(
   [package]="the Debian package installs and renders in a new Debian 12: \`tests/package_test.sh\`"
   [library]="programs with the installed C++ library, by two compilers: \`tests/library_test.sh\`"
   [python]="the Python package: \`scripts/python.sh\`"
+  [wheel]="the Python wheel installs and renders in a new Debian 12: \`tests/package_test.sh\`"
   [python_asan]="the same tests under the address and undefined-behaviour sanitizers: \`scripts/python.sh asan\`"
   [fuzz]="every fuzzer, ${DUET_FUZZ_SECONDS:-120} seconds"
   [tsan]="unit tests under the thread sanitizer"
@@ -24,7 +25,7 @@ declare -A about=(
   [mutations]="every bug of \`tests/mutations.py\` is noticed"
 )
 # Cheap ones first.
-stages=(clang bench slurm package library python python_asan fuzz tsan statistics slow agreement stability mutations)
+stages=(clang bench slurm package library python wheel python_asan fuzz tsan statistics slow agreement stability mutations)
 logs=build-nightly
 table=docs/nightly.md
 
@@ -78,6 +79,11 @@ run_python() {
   scripts/build.sh release duet duet_fake_oidn
   scripts/python.sh 2>&1 | tee "$logs/python.txt"
   grep '^Ran ' "$logs/python.txt"
+}
+
+run_wheel() {
+  scripts/python.sh wheel
+  tests/package_test.sh build-python/duet_renderer-*.whl "$PWD/$logs/debian"
 }
 
 run_python_asan() {

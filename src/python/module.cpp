@@ -127,8 +127,8 @@ nb::object metadata_value(const MetadataValue& value) {
   return std::visit(Converted{}, value);
 }
 
-nb::dict metadata_of(const RenderedImage& image) {
-  nb::dict fields;
+nb::typed<nb::dict, nb::str, nb::object> metadata_of(const RenderedImage& image) {
+  nb::typed<nb::dict, nb::str, nb::object> fields;
   for (const auto& [name, value] : image.metadata()) fields[name.c_str()] = metadata_value(value);
   return fields;
 }
@@ -167,7 +167,7 @@ void bind_exceptions(nb::module_& m) {
       PyErr_SetString(PyExc_OSError, e.what());
     }
   });
-  m.attr("__version__") = library_version();
+  m.def("version", &library_version);
 }
 
 void bind_scene(nb::module_& m) {
@@ -192,9 +192,10 @@ void bind_render(nb::module_& m) {
       .def_rw("layers", &RenderSettings::layers)
       .def_rw("cryptomatte", &RenderSettings::cryptomatte)
       .def_rw("denoise", &RenderSettings::denoise)
-      .def_prop_rw(
-          "techniques", [](const RenderSettings&) { return nb::none(); },
-          [](RenderSettings& s, const std::string& name) { s.techniques = technique_layers(name); })
+      .def(
+          "set_techniques",
+          [](RenderSettings& s, const std::string& name) { s.techniques = technique_layers(name); },
+          "name"_a)
       .def_rw("seed", &RenderSettings::seed, nb::arg().none())
       .def_rw("strict_sampler", &RenderSettings::strict_sampler)
       .def_rw("threads", &RenderSettings::threads)
@@ -222,10 +223,12 @@ void bind_image(nb::module_& m) {
           },
           "aov_names"_a, "parts"_a);
   nb::class_<RenderedImage>(m, "Image")
-      .def_static("from_rgba",
-                  [](const Pixels& p) {
-                    return RenderedImage::from_rgba(numbers(p), int(p.shape(1)), int(p.shape(0)));
-                  })
+      .def_static(
+          "from_rgba",
+          [](const Pixels& p) {
+            return RenderedImage::from_rgba(numbers(p), int(p.shape(1)), int(p.shape(0)));
+          },
+          "pixels"_a)
       .def_prop_ro("channels", &RenderedImage::channels)
       .def_prop_ro("interrupted", &RenderedImage::interrupted)
       .def_prop_ro("denoised", &RenderedImage::denoised)
@@ -244,7 +247,7 @@ void bind_image(nb::module_& m) {
 
 void bind_compare(nb::module_& m) {
   nb::class_<ComparedImage>(m, "ComparedImage")
-      .def_static("load", &ComparedImage::load)
+      .def_static("load", &ComparedImage::load, "path"_a)
       .def_static(
           "from_pixels",
           [](const Pixels& p, const Texts& channels) {
@@ -252,8 +255,10 @@ void bind_compare(nb::module_& m) {
                                               channels);
           },
           "pixels"_a, "channels"_a)
-      .def_static("from_image", &ComparedImage::from_image);
-  nb::class_<ReferenceVariance>(m, "Variance").def(nb::init<ComparedImage, double, double>());
+      .def_static("from_image", &ComparedImage::from_image, "image"_a);
+  nb::class_<ReferenceVariance>(m, "Variance")
+      .def(nb::init<ComparedImage, double, double>(), "variance"_a, "image_spp"_a,
+           "reference_spp"_a);
   m.def("compare", &compare_images, "image"_a, "reference"_a, "variance"_a.none(), "threads"_a = 0,
         nb::call_guard<nb::gil_scoped_release>());
   m.def(

@@ -123,6 +123,8 @@ class Images(DuetTest):
             image.save(self.folder / "a.exr", aov_names="houdini")
         with self.assertRaisesRegex(ValueError, "there are srgb aces agx reinhard"):
             image.save(self.folder / "a.png", tonemap="filmic")
+        with self.assertRaisesRegex(ValueError, "\"auto\", not 'bright'"):
+            image.save(self.folder / "a.png", exposure="bright")
         self.assertEqual(image._repr_png_(), (self.folder / "a.png").read_bytes())
         with self.assertRaisesRegex(ValueError, "a.txt"):
             image.save(self.folder / "a.txt")

@@ -10,12 +10,14 @@ The images have the same bits as those of the command `duet` with the same setti
 """
 from . import util
 from ._compare import Welch, compare, welch
-from ._duet import __version__
+from ._duet import version as _version
 from ._image import DenoiserError, Image
 from ._render import merge, render
 from ._scene import Scene, SceneError, SceneWarning, load_dict, load_file, load_string
 from ._transform import Transform4f
 from ._variant import set_variant, variant
+
+__version__ = _version()
 
 #: Mitsuba 3's name for it.
 ScalarTransform4f = Transform4f

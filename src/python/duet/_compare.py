@@ -4,12 +4,19 @@ from __future__ import annotations
 import json
 import os
 import typing
+from collections.abc import Iterable
+
+import numpy.typing
 
 from . import _duet
 from ._image import Image, pixels_of
 
 
-def _linear(image, what):
+#: What is compared: a file, an image or an array.
+_Comparable = typing.Union[str, os.PathLike[str], Image, numpy.typing.ArrayLike]
+
+
+def _linear(image: _Comparable, what: str) -> _duet.ComparedImage:
     """A file, an Image or an array as linear colours."""
     if isinstance(image, (str, os.PathLike)):
         return _duet.ComparedImage.load(os.fspath(image))
@@ -18,7 +25,7 @@ def _linear(image, what):
     return _duet.ComparedImage.from_pixels(*pixels_of(image, what))
 
 
-def _samples(given, image, what):
+def _samples(given: float | None, image: _Comparable, what: str) -> float:
     if given is not None:
         return float(given)
     if isinstance(image, Image) and "spp" in image.metadata:
@@ -34,9 +41,10 @@ class Welch(typing.NamedTuple):
     z: float           #: the normal variate, not negative, that is as improbable
 
 
-def welch(values, expected: float, variance: float = 0.0) -> Welch:
+def welch(values: Iterable[float], expected: float, variance: float = 0.0) -> Welch:
     """Welch's t-test of whether independent values have the mean `expected`, whose variance is known.
 
+    `values` and `expected` have one unit, whatever it is; `variance` has its square.
     Source: Welch, "The generalization of Student's problem when several different population variances are
     involved", Biometrika 34, 1947. Raises ValueError for fewer than two values.
     """
@@ -46,17 +54,20 @@ def welch(values, expected: float, variance: float = 0.0) -> Welch:
     return Welch(*_duet.welch(values, float(expected), float(variance)))
 
 
-def compare(image, reference, *, variance=None, image_spp: float | None = None,
-            reference_spp: float | None = None) -> dict:
+def compare(image: _Comparable, reference: _Comparable, *, variance: _Comparable | None = None,
+            image_spp: float | None = None, reference_spp: float | None = None) -> dict[str, typing.Any]:
     """The figures of `duet compare --json` as a dict: rmse, relrmse, flip, ssim …, "verdict".
 
     Images are files, duet.Image, or arrays of linear values (height × width, or with 1, 3 or 4 channels). `variance` is
     that of one sample of the reference, likewise; with it bias and noise are told apart ("bias_test"), for which the
-    samples per pixel of both images are needed: their own if they are a duet.Image. Denoised images are biased, which the "warning" says then. Raises ValueError for images that do
-    not go together and OSError for files that cannot be read.
+    samples per pixel of both images are needed: their own if they are a duet.Image. Denoised images are biased, which
+    the "warning" says then. Raises ValueError for images that do not go together and OSError for files that cannot be
+    read.
     """
     noise = None
     if variance is not None:
         noise = _duet.Variance(_linear(variance, "variance"), _samples(image_spp, image, "image"),
                                _samples(reference_spp, reference, "reference"))
-    return json.loads(_duet.compare(_linear(image, "image"), _linear(reference, "reference"), noise))
+    figures: dict[str, typing.Any] = json.loads(
+        _duet.compare(_linear(image, "image"), _linear(reference, "reference"), noise))
+    return figures

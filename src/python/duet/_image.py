@@ -3,9 +3,11 @@ from __future__ import annotations
 
 import os
 from collections.abc import Sequence
+from typing import Any
 
 import numpy
 from numpy.lib.mixins import NDArrayOperatorsMixin
+from numpy.typing import ArrayLike, DTypeLike, NDArray
 
 from ._duet import DisplayForm as _DisplayForm, ExrForm as _ExrForm, Image as _Pixels
 
@@ -16,7 +18,7 @@ class DenoiserError(RuntimeError):
     """Open Image Denoise is asked for, and cannot be loaded or has failed."""
 
 
-def pixels_of(image, what: str = "the image") -> tuple[numpy.ndarray, list[str]]:
+def pixels_of(image: ArrayLike, what: str = "the image") -> tuple[NDArray[numpy.float32], list[str]]:
     """An array as height × width × channels float32, and the names of its channels."""
     pixels = numpy.asarray(image)
     if pixels.dtype.kind not in "fiu":
@@ -37,13 +39,13 @@ class Image(NDArrayOperatorsMixin):
     images, such as image ** (1 / 2.2), give arrays.
     """
 
-    def __init__(self, pixels):
+    def __init__(self, pixels: _Pixels) -> None:
         if not isinstance(pixels, _Pixels):
             raise TypeError("images are made by duet.render() and Image.from_array()")
         self._pixels = pixels
 
     @classmethod
-    def from_array(cls, pixels) -> Image:
+    def from_array(cls, pixels: ArrayLike) -> Image:
         """A copy of an array of linear values, height × width, or with 1, 3 or 4 channels: R, G, B, A, with one channel
         grey and with less than four opaque."""
         given, channels = pixels_of(pixels)
@@ -65,8 +67,9 @@ class Image(NDArrayOperatorsMixin):
         return self._pixels.channels
 
     @property
-    def metadata(self) -> dict:
-        """What the header of an EXR file says: integrator, spp, seed, relativeStandardError …"""
+    def metadata(self) -> dict[str, Any]:
+        """What the header of an EXR file says: integrator, spp (samples per pixel), seed, relativeStandardError (a share of
+        the mean, 0.01 is one percent) …"""
         return self._pixels.metadata
 
     @property
@@ -88,15 +91,16 @@ class Image(NDArrayOperatorsMixin):
     @property
     def shape(self) -> tuple[int, int, int]:
         """(height, width, channels)."""
-        return self._pixels.pixels().shape
+        height, width, channels = self._pixels.pixels().shape
+        return height, width, channels
 
     def __len__(self) -> int:
         return self.shape[0]
 
-    def __getitem__(self, index):
+    def __getitem__(self, index: Any) -> Any:
         return self._pixels.pixels()[index]
 
-    def __array__(self, dtype=None, copy=None) -> numpy.ndarray:
+    def __array__(self, dtype: DTypeLike | None = None, copy: bool | None = None) -> NDArray[Any]:
         pixels = self._pixels.pixels()
         if dtype is not None and numpy.dtype(dtype) != pixels.dtype:
             if copy is False:
@@ -104,11 +108,11 @@ class Image(NDArrayOperatorsMixin):
             return pixels.astype(dtype)
         return pixels.copy() if copy else pixels
 
-    def __array_ufunc__(self, function, method, *inputs, **kwargs):
+    def __array_ufunc__(self, function: numpy.ufunc, method: str, *inputs: Any, **kwargs: Any) -> Any:
         arrays = [i._pixels.pixels() if isinstance(i, Image) else i for i in inputs]
         return getattr(function, method)(*arrays, **kwargs)
 
-    def save(self, path: str | os.PathLike, exposure: float | str = 0.0, tonemap: str | None = None, png_depth: int = 8,
+    def save(self, path: str | os.PathLike[str], exposure: float | str = 0.0, tonemap: str | None = None, png_depth: int = 8,
              aov_names: str = "duet", exr_parts: bool = False) -> None:
         """Writes an image file: .exr (linear, all layers), .png or .jpg (for display). Files are replaced as a whole.
 
@@ -117,8 +121,12 @@ class Image(NDArrayOperatorsMixin):
         have the names of "duet", "blender", "nuke" or "mitsuba" (`aov_names`), and with `exr_parts` each is a part of its
         own. Raises ValueError for others and OSError if it cannot be written.
         """
-        automatic = exposure == "auto"
-        display = _DisplayForm(0.0 if automatic else exposure, automatic, tonemap or "", png_depth)
+        stops = exposure
+        if isinstance(stops, str):
+            if stops != "auto":
+                raise ValueError(f'exposure: a number of stops or "auto", not {stops!r}')
+            stops = 0.0
+        display = _DisplayForm(stops, exposure == "auto", tonemap or "", png_depth)
         self._pixels.save(os.fspath(path), display, _ExrForm(aov_names, exr_parts))
 
     def _repr_png_(self) -> bytes | None:

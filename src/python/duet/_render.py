@@ -1,46 +1,50 @@
 """Rendering."""
 from __future__ import annotations
 
+import importlib
 import numbers
 import os
 import warnings
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from typing import Any
 
 from . import _duet
 from ._image import Image
 from ._scene import Scene, SceneWarning
 
 
-def _bar():
+def _bar() -> Any:
     """A bar of tqdm's if it is installed, or None."""
     try:
-        from tqdm.auto import tqdm
+        tqdm = importlib.import_module("tqdm.auto")
     except ImportError:
         return None
-    return tqdm(total=100, unit="%", bar_format="{l_bar}{bar}| {elapsed}<{remaining}")
+    return tqdm.tqdm(total=100, unit="%", bar_format="{l_bar}{bar}| {elapsed}<{remaining}")
 
 
-def _whole(name, value, least):
+def _whole(name: str, value: Any, least: int) -> Any:
     if value is None:
         return None
     if isinstance(value, bool) or not isinstance(value, numbers.Integral):
         raise TypeError(f"{name} is a whole number, not {type(value).__name__}")
-    if not least <= value < 2**31:
-        raise ValueError(f"{name}: {value} is not between {least} and {2**31 - 1}")
-    return int(value)
+    whole = int(value)
+    if not least <= whole < 2**31:
+        raise ValueError(f"{name}: {whole} is not between {least} and {2**31 - 1}")
+    return whole
 
 
-def _positive(name, value):
+def _positive(name: str, value: Any) -> float | None:
     if value is None:
         return None
     if isinstance(value, bool) or not isinstance(value, numbers.Real):
         raise TypeError(f"{name} is a number, not {type(value).__name__}")
-    if not 0 < value < float("inf"):
+    positive = float(value)
+    if not 0 < positive < float("inf"):
         raise ValueError(f"{name}: {value} is not a positive number")
-    return float(value)
+    return positive
 
 
-def _window(name, values, least):
+def _window(name: str, values: Iterable[int] | None, least: tuple[int, ...]) -> Any:
     if values is None:
         return None
     values = tuple(values)
@@ -49,19 +53,19 @@ def _window(name, values, least):
     return tuple(_whole(name, v, m) for v, m in zip(values, least))
 
 
-def _texts(parameters):
-    def text(value):
+def _texts(parameters: Mapping[str, Any]) -> list[tuple[str, str]]:
+    def text(value: Any) -> str:
         return str(value).lower() if isinstance(value, bool) else str(value)
     return [(str(name), text(value)) for name, value in parameters.items()]
 
 
-def _names(names):
+def _names(names: str | Iterable[str]) -> list[str]:
     """A sequence of names, or a text in which they are separated by commas."""
     return [n.strip() for n in names.split(",")] if isinstance(names, str) else list(names)
 
 
 def render(scene: Scene, *, spp: int | None = None, time: float | None = None, target_error: float | None = None,
-           integrator: str = "", parameters: Mapping | None = None, seed: int | None = None,
+           integrator: str = "", parameters: Mapping[str, Any] | None = None, seed: int | None = None,
            size: tuple[int, int] | None = None, crop: tuple[int, int, int, int] | None = None, sensor: int = 0,
            aovs: Sequence[str] = (), cryptomatte: Sequence[str] = (), techniques: str | None = None,
            denoise: bool = False, strict_sampler: bool = False, threads: int = 0,
@@ -105,7 +109,7 @@ def render(scene: Scene, *, spp: int | None = None, time: float | None = None, t
     settings.layers = _names(aovs)
     settings.cryptomatte = _names(cryptomatte)
     settings.denoise = bool(denoise)
-    settings.techniques = techniques or ""
+    settings.set_techniques(techniques or "")
     settings.seed = None if seed is None else int(seed)
     settings.strict_sampler = bool(strict_sampler)
     settings.threads = _whole("threads", threads, 0)
@@ -113,8 +117,8 @@ def render(scene: Scene, *, spp: int | None = None, time: float | None = None, t
     bar = _bar() if progress is True else None
     watch = progress if callable(progress) else None
     if bar is not None:
-        def watch(fraction, _spp, _seconds):
-            bar.update(100 * fraction - bar.n)
+        def watch(fraction: float, spp: int, seconds: float) -> object:
+            return bar.update(100 * fraction - bar.n)
     try:
         rendered, messages = _duet.render(scene._read, settings, watch)
     finally:
@@ -125,13 +129,13 @@ def render(scene: Scene, *, spp: int | None = None, time: float | None = None, t
     return Image(rendered)
 
 
-def merge(films: Sequence[str | os.PathLike]) -> Image:
+def merge(films: Sequence[str | os.PathLike[str]]) -> Image:
     """Adds up raw films of one image (files, of `duet --raw`) to an Image, as `duet merge` does. Samples that are missing
     before the last are in its metadata ("missingSamples"). Raises OSError if a film cannot be read or does not go with
     the others, MemoryError if the image would not fit."""
     if isinstance(films, (str, os.PathLike)):
         raise TypeError("films is a list of files")
-    films = [os.fspath(f) for f in films]
-    if not films:
+    paths = [os.fspath(f) for f in films]
+    if not paths:
         raise ValueError("there are no films")
-    return Image(_duet.merge(films))
+    return Image(_duet.merge(paths))

@@ -4,7 +4,8 @@ from __future__ import annotations
 import json
 import os
 import warnings
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
+from typing import Any
 
 from . import _duet
 from ._xml import scene_xml
@@ -13,7 +14,8 @@ from ._xml import scene_xml
 class SceneError(RuntimeError):
     """Errors in a scene. The text has all of them, a line each."""
 
-    def __init__(self, message, file=None, line=0, column=0, messages=()):
+    def __init__(self, message: str, file: str | None = None, line: int = 0, column: int = 0,
+                 messages: Iterable[str] = ()) -> None:
         super().__init__(message)
         #: The file of the first error, or None if it is not known.
         self.file = file
@@ -31,7 +33,7 @@ class SceneWarning(UserWarning):
 class Scene:
     """A scene as its file describes it; it never changes. Several threads may render it at once."""
 
-    def __init__(self, read):
+    def __init__(self, read: _duet.Scene) -> None:
         self._read = read
 
     @property
@@ -44,18 +46,19 @@ class Scene:
         """What was noticed while it was read, as "file:line:column: warning: text"."""
         return self._read.warnings
 
-    def info(self) -> dict:
+    def info(self) -> dict[str, Any]:
         """What `duet info --json` prints, as a dict: integrator, sensors, shapes, materials, lights …"""
-        return json.loads(self._read.json())
+        described: dict[str, Any] = json.loads(self._read.json())
+        return described
 
-    def __repr__(self):
+    def __repr__(self) -> str:
         return f"<duet.Scene {self.name}>"
 
-    def __str__(self):
+    def __str__(self) -> str:
         return self._read.summary()
 
 
-def _texts(defines):
+def _texts(defines: Mapping[str, str | int | float | bool]) -> list[tuple[str, str]]:
     texts = []
     for name, value in defines.items():
         if isinstance(value, bool):
@@ -66,7 +69,8 @@ def _texts(defines):
     return texts
 
 
-def _load(name, text, defines, search_paths):
+def _load(name: str, text: str | None, defines: Mapping[str, str | int | float | bool],
+          search_paths: Sequence[str | os.PathLike[str]]) -> Scene:
     if isinstance(search_paths, (str, os.PathLike)):
         raise TypeError("search_paths is a list of folders")
     read = _duet.load(name, text, _texts(defines), [os.fspath(p) for p in search_paths])
@@ -75,7 +79,7 @@ def _load(name, text, defines, search_paths):
     return Scene(read)
 
 
-def load_file(path: str | os.PathLike, *, search_paths: Sequence[str | os.PathLike] = (),
+def load_file(path: str | os.PathLike[str], *, search_paths: Sequence[str | os.PathLike[str]] = (),
               **defines: str | int | float | bool) -> Scene:
     """Reads a scene file (.xml, .pbrt, .pbrt.gz).
 
@@ -85,7 +89,7 @@ def load_file(path: str | os.PathLike, *, search_paths: Sequence[str | os.PathLi
     return _load(os.fspath(path), None, defines, search_paths)
 
 
-def load_string(text: str, *, search_paths: Sequence[str | os.PathLike] = (),
+def load_string(text: str, *, search_paths: Sequence[str | os.PathLike[str]] = (),
                 **defines: str | int | float | bool) -> Scene:
     """Reads a scene from the text of a Mitsuba XML file. Its relative files are looked for from the current folder and
     in `search_paths`. Errors and parameters as with load_file()."""
@@ -94,7 +98,7 @@ def load_string(text: str, *, search_paths: Sequence[str | os.PathLike] = (),
     return _load("<string>", text, defines, search_paths)
 
 
-def load_dict(scene: Mapping, *, search_paths: Sequence[str | os.PathLike] = ()) -> Scene:
+def load_dict(scene: dict[str, Any], *, search_paths: Sequence[str | os.PathLike[str]] = ()) -> Scene:
     """Reads a scene from nested dicts, in Mitsuba 3's convention: {"type": "scene", "name": {"type": "sphere", …}, …}.
 
     Values are numbers, texts, bools, lists of three numbers (points and vectors), 4 × 4 arrays (transforms, column

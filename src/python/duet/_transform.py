@@ -2,29 +2,34 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Callable
+from typing import Generic, ParamSpec
 
 import numpy
+from numpy.typing import ArrayLike, NDArray
+
+_Arguments = ParamSpec("_Arguments")
+_Matrix = NDArray[numpy.float64]
 
 
-class _Step:
+class _Step(Generic[_Arguments]):
     """A transform that is applied before those that it is called on: Transform4f().translate(…).rotate(…). Called on
     the class it is the first one."""
 
-    def __init__(self, matrix):
+    def __init__(self, matrix: Callable[_Arguments, _Matrix]) -> None:
         self._matrix = matrix
         self.__doc__ = matrix.__doc__
 
-    def __get__(self, transform, owner):
+    def __get__(self, transform: Transform4f | None, owner: type[Transform4f]) -> Callable[_Arguments, Transform4f]:
         before = owner() if transform is None else transform
 
-        def step(*args, **kwargs):
+        def step(*args: _Arguments.args, **kwargs: _Arguments.kwargs) -> Transform4f:
             return before @ owner(self._matrix(*args, **kwargs))
         step.__doc__ = self.__doc__
         return step
 
 
-def _vector(values, name: str) -> numpy.ndarray:
+def _vector(values: ArrayLike, name: str) -> _Matrix:
     vector = numpy.asarray(values, dtype=float)
     if vector.ndim == 0:
         vector = numpy.full(3, float(vector))
@@ -33,29 +38,29 @@ def _vector(values, name: str) -> numpy.ndarray:
     return vector
 
 
-def _direction(values, name: str) -> numpy.ndarray:
+def _direction(values: ArrayLike, name: str) -> _Matrix:
     vector = _vector(values, name)
     length = numpy.linalg.norm(vector)
     if length == 0:
         raise ValueError(f"{name} has no length")
-    return vector / length
+    return numpy.asarray(vector / length)
 
 
-def _translate(v: Sequence[float]) -> numpy.ndarray:
-    """By a vector."""
+def _translate(v: ArrayLike) -> _Matrix:
+    """By a vector: three numbers in the unit of the scene's lengths."""
     matrix = numpy.eye(4)
     matrix[:3, 3] = _vector(v, "v")
     return matrix
 
 
-def _scale(v: Sequence[float] | float) -> numpy.ndarray:
-    """By a factor, or by one along each axis."""
+def _scale(v: ArrayLike) -> _Matrix:
+    """By a factor, or by three, one along each axis."""
     return numpy.diag([*_vector(v, "v"), 1.0])
 
 
-def _rotate(axis: Sequence[float], angle: float) -> numpy.ndarray:
-    """Around an axis through the origin, by degrees, counterclockwise if the axis points to the viewer. Source:
-    Rodrigues' formula."""
+def _rotate(axis: ArrayLike, angle: float) -> _Matrix:
+    """Around an axis (three numbers) through the origin, by an angle in degrees, counterclockwise if the axis points to the
+    viewer. Source: Rodrigues' formula."""
     x, y, z = _direction(axis, "axis")
     cross = numpy.array([[0, -z, y], [z, 0, -x], [-y, x, 0]])
     radians = math.radians(angle)
@@ -64,13 +69,14 @@ def _rotate(axis: Sequence[float], angle: float) -> numpy.ndarray:
     return matrix
 
 
-def _look_at(origin: Sequence[float], target: Sequence[float], up: Sequence[float]) -> numpy.ndarray:
-    """Of a sensor at a point that looks at another one; +z is where it looks, +x to the left."""
-    origin = _vector(origin, "origin")
-    forward = _direction(_vector(target, "target") - origin, "target - origin")
+def _look_at(origin: ArrayLike, target: ArrayLike, up: ArrayLike) -> _Matrix:
+    """Of a sensor at the point `origin` that looks at `target`, three numbers each in the unit of the scene's lengths, with
+    the direction `up` in the upper half of its image; +z is where it looks, +x to the left."""
+    eye = _vector(origin, "origin")
+    forward = _direction(_vector(target, "target") - eye, "target - origin")
     left = _direction(numpy.cross(_vector(up, "up"), forward), "up × (target - origin)")
     matrix = numpy.eye(4)
-    matrix[:3, :] = numpy.stack([left, numpy.cross(forward, left), forward, origin], axis=1)
+    matrix[:3, :] = numpy.stack([left, numpy.cross(forward, left), forward, eye], axis=1)
     return matrix
 
 
@@ -83,9 +89,9 @@ class Transform4f:
     rotate = _Step(_rotate)
     look_at = _Step(_look_at)
 
-    def __init__(self, matrix=None):
+    def __init__(self, matrix: ArrayLike | None = None) -> None:
         #: 4 × 4 float64.
-        self.matrix = numpy.eye(4) if matrix is None else numpy.array(matrix, dtype=float)
+        self.matrix: _Matrix = numpy.eye(4) if matrix is None else numpy.array(matrix, dtype=float)
         if self.matrix.shape != (4, 4):
             raise ValueError("a transform has 4 × 4 numbers")
 

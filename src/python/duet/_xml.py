@@ -1,9 +1,14 @@
 """Dictionaries in Mitsuba 3's convention as the text of an XML scene."""
+from __future__ import annotations
+
 import numbers
 import os
+from collections.abc import Iterable
+from typing import Any
 from xml.sax.saxutils import quoteattr
 
 import numpy
+import numpy.typing
 
 from . import _duet
 
@@ -11,7 +16,7 @@ from . import _duet
 _COLOURS = {"rgb", "spectrum"}
 
 
-def scene_xml(scene):
+def scene_xml(scene: dict[str, Any]) -> str:
     """The text of a scene. Raises TypeError and ValueError for what a scene cannot have."""
     if not isinstance(scene, dict):
         raise TypeError(f"a scene is a dict, not {type(scene).__name__}")
@@ -24,7 +29,7 @@ def scene_xml(scene):
     return "\n".join(lines + ["</scene>"])
 
 
-def _entry(name, value, outer_kind, outer_type, place):
+def _entry(name: str, value: Any, outer_kind: str, outer_type: str, place: str) -> list[str]:
     """The lines of an entry of a plugin. `place` is what messages call it."""
     if isinstance(value, dict):
         return _plugin(name, value, outer_kind, place)
@@ -36,7 +41,7 @@ def _entry(name, value, outer_kind, outer_type, place):
     return [f"<{element} name={quoteattr(name)} value={quoteattr(text)}/>"]
 
 
-def _plugin(name, entries, outer_kind, place):
+def _plugin(name: str, entries: dict[str, Any], outer_kind: str, place: str) -> list[str]:
     kind = entries.get("type")
     if not isinstance(kind, str):
         raise ValueError(f'{place}: a dict has a "type"')
@@ -58,17 +63,18 @@ def _plugin(name, entries, outer_kind, place):
     return lines + [f"</{tag}>"]
 
 
-def _text_of(entries, key, place):
-    if not isinstance(entries.get(key), str):
+def _text_of(entries: dict[str, Any], key: str, place: str) -> str:
+    text = entries.get(key)
+    if not isinstance(text, str):
         raise ValueError(f'{place}: there is no "{key}"')
-    return entries[key]
+    return text
 
 
-def _numbers(values):
+def _numbers(values: Iterable[float]) -> str:
     return ", ".join(repr(float(v)) for v in values)
 
 
-def _colour(value, place):
+def _colour(value: Any, place: str) -> str:
     if isinstance(value, numbers.Real):
         return repr(float(value))
     if isinstance(value, str):
@@ -82,7 +88,7 @@ def _colour(value, place):
     return _numbers(array)
 
 
-def _array(value, place):
+def _array(value: Any, place: str) -> numpy.typing.NDArray[numpy.float64]:
     try:
         return numpy.asarray(value, dtype=numpy.float64)
     except (TypeError, ValueError):
@@ -90,7 +96,7 @@ def _array(value, place):
                         f"{type(value).__name__}") from None
 
 
-def _value(value, wanted, place):
+def _value(value: Any, wanted: str, place: str) -> tuple[str, str]:
     """The XML element of a value, and its text. `wanted` is the type that the parameter has, as `duet plugins` prints it,
     or "" if it is not known."""
     if isinstance(value, (bool, numpy.bool_)):
