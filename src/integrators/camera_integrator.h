@@ -14,7 +14,7 @@ inline constexpr uint32_t kFirstVertexDimension = 4;
 inline constexpr uint32_t kDimensionsPerVertex = 8;
 inline constexpr uint32_t kDistanceDimension = 3, kScatteringDimension = 4;
 
-/// Whether a method traces paths in batches (wide_walk.h) or one by one. The images are the same,
+/// Whether a method traces paths in batches (wide_stages.h) or one by one. The images are the same,
 /// to rounding.
 enum class PathBatches { where_possible, never };
 

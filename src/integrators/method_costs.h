@@ -17,8 +17,8 @@ struct WorkPerSample {
 double path_cost(const WorkPerSample& work);
 /// `path` traces paths in batches (wide_tracer.h), `volpath` one by one.
 double volpath_cost(const WorkPerSample& work);
-/// Of the methods that trace sub-paths from both ends: one by one, and with eye sub-paths in
-/// batches (wide_eye.h).
+/// Of the methods that trace sub-paths from both ends: with eye sub-paths one by one (`ppm`, `bpm`,
+/// and where there are media), or with all sub-paths in batches (wide_eye.h).
 double bidirectional_cost(const WorkPerSample& work);
 double batched_cost(const WorkPerSample& work);
 

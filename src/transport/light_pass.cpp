@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "base/parallel.h"
+#include "math/batch.h"
 #include "transport/light_subpath.h"
 
 namespace duet {
@@ -19,10 +20,13 @@ uint32_t blocks_at_a_time(int threads) {
   return std::max(kFewestBlocks, kTasksPerThread * uint32_t(std::max(1, threads)));
 }
 
-/// Sub-paths of a block: fewer where there would not be enough blocks for all threads.
+/// Sub-paths of a block: fewer where there would not be enough blocks for all threads. Batches have
+/// the same sub-paths whatever the number of threads: what a packet of rays finds may depend on all
+/// of them where surfaces are equally near.
 uint32_t block_size(const LightPassPlan& plan) {
   const uint32_t tasks = kTasksPerThread * uint32_t(std::max(1, plan.threads));
-  return std::clamp(plan.subpaths / tasks, kFewestPerBlock, kSubpathsPerBlock);
+  const uint32_t size = std::clamp(plan.subpaths / tasks, kFewestPerBlock, kSubpathsPerBlock);
+  return plan.tracer ? (size + kBatch - 1) / kBatch * kBatch : size;
 }
 
 /// Makes room at the end of a list for the blocks' parts of it; returns where each begins.

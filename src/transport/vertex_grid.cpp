@@ -105,7 +105,7 @@ DUET_WIDEST void find_coordinates(int n, const GridCells& grid, double radius,
                                   const BatchArray<float>& points, BatchArray<uint32_t>& out) {
   const GridCells cells = grid;
   DUET_LANES
-  for (int i = 0; i < n; ++i) out[i] = cells.coordinate(double(points[i]) - radius);
+  for (int i = 0; i < n; ++i) out[i] = cells.coordinate_in_lanes(double(points[i]) - radius);
 }
 
 DUET_WIDEST void find_buckets(int n, const GridCells& grid, const BatchArray<uint32_t>& x,

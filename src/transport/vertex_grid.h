@@ -28,12 +28,12 @@ struct GridCells {
   /// cells share buckets.
   static constexpr double kFarthest = 0x1p40;
 
-  [[gnu::always_inline]] uint32_t coordinate(double x) const {
-    const double shifted = std::min(std::max(0.0, x * inverse_size + kFarthest), 2 * kFarthest);
-    // Rounded down in a way that there is for many numbers at once, too.
+  uint32_t coordinate(double x) const { return uint32_t(int64_t(shifted(x))); }
+  /// The same with steps that there are for many numbers at once, which are slower for one.
+  [[gnu::always_inline]] uint32_t coordinate_in_lanes(double x) const {
     constexpr double kIntegers = 0x1p52;
-    const double nearest = (shifted + kIntegers) - kIntegers;
-    const double down = nearest > shifted ? 1.0 : 0.0;
+    const double s = shifted(x), nearest = (s + kIntegers) - kIntegers;
+    const double down = nearest > s ? 1.0 : 0.0;
     return uint32_t(std::bit_cast<uint64_t>(nearest - down + kIntegers));
   }
 
@@ -49,8 +49,13 @@ struct GridCells {
     const uint32_t parity = (x & 1) | (y & 1) << 1 | (z & 1) << 2;
     return (((block ^ morton) & ~7u) | parity) & bucket_mask;
   }
-  uint32_t bucket(const Point3f& p) const {
+  [[gnu::always_inline]] uint32_t bucket(const Point3f& p) const {
     return bucket(coordinate(double(p.x)), coordinate(double(p.y)), coordinate(double(p.z)));
+  }
+
+ private:
+  [[gnu::always_inline]] double shifted(double x) const {
+    return std::min(std::max(0.0, x * inverse_size + kFarthest), 2 * kFarthest);
   }
 };
 
