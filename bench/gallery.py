@@ -3,12 +3,13 @@
 
     gallery.py render [--duet build/duet] [--error 1%] [--work DIR] [SCENE...]   images and figures, into DIR
     gallery.py publish [--work DIR]     copies them to docs/images and docs/gallery.json
-    gallery.py table                    prints the table of docs/gallery.json for README.md and docs/gallery.md
+    gallery.py table                    prints the table of docs/gallery.json for README.md
 
 Each scene of scenes/gallery-* is rendered by `auto` on one thread until its relative standard error (docs/figures.md) is
 that of --error, and by path tracing (`volpath` in fog) in the same CPU time, user + system seconds of the process. The
 samples of the second come from the time that one more sample takes, by two short renders. Where `auto` chose path
-tracing itself there is no second image. Scenes whose figures are in DIR are not rendered again. The error of the second
+tracing itself there is no second image. Scenes whose figures are in DIR are not rendered again, and those that have none
+are not published. The error of the second
 image is its difference from the first, noise of both and what its method never finds included (`relrmse`).
 """
 import argparse
@@ -73,6 +74,8 @@ def render_all(o):
 def publish(o):
     figures = {}
     for name, method in SCENES.items():
+        if not (o.work / f'{name}.figures.json').exists():
+            continue
         figures[name] = json.loads((o.work / f'{name}.figures.json').read_text())
         images = [name] + ([f'{name}-{method}'] if 'path' in figures[name] else [])
         for image in images:
@@ -81,15 +84,14 @@ def publish(o):
 
 
 def table(_):
-    print('| `auto`, to an error of 1 % | path tracing, the same time |\n|---|---|')
+    print('| `auto`, to an error of 1 % | path tracing for the same time |\n|---|---|')
     for name, f in json.loads(FIGURES.read_text()).items():
-        chosen = f['method'].split(':')[0]
-        left = f'{chosen}: {f["spp"]:,} samples per pixel, {f["cpu"]:,.0f} s of CPU, error {f["error"]:.1%}'
-        path = f.get('path')
-        right = (f'`{path["method"]}`: {path["spp"]:,} samples per pixel, {path["cpu"]:,.0f} s of CPU, '
-                 f'error {path["error"]:.1%}' if path else 'the same: `auto` chose path tracing')
-        picture = f'![{name}](docs/images/{name}-{path["method"]}.png)' if path else ''
-        print(f'| ![{name}](docs/images/{name}.png) | {picture} |\n| `scenes/{name}`, {left} | {right} |')
+        method, path = f['method'].split(':')[0], f.get('path')
+        print(f'| ![{name}](docs/images/{name}.png) | '
+              + (f'![{name}](docs/images/{name}-{path["method"]}.png)' if path else '') + ' |')
+        print(f'| `scenes/{name}`: {method}, {f["spp"]:,} samples per pixel, {f["cpu"]:,.0f} s, {100 * f["error"]:.1f} % | '
+              + (f'`{path["method"]}`: {path["spp"]:,} samples per pixel, {path["cpu"]:,.0f} s, {100 * path["error"]:.1f} % from it'
+                 if path else '`auto` chose path tracing') + ' |')
 
 
 def main():
