@@ -78,8 +78,7 @@ void WideEye::flush_pairs(size_t number, int depth, WideSamples& samples,
   int& count = pairs_[number].count;
   if (count == 0) return;
   weigh(number, depth);
-  const auto add = [&](int id, const Spectrum& s) { samples.add(id, s); };
-  const Tested tested = test_shadows(count, shadows_, add);
+  const Tested tested = test_shadows(count, shadows_, samples);
   counters.shadow_rays += uint64_t(tested.rays);
   counters.connections.skipped += uint64_t(count - tested.rays);
   counters.connections.failed_occluded += uint64_t(tested.rays - tested.lit);
@@ -107,8 +106,7 @@ void WideEye::connect_one_by_one(int i, int number, int depth, WideSamples& samp
 }
 
 void WideEye::flush_single(WideSamples& samples, RenderCounters& counters) {
-  const auto add = [&](int id, const Spectrum& s) { samples.add(id, s); };
-  const Tested tested = test_shadows(single_count_, single_, add);
+  const Tested tested = test_shadows(single_count_, single_, samples);
   counters.shadow_rays += uint64_t(tested.rays);
   counters.connections.failed_occluded += uint64_t(tested.rays - tested.lit);
   counters.connections.contributed += uint64_t(tested.lit);

@@ -94,13 +94,13 @@ void WideEye::trace(int n, const BatchSampler& sampler, WideSamples& samples,
     for (int i = 0; i < n; ++i)
       if (!scattering_.null[i]) samples.alpha[paths_.id[i]] = 1;
     go_on(n, has_roulette(depth), {plan_.set, ends_, points_}, scattering_, paths_, subpaths_);
-    n = gaps_.find(n, [&](int i) { return scattering_.alive[i]; });
+    n = find_alive(n);
     fill_gaps();
   }
 }
 
 int WideEye::end_outside(int n, WideSamples& samples, RenderCounters& counters) {
-  const int found = gaps_.find(n, [&](int i) { return int(hits_.shape[i] != kNone); });
+  const int found = find_hits(n);
   if (found == n) return n;
   if (wide_.scene.environment)
     for (int i = 0; i < n; ++i) {
@@ -150,8 +150,7 @@ void WideEye::sample_lights(int n, int depth, WideSamples& samples, RenderCounte
   if (wide_.scene.lights.empty()) return;
   wide_.lights.find_emission(n, starts_, points_, choice_, lights_);
   weigh_light_samples(n, connections(depth), lights_, shadows_);
-  const auto add = [&](int id, const Spectrum& s) { samples.add(id, s); };
-  counters.shadow_rays += uint64_t(test_shadows(n, shadows_, add).rays);
+  counters.shadow_rays += uint64_t(test_shadows(n, shadows_, samples).rays);
 }
 
 }  // namespace duet

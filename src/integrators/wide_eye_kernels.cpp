@@ -2,7 +2,6 @@
 
 #include "base/instruction_sets.h"
 #include "integrators/wide_kernels.h"
-#include "materials/plain_diffuse.h"
 #include "transport/connection.h"
 
 namespace duet {

@@ -74,13 +74,13 @@ void WideLightWalk::trace_batch(int n, const BatchSampler& sampler, LightBlock& 
     if (plan_->keep_vertices) keep_vertices(n, depth);
     if (depth == limits_.max_depth) break;
     scatter(n, sampler, dimension, depth);
-    n = gaps_.find(n, [&](int i) { return scattering_.alive[i]; });
+    n = find_alive(n);
     fill_gaps();
   }
 }
 
 int WideLightWalk::end_outside(int n) {
-  const int found = gaps_.find(n, [&](int i) { return int(hits_.shape[i] != kNone); });
+  const int found = find_hits(n);
   gaps_.fill(hits_);
   fill_gaps();
   return found;
@@ -138,10 +138,15 @@ void WideLightWalk::connect_lens(int n, int depth, LightBlock& block) {
                 set.connection_share / set.light_paths, plan_->roulette_threshold,
                 ConnectionRoulette::event(depth, 0)},
                lights_, seen_, shadows_);
-  const auto add = [&](int i, const Spectrum& value) {
-    block.splats.push_back({{{seen_.film_x[i], seen_.film_y[i]}, value}, seen_.weight[i], depth});
-  };
-  block.counters.shadow_rays += uint64_t(test_shadows(n, shadows_, add).rays);
+  const struct {
+    const WideSeen& seen;
+    int depth;
+    std::vector<LightSplat>& splats;
+    void add(int i, const Spectrum& value) const {
+      splats.push_back({{{seen.film_x[i], seen.film_y[i]}, value}, seen.weight[i], depth});
+    }
+  } sums{seen_, depth, block.splats};
+  block.counters.shadow_rays += uint64_t(test_shadows(n, shadows_, sums).rays);
 }
 
 void WideLightWalk::scatter(int n, const BatchSampler& sampler, uint32_t dimension, int depth) {
@@ -192,10 +197,7 @@ DiffuseVertex WideLightWalk::diffuse_vertex(int i, int depth) const {
   v.ng = points_.ng.normal(i);
   v.flux = {ends_.flux.x[i], ends_.flux.y[i], ends_.flux.z[i]};
   const Vector3f direction = paths_.ray.direction.vector(i);
-  const float cosine = dot(points_.ns.vector(i), direction),
-              geometric = dot(points_.ng.vector(i), direction);
-  v.reverse = std::abs(cosine) * kInvPi;
-  v.adjoint = geometric != 0 ? std::abs(cosine / geometric) : 0.0f;
+  v.set_cosines(dot(points_.ns.vector(i), direction), dot(points_.ng.vector(i), direction));
   v.vcm = subpaths_.vcm[i], v.vc = subpaths_.vc[i], v.vm = subpaths_.vm[i];
   v.other = 0;
   return v;

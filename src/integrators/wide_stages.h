@@ -42,20 +42,28 @@ class WideStages {
   Spectrum throughput(int i) const {
     return {paths_.throughput.x[i], paths_.throughput.y[i], paths_.throughput.z[i]};
   }
-  /// Tests the first `n` shadow rays, of which some are blocked already, and calls `add(id,
+  /// Plans how the gaps are closed that paths leave which have met nothing; returns how many stay.
+  int find_hits(int n) {
+    return gaps_.find(n, [&](int i) { return int(hits_.shape[i] != kNone); });
+  }
+  /// The same of those that end.
+  int find_alive(int n) {
+    return gaps_.find(n, [&](int i) { return scattering_.alive[i]; });
+  }
+  /// Tests the first `n` shadow rays, of which some are blocked already, and calls `sums.add(id,
   /// contribution)` for those that meet nothing. Returns how many rays there were and how many of
   /// them met nothing.
   struct Tested {
     int rays, lit;
   };
-  template <class F>
-  Tested test_shadows(int n, WideShadowRays& rays, const F& add) {
+  template <class Sums>
+  Tested test_shadows(int n, WideShadowRays& rays, Sums& sums) {
     Tested tested{find_unblocked(n, rays), 0};
     for (int i = 0; i < tested.rays; ++i) {
       if (rays.blocked[i]) continue;
       ++tested.lit;
       const BatchTriples& c = rays.contribution;
-      add(rays.id[i], Spectrum(c.x[i], c.y[i], c.z[i]));
+      sums.add(rays.id[i], Spectrum(c.x[i], c.y[i], c.z[i]));
     }
     return tested;
   }

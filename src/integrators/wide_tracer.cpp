@@ -36,7 +36,7 @@ void WideTracer::trace(int n, const BatchSampler& sampler, WideSamples& samples,
 
 int WideTracer::end_outside(int n, WideSamples& samples) {
   const Scene& scene = wide_.scene;
-  const int found = gaps_.find(n, [&](int i) { return int(hits_.shape[i] != kNone); });
+  const int found = find_hits(n);
   if (found == n) return n;
   if (scene.environment)
     for (int i = 0; i < n; ++i)
@@ -80,12 +80,11 @@ void WideTracer::scatter_one_by_one() {
 
 void WideTracer::add_light(int n, WideSamples& samples, RenderCounters& counters) {
   weigh_light_samples(n, paths_, points_, lights_, shadows_);
-  const auto add = [&](int id, const Spectrum& s) { samples.add(id, s); };
-  counters.shadow_rays += uint64_t(test_shadows(n, shadows_, add).rays);
+  counters.shadow_rays += uint64_t(test_shadows(n, shadows_, samples).rays);
 }
 
 int WideTracer::keep_alive(int n) {
-  const int alive = gaps_.find(n, [&](int i) { return scattering_.alive[i]; });
+  const int alive = find_alive(n);
   gaps_.fill(paths_);
   return alive;
 }

@@ -34,10 +34,15 @@ struct DiffuseVertex {
     offset = s.offset;
     ng = s.ng;
     flux = v.throughput * only->model.diffuse.reflectance;
-    reverse = std::abs(cosine) * kInvPi;
-    adjoint = geometric != 0 ? std::abs(cosine / geometric) : 0.0f;
+    set_cosines(cosine, geometric);
     vcm = v.partials.vcm, vc = v.partials.vc, vm = v.partials.vm;
     other = 0;
+  }
+
+  /// Of the direction back with the shading and with the geometric normal.
+  void set_cosines(float cosine, float geometric) {
+    reverse = std::abs(cosine) * kInvPi;
+    adjoint = geometric != 0 ? std::abs(cosine / geometric) : 0.0f;
   }
 
  private:
