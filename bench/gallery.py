@@ -101,7 +101,7 @@ def main():
     p.add_argument('--duet', type=Path, default=ROOT / 'build/duet')
     p.add_argument('--error', default='1%')
     p.add_argument('--work', type=Path, default=ROOT / 'build/gallery')
-    o = p.parse_args()
+    o = p.parse_intermixed_args()
     o.work.mkdir(parents=True, exist_ok=True)
     {'render': render_all, 'publish': publish, 'table': table}[o.task](o)
 

@@ -6,6 +6,8 @@ namespace duet {
 void SceneWriter::mesh(const MeshShape& m) {
   out_.string("filename", m.source->file);
   if (m.source->file.empty()) lose("a mesh that does not come from a file is missing");
+  if (m.displacement != FloatInput(0.0))
+    lose("a mesh is not displaced, which Mitsuba 3 cannot say");
   if (m.source->is_part)
     lose("parts of an OBJ file cannot be named in Mitsuba 3: each is the whole file");
   if (m.source->face_normals) out_.boolean("face_normals", true);

@@ -48,8 +48,8 @@ Boxed<AreaEmission> read_area_light(Reader& reader, const Plugin& plugin,
   if (v.has("L")) reader.report().error(v.where("L"), "a light has either \"L\" or a file");
   BitmapTexture image;
   image.file = v.file("filename");
-  v.reader().note_image_colors(v.where("filename"));
   if (image.file.empty()) return {};
+  image.colors = reader.image_colors(image.file, ColorMeaning::emission, v.where("filename"));
   scale_to_power(v, scale, image, [&](const TextureTexels& pixels) {
     return flux() * double(pixels.mean().luminance());
   });

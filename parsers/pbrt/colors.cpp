@@ -4,6 +4,7 @@
 
 #include "pbrt/reader.h"
 #include "pbrt/spectra.h"
+#include "scene/texture_texels.h"
 #include "values/text.h"
 
 namespace duet::pbrt {
@@ -64,9 +65,21 @@ Spectrum Reader::triple_color(const Parameter& p, ColorMeaning meaning) {
   return color;
 }
 
-void Reader::note_image_colors(const SourceLocation& where) {
-  if (film_color_space != 0)
-    approximate(where, "images in the film's colour space: their own is left out");
+std::optional<ColorMatrix> Reader::image_colors(const std::string& file, ColorMeaning meaning,
+                                                const SourceLocation& where) {
+  if (file.empty() || version_ == Version::v3) return std::nullopt;
+  uint8_t space = 0;
+  if (const auto named = image_chromaticities(file)) {
+    const auto found = find_color_space(*named);
+    if (!found)
+      report_.warning(where,
+                      "{}: the colours are taken for sRGB, as in pbrt, which has no space with the "
+                      "file's chromaticities",
+                      file);
+    space = found.value_or(0);
+  }
+  if (space == film_color_space) return std::nullopt;
+  return between_spaces(space, film_color_space, meaning);
 }
 
 Spectrum Reader::constant_color(const Parameter& p, ColorMeaning meaning) {

@@ -162,8 +162,8 @@ void read_infinite(Values& v) {
   }
   EnvironmentMapLight map;
   map.file = v.file(name);
-  v.reader().note_image_colors(v.where(name));
   if (map.file.empty()) return;
+  map.colors = v.reader().image_colors(map.file, ColorMeaning::emission, v.where(name));
   if (!v3 && v.has("L"))
     v.reader().report().error(v.where("L"), "a light has either \"L\" or a file");
   map.tint = v3 ? emitted_color(v, "L") * scale : scale;
@@ -197,7 +197,6 @@ void read_goniometric(Values& v) {
   }
   light.file = v.file(name);
   if (light.file.empty()) return;
-  if (v3) v.reader().note_image_colors(v.where(name));
   BitmapTexture image;
   image.file = light.file;
   scale_to_power(v, light.scale, image,
@@ -216,8 +215,8 @@ void read_projection(Values& v) {
   }
   BitmapTexture image;
   image.file = v.file(name);
-  v.reader().note_image_colors(v.where(name));
   if (image.file.empty()) return;
+  image.colors = v.reader().image_colors(image.file, ColorMeaning::emission, v.where(name));
   image.filter = TextureFilter::nearest;
   image.wrap_u = image.wrap_v = WrapMode::clamp;
   Spectrum scale = scale_of(v);

@@ -51,7 +51,7 @@ void Directives::option(Lexer& in, const Plugin& d) {
       {"disablepixeljitter", kBoolean, "false", "", 1, ignored},
       {"disabletexturefiltering", kBoolean, "false", "", 1, inert},
       {"disablewavelengthjitter", kBoolean, "false", "", 1, inert},
-      {"displacementedgescale", kNumber, "1", "", 1, inert},
+      {"displacementedgescale", kNumber, "1", ""},
       {"forcediffuse", kBoolean, "false", "", 1, ignored},
       {"msereferenceimage", kString, "", "", 1, inert},
       {"msereferenceout", kString, "", "", 1, inert},
@@ -61,7 +61,9 @@ void Directives::option(Lexer& in, const Plugin& d) {
       {"wavefront", kBoolean, "false", "", 1, inert},
   };
   plugin.name = "";
-  Values(reader_, plugin, kOptions);
+  Values v(reader_, plugin, kOptions);
+  if (v.has("displacementedgescale"))
+    reader_.displacement_edge_scale = v.positive("displacementedgescale");
 }
 
 namespace {

@@ -62,9 +62,8 @@ void finish_triangles(TriangleMesh& mesh, bool needs_uv) {
   if (!own_normals) mesh.normals.clear();
 }
 
-const PlyMesh* Reader::ply_mesh(const std::string& path, bool needs_uv,
-                                const SourceLocation& where) {
-  const auto [entry, is_new] = ply_meshes_.try_emplace({path, needs_uv});
+const PlyMesh* Reader::ply_mesh(const std::string& path, PlyUse use, const SourceLocation& where) {
+  const auto [entry, is_new] = ply_meshes_.try_emplace({path, use});
   PlyMesh& result = entry->second;
   if (!is_new) return result.mesh ? &result : nullptr;
   try {
@@ -75,18 +74,20 @@ const PlyMesh* Reader::ply_mesh(const std::string& path, bool needs_uv,
     TriangleMesh mesh =
         ends_with_gz(path) ? read_ply(path, inflate_file(path), options) : read_ply(path, options);
     mesh.attributes.clear();
-    if (version_ == Version::v3) {
+    if (version_ == Version::v3 || use == PlyUse::displaced) {
       for (const auto& [a, b, c, d] : quads) {
         mesh.triangles.push_back({a, b, c});
         mesh.triangles.push_back({d, a, c});
       }
       quads.clear();
     }
-    result.own_normals = !mesh.normals.empty();
+    // Those of what is displaced are made from its triangles.
+    result.own_normals = !mesh.normals.empty() || use == PlyUse::displaced;
     result.is_whole_file = quads.empty() && result.own_normals && !ends_with_gz(path);
     if (quads.empty()) {
-      if (needs_uv && mesh.uvs.empty()) result.is_whole_file = false;
-      finish_triangles(mesh, needs_uv);
+      const bool adds_uv = use == PlyUse::with_uv;
+      if (adds_uv && mesh.uvs.empty()) result.is_whole_file = false;
+      finish_triangles(mesh, adds_uv);
       if (result.own_normals) mesh.bump_tangents = bump_tangents(version_);
     } else {
       PatchMesh patches{mesh.positions, mesh.normals, mesh.uvs, {}};

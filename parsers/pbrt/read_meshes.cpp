@@ -135,9 +135,29 @@ void read_bilinear_mesh(Values& v) {
 
 constexpr Spec kPlyMesh[] = {
     {"filename", kString, "", "a .ply or .ply.gz file"},
-    {"displacement", kTexture, "", "of the surface itself", 1, refused},
-    {"edgelength", kNumber, "1", "", 1, inert},
+    {"displacement", kTexture, "", "moves the surface along its normals, once", 1, done,
+     Versions::v4},
+    {"edgelength", kNumber, "1", "all edges are shorter than this, in the world", 1, done,
+     Versions::v4},
 };
+
+/// What a displaced mesh cannot be.
+bool can_be_displaced(Values& v, const TriangleMesh& mesh) {
+  Reader& reader = v.reader();
+  const SourceLocation& where = v.where("displacement");
+  if (mesh.uvs.empty()) {
+    reader.report().error(where, "the file has no texture coordinates, which displacement needs");
+    return false;
+  }
+  const auto light = reader.state().area_light;
+  if (!light || reader.in_object()) return true;
+  if (light->find("power"))
+    reader.report().error(where,
+                          "a light with \"power\" cannot be displaced: its area is not known yet");
+  if (!reader.motion(v.plugin()).empty())
+    reader.report().error(where, "a light that moves cannot be displaced");
+  return true;
+}
 
 void read_ply_mesh(Values& v) {
   if (!v.has("filename")) {
@@ -146,9 +166,12 @@ void read_ply_mesh(Values& v) {
   }
   const std::string path = v.file("filename");
   if (path.empty()) return;
-  const bool uv = v.reader().needs_uv(v.plugin());
-  const auto mesh = v.reader().ply_mesh(path, uv, v.where("filename"));
-  if (!mesh) return;
+  const bool displaced = v.has("displacement");
+  const PlyUse use = displaced                         ? PlyUse::displaced
+                     : v.reader().needs_uv(v.plugin()) ? PlyUse::with_uv
+                                                       : PlyUse::plain;
+  const auto mesh = v.reader().ply_mesh(path, use, v.where("filename"));
+  if (!mesh || (displaced && !can_be_displaced(v, *mesh->mesh))) return;
   const bool own_normals = mesh->own_normals;
   MeshSource source;
   source.pbrt_file = path;
@@ -157,8 +180,12 @@ void read_ply_mesh(Values& v) {
     source.plugin = "ply";
     source.flip_tex_coords = false;
   }
-  v.reader().add_shape(v.plugin(),
-                       {.geometry = MeshShape{mesh->mesh, source}, .has_normals = own_normals});
+  MeshShape shape{mesh->mesh, source};
+  if (displaced) {
+    shape.displacement = v.float_input("displacement");
+    shape.edge_length = v.positive("edgelength") * v.reader().displacement_edge_scale;
+  }
+  v.reader().add_shape(v.plugin(), {.geometry = std::move(shape), .has_normals = own_normals});
 }
 
 constexpr Spec kLoop[] = {

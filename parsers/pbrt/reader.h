@@ -21,6 +21,10 @@
 
 namespace duet::pbrt {
 
+/// What a mesh file is read for: `with_uv` has texture coordinates in any case, `displaced` those
+/// of the file, and vertices that faces share.
+enum class PlyUse { plain, with_uv, displaced };
+
 /// A mesh file once it was read; the mesh is null after an error.
 struct PlyMesh {
   std::shared_ptr<const TriangleMesh> mesh;
@@ -64,8 +68,10 @@ class Reader {
   std::string file(const std::string& name, const SourceLocation& where);
 
   // ---- Colours (colors.cpp) ----
-  /// Says that the colours of an image are taken for those of the film, if that is not sRGB.
-  void note_image_colors(const SourceLocation& where);
+  /// What makes the colours of an image those of the film; nothing if they are already. OpenEXR
+  /// files may name their space, others are sRGB.
+  std::optional<ColorMatrix> image_colors(const std::string& file, ColorMeaning meaning,
+                                          const SourceLocation& where);
   Spectrum constant_color(const Parameter& p, ColorMeaning meaning);
   /// Light of a black body whose spectrum is 1 at its peak.
   Spectrum black_body(double kelvin);
@@ -113,7 +119,7 @@ class Reader {
   /// Adds a shape with what the state says of it: transform, orientation, material, light, media.
   void add_shape(const Plugin& from, ShapeParts parts);
   /// Null after an error.
-  const PlyMesh* ply_mesh(const std::string& path, bool needs_uv, const SourceLocation& where);
+  const PlyMesh* ply_mesh(const std::string& path, PlyUse use, const SourceLocation& where);
   void begin_object(const std::string& name, const SourceLocation& where);
   void end_object(const SourceLocation& where);
   void add_instance(const std::string& name, const SourceLocation& where);
@@ -131,6 +137,8 @@ class Reader {
   GraphicsState camera_state;  ///< as it was at Camera
   /// The film's, and so that in which all colours of the description are.
   uint8_t film_color_space = 0;
+  /// Multiplies the edges of displaced meshes.
+  double displacement_edge_scale = 1;
 
  private:
   Spectrum triple_color(const Parameter& p, ColorMeaning meaning);
@@ -165,7 +173,7 @@ class Reader {
   /// Per material: whether it has textures or is anisotropic.
   std::vector<bool> looks_at_uv_;
   std::map<MaterialId, MediumId> interiors_;
-  std::map<std::pair<std::string, bool>, PlyMesh> ply_meshes_;
+  std::map<std::pair<std::string, PlyUse>, PlyMesh> ply_meshes_;
   std::unordered_map<std::string, uint32_t> objects_;
   /// The group that ObjectBegin has begun.
   std::optional<uint32_t> object_;

@@ -123,6 +123,18 @@ std::optional<uint8_t> find_color_space(std::string_view name) {
   return std::nullopt;
 }
 
+std::optional<uint8_t> find_color_space(std::span<const double, 8> chromaticities) {
+  constexpr double kTolerance = 1e-3;
+  const auto is_same = [&](const ColorSpace& space) {
+    for (size_t i = 0; i < 8; ++i)
+      if (std::abs(chromaticities[i] - space.xy[i / 2][i % 2]) > kTolerance) return false;
+    return true;
+  };
+  const auto* found = std::find_if(std::begin(kColorSpaces), std::end(kColorSpaces), is_same);
+  if (found == std::end(kColorSpaces)) return std::nullopt;
+  return uint8_t(found - kColorSpaces);
+}
+
 Matrix3 operator*(const Matrix3& a, const Matrix3& b) {
   Matrix3 r{};
   for (size_t i = 0; i < 3; ++i)
@@ -158,19 +170,23 @@ Spectrum in_working_space(const Spectrum& srgb, uint8_t working) {
   return {float(c[0]), float(c[1]), float(c[2])};
 }
 
+Matrix3 between_spaces(uint8_t from, uint8_t to, ColorMeaning meaning) {
+  Matrix3 m = from_linear_srgb(to) * to_linear_srgb(from);
+  if (meaning == ColorMeaning::emission) return m;
+  for (auto& row : m) {
+    const double white = row[0] + row[1] + row[2];
+    for (double& x : row) x /= white;
+  }
+  return m;
+}
+
 Spectrum color_from_triple(const Parameter& p, ColorMeaning meaning, uint8_t working) {
   const Triple c{p.numbers[0], p.numbers[1], p.numbers[2]};
   Triple rgb = c;
   if (p.type == Type::xyz) {
     rgb = inverse(to_xyz(working)) * c;
   } else if (p.color_space != working) {
-    const Matrix3 m = from_linear_srgb(working) * to_linear_srgb(p.color_space);
-    rgb = m * c;
-    if (meaning != ColorMeaning::emission) {
-      // Whatever the white, a reflectance of one has no colour.
-      const Triple white = m * Triple{1, 1, 1};
-      for (size_t i = 0; i < 3; ++i) rgb[i] /= white[i];
-    }
+    rgb = between_spaces(p.color_space, working, meaning) * c;
     if (meaning == ColorMeaning::reflectance)
       for (double& x : rgb) x = std::clamp(x, 0.0, 1.0);
   }

@@ -8,7 +8,7 @@
 #include <string_view>
 #include <vector>
 
-#include "math/spectrum.h"
+#include "math/color_matrix.h"
 #include "math/transform.h"
 #include "pbrt/parameter.h"
 #include "values/color.h"
@@ -23,7 +23,7 @@ struct ColorSpace {
 std::span<const ColorSpace> color_spaces();
 std::optional<uint8_t> find_color_space(std::string_view name);
 
-using Matrix3 = std::array<std::array<double, 3>, 3>;
+using Matrix3 = ColorMatrix;
 Matrix3 operator*(const Matrix3& a, const Matrix3& b);
 /// From a colour space to CIE XYZ, with luminance one for its white: the columns are its primaries.
 Matrix3 to_xyz(uint8_t color_space);
@@ -36,6 +36,12 @@ Matrix3 from_linear_srgb(uint8_t color_space);
 /// For colours of that space.
 Matrix3 white_balance(double kelvin, uint8_t color_space);
 
+/// From one colour space to another. A reflectance of one has no colour in either, whatever their
+/// whites; light has the chromaticity that it had.
+Matrix3 between_spaces(uint8_t from, uint8_t to, ColorMeaning meaning);
+/// The space with these chromaticities of red, green, blue and white, x before y; nothing if it is
+/// none of color_spaces().
+std::optional<uint8_t> find_color_space(std::span<const double, 8> chromaticities);
 /// A colour that a file gives by RGB or XYZ numbers, in the colour space `working`.
 Spectrum color_from_triple(const Parameter& p, ColorMeaning meaning, uint8_t working);
 /// From linear sRGB to the colour space `working`.

@@ -109,7 +109,8 @@ void read_image(Values& v, const Request& request, Made& made) {
   image.to_uv = mapping(v);
   // A number of an image in colours: in v3 the luminance, as textures have it by themselves.
   if (!request.is_color && reader.version() == Version::v4) image.channel = TextureChannel::number;
-  if (request.is_color) reader.note_image_colors(v.where());
+  if (request.is_color)
+    image.colors = reader.image_colors(image.file, ColorMeaning::reflectance, v.where());
   // Their first row is at t = 1.
   for (double& x : image.to_uv.m[1]) x = -x;
   image.to_uv.m[1][2] += 1;

@@ -49,9 +49,10 @@ Files that end in `.pbrt` or `.pbrt.gz` are pbrt's, version 3 or 4. Which of the
 an error; its parameters, with their types and defaults, may also be without effect on what Duet does, or ignored with a
 warning. Names that are in no table are warnings with the nearest known one.
 
-- Colours are linear RGB in the colour space of the film. Spectra become such colours by the standard observer; a metal
-  has one index per channel, a glass that of 587.6 nm. Dispersion, and colours that depend on the spectrum of the light,
-  are lost.
+- Colours are linear RGB in the colour space of the film, and so are those of images once they are read: their own space
+  is the one that an OpenEXR file names, or sRGB. Spectra become such colours by the standard observer; a metal has one
+  index per channel, a glass that of 587.6 nm. Dispersion, and colours that depend on the spectrum of the light, are
+  lost.
 - Lights of v4 have the luminance that their scale says, whatever their spectrum; those of v3 are taken as they are.
 - Surfaces that pbrt finds by formulas become meshes where Duet has no such shape; a patch that is not flat is divided
   finely enough not to be seen.
@@ -62,6 +63,8 @@ warning. Names that are in no table are warnings with the nearest known one.
   such ribbons. Opaque ones are lit where rays are clear of them: a width in front of them, as in pbrt.
 - Bumps on meshes with normals have pbrt's tangents: in v4 the second one is as long as the first, in v3 both are unit
   vectors turned backwards, so that bumps are dents and of another depth.
+- The vertices of a displaced mesh move once, along its normals. A texture that looks at places sees those of the world,
+  where pbrt gives it the mesh's own.
 - Where light is scattered beneath surfaces paths have no limit of depth. A walk in a medium differs from pbrt's profiles
   where the surface is curved or thin: light that pbrt absorbs in the depth comes out on the other side.
 - Textures are looked up without blur: pbrt blurs them by ray differentials, which many samples make small.

@@ -131,10 +131,17 @@ void SceneWriter::trianglemesh(const TriangleMesh& m, const FloatInput& alpha) {
 }
 
 void SceneWriter::mesh(const MeshShape& m, const FloatInput& alpha, const Matrix4& own) {
-  if (m.source->pbrt_file.empty() || !(own == Matrix4{}))
+  const bool displaced = m.displacement != FloatInput(0.0);
+  if (m.source->pbrt_file.empty() || !(own == Matrix4{})) {
+    if (displaced) lose("a displaced mesh that moves is not displaced");
     return trianglemesh(moved(*m.mesh, own), alpha);
+  }
   Statement s("Shape", "plymesh");
   s.string("filename", m.source->pbrt_file);
+  if (displaced) {
+    put(s, "displacement", m.displacement);
+    s.number("edgelength", m.edge_length);
+  }
   if (alpha != FloatInput(1.0)) put(s, "alpha", alpha);
   world_text_ += s.text();
 }

@@ -3,6 +3,7 @@
 #include <ImathBox.h>
 #include <ImathMatrix.h>
 #include <OpenEXR/ImfChannelList.h>
+#include <OpenEXR/ImfChromaticitiesAttribute.h>
 #include <OpenEXR/ImfDoubleAttribute.h>
 #include <OpenEXR/ImfFloatAttribute.h>
 #include <OpenEXR/ImfFrameBuffer.h>
@@ -83,6 +84,10 @@ std::vector<std::pair<std::string, std::string>> read_attributes(const Imf::Head
     } else if (const auto* m = dynamic_cast<const Imf::M44fAttribute*>(&value)) {
       for (int k = 0; k < 16; ++k)
         text += fmt::format("{}{}", k ? " " : "", m->value()[k / 4][k % 4]);
+    } else if (const auto* c = dynamic_cast<const Imf::ChromaticitiesAttribute*>(&value)) {
+      const Imf::Chromaticities& xy = c->value();
+      text = fmt::format("{} {} {} {} {} {} {} {}", xy.red.x, xy.red.y, xy.green.x, xy.green.y,
+                         xy.blue.x, xy.blue.y, xy.white.x, xy.white.y);
     } else {
       continue;
     }

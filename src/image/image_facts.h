@@ -8,8 +8,8 @@
 namespace duet {
 
 struct ImageFacts {
-  /// Of EXR files the attributes that are text or numbers, of PNG files the text chunks, of JPEG
-  /// files the lines `name: value` of the comment.
+  /// Of EXR files the attributes that are text, numbers or chromaticities, of PNG files the text
+  /// chunks, of JPEG files the lines `name: value` of the comment.
   std::vector<std::pair<std::string, std::string>> fields;
   /// Whether the file goes on to its end: false if it has been cut off.
   bool is_complete = false;

@@ -36,6 +36,7 @@ SceneBuilder::SceneBuilder(SceneDescription description, const BuildOptions& opt
 
 std::unique_ptr<Scene> SceneBuilder::build() {
   height_fields();
+  displace_meshes();
   scene_->features = scene_features(description_);
   shapes();
   lights();

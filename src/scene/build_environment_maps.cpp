@@ -10,6 +10,7 @@ std::vector<std::string> EnvironmentMapLight::losses() const {
   if (gamma) lost.emplace_back("the gamma value of an environment map is missing");
   if (tint != Spectrum(1.0f)) lost.emplace_back("the tint of an environment map is missing");
   if (illuminance) lost.emplace_back("the illuminance of an environment map is missing");
+  if (colors) lost.emplace_back("the colour space of an environment map is missing");
   if (layout == EnvironmentLayout::row_centers)
     lost.emplace_back("the rows of an environment map begin and end at the poles");
   if (layout == EnvironmentLayout::equal_area)
@@ -74,7 +75,7 @@ void EnvironmentMapLight::count(SceneFeatures& f) const {
 }
 
 LightPointer EnvironmentMapLight::build(SceneBuilder& b, const LightDescription& d) const {
-  const auto image = b.pixels(file, {.gamma = gamma}, d.where);
+  const auto image = b.pixels(file, {.gamma = gamma, .colors = colors}, d.where);
   if (!image) return nullptr;
   if (layout == EnvironmentLayout::equal_area) return equal_area_map(b, *this, d, *image);
   const int width = image->width(), height = image->height();

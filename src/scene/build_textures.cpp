@@ -39,11 +39,12 @@ std::vector<std::string> BitmapTexture::losses() const {
   if (gamma) lost.emplace_back("the gamma value of a texture is missing");
   if (channel != TextureChannel::all)
     lost.emplace_back("the choice of one channel of a texture is missing");
+  if (colors) lost.emplace_back("the colour space of a texture is missing");
   return lost;
 }
 
 std::unique_ptr<Texture> BitmapTexture::build(SceneBuilder& b, const SourceLocation& where) const {
-  auto image = b.pixels(file, {.raw = raw, .gamma = gamma, .channel = channel}, where);
+  auto image = b.pixels(file, decoding(), where);
   if (!image) return nullptr;
   return std::make_unique<Bitmap>(std::move(image), filter, wrap_u, wrap_v, to_uv);
 }
@@ -87,7 +88,7 @@ std::shared_ptr<const BitmapPixels> SceneBuilder::pixels(const std::string& file
                                                          const SourceLocation& where) {
   constexpr double kFromFile = 0;  // no gamma value
   const auto [entry, is_new] = pixels_.try_emplace(
-      {file, decoding.raw, decoding.gamma.value_or(kFromFile), decoding.channel});
+      {file, decoding.raw, decoding.gamma.value_or(kFromFile), decoding.channel, decoding.colors});
   if (is_new) {
     try {
       entry->second =

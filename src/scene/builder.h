@@ -33,6 +33,9 @@ class SceneBuilder {
   Diagnostics& diagnostics() { return diagnostics_; }
   /// Instead of building: texture_value.h.
   std::optional<TextureValue> texture_at_origin(TextureId id);
+  /// What build() does first, for displacement.h.
+  void displace_meshes();
+  SceneDescription take_description() { return std::move(description_); }
 
   // For what builds plugins. Null after an error.
   const Material* material(MaterialId id);
@@ -108,6 +111,9 @@ class SceneBuilder {
   bool read_heights(TextureId id, const HeightFieldShape& shape, const Spectrum& scale,
                     HeightField& out);
 
+  // build_displacement.cpp
+  void displace(ShapeDescription& d);
+
   // build_shapes.cpp
   void shapes();
   void add_shape(ShapeDescription& d);
@@ -162,7 +168,7 @@ class SceneBuilder {
   /// Of what is being made.
   ShapeTextureSet shape_textures_;
   /// Images by file and by how they are decoded; null after an error.
-  std::map<std::tuple<std::string, bool, double, TextureChannel>,
+  std::map<std::tuple<std::string, bool, double, TextureChannel, std::optional<ColorMatrix>>,
            std::shared_ptr<const BitmapPixels>>
       pixels_;
   std::vector<Emission> emissions_;

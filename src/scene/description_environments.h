@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "math/color_matrix.h"
 #include "scene/description_base.h"
 #include "scene/emission_parameters.h"
 #include "scene/light_model.h"
@@ -45,26 +46,28 @@ struct EnvironmentMapLight {
   /// The light is scaled so that a plane that faces its +y would receive this much, multiplied by
   /// `scale` and `tint`.
   std::optional<double> illuminance = std::nullopt;
+  std::optional<ColorMatrix> colors = std::nullopt;  ///< as in BitmapTexture
   static constexpr auto fields() {
     using namespace parameter_words;
     using enum ParameterType;
     using L = EnvironmentMapLight;
-    return FieldList(field(&L::file, Parameter{.name = "filename", .type = file, .required = true})
-                         .names_data()
-                         .shown(": "),
-                     field(&L::scale, Parameter{.name = "scale",
-                                                .type = number,
-                                                .preset = kInitial,
-                                                .range = not_negative,
-                                                .aliases = "intensity_scale"})
-                         .shown(", scale "),
-                     field(&L::tint).shown_if_changed(", tint "),
-                     field(&L::layout).words(kEnvironmentLayouts).shown_if_changed(", by "),
-                     field(&L::illuminance).shown(", illuminance "),
-                     field(&L::gamma, Parameter{"gamma", number, "(of the file)",
-                                                "1: linear, -1: sRGB", any, v0})
-                         .unwritten()
-                         .shown(", gamma "));
+    return FieldList(
+        field(&L::file, Parameter{.name = "filename", .type = file, .required = true})
+            .names_data()
+            .shown(": "),
+        field(&L::scale, Parameter{.name = "scale",
+                                   .type = number,
+                                   .preset = kInitial,
+                                   .range = not_negative,
+                                   .aliases = "intensity_scale"})
+            .shown(", scale "),
+        field(&L::tint).shown_if_changed(", tint "),
+        field(&L::layout).words(kEnvironmentLayouts).shown_if_changed(", by "),
+        field(&L::illuminance).shown(", illuminance "), field(&L::colors).shown(", colours "),
+        field(&L::gamma,
+              Parameter{"gamma", number, "(of the file)", "1: linear, -1: sRGB", any, v0})
+            .unwritten()
+            .shown(", gamma "));
   }
   static constexpr const char* name() { return "envmap"; }
   static constexpr LightPose kPose = LightPose::none;

@@ -41,11 +41,18 @@ struct MeshSource {
 struct MeshShape {
   std::shared_ptr<const TriangleMesh> mesh;
   Boxed<MeshSource> source;  ///< never empty
+  /// How far the surface moves along its normals, in its own space, after edges are split until all
+  /// are shorter than `edge_length` in the world. The normals are those of the moved triangles.
+  FloatInput displacement = 0.0;
+  double edge_length = 1;
 
   MeshShape() : MeshShape(nullptr) {}
   explicit MeshShape(std::shared_ptr<const TriangleMesh> triangles, MeshSource from = {})
       : mesh(std::move(triangles)), source(std::move(from)) {}
-  static constexpr auto fields() { return plain_fields(&MeshShape::mesh, &MeshShape::source); }
+  static constexpr auto fields() {
+    return plain_fields(&MeshShape::mesh, &MeshShape::source, &MeshShape::displacement,
+                        &MeshShape::edge_length);
+  }
   const std::string& name() const { return source->plugin; }
   const std::shared_ptr<const TriangleMesh>& triangles() const { return mesh; }
 };

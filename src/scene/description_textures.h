@@ -32,6 +32,8 @@ struct BitmapTexture {
   std::optional<double> gamma;
   TextureChannel channel = TextureChannel::all;
   UvTransform to_uv;
+  /// From the image's colour space to that of the other colours, if it is another one.
+  std::optional<ColorMatrix> colors = std::nullopt;
 
   static constexpr std::string_view kFilters[] = {"nearest", "bilinear"};
   /// Those of Mitsuba 3: it has no texture that is zero or one outside of its image.
@@ -74,9 +76,12 @@ struct BitmapTexture {
               Parameter{"channel", string, "(all)", "r, g, b or a: use one as a number", any, v0})
             .unwritten()
             .read_by_plugin(),
-        uv_field(&T::to_uv));
+        uv_field(&T::to_uv), field(&T::colors).shown(", colours "));
   }
   static constexpr const char* name() { return "bitmap"; }
+  BitmapDecoding decoding() const {
+    return {.raw = raw, .gamma = gamma, .channel = channel, .colors = colors};
+  }
   std::vector<std::string> losses() const;
   std::unique_ptr<Texture> build(SceneBuilder& b, const SourceLocation& where) const;
 };

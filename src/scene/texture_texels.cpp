@@ -1,8 +1,9 @@
 #include "scene/texture_texels.h"
 
 #include <algorithm>
-#include <array>
+#include <sstream>
 
+#include "image/image_facts.h"
 #include "textures/bitmap_pixels.h"
 
 namespace duet {
@@ -23,14 +24,24 @@ Spectrum TextureTexels::largest() const {
 }
 
 TextureTexels read_texels(const BitmapTexture& texture) {
-  const BitmapPixels pixels = BitmapPixels::from_file(
-      read_image(texture.file),
-      {.raw = texture.raw, .gamma = texture.gamma, .channel = texture.channel});
+  const BitmapPixels pixels = BitmapPixels::from_file(read_image(texture.file), texture.decoding());
   TextureTexels texels{pixels.width(), pixels.height(), {}};
   texels.colors.reserve(size_t(texels.width) * size_t(texels.height));
   for (int y = 0; y < texels.height; ++y)
     for (int x = 0; x < texels.width; ++x) texels.colors.push_back(pixels.color(x, y));
   return texels;
+}
+
+std::optional<std::array<double, 8>> image_chromaticities(const std::string& file) {
+  std::array<double, 8> numbers;
+  try {
+    std::istringstream text(read_image_facts(file).field("chromaticities"));
+    for (double& x : numbers)
+      if (!(text >> x)) return std::nullopt;
+  } catch (const ReadError&) {
+    return std::nullopt;  // said when its pixels are read
+  }
+  return numbers;
 }
 
 }  // namespace duet

@@ -1,5 +1,6 @@
 #include "textures/bitmap_pixels.h"
 
+#include <algorithm>
 #include <cassert>
 #include <cmath>
 
@@ -102,14 +103,31 @@ std::vector<int> choose_channels(const ImageFile& file, TextureChannel channel) 
   }
 }
 
+bool keeps_grey(const ColorMatrix& m) {
+  return std::all_of(m.begin(), m.end(),
+                     [](const auto& row) { return std::abs(row[0] + row[1] + row[2] - 1) < 1e-6; });
+}
+
+void convert(std::vector<float>& colors, const ColorMatrix& matrix) {
+  for (size_t i = 0; i < colors.size(); i += 3) {
+    const Spectrum c = matrix * Spectrum(colors[i], colors[i + 1], colors[i + 2]);
+    for (int k = 0; k < 3; ++k) colors[i + size_t(k)] = std::max(c[k], 0.0f);
+  }
+}
+
 }  // namespace
 
 BitmapPixels BitmapPixels::from_file(const ImageFile& file, const BitmapDecoding& decoding) {
   const Image& image = file.image;
-  const std::vector<int> chosen = choose_channels(file, decoding.channel);
+  std::vector<int> chosen = choose_channels(file, decoding.channel);
   // Opacity is a share, not a colour.
   const bool data = decoding.raw || (chosen.size() == 1 && chosen[0] == image.find_channel("A"));
   const double gamma = data ? 1.0 : transfer_curve(file, decoding.gamma);
+  // Light that is white in one space may have a colour in another.
+  if (decoding.channel == TextureChannel::all && chosen.size() == 1 && decoding.colors &&
+      !keeps_grey(*decoding.colors))
+    chosen.resize(3, chosen[0]);
+  const bool converts = decoding.colors && chosen.size() == 3;
   const bool mean = decoding.channel == TextureChannel::number && chosen.size() == 3;
   const size_t texels = size_t(image.width) * size_t(image.height), n = chosen.size(),
                stride = image.channels.size();
@@ -124,13 +142,14 @@ BitmapPixels BitmapPixels::from_file(const ImageFile& file, const BitmapDecoding
     for (int i = 0; i < 256; ++i) table[size_t(i)] = decode_gamma(float(i) / 255.0f, gamma);
     std::vector<uint8_t> bytes;
     gather(file.bytes, bytes);
-    if (!mean) return {image.width, image.height, int(n), bytes, table};
+    if (!mean && !converts) return {image.width, image.height, int(n), bytes, table};
     for (const uint8_t byte : bytes) values.push_back(table[byte]);
   } else {
     gather(image.data, values);
     if (gamma != 1)
       for (float& v : values) v = decode_gamma(v, gamma);
   }
+  if (converts) convert(values, *decoding.colors);
   if (!mean) return {image.width, image.height, int(n), std::move(values)};
   for (size_t i = 0; i < texels; ++i)
     values[i] = (values[3 * i] + values[3 * i + 1] + values[3 * i + 2]) / 3;

@@ -7,20 +7,9 @@
 #include <vector>
 
 #include "image/image_io.h"
-#include "math/spectrum.h"
 #include "textures/bitmap_options.h"
 
 namespace duet {
-
-/// How the numbers in an image file become linear ones.
-struct BitmapDecoding {
-  /// Values are data: nothing is decoded.
-  bool raw = false;
-  /// Overrides the file's transfer curve: 1 is linear, −1 sRGB, another number a power.
-  std::optional<double> gamma = std::nullopt;
-  TextureChannel channel = TextureChannel::all;
-  bool operator==(const BitmapDecoding&) const = default;
-};
 
 /// One or three channels of linear values in rows from the top. 8-bit images stay bytes that a
 /// table decodes at each lookup, everything else is single precision.

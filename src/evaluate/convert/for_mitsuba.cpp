@@ -5,6 +5,7 @@
 #include "evaluate/convert/new_files.h"
 #include "mesh/ply_writer.h"
 #include "pbrt/grid_cells.h"
+#include "scene/displacement.h"
 #include "volume/vol_writer.h"
 
 namespace duet {
@@ -71,7 +72,8 @@ void environment(SceneDescription& scene, LightDescription& l, NewFiles& files, 
   const auto* map = std::get_if<EnvironmentMapLight>(&l.model);
   if (!map) return;
   const bool has_form = map->layout == EnvironmentLayout::latitude_longitude;
-  if (has_form && map->tint == Spectrum(1.0f) && !map->gamma && !map->illuminance) return;
+  if (has_form && map->tint == Spectrum(1.0f) && !map->gamma && !map->illuminance && !map->colors)
+    return;
   constexpr int kLargest = 4096;
   const int own = environment_width(l);
   const int width = map->layout == EnvironmentLayout::equal_area
@@ -141,8 +143,10 @@ void move_exposure_to_lights(SceneDescription& scene) {
 }  // namespace
 
 void prepare_for_mitsuba(SceneDescription& scene, NewFiles& files, Losses& losses) {
+  displace_meshes(scene);
   count_passed_surfaces(scene, true, losses);
   move_exposure_to_lights(scene);
+  settle_image_colors(scene, files);
   settle_images_for_mitsuba(scene);
   for (LightDescription& l : scene.lights) environment(scene, l, files, losses);
   for_all_shapes(scene, [&](ShapeDescription& s) { shape_files(s, files, losses); });

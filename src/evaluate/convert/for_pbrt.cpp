@@ -60,7 +60,8 @@ void environment_file(SceneDescription& scene, LightDescription& l, NewFiles& fi
     l.to_world[2][c] = double(columns[c].z);
   }
   const bool grey = map && map->tint == Spectrum(map->tint.r);
-  if (map && map->layout == EnvironmentLayout::equal_area && grey && !map->gamma) return;
+  if (map && map->layout == EnvironmentLayout::equal_area && grey && !map->gamma && !map->colors)
+    return;
   constexpr int kLargest = 2048, kSky = 1024;
   const int own = map ? environment_width(l) : kSky;
   const bool square = map && map->layout == EnvironmentLayout::equal_area;
@@ -77,6 +78,7 @@ void environment_file(SceneDescription& scene, LightDescription& l, NewFiles& fi
 
 void prepare_for_pbrt(SceneDescription& scene, NewFiles& files, Losses& losses) {
   count_passed_surfaces(scene, false, losses);
+  settle_image_colors(scene, files);
   settle_images_for_pbrt(scene);
   for (LightDescription& l : scene.lights) environment_file(scene, l, files, losses);
   for_all_shapes(scene, [&](ShapeDescription& s) { mesh_file(s, files); });

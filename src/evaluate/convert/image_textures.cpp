@@ -1,6 +1,9 @@
 // How formats make numbers and colours of the pixels of an image.
+#include <tuple>
+
 #include "evaluate/convert/new_files.h"
 #include "image/image_io.h"
+#include "scene/texture_texels.h"
 #include "scene/texture_uses.h"
 
 namespace duet {
@@ -30,6 +33,24 @@ std::optional<ImageFile> try_read(const std::string& path) {
 }
 
 }  // namespace
+
+void settle_image_colors(SceneDescription& scene, NewFiles& files) {
+  std::map<std::tuple<std::string, std::optional<double>, ColorMatrix>, std::string> names;
+  for (TextureDescription& t : scene.textures) {
+    auto* b = std::get_if<BitmapTexture>(&t.model);
+    if (!b || !b->colors) continue;
+    std::string& name = names[{b->file, b->gamma, *b->colors}];
+    if (name.empty()) {
+      const TextureTexels texels = read_texels(*b);
+      Image image(texels.width, texels.height, {"R", "G", "B"});
+      for (size_t i = 0; i < texels.colors.size(); ++i)
+        for (int c = 0; c < 3; ++c) image.data[3 * i + size_t(c)] = texels.colors[i][c];
+      name = files.add_image("image", image);
+    }
+    b->file = name;
+    b->gamma.reset(), b->colors.reset();
+  }
+}
 
 void settle_images_for_mitsuba(SceneDescription& scene) {
   for (TextureDescription& t : scene.textures) {

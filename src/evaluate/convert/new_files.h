@@ -59,6 +59,8 @@ void prepare_for_mitsuba(SceneDescription& scene, NewFiles& files, Losses& losse
 /// The same for pbrt-v4.
 void prepare_for_pbrt(SceneDescription& scene, NewFiles& files, Losses& losses);
 
+/// Makes files of images that are in another colour space than the other colours. Throws ReadError.
+void settle_image_colors(SceneDescription& scene, NewFiles& files);
 /// Gives image textures the form that the format has for what they say, where it has one: numbers
 /// that are the same by the rules of both, and values that are no colours.
 void settle_images_for_mitsuba(SceneDescription& scene);

@@ -185,6 +185,9 @@ std::string DescriptionText::shape(const ShapeDescription& s) const {
   if (const auto* m = std::get_if<MeshShape>(&s.geometry)) {
     if (!m->source->file.empty()) t += fmt::format(" ({})", file_name(m->source->file));
     t += fmt::format(", {} triangles", m->mesh->triangles.size());
+    if (m->displacement != FloatInput(0.0))
+      t += fmt::format(", displaced by {} at edges of {:.4g}", input(m->displacement),
+                       m->edge_length);
   }
   t += ", bsdf " + name(s.material);
   if (s.interior) t += ", inside " + name(*s.interior);
