@@ -90,7 +90,7 @@ void SceneWriter::phase(PhaseId id) {
 
 void SceneWriter::medium(const MediumDescription& m, const std::string& id) {
   out_.open("medium", m.name(), {}, id);
-  fields(m);
+  plugin("medium", m);
   out_.close();
 }
 

@@ -36,9 +36,9 @@ Boxed<AreaEmission> read_area_light(Reader& reader, const Plugin& plugin,
   Values v(reader, plugin, record->parameters);
   AreaEmission emission;
   emission.where = plugin.where;
-  emission.two_sided = v.boolean("twosided");
+  if (v.boolean("twosided")) emission.side = EmittingSide::both;
   Spectrum scale = scale_of(v);
-  const double sides = emission.two_sided ? 2 : 1;
+  const double sides = emission.side == EmittingSide::both ? 2 : 1;
   const auto flux = [&] { return kPi * std::max(area(), 1e-30) * sides; };
   if (!v.has("filename")) {
     if (v.has("power")) scale *= float(v.not_negative("power") / flux());

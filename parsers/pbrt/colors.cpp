@@ -100,7 +100,10 @@ Spectrum Reader::constant_color(const Parameter& p, ColorMeaning meaning) {
   std::vector<SpectrumSample> samples;
   if (!p.strings.empty()) {
     const std::string& name = p.strings.front();
-    if (const auto metal = find_metal(name)) return in_working_space(*metal, film_color_space);
+    if (const auto metal = find_metal(name, version_)) {
+      if (is_brass(name)) approximate(p.where, fmt::format("{} by the colour of brass", name));
+      return in_working_space(*metal, film_color_space);
+    }
     if (const auto glass = find_glass(name)) return Spectrum(float(*glass));
     if (const auto light = find_illuminant(name)) {
       if (is_narrow_illuminant(name))

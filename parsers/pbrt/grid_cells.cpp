@@ -25,13 +25,14 @@ bool has_zeros_around(const VolumeGrid& grid) {
 }  // namespace
 
 GridCells::GridCells(const VolumeDescription& volume)
-    : volume_(volume), border_(has_zeros_around(*volume.grid) ? 1 : 0) {
+    : volume_(volume),
+      border_(volume.nodes == VolumeNodes::beyond || has_zeros_around(*volume.grid) ? 1 : 0) {
   const auto& n = volume.grid->size;
   for (size_t i = 0; i < 3; ++i) size_[i] = n[i] - 2 * border_;
-  const auto step = [&](size_t i) {
-    return 1.0 / (volume.nodes_on_faces ? std::max(n[i] - 1, 1) : n[i]);
-  };
-  const double shift = volume.nodes_on_faces ? border_ - 0.5 : border_;
+  // In the cube there are n cells, one less, or two less, by where its faces cut the outermost.
+  const int missing = int(volume.nodes);
+  const auto step = [&](size_t i) { return 1.0 / std::max(n[i] - missing, 1); };
+  const double shift = border_ - 0.5 * missing;
   to_world_ = volume.to_world * Matrix4::scale(step(0), step(1), step(2)) *
               Matrix4::translate(shift, shift, shift);
 }

@@ -22,7 +22,7 @@ constexpr Types kIndex = kNumber | of(Type::spectrum);
 constexpr Spec kDiffuse[] = {{"reflectance", kColorTexture, "0.5"}};
 
 std::optional<MaterialId> read_diffuse(Values& v) {
-  const ColorInput reflectance = v.color_input("reflectance", ColorMeaning::reflectance);
+  const ColorInput reflectance = clamped_reflectance(v, "reflectance");
   return two_sided(v, v.reader().add_material(DiffuseMaterial{reflectance}, v.where()));
 }
 
@@ -85,7 +85,7 @@ constexpr Spec kTransmission[] = {{"reflectance", kColorTexture, "0.25"},
 std::optional<MaterialId> read_transmission(Values& v) {
   const Spectrum scale(float(v.not_negative("scale")));
   const auto part = [&](const char* name) {
-    return scaled(v, v.color_input(name, ColorMeaning::reflectance), scale);
+    return clamped(v, scaled(v, v.color_input(name, ColorMeaning::reflectance), scale));
   };
   return diffuse_both_ways(v, part("reflectance"), part("transmittance"));
 }

@@ -19,8 +19,8 @@ PhaseId read_phase(Values& v);
 
 /// The numbers of cells; nothing after an error.
 std::optional<std::array<int, 3>> grid_size(Values& v, size_t cells);
-/// A grid over the medium's box. Around it there is nothing: cells of zero, half of whose reach
-/// lies within the box. If it `goes_on`, its outermost cells are repeated instead.
+/// A grid over the medium's box. Around it there are cells of zero, half of whose reach lies within
+/// the box; outside of that is nothing. If it `goes_on`, its outermost cells are repeated instead.
 VolumeId add_grid(Values& v, const std::array<int, 3>& n, int channels,
                   const std::function<float(size_t cell, int channel)>& value,
                   bool goes_on = false);

@@ -36,17 +36,16 @@ VolumeId add_grid(Values& v, const std::array<int, 3>& n, int channels,
             grid->values[node * size_t(channels) + size_t(c)] = value(cell, c);
       }
   const auto p0 = v.point("p0"), p1 = v.point("p1");
-  std::array<double, 3> low, size;
+  std::array<double, 3> size;
   for (size_t i = 0; i < 3; ++i) {
-    const double step = (p1[i] - p0[i]) / n[i];
-    low[i] = p0[i] - step;
-    size[i] = p1[i] - p0[i] + 2 * step;
+    size[i] = p1[i] - p0[i];
     if (!(size[i] > 0)) v.reader().report().error(v.where("p1"), "the medium's box is empty");
   }
   VolumeDescription volume;
   volume.where = v.where();
   volume.grid = std::move(grid);
-  volume.to_world = v.reader().state().ctm[0] * Matrix4::translate(low[0], low[1], low[2]) *
+  volume.nodes = VolumeNodes::beyond;
+  volume.to_world = v.reader().state().ctm[0] * Matrix4::translate(p0[0], p0[1], p0[2]) *
                     Matrix4::scale(size[0], size[1], size[2]);
   if (size[0] > 0 && size[1] > 0 && size[2] > 0)
     v.reader().check_transform(volume.to_world, v.where());
@@ -154,7 +153,7 @@ VolumeId add_nano_vdb(Values& v, NanoVdbGrid read, const Spectrum& factor) {
   VolumeDescription volume;
   volume.where = v.where("filename");
   volume.grid = std::move(grid);
-  volume.nodes_on_faces = true;
+  volume.nodes = VolumeNodes::on_faces;
   volume.to_world = v.reader().state().ctm[0] * read.to_world;
   v.reader().check_transform(volume.to_world, v.where());
   SceneDescription& scene = v.reader().scene();

@@ -100,6 +100,8 @@ class Reader {
   TextureId add_texture(decltype(TextureDescription::model) model, const SourceLocation& where);
   /// Called for each texture that a plugin refers to.
   void count_texture() { ++texture_count_; }
+  /// Whether colours are used that a texture further on defines.
+  bool awaits_colors() const { return !undefined_colors_.empty(); }
   /// How many there were; what differs before and after reading a material says if it has any.
   size_t texture_count() const { return texture_count_; }
   /// Whether the surface described now looks at texture coordinates.
@@ -148,7 +150,15 @@ class Reader {
   /// Hair knows by the direction of its normal how far from the middle light meets it, and a tube
   /// has the normals that pbrt's model takes for granted on its ribbons.
   void make_hair_round();
+  /// The "alpha" of a shape, unless it is opaque.
+  std::optional<FloatInput> alpha_of(const Plugin& shape);
   MaterialId with_alpha(const Plugin& shape, MaterialId material);
+  /// What else the light of a shape depends on: the side by its normals, the areas of its triangles
+  /// if it has "power", its alpha.
+  void finish_emission(const Plugin& from, ShapeDescription& shape, bool has_normals);
+  /// The area that pbrt's "power" is spread over: that of the first triangle of a mesh in the
+  /// world, of others that of all in their own space.
+  double area_of_light(const Plugin& from, const ShapeDescription& shape, const ShapeParts& parts);
 
   std::string file_;
   const Options& options_;

@@ -37,20 +37,26 @@ void Reader::set_looks_at_uv(MaterialId id, bool looks) {
   looks_at_uv_[size_t(id)] = looks;
 }
 
-MaterialId Reader::with_alpha(const Plugin& shape, MaterialId material) {
+std::optional<FloatInput> Reader::alpha_of(const Plugin& shape) {
   const Parameter* given = shape.find("alpha");
-  if (!given || (given->type != Type::number && given->type != Type::texture)) return material;
+  if (!given || (given->type != Type::number && given->type != Type::texture)) return std::nullopt;
   // Everything else about the parameter was checked when the shape was read.
   Report::Mute mute(report_);
   Plugin alone{shape.directive, shape.name, shape.where, {*given}};
-  FloatInput alpha = Values(*this, alone, kShapeSpecs).float_input("alpha");
+  const FloatInput alpha = Values(*this, alone, kShapeSpecs).float_input("alpha");
   // v3 asks only whether it is zero.
-  const bool v3 = version_ == Version::v3;
   if (const double* constant = std::get_if<double>(&alpha))
-    if (*constant >= 1 || (v3 && *constant > 0)) return material;
+    if (*constant >= 1 || (version_ == Version::v3 && *constant > 0)) return std::nullopt;
+  return alpha;
+}
+
+MaterialId Reader::with_alpha(const Plugin& shape, MaterialId material) {
+  const std::optional<FloatInput> given = alpha_of(shape);
+  if (!given) return material;
+  FloatInput alpha = *given;
   const auto [entry, is_new] = masked_.try_emplace({material, alpha}, MaterialId{});
   if (!is_new) return entry->second;
-  if (const TextureId* id = std::get_if<TextureId>(&alpha); id && v3)
+  if (const TextureId* id = std::get_if<TextureId>(&alpha); id && version_ == Version::v3)
     alpha = add_texture(FunctionDescription{*id, TextureFunction::positive}, shape.where);
   entry->second = add_material(MaskMaterial{alpha, material}, shape.where);
   return entry->second;
@@ -87,10 +93,9 @@ void Reader::add_shape(const Plugin& from, ShapeParts parts) {
     else if (invisible)
       report_.warning(from.where, "a surface with the material \"interface\" emits no light");
     else
-      shape.emission =
-          read_area_light(*this, *state_.area_light, [&] { return world_area(shape); });
-    if (shape.emission && shape.material != state_.material)
-      approximate(from.where, "a light with alpha shines where alpha takes the surface away, too");
+      shape.emission = read_area_light(*this, *state_.area_light,
+                                       [&] { return area_of_light(from, shape, parts); });
+    if (shape.emission) finish_emission(from, shape, parts.has_normals);
   }
   std::optional<uint32_t> group = object_;
   if (object_ && !shape.motion.empty()) {
@@ -217,33 +222,6 @@ void Reader::add_instance(const std::string& name, const SourceLocation& where) 
     scene_.shapes.push_back(std::move(moving));
   }
   if (!scene_.groups[found->second].shapes.empty()) scene_.shapes.push_back(std::move(shape));
-}
-
-double world_area(const ShapeDescription& shape) {
-  const TriangleMesh* mesh = nullptr;
-  TriangleMesh made;
-  if (const auto* m = std::get_if<MeshShape>(&shape.geometry)) {
-    mesh = m->mesh.get();
-  } else {
-    if (std::holds_alternative<SphereShape>(shape.geometry))
-      made = make_sphere(1, -1, 1, 360);
-    else if (std::holds_alternative<CylinderShape>(shape.geometry))
-      made = make_cylinder(1, 0, 1, 360);
-    else
-      made = make_disk(1, 0, 0, 360);
-    mesh = &made;
-  }
-  const Matrix4 to_world = shape.motion.empty()
-                               ? shape.to_world
-                               : shape.motion.keyframes().front().pose * shape.to_world;
-  const Transform place(to_world);
-  double area = 0;
-  for (const auto& [a, b, c] : mesh->triangles) {
-    const Point3f p = place(mesh->positions[a]);
-    area +=
-        0.5 * double(length(cross(place(mesh->positions[b]) - p, place(mesh->positions[c]) - p)));
-  }
-  return area;
 }
 
 }  // namespace duet::pbrt

@@ -188,7 +188,9 @@ class SceneWriter {
   MaybeLight light(const EnvironmentMapLight& m, const LightDescription& l, Matrix4& to_world);
   MaybeLight light(const GoniometricLight& m, const LightDescription& l, Matrix4& to_world);
   MaybeLight light(const ProjectorLight& m, const LightDescription& l, Matrix4& to_world);
-  void emission(const AreaEmission& e);
+  void emission(const AreaEmission& e, const FloatInput& alpha);
+  /// pbrt multiplies a light by the surface's alpha itself.
+  ColorInput radiance_before_alpha(const AreaEmission& e, const FloatInput& alpha);
   /// A constant factor before an image; nothing for another texture.
   struct ScaledImage {
     const BitmapTexture* image = nullptr;

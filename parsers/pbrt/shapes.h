@@ -62,7 +62,11 @@ BumpTangents bump_tangents(Version version);
 /// Gives a mesh without texture coordinates those that pbrt has by default, if they are needed.
 void finish_triangles(TriangleMesh& mesh, bool needs_uv);
 
-/// The area of a mesh or analytic shape in the world.
-double world_area(const ShapeDescription& shape);
+/// By file what pbrt makes one shape, and so one light, of each triangle of.
+bool is_light_per_triangle(const Plugin& shape);
+/// Whether the triangles of a mesh differ in area. Then it has the attribute kShareOfTriangle, how
+/// often the area of the first triangle is that of each.
+bool set_shares_of_triangles(ShapeDescription& shape);
+inline constexpr const char* kShareOfTriangle = "face_share_of_power";
 
 }  // namespace duet::pbrt

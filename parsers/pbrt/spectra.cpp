@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "pbrt/lexer.h"
+#include "pbrt/metals.h"
 #include "values/ior.h"
 #include "values/spectrum_text.h"
 
@@ -109,7 +110,9 @@ constexpr Glass kGlasses[] = {
     {"glass-SF11", 1.78472},
 };
 
-constexpr std::string_view kMetals[] = {"Ag", "Al", "Au", "Cu", "CuZn", "MgO", "TiO2"};
+/// Brass of 70 % copper, whose spectrum is not at hand: indices that have its colour where light
+/// falls on it straight, 0.91, 0.78 and 0.42.
+constexpr Metal kBrass{"CuZn", {0.44f, 0.53f, 1.3f}, {4.18f, 2.685f, 1.929f}};
 
 }  // namespace
 
@@ -208,21 +211,32 @@ std::optional<double> find_glass(std::string_view name) {
   return std::nullopt;
 }
 
-std::optional<Spectrum> find_metal(std::string_view name) {
-  for (const std::string_view metal : kMetals)
-    for (const bool k : {false, true})
-      if (name == fmt::format("metal-{}-{}", metal, k ? "k" : "eta")) {
-        const ConductorEntry* entry = find_conductor(metal);
-        if (!entry) return std::nullopt;
-        return k ? entry->k : entry->eta;
-      }
-  return std::nullopt;
+bool is_brass(std::string_view spectrum) {
+  return spectrum == "metal-CuZn-eta" || spectrum == "metal-CuZn-k";
+}
+
+std::optional<Spectrum> find_metal(std::string_view name, Version version) {
+  const auto part = [&](std::string_view metal, const Spectrum& eta,
+                        const Spectrum& k) -> std::optional<Spectrum> {
+    if (name == fmt::format("metal-{}-eta", metal)) return eta;
+    if (name == fmt::format("metal-{}-k", metal)) return k;
+    return std::nullopt;
+  };
+  for (const Metal& m : measured_metals()) {
+    const ConductorEntry* v3 = version == Version::v3 ? find_conductor(m.name) : nullptr;
+    if (auto found = v3 ? part(m.name, v3->eta, v3->k) : part(m.name, m.eta, m.k)) return found;
+  }
+  return part(kBrass.name, kBrass.eta, kBrass.k);
 }
 
 std::vector<std::string> spectrum_names() {
   std::vector<std::string> names;
-  for (const std::string_view metal : kMetals)
-    for (const char* part : {"eta", "k"}) names.push_back(fmt::format("metal-{}-{}", metal, part));
+  const auto add = [&](const Metal& metal) {
+    for (const char* part : {"eta", "k"})
+      names.push_back(fmt::format("metal-{}-{}", metal.name, part));
+  };
+  for (const Metal& metal : measured_metals()) add(metal);
+  add(kBrass);
   for (const Glass& g : kGlasses) names.emplace_back(g.name);
   for (const Illuminant& i : kIlluminants) names.emplace_back(i.name);
   return names;

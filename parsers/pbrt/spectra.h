@@ -51,8 +51,11 @@ Spectrum in_working_space(const Spectrum& srgb, uint8_t working);
 std::optional<Spectrum> find_illuminant(std::string_view name);
 /// The refractive index of a named glass at 587.6 nm.
 std::optional<double> find_glass(std::string_view name);
-/// What a name like "metal-Cu-eta" stands for: the real or imaginary part of a metal's index.
-std::optional<Spectrum> find_metal(std::string_view name);
+/// What a name like "metal-Cu-eta" stands for: the real or imaginary part of a metal's index. In v3
+/// it is what RGB rendering of pbrt-v3 makes of the spectrum, in v4 what has the metal's colour.
+std::optional<Spectrum> find_metal(std::string_view name, Version version);
+/// Whether it is the index of a metal that is known by its colour alone.
+bool is_brass(std::string_view spectrum);
 std::vector<std::string> spectrum_names();
 
 /// The pairs of a parameter; nothing, with a message, if they are none.

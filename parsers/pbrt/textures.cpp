@@ -121,12 +121,7 @@ void read_image(Values& v, const Request& request, Made& made) {
   const auto invert = [&] {
     id = reader.add_texture(FunctionDescription{id, TextureFunction::inverse}, v.where());
   };
-  if (reader.version() == Version::v4) {
-    if (v.boolean("invert"))
-      invert();
-    else if (request.is_color && v.number("scale") > 1)
-      invert(), invert();  // the smaller of it and 1, as reflectances of images are
-  }
+  if (reader.version() == Version::v4 && v.boolean("invert")) invert();
   set(made, id);
 }
 

@@ -182,7 +182,7 @@ Spectrum Values::color(std::string_view name, ColorMeaning meaning) {
 Spectrum Values::preset_color(std::string_view name) const {
   const auto numbers = parse_numbers(preset(name)).value_or(std::vector<double>{0});
   if (numbers.size() == 3) return {float(numbers[0]), float(numbers[1]), float(numbers[2])};
-  if (const auto metal = find_metal(preset(name))) return *metal;
+  if (const auto metal = find_metal(preset(name), reader_.version())) return *metal;
   return Spectrum(float(numbers.empty() ? 0 : numbers[0]));
 }
 

@@ -23,8 +23,7 @@ void SceneWriter::coefficients(Statement& s, const MediumDescription& m, const G
   const VolumeDescription* first = density ? &d_.volumes[size_t(*density)] : nullptr;
   const VolumeDescription* second = shares ? &d_.volumes[size_t(*shares)] : nullptr;
   const bool same = first && second && first->to_world == second->to_world &&
-                    first->grid->size == second->grid->size &&
-                    first->nodes_on_faces == second->nodes_on_faces;
+                    first->grid->size == second->grid->size && first->nodes == second->nodes;
   if (first && second && !same)
     lose("the albedo of a medium is that at the cells of its extinction");
   std::vector<float> absorbed, scattered;

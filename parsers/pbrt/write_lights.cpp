@@ -52,20 +52,35 @@ double SceneWriter::grey_scale(const Spectrum& scale, std::string_view of_what) 
   return double(scale.luminance());
 }
 
-void SceneWriter::emission(const AreaEmission& e) {
+ColorInput SceneWriter::radiance_before_alpha(const AreaEmission& e, const FloatInput& alpha) {
+  const bool fades = alpha != FloatInput(1.0) && alpha != FloatInput(0.0);
+  if (!fades) return e.radiance;
+  const TextureId* id = std::get_if<TextureId>(&e.radiance);
+  const auto* product =
+      id ? std::get_if<ProductDescription>(&d_.textures[size_t(*id)].model) : nullptr;
+  const double* constant = std::get_if<double>(&alpha);
+  const ColorInput factor =
+      constant ? ColorInput(Spectrum(float(*constant))) : std::get<TextureId>(alpha);
+  if (product && product->first == factor) return product->second;
+  lose("a light with an opacity is dimmed by it");
+  return e.radiance;
+}
+
+void SceneWriter::emission(const AreaEmission& e, const FloatInput& alpha) {
   if (e.directional) return lose("light along the normals of a surface is missing");
   Statement s("AreaLightSource", "diffuse");
-  if (const Spectrum* constant = std::get_if<Spectrum>(&e.radiance)) {
+  const ColorInput radiance = radiance_before_alpha(e, alpha);
+  if (const Spectrum* constant = std::get_if<Spectrum>(&radiance)) {
     s.color("L", *constant);
   } else {
-    const auto image = scaled_image(std::get<TextureId>(e.radiance));
+    const auto image = scaled_image(std::get<TextureId>(radiance));
     if (!image) return lose("light whose radiance is a texture other than an image is missing");
     s.string("filename", image->image->file);
     s.number("scale", grey_scale(image->scale, "a light's image"));
     const UvTransform upright{{{{1, 0, 0}, {0, -1, 1}}}};
     if (!(image->image->to_uv == upright)) lose("the image of a light is upside down or moved");
   }
-  if (e.two_sided) s.boolean("twosided", true);
+  if (e.side == EmittingSide::both) s.boolean("twosided", true);
   world_text_ += s.text();
 }
 

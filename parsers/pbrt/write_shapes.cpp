@@ -203,7 +203,7 @@ void SceneWriter::shape(const ShapeDescription& s, bool in_group) {
   if (s.emission && in_group)
     lose("what emits light in a group does not in pbrt");
   else if (s.emission)
-    emission(*s.emission);
+    emission(*s.emission, surface.alpha);
   const Matrix4 start = s.motion.empty() ? to_world : s.motion.keyframes().front().pose * to_world;
   const bool has_normals =
       has_own_normals(s) || (std::holds_alternative<DiskShape>(s.geometry) && looks_at_uv(s));

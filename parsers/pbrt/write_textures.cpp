@@ -204,19 +204,16 @@ bool SceneWriter::write_image(const FunctionDescription& t, const Target& target
     if (outer) in = &d_.textures[size_t(outer->inner)];
     return outer;
   };
-  const auto* again = step(std::get_if<FunctionDescription>(&in->model));
-  if (t.function != TextureFunction::inverse || (again && again->function != t.function))
-    return false;
+  if (t.function != TextureFunction::inverse) return false;
   const auto* scaled = step(std::get_if<ScaledTextureDescription>(&in->model));
   const auto* map = step(std::get_if<MappedTextureDescription>(&in->model));
   const auto* b = std::get_if<BitmapTexture>(&in->model);
   const double scale = scaled ? double(scaled->scale.r) : 1;
-  const bool is_cut = scale > 1 && target.is_color;
-  if (!b || (scaled && !is_grey_color(scaled->scale)) || (again && !is_cut)) return false;
+  if (!b || (scaled && !is_grey_color(scaled->scale))) return false;
   Statement s = target.begin("imagemap");
   image(s, *b, target.is_color);
   if (scaled) s.number("scale", scale);
-  if (!again) s.boolean("invert", true);
+  s.boolean("invert", true);
   Scaling c = scaling(b->to_uv);
   c.v_scale = -c.v_scale, c.v_delta = 1 - c.v_delta;
   const auto to_world = mapping(s, c, map);
@@ -225,8 +222,14 @@ bool SceneWriter::write_image(const FunctionDescription& t, const Target& target
 }
 
 void SceneWriter::write(const FunctionDescription& t, const Target& target) {
-  if (write_image(t, target)) return;
+  const auto* inner = std::get_if<FunctionDescription>(&d_.textures[size_t(t.inner)].model);
   const bool inverse = t.function == TextureFunction::inverse;
+  if (inverse && target.is_color && inner && inner->function == t.function) {
+    // Within [0, 1], which pbrt's materials see to themselves.
+    texture(d_.textures[size_t(inner->inner)], target);
+    return;
+  }
+  if (write_image(t, target)) return;
   if (!inverse) lose("a function of a texture is missing where it is not a roughness");
   if (target.is_color && !is_grey(t.inner)) lose("a texture that is inverted becomes grey");
   // 1 − x between 1 and 0.

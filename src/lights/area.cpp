@@ -35,18 +35,18 @@ std::optional<FlatLight> find_parallelogram(const TriangleMesh& m) {
 
 }  // namespace
 
-AreaLight::AreaLight(const Shape& shape, const ColorSlot& radiance, bool two_sided,
+AreaLight::AreaLight(const Shape& shape, const ColorSlot& radiance, EmittingSide side,
                      LightSelection selection)
     : shape_(shape),
       radiance_(radiance),
-      two_sided_(two_sided),
+      side_(side),
       area_(surface_area(shape)),
       uniform_{float(1 / area_)} {
   // Of two sides, either may be the one that is seen.
   if (shape.kind != ShapeKind::mesh) {
-    strategy_ = !two_sided && choose_cone() ? Strategy::cone : Strategy::surface;
-    if (shape.kind == ShapeKind::disk && !two_sided && radiance.is_constant()) make_flat_disk();
-  } else if (!two_sided && radiance.is_constant() && choose_parallelogram()) {
+    strategy_ = !two_sided() && choose_cone() ? Strategy::cone : Strategy::surface;
+    if (shape.kind == ShapeKind::disk && !two_sided() && radiance.is_constant()) make_flat_disk();
+  } else if (!two_sided() && radiance.is_constant() && choose_parallelogram()) {
     strategy_ = Strategy::parallelogram;
   } else {
     strategy_ = Strategy::cells;
@@ -99,13 +99,13 @@ void AreaLight::make_flat_disk() {
 double AreaLight::power(double) const {
   const double emission =
       cells_ ? cells_->integral() : area_ * double(radiance_.average().luminance());
-  return double(kPi) * emission * (two_sided_ ? 2 : 1);
+  return double(kPi) * emission * (two_sided() ? 2 : 1);
 }
 
 std::optional<LightBounds> AreaLight::bounds() const {
   if (shape_.kind != ShapeKind::mesh) {
     LightBounds b = LightBounds::around(analytic_bounds(shape_));
-    if (shape_.kind == ShapeKind::disk && !two_sided_)
+    if (shape_.kind == ShapeKind::disk && !two_sided())
       b.normals = {Vector3f(sample_analytic(shape_, {0.5f, 0.5f}).ng)};
     return b;
   }
@@ -131,7 +131,7 @@ LightBounds AreaLight::triangle_bounds(uint32_t triangle) const {
   const TriangleMesh& mesh = *shape_.mesh;
   LightBounds b;
   for (const uint32_t corner : mesh.triangles[triangle]) b.box.extend(mesh.positions[corner]);
-  if (two_sided_)
+  if (two_sided())
     b.normals = DirectionCone::all();
   else if (triangle_area(mesh, triangle) > 0)
     b.normals = {Vector3f(point_on_triangle(shape_, triangle, {1 / 3.0f, 1 / 3.0f}).ng)};
@@ -139,7 +139,8 @@ LightBounds AreaLight::triangle_bounds(uint32_t triangle) const {
 }
 
 Spectrum AreaLight::emitted(const Surface& surface, const Vector3f& w) const {
-  return two_sided_ || dot(surface.shading.n, w) > 0 ? radiance_(surface) : Spectrum();
+  const Normal3f& n = side_ == EmittingSide::geometric ? surface.ng : surface.shading.n;
+  return two_sided() || dot(n, w) > 0 ? radiance_(surface) : Spectrum();
 }
 
 std::optional<LightSample> AreaLight::sample_shape(const Point3f& from, const Point2f& u) const {
@@ -149,10 +150,9 @@ std::optional<LightSample> AreaLight::sample_shape(const Point3f& from, const Po
   const float d2 = length_squared(d);
   if (!(d2 > 0)) return std::nullopt;
   const Vector3f wi = d * (1 / std::sqrt(d2));
-  if (two_sided_ && dot(p.ng, wi) > 0) p.ng = -p.ng, p.ns = -p.ns;
+  if (two_sided() && dot(p.ng, wi) > 0) p.ng = -p.ng, p.ns = -p.ns;
   const float cosine = -dot(p.ng, wi);
-  // Light leaves on the side of the shading normal, which the surface itself may hide.
-  if (!(cosine > 0 && dot(p.ns, wi) < 0)) return std::nullopt;
+  if (!(cosine > 0 && leaves(p.ns, -wi))) return std::nullopt;
   return toward(p, to_solid_angle(pdf, d2, cosine), wi);
 }
 
@@ -239,7 +239,7 @@ inline PdfA AreaLight::point_pdf(const Surface& surface) const {
 
 PdfW AreaLight::pdf_direct(const Point3f& from, const Surface& surface, const Vector3f& wi,
                            float d2) const {
-  const float facing = -dot(surface.ng, wi), cosine = two_sided_ ? std::abs(facing) : facing;
+  const float facing = -dot(surface.ng, wi), cosine = two_sided() ? std::abs(facing) : facing;
   if (!(cosine > 0)) return {};
   if (strategy_ == Strategy::cone) return cone_pdf(from);
   const PdfA pdf =
@@ -266,14 +266,14 @@ std::optional<EmissionSample> AreaLight::sample_emission(const Point2f& position
                                                          const Point2f& direction) const {
   ShapePoint p = sample_point(position);
   Point2f u = direction;
-  if (two_sided_) {
+  if (two_sided()) {
     // Half of the directions for each side.
     const bool back = u.x >= 0.5f;
     if (back) p.ng = -p.ng, p.ns = -p.ns;
     u.x = std::min(2 * u.x - (back ? 1.0f : 0.0f), kBelowOne);
   }
   const Vector3f w = Frame(p.ng).to_world(square_to_cosine_hemisphere(u));
-  if (!(dot(p.ng, w) > 0 && dot(p.ns, w) > 0)) return std::nullopt;
+  if (!(dot(p.ng, w) > 0 && leaves(p.ns, w))) return std::nullopt;
   const Spectrum emitted = radiance(p);
   if (emitted.is_black()) return std::nullopt;
   // The cosine of the direction's density is that of the area across the ray.
@@ -283,8 +283,8 @@ std::optional<EmissionSample> AreaLight::sample_emission(const Point2f& position
 }
 
 float AreaLight::emission_density(const Surface& surface, const Vector3f& w) const {
-  const float side = two_sided_ && dot(surface.ng, w) < 0 ? -1.0f : 1.0f;
-  if (!(side * dot(surface.ng, w) > 0 && side * dot(surface.shading.n, w) > 0)) return 0;
+  const float side = two_sided() && dot(surface.ng, w) < 0 ? -1.0f : 1.0f;
+  if (!(side * dot(surface.ng, w) > 0 && leaves(surface.shading.n, w))) return 0;
   return point_pdf(surface).value * direction_density();
 }
 

@@ -3,6 +3,7 @@
 
 #include <memory>
 
+#include "lights/emitting_side.h"
 #include "lights/flat_light.h"
 #include "lights/light.h"
 #include "lights/light_tree.h"
@@ -11,13 +12,14 @@
 
 namespace duet {
 
-/// Emits the same radiance into all directions on the side of the shading normal, or on both sides.
+/// Emits the same radiance into all directions on a side, or on both.
 class AreaLight final : public SurfaceLight {
  public:
   /// `shape` must outlive the light and stay where it is; its area must not be zero.
   /// `selection` is by what light samples choose a triangle of a mesh; they do so by what it
   /// emits unless a tree serves.
-  AreaLight(const Shape& shape, const ColorSlot& radiance, bool two_sided = false,
+  AreaLight(const Shape& shape, const ColorSlot& radiance,
+            EmittingSide side = EmittingSide::shading,
             LightSelection selection = LightSelection::automatic);
 
   [[gnu::always_inline]] std::optional<LightSample> sample_direct(const Point3f& from,
@@ -50,7 +52,12 @@ class AreaLight final : public SurfaceLight {
   };
 
   /// The density of a direction in which light leaves, per cosine: that of its side, too.
-  float direction_density() const { return two_sided_ ? 0.5f * kInvPi : kInvPi; }
+  float direction_density() const { return two_sided() ? 0.5f * kInvPi : kInvPi; }
+  bool two_sided() const { return side_ == EmittingSide::both; }
+  /// Whether light leaves a point in a direction on the side of its geometric normal.
+  bool leaves(const Normal3f& shading, const Vector3f& w) const {
+    return side_ != EmittingSide::shading || dot(shading, w) > 0;
+  }
   bool choose_cone();
   bool choose_parallelogram();
   void make_flat_disk();
@@ -80,7 +87,7 @@ class AreaLight final : public SurfaceLight {
 
   const Shape& shape_;
   ColorSlot radiance_;
-  bool two_sided_;
+  EmittingSide side_;
   Strategy strategy_;
   double area_;
   PdfA uniform_;  ///< 1 / area

@@ -3,17 +3,21 @@
 namespace duet {
 
 GridVolume::GridVolume(std::shared_ptr<const VolumeGrid> grid, const Matrix4& to_world,
-                       VolumeFilter filter, VolumeWrap wrap, bool nodes_on_faces)
-    : grid_(std::move(grid)),
-      to_world_(to_world),
-      filter_(filter),
-      wrap_(wrap),
-      nodes_on_faces_(nodes_on_faces) {}
+                       VolumeFilter filter, VolumeWrap wrap, VolumeNodes nodes)
+    : grid_(std::move(grid)), to_world_(to_world), filter_(filter), wrap_(wrap), nodes_(nodes) {}
 
 /// Where a coordinate of the unit cube lies among the nodes.
 inline float GridVolume::node_coordinate(float x, int axis) const {
   const float n = float(grid_->size[size_t(axis)]);
-  return nodes_on_faces_ ? x * (n - 1) : x * n - 0.5f;
+  switch (nodes_) {
+    case VolumeNodes::on_faces:
+      return x * (n - 1);
+    case VolumeNodes::beyond:
+      return x * (n - 2) + 0.5f;
+    case VolumeNodes::within:
+      break;
+  }
+  return x * n - 0.5f;
 }
 
 inline int GridVolume::wrapped(int i, int axis) const {
@@ -34,7 +38,7 @@ inline GridVolume::Neighbours GridVolume::neighbours(const Point3f& p) const {
   // Far outside a coordinate has no fraction any more, and must not become too large an integer.
   constexpr float kFar = 1 << 24;
   for (int i = 0; i < 3; ++i) {
-    if (nodes_on_faces_ && !(p[i] >= 0 && p[i] <= 1)) return out;
+    if (nodes_ != VolumeNodes::within && !(p[i] >= 0 && p[i] <= 1)) return out;
     const float x = std::clamp(node_coordinate(p[i], i), -kFar, kFar);
     const bool interpolates = filter_ == VolumeFilter::trilinear;
     const float floor = std::floor(interpolates ? x : x + 0.5f);
@@ -90,7 +94,7 @@ float GridVolume::maximum(const Point3f& lower, const Point3f& upper) const {
     // One more on each side, for rounding.
     first[i] = int(std::floor(node_coordinate(lower[i], i))) - 1;
     last[i] = int(std::floor(node_coordinate(upper[i], i))) + 2;
-    if (wrap_ == VolumeWrap::clamp || nodes_on_faces_) {
+    if (wrap_ == VolumeWrap::clamp || nodes_ != VolumeNodes::within) {
       first[i] = std::clamp(first[i], 0, grid_->size[size_t(i)] - 1);
       last[i] = std::clamp(last[i], 0, grid_->size[size_t(i)] - 1);
     }

@@ -33,11 +33,9 @@ using SymmetricMatrix = std::array<float, 6>;
 /// A grid placed in the world.
 class GridVolume {
  public:
-  /// The unit cube is the grid's own space. With `nodes_on_faces` the outermost nodes lie on its
-  /// faces and everything outside is zero; otherwise they lie half a cell inside, and `wrap` says
-  /// what comes beyond.
+  /// The unit cube is the grid's own space.
   GridVolume(std::shared_ptr<const VolumeGrid> grid, const Matrix4& to_world, VolumeFilter filter,
-             VolumeWrap wrap, bool nodes_on_faces);
+             VolumeWrap wrap, VolumeNodes nodes);
 
   int channels() const { return grid_->channels; }
   const VolumeGrid& grid() const { return *grid_; }
@@ -56,7 +54,7 @@ class GridVolume {
   SymmetricMatrix matrix(const Point3f& p) const;
 
   /// The box in the world outside of which there is nothing, whatever a lookup says: around the
-  /// unit cube, as in Mitsuba 3. With `nodes_on_faces` lookups are zero outside of the cube anyway.
+  /// unit cube, as in Mitsuba 3.
   void world_box(Point3f& lower, Point3f& upper) const;
 
   /// The greatest value of any channel that local_value() and local_color() yield in the box
@@ -78,7 +76,7 @@ class GridVolume {
   Transform to_world_;
   VolumeFilter filter_;
   VolumeWrap wrap_;
-  bool nodes_on_faces_;
+  VolumeNodes nodes_;
 };
 
 struct ColorVolumeSlot {

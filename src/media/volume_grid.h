@@ -23,5 +23,11 @@ struct VolumeGrid {
 enum class VolumeFilter : unsigned char { trilinear, nearest };
 /// Which node stands for one beyond the border.
 enum class VolumeWrap : unsigned char { clamp, repeat, mirror };
+/// Where the outermost nodes lie in the unit cube that a grid fills.
+enum class VolumeNodes : unsigned char {
+  within,    ///< half a cell inside (Mitsuba 3); the wrap mode says what comes beyond
+  on_faces,  ///< on the cube's faces (Mitsuba 0.x, OpenVDB); everything outside of it is zero
+  beyond,    ///< half a cell outside (pbrt); everything outside of the cube is zero
+};
 
 }  // namespace duet

@@ -29,7 +29,9 @@ LightPointer equal_area_map(SceneBuilder& b, const EnvironmentMapLight& l,
                           image.height());
     return nullptr;
   }
-  // Light from above, on a plane; all texels are of the same solid angle.
+  // Light from above, on a plane; all texels are of the same solid angle. pbrt takes the sphere for
+  // a hemisphere here, so that its lights are twice as bright as "illuminance" says, and so are
+  // these.
   double illuminance = 0;
   for (int y = 0; y < n; ++y)
     for (int x = 0; x < n; ++x) {
@@ -37,7 +39,7 @@ LightPointer equal_area_map(SceneBuilder& b, const EnvironmentMapLight& l,
           square_to_sphere_equal_area({(float(x) + 0.5f) / float(n), (float(y) + 0.5f) / float(n)});
       if (w.z > 0) illuminance += double(w.z) * double(image.color(x, y).luminance());
     }
-  illuminance *= 4 * double(kPi) / (double(n) * n);
+  illuminance *= 2 * double(kPi) / (double(n) * n);
   Spectrum scale = l.tint * float(l.scale);
   if (l.illuminance && illuminance > 0) scale *= float(*l.illuminance / illuminance);
 

@@ -87,7 +87,7 @@ std::unique_ptr<Light> SceneBuilder::make(const LightDescription& d) {
 
 std::unique_ptr<Light> SceneBuilder::make(const Emission& e, const Shape& shape) {
   if (e.directional) return std::make_unique<DirectionalArea>(shape, e.radiance);
-  return std::make_unique<AreaLight>(shape, e.radiance, e.two_sided,
+  return std::make_unique<AreaLight>(shape, e.radiance, e.side,
                                      light_selection(description_.integrator));
 }
 

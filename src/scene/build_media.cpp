@@ -36,7 +36,7 @@ const GridVolume* SceneBuilder::volume(VolumeId id) {
     const VolumeDescription& d = description_.volumes[index];
     if (!check_transform(d.to_world, d.where)) return nullptr;
     scene_->volumes.push_back(
-        std::make_unique<GridVolume>(d.grid, d.to_world, d.filter, d.wrap, d.nodes_on_faces));
+        std::make_unique<GridVolume>(d.grid, d.to_world, d.filter, d.wrap, d.nodes));
     return scene_->volumes.back().get();
   });
 }
@@ -125,7 +125,9 @@ std::vector<std::string> VolumeDescription::losses() const {
   if (file.empty()) lost.emplace_back("a grid that does not come from a file is missing");
   if (!is_float32)
     lost.emplace_back("Mitsuba 3 reads only volume files with 32-bit floating-point numbers");
-  if (nodes_on_faces)
+  if (nodes == VolumeNodes::beyond)
+    lost.emplace_back("the nodes of a grid lie half a cell inside its box, not outside");
+  if (nodes == VolumeNodes::on_faces)
     lost.emplace_back(
         "the nodes of a grid lie half a cell inside its box, which nothing is cut off "
         "at");

@@ -150,7 +150,7 @@ void SceneBuilder::add_shape(ShapeDescription& d) {
     const ColorSlot radiance = slot(d.emission->radiance);
     needs.uv |= radiance.needs_uv();
     emissions_.push_back({scene_->shapes.size(), radiance, d.emission->sampling_weight,
-                          d.emission->directional, d.emission->two_sided, d.emission->where});
+                          d.emission->directional, d.emission->side, d.emission->where});
   }
   Shape shape = geometry(d, needs);
   shape.material = materials_[size_t(d.material)].index;

@@ -87,8 +87,9 @@ std::shared_ptr<const BitmapPixels> SceneBuilder::pixels(const std::string& file
                                                          const BitmapDecoding& decoding,
                                                          const SourceLocation& where) {
   constexpr double kFromFile = 0;  // no gamma value
-  const auto [entry, is_new] = pixels_.try_emplace(
-      {file, decoding.raw, decoding.gamma.value_or(kFromFile), decoding.channel, decoding.colors});
+  const auto [entry, is_new] =
+      pixels_.try_emplace({file, decoding.raw, decoding.gamma.value_or(kFromFile), decoding.channel,
+                           decoding.colors, decoding.clamped});
   if (is_new) {
     try {
       entry->second =

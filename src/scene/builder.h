@@ -88,7 +88,8 @@ class SceneBuilder {
     size_t shape;
     ColorSlot radiance;
     double sampling_weight;
-    bool directional, two_sided;
+    bool directional;
+    EmittingSide side;
     SourceLocation where;
   };
 
@@ -168,7 +169,7 @@ class SceneBuilder {
   /// Of what is being made.
   ShapeTextureSet shape_textures_;
   /// Images by file and by how they are decoded; null after an error.
-  std::map<std::tuple<std::string, bool, double, TextureChannel, std::optional<ColorMatrix>>,
+  std::map<std::tuple<std::string, bool, double, TextureChannel, std::optional<ColorMatrix>, bool>,
            std::shared_ptr<const BitmapPixels>>
       pixels_;
   std::vector<Emission> emissions_;

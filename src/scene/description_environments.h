@@ -43,7 +43,7 @@ struct EnvironmentMapLight {
   std::optional<double> gamma;  ///< as in BitmapTexture
   Spectrum tint{1.0f};          ///< multiplies the image as `scale` does
   EnvironmentLayout layout = EnvironmentLayout::latitude_longitude;
-  /// The light is scaled so that a plane that faces its +y would receive this much, multiplied by
+  /// The light is scaled so that a plane that faces its +y receives twice this much, multiplied by
   /// `scale` and `tint`.
   std::optional<double> illuminance = std::nullopt;
   std::optional<ColorMatrix> colors = std::nullopt;  ///< as in BitmapTexture

@@ -33,8 +33,7 @@ struct VolumeDescription {
   Matrix4 to_world;
   VolumeFilter filter = VolumeFilter::trilinear;
   VolumeWrap wrap = VolumeWrap::clamp;
-  /// The outermost nodes lie on the cube's faces (0.x), not half a cell inside them (3.x).
-  bool nodes_on_faces = false;
+  VolumeNodes nodes = VolumeNodes::within;
 
   static constexpr std::string_view kFilters[] = {"trilinear", "nearest"};
   static constexpr std::string_view kWraps[] = {"clamp", "repeat", "mirror"};
@@ -52,7 +51,7 @@ struct VolumeDescription {
         field(&V::wrap, P{"wrap_mode", string, kInitial, "clamp, repeat or mirror", any, v3})
             .words(kWraps)
             .terse(),
-        field(&V::nodes_on_faces));
+        field(&V::nodes));
   }
   static constexpr const char* name() { return "gridvolume"; }
   std::vector<std::string> losses() const;

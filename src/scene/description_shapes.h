@@ -13,6 +13,7 @@
 #include "geometry/mesh.h"
 #include "geometry/sdf_grid.h"
 #include "image/filter.h"
+#include "lights/emitting_side.h"
 #include "math/motion.h"
 #include "math/transform.h"
 #include "scene/description_base.h"
@@ -189,18 +190,19 @@ struct AreaEmission {
   double sampling_weight = 1;  ///< as in LightDescription
   /// Light leaves along the normals only; `radiance` is power per unit area.
   bool directional = false;
-  bool two_sided = false;  ///< light leaves on both sides
+  EmittingSide side = EmittingSide::shading;
   static constexpr auto fields() {
     using namespace parameter_words;
     using A = AreaEmission;
     return FieldList(field(&A::where), field(&A::radiance, kRadiance),
                      field(&A::sampling_weight, kSamplingWeight).terse(), field(&A::directional),
-                     field(&A::two_sided));
+                     field(&A::side).words(kEmittingSides));
   }
   const char* name() const { return directional ? "directionalarea" : "area"; }
   std::vector<std::string> losses() const {
-    if (!two_sided) return {};
-    return {"light leaves a surface on one side only"};
+    if (side == EmittingSide::both) return {"light leaves a surface on one side only"};
+    if (side == EmittingSide::shading) return {};
+    return {"light leaves a mesh with normals on the side of its shading normals"};
   }
 };
 

@@ -34,6 +34,8 @@ struct BitmapTexture {
   UvTransform to_uv;
   /// From the image's colour space to that of the other colours, if it is another one.
   std::optional<ColorMatrix> colors = std::nullopt;
+  /// Values above one are one, and negative ones zero.
+  bool clamped = false;
 
   static constexpr std::string_view kFilters[] = {"nearest", "bilinear"};
   /// Those of Mitsuba 3: it has no texture that is zero or one outside of its image.
@@ -76,11 +78,12 @@ struct BitmapTexture {
               Parameter{"channel", string, "(all)", "r, g, b or a: use one as a number", any, v0})
             .unwritten()
             .read_by_plugin(),
-        uv_field(&T::to_uv), field(&T::colors).shown(", colours "));
+        uv_field(&T::to_uv), field(&T::colors).shown(", colours "),
+        field(&T::clamped).shown(", clamped"));
   }
   static constexpr const char* name() { return "bitmap"; }
   BitmapDecoding decoding() const {
-    return {.raw = raw, .gamma = gamma, .channel = channel, .colors = colors};
+    return {.raw = raw, .gamma = gamma, .channel = channel, .colors = colors, .clamped = clamped};
   }
   std::vector<std::string> losses() const;
   std::unique_ptr<Texture> build(SceneBuilder& b, const SourceLocation& where) const;

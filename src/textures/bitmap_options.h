@@ -24,6 +24,8 @@ struct BitmapDecoding {
   /// Multiplies what was decoded, if it has colours, into another colour space; what lies outside
   /// of that is moved to its edge: negative numbers become zero.
   std::optional<ColorMatrix> colors = std::nullopt;
+  /// At last, values above one become one and negative ones zero.
+  bool clamped = false;
   bool operator==(const BitmapDecoding&) const = default;
 };
 

@@ -150,6 +150,8 @@ BitmapPixels BitmapPixels::from_file(const ImageFile& file, const BitmapDecoding
       for (float& v : values) v = decode_gamma(v, gamma);
   }
   if (converts) convert(values, *decoding.colors);
+  if (decoding.clamped)
+    for (float& v : values) v = std::clamp(v, 0.0f, 1.0f);
   if (!mean) return {image.width, image.height, int(n), std::move(values)};
   for (size_t i = 0; i < texels; ++i)
     values[i] = (values[3 * i] + values[3 * i + 1] + values[3 * i + 2]) / 3;

@@ -159,7 +159,7 @@ TEST_CASE("convert: meshes, curves and grids without a file get one, with the sa
           "\"float density\" [0.1 0.7] MediumInterface \"fog\" \"\" Material \"interface\" "
           "Shape \"sphere\"\n");
   const SceneDescription a = read(folder.path("in.pbrt")),
-                         b = converted(folder, "in.pbrt", "out.xml", 0);
+                         b = converted(folder, "in.pbrt", "out.xml", 1);
   REQUIRE(b.shapes.size() == 3);
   CHECK(std::get<CurvesShape>(a.shapes[0].geometry).curves->points ==
         std::get<CurvesShape>(b.shapes[0].geometry).curves->points);
@@ -170,7 +170,9 @@ TEST_CASE("convert: meshes, curves and grids without a file get one, with the sa
   CHECK(one == *std::get<MeshShape>(b.shapes[1].geometry).mesh);
   REQUIRE(b.volumes.size() == 1);
   CHECK(a.volumes.at(0).grid->values == b.volumes.at(0).grid->values);
-  CHECK(a.volumes.at(0).to_world == b.volumes.at(0).to_world);
+  // Two cells along x and one along the others, in a box that has room for those around them.
+  CHECK(b.volumes.at(0).to_world ==
+        a.volumes.at(0).to_world * Matrix4::translate(-0.5, -1, -1) * Matrix4::scale(2, 3, 3));
 }
 
 TEST_CASE(
@@ -215,7 +217,7 @@ TEST_CASE("convert: what a grid has at its faces is lost where the format goes o
     if (values == "full") grid.values[0] = 1;
     VolumeDescription v;
     v.grid = std::make_shared<const VolumeGrid>(grid);
-    v.nodes_on_faces = true;
+    v.nodes = VolumeNodes::on_faces;
     d.volumes.push_back(v);
     d.integrator.method = PathIntegratorDescription{};
     return convert_scene(d, folder.path("out.xml")).losses.size();

@@ -172,6 +172,23 @@ TEST_CASE("emitted rays leave on the side of the shading normal") {
   CHECK(empty > 200);
 }
 
+TEST_CASE("emitted rays leave on the side of the geometric normal, if that is asked for") {
+  TriangleMesh m = fan();
+  m.normals.assign(5, normalize(Normal3f(1, 0, 0.3f)));
+  const Lamp lamp(mesh(m, Matrix4{}), kRadiance, EmittingSide::geometric);
+  check_answers(lamp, 0.8f);
+  check_norm(lamp);
+  for (const Probe& probe : {Probe{{1.9f, 0.3f, 0.9f}, {-1, 0, -0.5f}, 0.8f},
+                             {{-1.9f, 0.3f, 0.9f}, {1, 0, -0.5f}, 0.8f}})
+    test::check_flux(*lamp.light, probe, "leaning normals that do not matter");
+  Sampler sampler(SampleSequence::independent, 3, 0, 0);
+  for (int i = 0; i < 1000; ++i) {
+    sampler.start_sample(uint32_t(i));
+    const Point2f position = sampler.next_2d();
+    CHECK(lamp.light->sample_emission(position, sampler.next_2d()));
+  }
+}
+
 TEST_CASE("emitted directions follow the cosine with the geometric normal") {
   for (const ShapeKind kind : {ShapeKind::mesh, ShapeKind::disk}) {
     const Lamp lamp(kind == ShapeKind::mesh ? mesh(make_rectangle(), kSkew) : analytic(kind, kSkew),

@@ -198,6 +198,10 @@ TEST_CASE("light leaves on the side of the shading normal") {
   m.normals.assign(5, normalize(Normal3f(1, 0, 0.3f)));
   m.normals[4] = {0, 0, 1};
   check_lamp(Lamp(mesh(m, Matrix4{}), kRadiance), {-1.4f, 0.3f, 0.5f}, "leaning normals");
+  check_lamp(Lamp(mesh(m, Matrix4{}), kRadiance, EmittingSide::geometric), {-1.4f, 0.3f, 0.5f},
+             "leaning normals that do not matter");
+  check_lamp(Lamp(mesh(m, Matrix4{}), kRadiance, EmittingSide::both), {-1.4f, 0.3f, 0.5f},
+             "leaning normals and two sides");
   TriangleMesh rectangle = make_rectangle();
   rectangle.normals.assign(4, normalize(Normal3f(1, 0, 0.3f)));
   check_lamp(Lamp(mesh(rectangle, Matrix4{}), kRadiance), {-0.3f, 0.3f, 0.6f},

@@ -44,7 +44,7 @@ GridVolume even(float value) {
   grid.size = {4, 3, 2};
   grid.values.assign(grid.node_count(), value);
   return {std::make_shared<VolumeGrid>(grid), Matrix4::scale(4, 1, 1), VolumeFilter::trilinear,
-          VolumeWrap::clamp, false};
+          VolumeWrap::clamp, VolumeNodes::within};
 }
 
 }  // namespace

@@ -109,16 +109,16 @@ TEST_CASE("light gets as far in a homogeneous medium as its extinction allows") 
 TEST_CASE("light gets as far in a grid as the integral over its values allows") {
   const Spectrum albedo(0.9f, 0.3f, 0.5f);
   const Matrix4 placed = Matrix4::translate(-1, 0, 0) * Matrix4::scale(4, 1, 1);
-  for (const bool on_faces : {false, true}) {
+  for (const VolumeNodes nodes : {VolumeNodes::within, VolumeNodes::on_faces}) {
     // Half a cell at each end is flat where the nodes lie inside: the mean stays the same.
     const GridVolume grey(ramp(Spectrum(0.4f), Spectrum(0.1f), 1), placed, VolumeFilter::trilinear,
-                          VolumeWrap::clamp, on_faces);
+                          VolumeWrap::clamp, nodes);
     const Ray ray{{-3, .5f, .5f}, {1, 0, 0}, 10};
     const HeterogeneousMedium plain(grey, 2, {albedo}, kIsotropic);
     check_subpath(plain, ray, exp_minus(Spectrum(4 * 2 * 0.25f)), albedo);
     check_weights(plain, ray, exp_minus(Spectrum(4 * 2 * 0.25f)));
     const GridVolume color(ramp({0.4f, 0, 0.2f}, {0, 0.2f, 0.2f}, 3), placed,
-                           VolumeFilter::trilinear, VolumeWrap::clamp, on_faces);
+                           VolumeFilter::trilinear, VolumeWrap::clamp, nodes);
     const HeterogeneousMedium coloured(color, 2, {albedo}, kIsotropic);
     check_subpath(coloured, ray, exp_minus(Spectrum(0.2f, 0.1f, 0.2f) * 8), albedo);
     check_weights(coloured, ray, exp_minus(Spectrum(0.2f, 0.1f, 0.2f) * 8));
@@ -127,7 +127,7 @@ TEST_CASE("light gets as far in a grid as the integral over its values allows") 
 
 TEST_CASE("a sub-path that begins and ends within a grid") {
   const GridVolume v(ramp(Spectrum(1), Spectrum(1), 1), Matrix4{}, VolumeFilter::trilinear,
-                     VolumeWrap::clamp, false);
+                     VolumeWrap::clamp, VolumeNodes::within);
   const HeterogeneousMedium medium(v, 3, {Spectrum(1)}, kIsotropic);
   check_subpath(medium, {{.25f, .5f, .5f}, {1, 0, 0}, .5f}, exp_minus(Spectrum(1.5f)), Spectrum(1));
   check_subpath(medium, {{.25f, .5f, .5f}, {0, 1, 0}, INFINITY}, exp_minus(Spectrum(1.5f)),
@@ -143,7 +143,7 @@ TEST_CASE("flakes seen edge-on hide less than flakes seen from the front") {
   check_subpath(even, {{0, 0, 0}, {1, 0, 0}, 0.7f}, exp_minus(Spectrum(1.4f * 0.2f)),
                 Spectrum(0.5f));
   const GridVolume v(ramp(Spectrum(1), Spectrum(1), 1), Matrix4{}, VolumeFilter::trilinear,
-                     VolumeWrap::clamp, false);
+                     VolumeWrap::clamp, VolumeNodes::within);
   const HeterogeneousMedium grid(v, 2, {Spectrum(0.5f)}, flakes);
   check_subpath(grid, {{-1, .5f, .5f}, {1, 0, 0}, 9}, exp_minus(Spectrum(2 * 0.2f)),
                 Spectrum(0.5f));

@@ -31,7 +31,8 @@ struct Functions {
   Tabulated table{std::vector<double>{2, 0.5, 0, 1, 4}};
   Sggx flakes{matrix({0.3f, 0.5f, 0.9f, 0.1f, -0.2f, 0.15f})};
   Sggx fibre{matrix({1, 1, 0.05f, 0, 0, 0})};
-  GridVolume weight{weights(), Matrix4{}, VolumeFilter::trilinear, VolumeWrap::clamp, false};
+  GridVolume weight{weights(), Matrix4{}, VolumeFilter::trilinear, VolumeWrap::clamp,
+                    VolumeNodes::within};
   BlendedPhase blend{FloatVolumeSlot{0, &weight}, forward, rayleigh};
 
   std::vector<std::pair<const char*, const PhaseFunction*>> all() const {

@@ -68,7 +68,8 @@ void check_traversal(const GridVolume& v) {
 TEST_CASE("grids of Mitsuba 3 have their nodes half a cell inside, and wrap as there") {
   const Point3f points[] = {{.25f, .25f, .25f}, {0, 0, 0}, {-.1f, .5f, .5f}, {1.2f, .5f, .5f}};
   const auto values = [&](VolumeWrap wrap) {
-    const GridVolume v(counting({2, 2, 2}), Matrix4{}, VolumeFilter::trilinear, wrap, false);
+    const GridVolume v(counting({2, 2, 2}), Matrix4{}, VolumeFilter::trilinear, wrap,
+                       VolumeNodes::within);
     std::vector<double> result;
     for (const Point3f& p : points) result.push_back(double(v.value(p)));
     return result;
@@ -85,7 +86,7 @@ TEST_CASE("grids of Mitsuba 3 have their nodes half a cell inside, and wrap as t
 
 TEST_CASE("grids of 0.x have their outermost nodes on the faces and nothing outside") {
   const GridVolume v(counting({2, 3, 2}), Matrix4{}, VolumeFilter::trilinear, VolumeWrap::clamp,
-                     true);
+                     VolumeNodes::on_faces);
   CHECK(v.value({0, 0, 0}) == 1);
   CHECK(v.value({1, 0, 0}) == 2);
   CHECK(v.value({0, .5f, 0}) == 3);
@@ -95,21 +96,35 @@ TEST_CASE("grids of 0.x have their outermost nodes on the faces and nothing outs
   CHECK(v.value({.5f, -.001f, .5f}) == 0);
 }
 
+TEST_CASE(
+    "grids of pbrt have their outermost nodes half a cell beyond the faces, nothing outside") {
+  const GridVolume v(counting({4, 3, 3}), Matrix4{}, VolumeFilter::trilinear, VolumeWrap::clamp,
+                     VolumeNodes::beyond);
+  // Two cells along x, one along the others: nodes 1 and 2 of the middle row are 18 and 19.
+  CHECK(v.local_value({0.25f, 0.5f, 0.5f}) == doctest::Approx(18));
+  CHECK(v.local_value({0.75f, 0.5f, 0.5f}) == doctest::Approx(19));
+  CHECK(v.local_value({0, 0.5f, 0.5f}) == doctest::Approx(17.5));
+  CHECK(v.local_value({1, 0.5f, 0.5f}) == doctest::Approx(19.5));
+  CHECK(v.local_value({-1e-4f, 0.5f, 0.5f}) == 0);
+  CHECK(v.local_value({0.5f, 1.0001f, 0.5f}) == 0);
+  check_traversal(v);
+}
+
 TEST_CASE("lookups without interpolation, in colours, and in another place") {
   const GridVolume nearest(counting({2, 1, 1}), Matrix4{}, VolumeFilter::nearest, VolumeWrap::clamp,
-                           false);
+                           VolumeNodes::within);
   CHECK(nearest.value({.49f, .9f, .1f}) == 1);
   CHECK(nearest.value({.51f, .9f, .1f}) == 2);
   const GridVolume color(counting({2, 1, 1}, 3),
                          Matrix4::translate(5, 0, 0) * Matrix4::scale(2, 1, 1),
-                         VolumeFilter::trilinear, VolumeWrap::clamp, false);
+                         VolumeFilter::trilinear, VolumeWrap::clamp, VolumeNodes::within);
   CHECK(color.color({5, 0, 0}) == Spectrum(1, 2, 3));
   CHECK(color.color({6, 0, 0}).g == doctest::Approx(3.5));
   CHECK(color.value({5, 0, 0}) == doctest::Approx(Spectrum(1, 2, 3).luminance()));
   // Far outside, where single precision has no fractions left.
   CHECK(color.color({1e30f, 0, 0}) == Spectrum(4, 5, 6));
   const GridVolume six(counting({1, 1, 1}, 6), Matrix4{}, VolumeFilter::trilinear,
-                       VolumeWrap::clamp, false);
+                       VolumeWrap::clamp, VolumeNodes::within);
   CHECK(six.matrix({.2f, .3f, .4f}) == SymmetricMatrix{1, 2, 3, 4, 5, 6});
 }
 
@@ -117,9 +132,10 @@ TEST_CASE("no value in a box is above its maximum, whatever the filter and wrap 
   RandomStream random(3);
   for (const VolumeWrap wrap : {VolumeWrap::clamp, VolumeWrap::repeat, VolumeWrap::mirror})
     for (const VolumeFilter filter : {VolumeFilter::nearest, VolumeFilter::trilinear})
-      for (const bool on_faces : {false, true})
+      for (const VolumeNodes nodes :
+           {VolumeNodes::within, VolumeNodes::on_faces, VolumeNodes::beyond})
         for (const int channels : {1, 3}) {
-          const GridVolume v(noise({7, 5, 4}, channels, 9), Matrix4{}, filter, wrap, on_faces);
+          const GridVolume v(noise({7, 5, 4}, channels, 9), Matrix4{}, filter, wrap, nodes);
           for (int i = 0; i < 200; ++i) {
             Point3f lower, upper, p;
             for (int a = 0; a < 3; ++a) {
@@ -137,7 +153,7 @@ TEST_CASE("a ray meets the cells of a majorant grid in order and without gaps") 
   // As it is, and turned: then its box in the world is larger than itself.
   for (const double degrees : {0.0, 40.0}) {
     const GridVolume v(grid, Matrix4::rotate(degrees, 1, 2, 3), VolumeFilter::trilinear,
-                       VolumeWrap::clamp, false);
+                       VolumeWrap::clamp, VolumeNodes::within);
     check_traversal(v);
   }
 }

@@ -143,7 +143,7 @@ TEST_CASE("grids: where they lie and what they are called in both Mitsubas") {
   const VolumeDescription& v = old.volumes.at(0);
   CHECK(std::get<VolumeId>(old.media.at(0).sigma_t) == VolumeId{0});
   check_color(old.media[0].albedo, .9, .9, .9);
-  CHECK(v.nodes_on_faces);
+  CHECK(v.nodes == VolumeNodes::on_faces);
   CHECK(v.to_world == Matrix4::translate(-1, 0, 0) * Matrix4::scale(2, 2, 4));
   CHECK(v.grid->values == std::vector<float>{1, 2});
   const auto grid = [](const std::string& version, const std::string& content) {
@@ -154,7 +154,7 @@ TEST_CASE("grids: where they lie and what they are called in both Mitsubas") {
         .volumes.at(0);
   };
   CHECK(grid("3.0.0", "").to_world == Matrix4{});
-  CHECK(!grid("3.0.0", "").nodes_on_faces);
+  CHECK(grid("3.0.0", "").nodes == VolumeNodes::within);
   CHECK(grid("3.0.0", "<boolean name='use_grid_bbox' value='true'/>").to_world == v.to_world);
   const VolumeDescription placed =
       grid("3.0.0",

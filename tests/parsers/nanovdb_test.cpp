@@ -155,14 +155,14 @@ TEST_CASE("NanoVDB files are grids of Mitsuba's media") {
   for (const VolumeDescription& v :
        {read("0.6.0", ""), read("3.0.0", "<boolean name='use_grid_bbox' value='true'/>")}) {
     CHECK(v.grid->values == expected.grid.values);
-    CHECK(v.nodes_on_faces);
+    CHECK(v.nodes == VolumeNodes::on_faces);
     CHECK_FALSE(v.is_float32);
     for (int i = 0; i < 3; ++i)
       for (int j = 0; j < 4; ++j)
         CHECK(v.to_world[i][j] == doctest::Approx(expected.to_world[i][j]));
   }
   CHECK(read("3.0.0", "").to_world == Matrix4{});
-  CHECK(read("3.0.0", "").nodes_on_faces);
+  CHECK(read("3.0.0", "").nodes == VolumeNodes::on_faces);
 }
 
 TEST_CASE("NanoVDB files that lie askew are no grids of Mitsuba's") {

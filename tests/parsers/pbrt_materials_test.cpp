@@ -143,7 +143,7 @@ TEST_CASE("pbrt: numbers of an image are the mean of its colours in v4, the lumi
 TEST_CASE("pbrt-v4: images that are scaled up end at one") {
   const SceneDescription d = v4_file(
       "Texture \"t\" \"spectrum\" \"imagemap\" \"string filename\" \"image.exr\" \"float scale\" "
-      "3\n");
+      "3\nMaterial \"diffuse\" \"texture reflectance\" \"t\"\n");
   // 1 − max(0, 1 − 3x).
   CHECK(std::get<ScaledTextureDescription>(d.textures.at(1).model).scale == Spectrum(3));
   for (const uint32_t i : {2u, 3u}) {

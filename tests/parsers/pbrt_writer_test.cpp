@@ -57,6 +57,13 @@ TEST_CASE("pbrt writer: lights survive") {
   check_pbrt_round_trip(
       kPlain +
       "AreaLightSource \"diffuse\" \"rgb L\" [3 2 1] \"bool twosided\" true Shape \"sphere\"");
+  const std::string triangle =
+      kPlain +
+      "AreaLightSource \"diffuse\" \"rgb L\" [3 2 1] Shape \"trianglemesh\" \"point3 P\" "
+      "[0 0 0 1 0 0 0 1 0] \"point2 uv\" [0 0 1 0 0 1] ";
+  check_pbrt_round_trip(triangle + "\"float alpha\" .5");
+  check_pbrt_round_trip("Texture \"a\" \"float\" \"bilerp\" " + triangle +
+                        "\"texture alpha\" \"a\"");
   check_pbrt_round_trip(kPlain + "AreaLightSource \"diffuse\" \"float scale\" 2 " + kImage +
                         "Shape \"sphere\"");
   check_pbrt_round_trip(
@@ -174,9 +181,14 @@ TEST_CASE("pbrt writer: images survive with all that is done to them") {
   const SceneDescription d = read_pbrt_text("Translate 1 2 3 Scale 2 2 4 " +
                                             with_color("\"imagemap\" " + kImage + planar));
   const SceneDescription again = read_pbrt_text(pbrt::write_pbrt(d).text, false);
+  const auto mapped = [](const SceneDescription& scene) {
+    for (const TextureDescription& t : scene.textures)
+      if (const auto* map = std::get_if<MappedTextureDescription>(&t.model)) return *map;
+    FAIL("no mapped texture");
+    return MappedTextureDescription{};
+  };
   for (int row = 0; row < 2; ++row)
-    CHECK(std::get<MappedTextureDescription>(d.textures.back().model).from_world[row] ==
-          std::get<MappedTextureDescription>(again.textures.back().model).from_world[row]);
+    CHECK(mapped(d).from_world[row] == mapped(again).from_world[row]);
 }
 
 TEST_CASE("pbrt writer: patterns survive") {

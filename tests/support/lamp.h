@@ -14,7 +14,7 @@ struct Lamp {
   std::unique_ptr<Accel> accel;
   std::unique_ptr<AreaLight> light;
 
-  Lamp(Shape shape, const ColorSlot& radiance) {
+  Lamp(Shape shape, const ColorSlot& radiance, EmittingSide side = EmittingSide::shading) {
     if (shape.mesh) {
       auto mesh = std::make_shared<TriangleMesh>(*shape.mesh);
       mesh->positions.reserve(mesh->positions.size() + 1);
@@ -23,7 +23,7 @@ struct Lamp {
     shape.needs.uv = radiance.needs_uv();
     shapes.push_back(std::move(shape));
     accel = std::make_unique<Accel>(shapes, ShapeRange{0, 1}, groups, instances, 1);
-    light = std::make_unique<AreaLight>(shapes[0], radiance);
+    light = std::make_unique<AreaLight>(shapes[0], radiance, side);
   }
   /// The surface in a direction and its squared distance.
   std::optional<Surface> look(const Point3f& from, const Vector3f& w, float& d2) const {

@@ -31,7 +31,7 @@ void read_gridvolume(SceneReader& s, Properties& p, MeantVolume& out) {
     if (!(box.upper[i] > box.lower[i])) p.error("max", "the box from \"min\" to \"max\" is flat");
   }
   if (v.file.empty()) return;
-  v.nodes_on_faces = p.is_0x() || is_nanovdb(v.file);
+  v.nodes = p.is_0x() || is_nanovdb(v.file) ? VolumeNodes::on_faces : VolumeNodes::within;
   v.grid = s.cache().volume_grid(v.file, p.where("filename"), v.is_float32);
   if (!v.grid) return;
   if (own_box)

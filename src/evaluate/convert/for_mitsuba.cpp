@@ -51,14 +51,16 @@ void shape_files(ShapeDescription& s, NewFiles& files, Losses& losses) {
 
 void volume_file(VolumeDescription& v, NewFiles& files, Losses& losses) {
   const auto& n = v.grid->size;
-  if (v.nodes_on_faces && v.file.empty()) {
+  if (v.nodes != VolumeNodes::within && v.file.empty()) {
     // The same nodes half a cell within a box that is larger by that.
+    const int missing = int(v.nodes);
     std::array<double, 3> half;
-    for (size_t i = 0; i < 3; ++i) half[i] = n[i] > 1 ? 0.5 / (n[i] - 1) : 0;
+    for (size_t i = 0; i < 3; ++i) half[i] = n[i] > 1 ? 0.5 * missing / (n[i] - missing) : 0;
     v.to_world = v.to_world * Matrix4::translate(-half[0], -half[1], -half[2]) *
                  Matrix4::scale(1 + 2 * half[0], 1 + 2 * half[1], 1 + 2 * half[2]);
-    v.nodes_on_faces = false;
-    if (!pbrt::GridCells(v).fades())
+    if (std::exchange(v.nodes, VolumeNodes::within) == VolumeNodes::beyond)
+      losses.add("a grid fades out over half a cell beyond its box");
+    else if (!pbrt::GridCells(v).fades())
       losses.add("a grid goes on for half a cell beyond its outermost values");
   }
   if (v.file.empty() && v.grid->node_count() > 1) {

@@ -35,11 +35,11 @@ std::optional<ImageFile> try_read(const std::string& path) {
 }  // namespace
 
 void settle_image_colors(SceneDescription& scene, NewFiles& files) {
-  std::map<std::tuple<std::string, std::optional<double>, ColorMatrix>, std::string> names;
+  std::map<std::tuple<std::string, std::optional<double>, ColorMatrix, bool>, std::string> names;
   for (TextureDescription& t : scene.textures) {
     auto* b = std::get_if<BitmapTexture>(&t.model);
     if (!b || !b->colors) continue;
-    std::string& name = names[{b->file, b->gamma, *b->colors}];
+    std::string& name = names[{b->file, b->gamma, *b->colors, b->clamped}];
     if (name.empty()) {
       const TextureTexels texels = read_texels(*b);
       Image image(texels.width, texels.height, {"R", "G", "B"});
