@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "app/commands.h"
+#include "evaluate/report/render_limits.h"
 
 namespace duet {
 

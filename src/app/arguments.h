@@ -10,10 +10,6 @@
 
 namespace duet {
 
-/// Guards against slips of the pen.
-inline constexpr int kMaxImageSide = 65536;
-inline constexpr double kMaxSeconds = 366 * 24 * 3600.0;
-
 /// Units and what a number with them is multiplied by; "" is a number without a unit.
 using Units = std::vector<std::pair<std::string, double>>;
 

@@ -4,14 +4,12 @@
 
 #include <CLI/CLI.hpp>
 
-#include "app/arguments.h"
 #include "app/commands.h"
+#include "evaluate/report/exposure.h"
 
 namespace duet {
 
 namespace {
-
-constexpr const char* kAutomatic = "auto";
 
 /// The names of a table, as CLI11 checks them.
 template <class Names>
@@ -19,19 +17,11 @@ CLI::IsMember one_of(const Names& names) {
   return CLI::IsMember(std::vector<std::string>(std::begin(names), std::end(names)));
 }
 
-void parse_exposure(const std::string& exposure, DisplaySettings& settings) {
-  std::string stops = exposure;
-  if (stops.starts_with(kAutomatic)) {
-    settings.automatic = true;
-    stops.erase(0, 4);
-    if (stops.empty()) stops = "0";
-    // "auto2" is a slip of the pen.
-    else if (stops[0] != '+' && stops[0] != '-')
-      stops = exposure;
-    else if (stops[0] == '+')
-      stops.erase(0, 1);
-  }
-  settings.exposure = parse_amount("--exposure", stops, {{"", 1}}, -100, 100);
+void parse_exposure(const std::string& text, DisplaySettings& settings) {
+  const std::optional<Exposure> exposure = exposure_of(text);
+  if (!exposure) throw UsageError("--exposure: " + not_an_exposure(text));
+  settings.exposure = exposure->stops;
+  settings.automatic = exposure->automatic;
 }
 
 }  // namespace

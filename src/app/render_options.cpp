@@ -14,13 +14,11 @@
 #include "evaluate/render/assignment.h"
 #include "evaluate/render/output.h"
 #include "evaluate/render/output_checks.h"
+#include "evaluate/report/render_limits.h"
 
 namespace duet {
 
 namespace {
-
-/// Guards against slips of the pen.
-constexpr int kMaxSpp = 1 << 30;
 
 std::string integrator_help() {
   std::string text = "Method instead of the scene's";

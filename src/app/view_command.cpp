@@ -1,5 +1,6 @@
 // duet view: an image file in the viewer of the reports.
 #include <CLI/CLI.hpp>
+#include <iostream>
 
 #include "app/commands.h"
 #include "app/program.h"
@@ -19,6 +20,10 @@ struct ViewOptions {
 int view(const ViewOptions& o, Program& program) {
   try {
     const std::string html = image_page(o.image, load_linear(o.image));
+    if (o.page == "-") {
+      std::cout << html;
+      return kSuccess;
+    }
     if (!o.page.empty()) {
       if (const std::string why = prepare_file(o.page); !why.empty()) throw std::runtime_error(why);
       write_file_atomically(o.page, html);
@@ -33,7 +38,8 @@ int view(const ViewOptions& o, Program& program) {
     open_page(opener, page);
     return kSuccess;
   } catch (const std::exception& e) {
-    program.log.error("{}: {}", o.image, e.what());
+    // What is wrong with a file says which.
+    program.log.error("{}", e.what());
   }
   return kSceneFailed;
 }
@@ -44,7 +50,8 @@ void add_view_command(CLI::App& app, Program& program) {
   CLI::App* c = app.add_subcommand("view", "Look at an image in a browser");
   const auto o = std::make_shared<ViewOptions>();
   c->add_option("image", o->image, "OpenEXR, PNG, JPEG, HDR, TIFF, PFM, ...")->required();
-  c->add_option("-o,--output", o->page, "Write the page to this file, and open nothing");
+  c->add_option("-o,--output", o->page,
+                "Write the page to this file, - is standard output, and open nothing");
   c->footer(
       "The page is one file, which needs no network: layers, exposure, zoom, the values of pixels "
       "and what the header says.\n"

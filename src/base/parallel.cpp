@@ -11,11 +11,12 @@
 #include <cstdlib>
 #include <mutex>
 #include <optional>
-#include <stdexcept>
 #include <string_view>
 #include <system_error>
 #include <thread>
 #include <vector>
+
+#include "base/failures.h"
 
 #if defined(__SSE2__)
 #include <xmmintrin.h>
@@ -52,8 +53,8 @@ std::optional<int> wanted_threads() {
   int threads = 0;
   const auto [end, error] = std::from_chars(digits.begin(), digits.end(), threads);
   if (error != std::errc() || end != digits.end() || threads < 1 || threads > kMaxThreads)
-    throw std::runtime_error(fmt::format("{}: \"{}\" is not a whole number from 1 to {}",
-                                         kThreadsVariable, text, kMaxThreads));
+    throw UsageError(fmt::format("{}: \"{}\" is not a whole number from 1 to {}", kThreadsVariable,
+                                 text, kMaxThreads));
   return threads;
 }
 

@@ -22,7 +22,7 @@ inline constexpr const char* kThreadsVariable = "DUET_THREADS";
 /// a thread, which it may try at any time. One for the whole of a program is enough.
 class HardwareThreads {
  public:
-  /// Throws std::runtime_error if kThreadsVariable is not a number from 1 to kMaxThreads.
+  /// Throws UsageError if kThreadsVariable is not a number from 1 to kMaxThreads.
   HardwareThreads();
   ~HardwareThreads();
   HardwareThreads(const HardwareThreads&) = delete;

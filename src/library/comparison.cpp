@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 
@@ -16,19 +17,29 @@ namespace duet {
 
 namespace {
 
-const Image& finite(const ComparedImage& compared, const char* name) {
+/// The image, if `check(image, name)` throws nothing.
+const Image& checked(const ComparedImage& compared, const char* name,
+                     void check(const Image&, const std::string&)) {
   const Image& image = compared.contents().linear.image;
   try {
-    check_finite(image, name);
+    check(image, name);
   } catch (const std::runtime_error& e) {
     throw std::invalid_argument(e.what());
   }
   return image;
 }
 
+double checked_samples(double spp, const char* name) {
+  if (!(spp > 0 && std::isfinite(spp)))
+    throw std::invalid_argument(
+        fmt::format("{}: {} samples per pixel are no positive number", name, spp));
+  return spp;
+}
+
 }  // namespace
 
 ComparedImage ComparedImage::load(const std::string& path) {
+  check_path(path);
   try {
     return ComparedImage(std::make_shared<const Contents>(Contents{load_linear(path)}));
   } catch (const ReadError& e) {
@@ -58,11 +69,12 @@ ComparedImage ComparedImage::from_image(const RenderedImage& image) {
 
 std::string compare_images(const ComparedImage& image, const ComparedImage& reference,
                            const std::optional<ReferenceVariance>& variance, int threads) {
-  finite(reference, "the reference");
+  checked(reference, "the reference", check_finite);
   std::optional<NoiseModel> noise;
   if (variance)
-    noise = NoiseModel{&finite(variance->image, "the variance"), variance->image_spp,
-                       variance->reference_spp};
+    noise = NoiseModel{&checked(variance->image, "the variance", check_variance),
+                       checked_samples(variance->image_spp, "image_spp"),
+                       checked_samples(variance->reference_spp, "reference_spp")};
   CompareSettings settings;
   settings.threads = threads_or_all(threads);
   Comparison comparison;

@@ -6,6 +6,7 @@
 
 #include "duet/comparison.h"
 #include "duet/errors.h"
+#include "duet/render.h"
 #include "duet/rendered_image.h"
 #include "duet/scene_file.h"
 #include "evaluate/compare/linear_image.h"
@@ -34,8 +35,14 @@ struct ComparedImage::Contents {
 };
 
 /// All threads that the process may have, for settings that ask for none. From the first call on
-/// TBB keeps to them until the process ends.
+/// TBB keeps to them until the process ends. Throws std::invalid_argument.
 int threads_or_all(int threads);
+
+/// Throws std::invalid_argument for numbers that make no sense, whatever the scene.
+void check_settings(const RenderSettings& settings);
+
+/// Throws std::invalid_argument for a path with a zero byte, which would name another file.
+void check_path(const std::string& path);
 
 /// Errors and warnings as the public headers have them.
 std::vector<SceneMessage> scene_messages(const Diagnostics& diagnostics);

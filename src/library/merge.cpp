@@ -24,6 +24,7 @@ MergedFilms read_films(const std::vector<std::string>& films) {
 
 RenderedImage merge_films(const std::vector<std::string>& films) {
   if (films.empty()) throw std::invalid_argument("there are no films");
+  for (const std::string& film : films) check_path(film);
   MergedFilms merged = read_films(films);
   if (merged.result.spp == 0) throw std::invalid_argument("the films have no samples");
   RenderedImage::Contents made{std::move(merged.result.image), merged.image.form, {}, false};

@@ -1,6 +1,8 @@
 #include "duet/render.h"
 
+#include <algorithm>
 #include <chrono>
+#include <limits>
 #include <stdexcept>
 
 #include "base/memory_limit.h"
@@ -18,13 +20,18 @@ namespace duet {
 
 namespace {
 
+/// Where so many pixels end, or the last place of all.
+int end_of(int begin, int count) {
+  return int(std::min(int64_t(begin) + count, int64_t(std::numeric_limits<int>::max())));
+}
+
 FilmLayout layout_of(FilmDescription& film, const RenderSettings& settings) {
   std::optional<Point2i> size;
   if (settings.size) size = Point2i{(*settings.size)[0], (*settings.size)[1]};
   std::optional<PixelBounds> crop;
   if (settings.crop) {
     const auto [x, y, w, h] = *settings.crop;
-    crop = PixelBounds{x, y, x + w, y + h};
+    crop = PixelBounds{x, y, end_of(x, w), end_of(y, h)};
   }
   return film_layout(film, size, crop);
 }
@@ -52,18 +59,27 @@ class FileRender {
         description_(scene.contents().loaded.description) {}
 
   std::optional<RenderedImage> run() {
+    check_settings(settings_);
+    check_watch();
     prepare();
     build();
     decide();
     check_memory();
     watch_render();
     RenderResult result = render(*scene_, *integrator_, layout_, request_);
+    tell_end(result);
     if (result.spp == 0) return std::nullopt;
     return finished(std::move(result));
   }
 
  private:
   using Contents = RenderedImage::Contents;
+
+  void check_watch() const {
+    if (!(watch_.image_seconds >= 0))
+      throw std::invalid_argument(
+          fmt::format("image_seconds: {} is not a number from zero", watch_.image_seconds));
+  }
 
   /// Everything that can be wrong with the settings for this scene shows here.
   void prepare() {
@@ -131,6 +147,7 @@ class FileRender {
     request_.cancel = watch_.cancel;
     if (watch_.progress)
       request_.progress = [this](const RenderProgress& p) {
+        fraction_ = p.fraction;
         watch_.progress({p.fraction, p.spp, p.seconds});
       };
     if (!watch_.image_so_far) return;
@@ -146,6 +163,12 @@ class FileRender {
       made.image = shown(std::move(result.image));
       watch_.image_so_far(handle(std::move(made)));
     };
+  }
+
+  /// The last progress, which renders have that end before there is any other, too.
+  void tell_end(const RenderResult& result) const {
+    if (!watch_.progress) return;
+    watch_.progress({result.interrupted ? fraction_ : 1, double(result.spp), result.seconds});
   }
 
   /// All of an image but its pixels.
@@ -198,6 +221,7 @@ class FileRender {
   RenderRequest request_;
   RenderRecord record_;
   int planned_spp_ = 0;
+  double fraction_ = 0;  ///< as it was told last
   Diagnostics diagnostics_;
   std::optional<SceneMattes> mattes_;
   std::optional<Denoiser> denoiser_;
@@ -207,12 +231,6 @@ class FileRender {
 };
 
 }  // namespace
-
-int threads_or_all(int threads) {
-  if (threads > 0) return threads;
-  static const HardwareThreads all;
-  return all.count();
-}
 
 const char* library_version() {
   return DUET_VERSION;

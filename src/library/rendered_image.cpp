@@ -3,9 +3,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <stdexcept>
 
 #include "base/atomic_file.h"
+#include "evaluate/report/exposure.h"
 #include "evaluate/report/image_file.h"
 #include "library/contents.h"
 
@@ -17,6 +19,10 @@ DisplaySettings settings_of(const DisplayForm& display) {
   if (display.png_depth != 8 && display.png_depth != 16)
     throw std::invalid_argument(
         fmt::format("PNG files have 8 or 16 bits, not {}", display.png_depth));
+  // Written so that NaN is refused.
+  if (!(std::abs(display.exposure) <= kMaxExposure))
+    throw std::invalid_argument("exposure: " +
+                                not_an_exposure(fmt::format("{}", display.exposure)));
   DisplaySettings settings{display.exposure, display.automatic_exposure, {}, display.png_depth};
   if (display.tone_map.empty()) return settings;
   settings.curve = tone_curve_of(display.tone_map);
@@ -80,6 +86,7 @@ std::optional<RenderedImage> RenderedImage::denoised() const {
 
 void RenderedImage::save(const std::string& path, const DisplayForm& display,
                          const ExrForm& exr) const {
+  check_path(path);
   if (image_format(path).empty())
     throw std::invalid_argument(fmt::format("{}: images are written as .exr, .png or .jpg", path));
   const Image& image = contents_->image;

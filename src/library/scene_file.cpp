@@ -1,7 +1,10 @@
 #include "duet/scene_file.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <nlohmann/json.hpp>
+#include <stdexcept>
 
 #include "evaluate/report/read_scene.h"
 #include "evaluate/report/scene_json.h"
@@ -46,20 +49,32 @@ std::vector<SceneMessage> scene_messages(const Diagnostics& diagnostics) {
   return messages;
 }
 
+void check_path(const std::string& path) {
+  const size_t end = path.find('\0');
+  if (end != std::string::npos)
+    throw std::invalid_argument(
+        fmt::format("{}: a path cannot go on with a zero byte", path.substr(0, end)));
+}
+
 SceneError::SceneError(std::vector<SceneMessage> messages)
     : std::runtime_error(all_errors(messages)), messages_(std::move(messages)) {}
 
 const SceneMessage& SceneError::first() const {
-  return *std::find_if(messages_.begin(), messages_.end(),
-                       [](const SceneMessage& m) { return m.is_error; });
+  static const SceneMessage no_message;
+  const auto error = std::find_if(messages_.begin(), messages_.end(),
+                                  [](const SceneMessage& m) { return m.is_error; });
+  return error == messages_.end() ? no_message : *error;
 }
 
 SceneFile SceneFile::load(const std::string& path, const SceneFileOptions& options) {
+  check_path(path);
+  for (const std::string& folder : options.search_paths) check_path(folder);
   return SceneFile(
       std::make_shared<const Contents>(Contents{path, read(path, reading_options(options))}));
 }
 
 SceneFile SceneFile::from_text(const std::string& text, const SceneFileOptions& options) {
+  for (const std::string& folder : options.search_paths) check_path(folder);
   ReadingOptions reading = reading_options(options);
   reading.files.read = [&text, on_disk = with_disk({}).read](const std::string& path) {
     return path == kTextName ? std::optional(text) : on_disk(path);

@@ -123,7 +123,7 @@ TEST_SUITE("program") {
     }
     for (const char* threads : {"0", "two", "1025", "3x"}) {
       const Outcome o = run(threads, place.path("parts"));
-      CHECK(o.code == 1);
+      CHECK(o.code == 2);
       CHECK(
           contains(o.err, "DUET_THREADS: \"" + std::string(threads) + "\" is not a whole number"));
     }

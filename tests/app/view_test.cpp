@@ -56,6 +56,16 @@ TEST_SUITE("program") {
     CHECK(r["colours"]["depth.T"] == nlohmann::json({255, 255, 255, 255}));
   }
 
+  TEST_CASE("the page of an image on standard output") {
+    const Workplace place;
+    place.scene();
+    REQUIRE(place.run({"tiny.xml", "-o", "tiny.png"}).code == 0);
+    const Outcome o = place.run({"view", "tiny.png", "-o", "-"});
+    CHECK(o.code == 0);
+    CHECK(contains(o.out, "16 × 12 pixels"));
+    CHECK(!place.has("-"));
+  }
+
   TEST_CASE("the desktop opens the page of an image, if there is one") {
     const Workplace place;
     place.scene();
@@ -79,6 +89,7 @@ TEST_SUITE("program") {
       const Outcome failed = place.run({"view", bad, "-o", "bad.html"});
       CHECK(failed.code == 1);
       CHECK(contains(failed.err, bad));
+      CHECK(failed.err.find(bad) == failed.err.rfind(bad));
       CHECK(!place.has("bad.html"));
     }
   }

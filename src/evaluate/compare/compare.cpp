@@ -95,7 +95,7 @@ Comparison compare_pair(const CompareSettings& o, int longest) {
   LinearImage variance;
   if (!o.variance.empty()) {
     variance = load_linear(o.variance);
-    check_finite(variance.image, o.variance);
+    check_variance(variance.image, o.variance);
     noise = NoiseModel{
         &variance.image, samples_of(UnknownSamples::Of::image, o.image, image, o.spp),
         samples_of(UnknownSamples::Of::reference, o.reference, reference, o.reference_spp)};

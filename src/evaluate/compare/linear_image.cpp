@@ -41,4 +41,13 @@ void check_finite(const Image& image, const std::string& path) {
         throw std::runtime_error(fmt::format("{} has values that are not finite", path));
 }
 
+void check_variance(const Image& image, const std::string& path) {
+  check_finite(image, path);
+  const Colours colours(image);
+  double sum = 0;
+  for (size_t i = 0; i < colours.pixels(); ++i)
+    for (int c = 0; c < 3; ++c) sum += colours(i, c);
+  if (sum < 0) throw std::runtime_error(fmt::format("{} is negative: it is no variance", path));
+}
+
 }  // namespace duet

@@ -23,6 +23,9 @@ LinearImage load_linear(const std::string& path);
 /// Throws std::runtime_error if colours are not finite: a reference with holes would let everything
 /// pass there.
 void check_finite(const Image& image, const std::string& path);
+/// The same, and for an image that is no variance: its values are negative, more than rounding
+/// makes those of a difference of moments.
+void check_variance(const Image& image, const std::string& path);
 
 /// An image whose number of samples is needed and known to nobody.
 class UnknownSamples : public std::runtime_error {

@@ -1,4 +1,4 @@
-// What the library throws beside std::invalid_argument (settings that make no sense),
+// What the library throws beside std::invalid_argument (settings and paths that make no sense),
 // std::out_of_range (a sensor or a window that there is not) and std::bad_alloc.
 #pragma once
 
@@ -19,7 +19,8 @@ struct SceneMessage {
 /// Errors in a scene; what() has all of them, a line each.
 class [[gnu::visibility("default")]] SceneError : public std::runtime_error {
  public:
-  /// With all messages, warnings among them; the first error of them is first().
+  /// With all messages, warnings among them; the first error of them is first(), which is empty if
+  /// there is none.
   explicit SceneError(std::vector<SceneMessage> messages);
   const std::vector<SceneMessage>& messages() const {
     return messages_;

@@ -49,8 +49,10 @@ struct RenderedShare {
 
 /// How a render is watched and stopped.
 struct RenderWatch {
-  std::function<void(const RenderedShare&)> progress = {};  ///< from any thread, one at a time
-  std::function<void(const std::string&)> warning = {};     ///< from the calling thread
+  /// From any thread, one at a time; the last time when the render has ended, with a fraction of 1
+  /// unless it was cancelled.
+  std::function<void(const RenderedShare&)> progress = {};
+  std::function<void(const std::string&)> warning = {};  ///< from the calling thread
   /// From the calling thread. Such images have no mattes and no denoised one beside them, which are
   /// made when the render has ended.
   std::function<void(const RenderedImage&)> image_so_far = {};
