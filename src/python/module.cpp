@@ -8,15 +8,15 @@
 #include <nanobind/stl/tuple.h>
 #include <nanobind/stl/vector.h>
 
-#include <atomic>
-#include <future>
-#include <memory>
-#include <mutex>
+#include <stdexcept>
 #include <tuple>
 
 #include "duet/duet.h"
+#include "evaluate/report/exposure.h"
 #include "math/statistics.h"
+#include "python/calls.h"
 #include "python/plugin_names.h"
+#include "python/watched_render.h"
 
 namespace nb = nanobind;
 using namespace nb::literals;
@@ -25,94 +25,23 @@ namespace duet::python {
 
 namespace {
 
+/// Of calls that touch no Python object.
+using Unlocked = nb::call_guard<OthersMayRun>;
+
 using Texts = std::vector<std::string>;
 using Assignments = std::vector<std::pair<std::string, std::string>>;
 
 SceneFile load(const std::string& name, const std::optional<std::string>& text,
                const Assignments& defines, const Texts& search_paths) {
-  const nb::gil_scoped_release others_may_run;
+  const OthersMayRun others_may_run;
   const SceneFileOptions options{defines, search_paths};
   return text ? SceneFile::from_text(*text, options) : SceneFile::load(name, options);
 }
-
-/// A render on a thread of its own, so that the calling one can answer to Python: to Ctrl-C, and to
-/// those who watch the progress.
-class WatchedRender {
- public:
-  WatchedRender(const SceneFile& scene, const RenderSettings& settings)
-      : render_(std::async(std::launch::async, [this, scene, settings] {
-          return render_file(scene, settings,
-                             {.progress = [this](const RenderedShare& p) { set_progress(p); },
-                              .warning = [this](const std::string& w) { warnings_.push_back(w); },
-                              .cancel = &cancel_});
-        })) {}
-  ~WatchedRender() {
-    cancel_ = true;
-    const nb::gil_scoped_release others_may_run;
-    if (render_.valid()) render_.wait();
-  }
-
-  /// Waits for the image. `watch` is None or gets fraction, samples per pixel and seconds.
-  std::optional<RenderedImage> wait(const nb::object& watch) {
-    while (!is_ready()) {
-      // An exception of a signal's handler: Ctrl-C gets the samples so far, another one ends it.
-      if (PyErr_CheckSignals() != 0) {
-        if (!PyErr_ExceptionMatches(PyExc_KeyboardInterrupt)) throw nb::python_error();
-        PyErr_Clear();
-        cancel_ = true;
-      }
-      if (!watch.is_none()) tell(watch);
-    }
-    return render_.get();
-  }
-  const Texts& warnings() const { return warnings_; }
-
- private:
-  bool is_ready() const {
-    const nb::gil_scoped_release others_may_run;
-    return render_.wait_for(std::chrono::milliseconds(50)) == std::future_status::ready;
-  }
-  void tell(const nb::object& watch) {
-    const RenderedShare p = progress();
-    try {
-      watch(p.fraction, p.spp, p.seconds);
-    } catch (const nb::python_error& e) {
-      if (!e.matches(PyExc_KeyboardInterrupt)) throw;
-      cancel_ = true;
-    }
-  }
-  void set_progress(const RenderedShare& p) {
-    const std::lock_guard lock(mutex_);
-    progress_ = p;
-  }
-  RenderedShare progress() {
-    const std::lock_guard lock(mutex_);
-    return progress_;
-  }
-
-  std::atomic<bool> cancel_{false};
-  std::mutex mutex_;
-  RenderedShare progress_;
-  Texts warnings_;  ///< to be read when the render has ended
-  std::future<std::optional<RenderedImage>> render_;
-};
 
 RenderedTechniques technique_layers(const std::string& name) {
   return name == "raw"        ? RenderedTechniques::raw
          : name == "weighted" ? RenderedTechniques::weighted
                               : RenderedTechniques::none;
-}
-
-/// The image and the warnings.
-std::pair<RenderedImage, Texts> render(const SceneFile& scene, const RenderSettings& settings,
-                                       const nb::object& watch) {
-  WatchedRender render(scene, settings);
-  std::optional<RenderedImage> image = render.wait(watch);
-  if (!image) {
-    PyErr_SetNone(PyExc_KeyboardInterrupt);
-    throw nb::python_error();
-  }
-  return {std::move(*image), render.warnings()};
 }
 
 nb::object metadata_value(const MetadataValue& value) {
@@ -147,6 +76,18 @@ std::span<const float> numbers(const Pixels& pixels) {
   return {pixels.data(), pixels.size()};
 }
 
+/// Stops, and whether they are on top of an automatic exposure. Throws std::invalid_argument.
+std::pair<double, bool> exposure(const std::string& text) {
+  const std::optional<Exposure> exposure = exposure_of(text);
+  if (!exposure) throw std::invalid_argument("exposure: " + not_an_exposure(text));
+  return {exposure->stops, exposure->automatic};
+}
+
+std::vector<uint8_t> png(const RenderedImage& image) {
+  const OthersMayRun others_may_run;
+  return image.png();
+}
+
 void bind_exceptions(nb::module_& m) {
   nb::register_exception_translator([](const std::exception_ptr& thrown, void*) {
     try {
@@ -174,8 +115,8 @@ void bind_scene(nb::module_& m) {
   nb::class_<SceneFile>(m, "Scene")
       .def_prop_ro("name", &SceneFile::name)
       .def_prop_ro("warnings", &SceneFile::warnings)
-      .def("json", &SceneFile::info_json)
-      .def("summary", &SceneFile::summary);
+      .def("json", &SceneFile::info_json, Unlocked())
+      .def("summary", &SceneFile::summary, Unlocked());
   m.def("plugin_kinds", &plugin_kinds, "type"_a, "outer"_a);
   m.def("parameter_type", &parameter_type, "element"_a, "type"_a, "name"_a);
   m.def("load", &load, "name"_a, "text"_a.none(), "defines"_a, "search_paths"_a);
@@ -202,11 +143,14 @@ void bind_render(nb::module_& m) {
       .def_rw("size", &RenderSettings::size, nb::arg().none())
       .def_rw("crop", &RenderSettings::crop, nb::arg().none())
       .def_rw("sensor", &RenderSettings::sensor);
-  m.def("merge", &merge_films, "films"_a, nb::call_guard<nb::gil_scoped_release>());
+  m.def("merge", &merge_films, "films"_a, Unlocked());
+  m.def("end_calls", &end_calls);
+  m.def("forget_calls", &forget_calls);
   m.def("render", &render, "scene"_a, "settings"_a, "watch"_a.none());
 }
 
 void bind_image(nb::module_& m) {
+  m.def("exposure", &exposure, "text"_a);
   nb::class_<DisplayForm>(m, "DisplayForm")
       .def(
           "__init__",
@@ -226,6 +170,7 @@ void bind_image(nb::module_& m) {
       .def_static(
           "from_rgba",
           [](const Pixels& p) {
+            const OthersMayRun others_may_run;
             return RenderedImage::from_rgba(numbers(p), int(p.shape(1)), int(p.shape(0)));
           },
           "pixels"_a)
@@ -238,29 +183,30 @@ void bind_image(nb::module_& m) {
           "save",
           [](const RenderedImage& i, const std::string& path, const DisplayForm& display,
              const ExrForm& exr) { i.save(path, display, exr); },
-          "path"_a, "display"_a, "exr"_a, nb::call_guard<nb::gil_scoped_release>())
+          "path"_a, "display"_a, "exr"_a, Unlocked())
       .def("png", [](const RenderedImage& i) {
-        const std::vector<uint8_t> bytes = i.png();
+        const std::vector<uint8_t> bytes = png(i);
         return nb::bytes(bytes.data(), bytes.size());
       });
 }
 
 void bind_compare(nb::module_& m) {
   nb::class_<ComparedImage>(m, "ComparedImage")
-      .def_static("load", &ComparedImage::load, "path"_a)
+      .def_static("load", &ComparedImage::load, "path"_a, Unlocked())
       .def_static(
           "from_pixels",
           [](const Pixels& p, const Texts& channels) {
+            const OthersMayRun others_may_run;
             return ComparedImage::from_pixels(numbers(p), int(p.shape(1)), int(p.shape(0)),
                                               channels);
           },
           "pixels"_a, "channels"_a)
-      .def_static("from_image", &ComparedImage::from_image, "image"_a);
+      .def_static("from_image", &ComparedImage::from_image, "image"_a, Unlocked());
   nb::class_<ReferenceVariance>(m, "Variance")
       .def(nb::init<ComparedImage, double, double>(), "variance"_a, "image_spp"_a,
            "reference_spp"_a);
   m.def("compare", &compare_images, "image"_a, "reference"_a, "variance"_a.none(), "threads"_a = 0,
-        nb::call_guard<nb::gil_scoped_release>());
+        Unlocked());
   m.def(
       "welch",
       [](const std::vector<double>& values, double expected, double variance) {

@@ -104,6 +104,21 @@ class Images(DuetTest):
         del image
         self.assertTrue((pixels == before).all())
 
+    def test_calculations(self):
+        image = duet.Image.from_array(numpy.full((2, 3, 3), 0.5))
+        before = numpy.asarray(image).copy()
+        for result in [image * 2, 2 * image, image + image, -image, numpy.sqrt(image)]:
+            self.assertEqual((type(result), result.shape), (numpy.ndarray, image.shape))
+        self.assertTrue((numpy.add(image, image, out=numpy.zeros((2, 3, 4))) == 2 * before).all())
+        self.assertEqual(numpy.add.reduce(image, axis=2, where=image > 0.7)[0, 0], 1)
+        in_place = image
+        with self.assertRaisesRegex(ValueError, "read-only"):
+            in_place *= 2
+        for wrong in [lambda: numpy.add(image, 1, out=image), lambda: numpy.add.at(image, 0, 1)]:
+            with self.assertRaises(ValueError):
+                wrong()
+        numpy.testing.assert_array_equal(image, before)
+
     def test_files(self):
         image = duet.render(duet.load_string(SCENE))
         for name in ["a.exr", "a.png", "a.jpg"]:

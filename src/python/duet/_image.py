@@ -9,6 +9,7 @@ import numpy
 from numpy.lib.mixins import NDArrayOperatorsMixin
 from numpy.typing import ArrayLike, DTypeLike, NDArray
 
+from . import _checks, _duet
 from ._duet import DisplayForm as _DisplayForm, ExrForm as _ExrForm, Image as _Pixels
 
 _CHANNELS = {1: ["Y"], 3: ["R", "G", "B"], 4: ["R", "G", "B", "A"]}
@@ -32,11 +33,24 @@ def pixels_of(image: ArrayLike, what: str = "the image") -> tuple[NDArray[numpy.
     return numpy.ascontiguousarray(pixels, dtype=numpy.float32), list(channels)
 
 
+def _array_of(value: Any) -> Any:
+    return value._pixels.pixels() if isinstance(value, Image) else value
+
+
+def _exposure(value: float | str) -> tuple[float, bool]:
+    """Stops, and whether they are on top of an automatic exposure."""
+    if not isinstance(value, str):
+        return _checks.real("exposure", value), False
+    if not value.startswith("auto"):
+        raise ValueError(f'exposure: a number of stops, "auto+1" or "auto", not {value!r}')
+    return _duet.exposure(_checks.text("exposure", value))
+
+
 class Image(NDArrayOperatorsMixin):
     """An image: height × width × channels linear values, float32, rows from the top.
 
     numpy.asarray(image) is its pixels without a copy, read-only; they stay as long as the array does. Calculations with
-    images, such as image ** (1 / 2.2), give arrays.
+    images, such as image ** (1 / 2.2), give arrays; those in place, such as image *= 2, are a ValueError.
     """
 
     def __init__(self, pixels: _Pixels) -> None:
@@ -109,25 +123,25 @@ class Image(NDArrayOperatorsMixin):
         return pixels.copy() if copy else pixels
 
     def __array_ufunc__(self, function: numpy.ufunc, method: str, *inputs: Any, **kwargs: Any) -> Any:
-        arrays = [i._pixels.pixels() if isinstance(i, Image) else i for i in inputs]
-        return getattr(function, method)(*arrays, **kwargs)
+        # Images as `out` are refused by NumPy, as other arrays that are read-only.
+        given = {name: tuple(map(_array_of, value)) if isinstance(value, tuple) else _array_of(value)
+                 for name, value in kwargs.items()}
+        return getattr(function, method)(*map(_array_of, inputs), **given)
 
     def save(self, path: str | os.PathLike[str], exposure: float | str = 0.0, tonemap: str | None = None, png_depth: int = 8,
              aov_names: str = "duet", exr_parts: bool = False) -> None:
         """Writes an image file: .exr (linear, all layers), .png or .jpg (for display). Files are replaced as a whole.
 
-        `exposure` is in stops, or "auto": the mean of luminance becomes middle grey. `tonemap` is "srgb", "aces", "agx" or
+        `exposure` is in stops, from -100 to 100, or "auto": the mean of luminance becomes middle grey; "auto+1" is brighter. `tonemap` is "srgb", "aces", "agx" or
         "reinhard"; by default as the scene says. `png_depth` is the bits of a value in .png, 8 or 16. In .exr the layers
         have the names of "duet", "blender", "nuke" or "mitsuba" (`aov_names`), and with `exr_parts` each is a part of its
         own. Raises ValueError for others and OSError if it cannot be written.
         """
-        stops = exposure
-        if isinstance(stops, str):
-            if stops != "auto":
-                raise ValueError(f'exposure: a number of stops or "auto", not {stops!r}')
-            stops = 0.0
-        display = _DisplayForm(stops, exposure == "auto", tonemap or "", png_depth)
-        self._pixels.save(os.fspath(path), display, _ExrForm(aov_names, exr_parts))
+        stops, automatic = _exposure(exposure)
+        display = _DisplayForm(stops, automatic, "" if tonemap is None else _checks.text("tonemap", tonemap),
+                               _checks.whole("png_depth", png_depth))
+        form = _ExrForm(_checks.text("aov_names", aov_names), _checks.flag("exr_parts", exr_parts))
+        self._pixels.save(_checks.path("path", path), display, form)
 
     def _repr_png_(self) -> bytes | None:
         return self._pixels.png() if self.channels[0] == "R" else None

@@ -2,15 +2,44 @@
 from __future__ import annotations
 
 import importlib
-import numbers
 import os
 import warnings
 from collections.abc import Callable, Iterable, Mapping, Sequence
-from typing import Any
+from typing import Any, TypeVar
 
-from . import _duet
+import numpy
+
+from . import _checks, _duet
 from ._image import Image
 from ._scene import Scene, SceneWarning
+
+
+_Checked = TypeVar("_Checked")
+
+
+def _if_given(check: Callable[..., _Checked], name: str, value: Any, *more: Any) -> _Checked | None:
+    return None if value is None else check(name, value, *more)
+
+
+def _seed(name: str, value: Any) -> int:
+    number = _checks.integral(name, value)
+    if not 0 <= number < 2**64:
+        raise ValueError(f"{name}: {number} is not a whole number from 0 to 2**64 - 1")
+    return number
+
+
+def _sensor(name: str, value: Any) -> int:
+    number = _checks.whole(name, value)
+    if number < 0:
+        raise ValueError(f"{name}: sensors are counted from 0")
+    return number
+
+
+def _parameters(values: Any) -> list[tuple[str, str]]:
+    if not isinstance(values, Mapping):
+        raise TypeError(f"parameters is a dict, not {type(values).__name__}")
+    return [(_checks.text("a name in parameters", n), _checks.setting(f"parameters[{n!r}]", v))
+            for n, v in values.items()]
 
 
 def _bar() -> Any:
@@ -22,54 +51,12 @@ def _bar() -> Any:
     return tqdm.tqdm(total=100, unit="%", bar_format="{l_bar}{bar}| {elapsed}<{remaining}")
 
 
-def _whole(name: str, value: Any, least: int) -> Any:
-    if value is None:
-        return None
-    if isinstance(value, bool) or not isinstance(value, numbers.Integral):
-        raise TypeError(f"{name} is a whole number, not {type(value).__name__}")
-    whole = int(value)
-    if not least <= whole < 2**31:
-        raise ValueError(f"{name}: {whole} is not between {least} and {2**31 - 1}")
-    return whole
-
-
-def _positive(name: str, value: Any) -> float | None:
-    if value is None:
-        return None
-    if isinstance(value, bool) or not isinstance(value, numbers.Real):
-        raise TypeError(f"{name} is a number, not {type(value).__name__}")
-    positive = float(value)
-    if not 0 < positive < float("inf"):
-        raise ValueError(f"{name}: {value} is not a positive number")
-    return positive
-
-
-def _window(name: str, values: Iterable[int] | None, least: tuple[int, ...]) -> Any:
-    if values is None:
-        return None
-    values = tuple(values)
-    if len(values) != len(least):
-        raise ValueError(f"{name} has {len(least)} numbers, not {len(values)}")
-    return tuple(_whole(name, v, m) for v, m in zip(values, least))
-
-
-def _texts(parameters: Mapping[str, Any]) -> list[tuple[str, str]]:
-    def text(value: Any) -> str:
-        return str(value).lower() if isinstance(value, bool) else str(value)
-    return [(str(name), text(value)) for name, value in parameters.items()]
-
-
-def _names(names: str | Iterable[str]) -> list[str]:
-    """A sequence of names, or a text in which they are separated by commas."""
-    return [n.strip() for n in names.split(",")] if isinstance(names, str) else list(names)
-
-
 def render(scene: Scene, *, spp: int | None = None, time: float | None = None, target_error: float | None = None,
            integrator: str = "", parameters: Mapping[str, Any] | None = None, seed: int | None = None,
            size: tuple[int, int] | None = None, crop: tuple[int, int, int, int] | None = None, sensor: int = 0,
            aovs: Sequence[str] = (), cryptomatte: Sequence[str] = (), techniques: str | None = None,
            denoise: bool = False, strict_sampler: bool = False, threads: int = 0,
-           progress: bool | Callable[[float, int, float], object] | None = None) -> Image:
+           progress: bool | Callable[[float, float, float], object] | None = None) -> Image:
     """Renders a scene to an Image, with the same bits as `duet` with the same settings.
 
     spp, time, target_error   when to stop: samples per pixel, seconds, relative standard error (0.01); the first that is
@@ -85,7 +72,8 @@ def render(scene: Scene, *, spp: int | None = None, time: float | None = None, t
     strict_sampler            the sampler that the scene names, instead of Sobol' points
     threads                   0: all
     progress                  True for a bar (of tqdm, if it is installed), or a function of the fraction that is done,
-                              the samples per pixel and the seconds; called about 20 times a second
+                              the samples per pixel and the seconds; called about 20 times a second, and once when the
+                              render has ended, with a fraction of 1 unless it was interrupted
 
     Other Python threads run meanwhile. Ctrl-C gets the image of the samples so far (`image.interrupted`), or
     KeyboardInterrupt if a pixel has none. Raises SceneError, ValueError and TypeError for settings that make no sense,
@@ -94,30 +82,29 @@ def render(scene: Scene, *, spp: int | None = None, time: float | None = None, t
     """
     if not isinstance(scene, Scene):
         raise TypeError(f"a scene is a duet.Scene, not {type(scene).__name__}")
-    if techniques not in (None, "weighted", "raw"):
+    if not (techniques is None or isinstance(techniques, str) and techniques in ("weighted", "raw")):
         raise ValueError(f'techniques: "weighted" or "raw", not {techniques!r}')
-    if seed is not None and not (isinstance(seed, numbers.Integral) and 0 <= seed < 2**64):
-        raise ValueError(f"seed: {seed!r} is not a whole number from 0 to 2**64 - 1")
     settings = _duet.Settings()
-    settings.spp = _whole("spp", spp, 1)
-    settings.seconds = _positive("time", time)
-    settings.target_error = _positive("target_error", target_error)
-    settings.size = _window("size", size, (1, 1))
-    settings.crop = _window("crop", crop, (0, 0, 1, 1))
-    settings.integrator = integrator or ""
-    settings.parameters = _texts(parameters or {})
-    settings.layers = _names(aovs)
-    settings.cryptomatte = _names(cryptomatte)
-    settings.denoise = bool(denoise)
+    settings.spp = _if_given(_checks.whole, "spp", spp)
+    settings.seconds = _if_given(_checks.real, "time", time)
+    settings.target_error = _if_given(_checks.real, "target_error", target_error)
+    settings.size = _if_given(_checks.wholes, "size", size, 2)
+    settings.crop = _if_given(_checks.wholes, "crop", crop, 4)
+    settings.integrator = _if_given(_checks.text, "integrator", integrator) or ""
+    settings.parameters = _parameters({} if parameters is None else parameters)
+    settings.layers = _checks.names("aovs", aovs)
+    settings.cryptomatte = _checks.names("cryptomatte", cryptomatte)
+    settings.denoise = _checks.flag("denoise", denoise)
     settings.set_techniques(techniques or "")
-    settings.seed = None if seed is None else int(seed)
-    settings.strict_sampler = bool(strict_sampler)
-    settings.threads = _whole("threads", threads, 0)
-    settings.sensor = _whole("sensor", sensor, 0)
-    bar = _bar() if progress is True else None
-    watch = progress if callable(progress) else None
+    settings.seed = _if_given(_seed, "seed", seed)
+    settings.strict_sampler = _checks.flag("strict_sampler", strict_sampler)
+    settings.threads = _checks.whole("threads", threads)
+    settings.sensor = _sensor("sensor", sensor)
+    shown = isinstance(progress, (bool, numpy.bool_))
+    bar = _bar() if shown and progress else None
+    watch = None if progress is None or shown else _checks.function("progress", progress, 0.0, 0.0, 0.0)
     if bar is not None:
-        def watch(fraction: float, spp: int, seconds: float) -> object:
+        def watch(fraction: float, spp: float, seconds: float) -> object:
             return bar.update(100 * fraction - bar.n)
     try:
         rendered, messages = _duet.render(scene._read, settings, watch)
@@ -133,9 +120,9 @@ def merge(films: Sequence[str | os.PathLike[str]]) -> Image:
     """Adds up raw films of one image (files, of `duet --raw`) to an Image, as `duet merge` does. Samples that are missing
     before the last are in its metadata ("missingSamples"). Raises OSError if a film cannot be read or does not go with
     the others, MemoryError if the image would not fit."""
-    if isinstance(films, (str, os.PathLike)):
+    if isinstance(films, (str, bytes, os.PathLike)) or not isinstance(films, Iterable):
         raise TypeError("films is a list of files")
-    paths = [os.fspath(f) for f in films]
+    paths = [_checks.path("a film", f) for f in films]
     if not paths:
         raise ValueError("there are no films")
     return Image(_duet.merge(paths))

@@ -7,7 +7,7 @@ import warnings
 from collections.abc import Iterable, Mapping, Sequence
 from typing import Any
 
-from . import _duet
+from . import _checks, _duet
 from ._xml import scene_xml
 
 
@@ -58,44 +58,32 @@ class Scene:
         return self._read.summary()
 
 
-def _texts(defines: Mapping[str, str | int | float | bool]) -> list[tuple[str, str]]:
-    texts = []
-    for name, value in defines.items():
-        if isinstance(value, bool):
-            value = "true" if value else "false"
-        elif not isinstance(value, (str, int, float)):
-            raise TypeError(f"{name}: a parameter is a text or a number, not {type(value).__name__}")
-        texts.append((name, str(value)))
-    return texts
-
-
 def _load(name: str, text: str | None, defines: Mapping[str, str | int | float | bool],
           search_paths: Sequence[str | os.PathLike[str]]) -> Scene:
-    if isinstance(search_paths, (str, os.PathLike)):
+    if isinstance(search_paths, (str, bytes, os.PathLike)) or not isinstance(search_paths, Iterable):
         raise TypeError("search_paths is a list of folders")
-    read = _duet.load(name, text, _texts(defines), [os.fspath(p) for p in search_paths])
+    values = [(_checks.text("the name of a parameter", n), _checks.setting(n, v)) for n, v in defines.items()]
+    read = _duet.load(name, text, values, [_checks.path("a search path", p) for p in search_paths])
     for warning in read.warnings:
         warnings.warn(warning, SceneWarning, stacklevel=3)
     return Scene(read)
 
 
-def load_file(path: str | os.PathLike[str], *, search_paths: Sequence[str | os.PathLike[str]] = (),
+def load_file(path: str | os.PathLike[str], /, *, search_paths: Sequence[str | os.PathLike[str]] = (),
               **defines: str | int | float | bool) -> Scene:
     """Reads a scene file (.xml, .pbrt, .pbrt.gz).
 
     `defines` are values for the scene's `$name` parameters, as of `duet -D`; `search_paths` are further folders to look
     for files. Raises SceneError, with file, line and column; warnings are SceneWarning.
     """
-    return _load(os.fspath(path), None, defines, search_paths)
+    return _load(_checks.path("path", path), None, defines, search_paths)
 
 
-def load_string(text: str, *, search_paths: Sequence[str | os.PathLike[str]] = (),
+def load_string(text: str, /, *, search_paths: Sequence[str | os.PathLike[str]] = (),
                 **defines: str | int | float | bool) -> Scene:
     """Reads a scene from the text of a Mitsuba XML file. Its relative files are looked for from the current folder and
     in `search_paths`. Errors and parameters as with load_file()."""
-    if not isinstance(text, str):
-        raise TypeError(f"a scene is a str, not {type(text).__name__}")
-    return _load("<string>", text, defines, search_paths)
+    return _load("<string>", _checks.text("a scene", text), defines, search_paths)
 
 
 def load_dict(scene: dict[str, Any], *, search_paths: Sequence[str | os.PathLike[str]] = ()) -> Scene:
