@@ -2,13 +2,14 @@
 from __future__ import annotations
 
 import json
+import math
 import os
 import typing
 from collections.abc import Iterable
 
 import numpy.typing
 
-from . import _duet
+from . import _checks, _duet
 from ._image import Image, pixels_of
 
 
@@ -19,7 +20,7 @@ _Comparable = typing.Union[str, os.PathLike[str], Image, numpy.typing.ArrayLike]
 def _linear(image: _Comparable, what: str) -> _duet.ComparedImage:
     """A file, an Image or an array as linear colours."""
     if isinstance(image, (str, os.PathLike)):
-        return _duet.ComparedImage.load(os.fspath(image))
+        return _duet.ComparedImage.load(_checks.path(what, image))
     if isinstance(image, Image):
         return _duet.ComparedImage.from_image(image._pixels)
     return _duet.ComparedImage.from_pixels(*pixels_of(image, what))
@@ -27,7 +28,7 @@ def _linear(image: _Comparable, what: str) -> _duet.ComparedImage:
 
 def _samples(given: float | None, image: _Comparable, what: str) -> float:
     if given is not None:
-        return float(given)
+        return _checks.real(f"{what}_spp", given)
     if isinstance(image, Image) and "spp" in image.metadata:
         return float(image.metadata["spp"])
     raise ValueError(f"with a variance, the samples per pixel of the {what} have to be known: {what}_spp")
@@ -46,12 +47,18 @@ def welch(values: Iterable[float], expected: float, variance: float = 0.0) -> We
 
     `values` and `expected` have one unit, whatever it is; `variance` has its square.
     Source: Welch, "The generalization of Student's problem when several different population variances are
-    involved", Biometrika 34, 1947. Raises ValueError for fewer than two values.
+    involved", Biometrika 34, 1947. Raises ValueError for fewer than two values, for
+    numbers that are not finite, and for a negative variance.
     """
-    values = [float(v) for v in values]
-    if len(values) < 2:
+    numbers = [_checks.real("a value", v) for v in values]
+    if len(numbers) < 2:
         raise ValueError("the variance of fewer than two values is not known")
-    return Welch(*_duet.welch(values, float(expected), float(variance)))
+    mean, square = _checks.real("expected", expected), _checks.real("variance", variance)
+    if not all(map(math.isfinite, [*numbers, mean, square])):
+        raise ValueError("values, expected and variance are finite numbers")
+    if square < 0:
+        raise ValueError(f"variance: {square} is negative")
+    return Welch(*_duet.welch(numbers, mean, square))
 
 
 def compare(image: _Comparable, reference: _Comparable, *, variance: _Comparable | None = None,

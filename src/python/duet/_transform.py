@@ -29,8 +29,15 @@ class _Step(Generic[_Arguments]):
         return step
 
 
+def _real(values: ArrayLike) -> _Matrix:
+    """A copy. NumPy would leave out the imaginary parts of complex numbers."""
+    if numpy.iscomplexobj(values):
+        raise TypeError("transforms have no complex numbers")
+    return numpy.array(values, dtype=float)
+
+
 def _vector(values: ArrayLike, name: str) -> _Matrix:
-    vector = numpy.asarray(values, dtype=float)
+    vector = _real(values)
     if vector.ndim == 0:
         vector = numpy.full(3, float(vector))
     if vector.shape != (3,) or not numpy.isfinite(vector).all():
@@ -91,7 +98,7 @@ class Transform4f:
 
     def __init__(self, matrix: ArrayLike | None = None) -> None:
         #: 4 × 4 float64.
-        self.matrix: _Matrix = numpy.eye(4) if matrix is None else numpy.array(matrix, dtype=float)
+        self.matrix: _Matrix = numpy.eye(4) if matrix is None else _real(matrix)
         if self.matrix.shape != (4, 4):
             raise ValueError("a transform has 4 × 4 numbers")
 

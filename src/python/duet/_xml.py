@@ -10,7 +10,7 @@ from xml.sax.saxutils import quoteattr
 import numpy
 import numpy.typing
 
-from . import _duet
+from . import _checks, _duet
 
 #: Types of entries that are values and not plugins, with their XML elements.
 _COLOURS = {"rgb", "spectrum"}
@@ -22,52 +22,67 @@ def scene_xml(scene: dict[str, Any]) -> str:
         raise TypeError(f"a scene is a dict, not {type(scene).__name__}")
     if scene.get("type") != "scene":
         raise ValueError('the outermost dict has the "type" "scene"')
-    lines = ['<scene version="3.0.0">']
-    for name, value in scene.items():
-        if name != "type":
-            lines += _entry(name, value, "scene", "scene", name)
-    return "\n".join(lines + ["</scene>"])
+    return "\n".join(['<scene version="3.0.0">', *_entries(scene, "scene", "scene", ""), "</scene>"])
 
 
-def _entry(name: str, value: Any, outer_kind: str, outer_type: str, place: str) -> list[str]:
+def _entries(entries: dict[Any, Any], kind: str, plugin: str, place: str, outer: tuple[int, ...] = ()) -> list[str]:
+    """The lines of all that is in a plugin. `outer` are the ids of the dicts that it is in."""
+    if id(entries) in outer:
+        raise ValueError(f"{place}: the dict contains itself")
+    lines = []
+    for key, value in entries.items():
+        if not isinstance(key, str):
+            raise TypeError(f"{place or 'the scene'}: the keys of a dict are str, not {type(key).__name__}: {key!r}")
+        inner = f"{place}.{key}" if place else key
+        name = _checks.text(f"{place or 'the scene'}: a key", key)
+        if name not in ("type", "id"):
+            lines += _entry(name, value, kind, plugin, inner, (*outer, id(entries)))
+    return lines
+
+
+def _entry(name: str, value: Any, outer_kind: str, outer_type: str, place: str, outer: tuple[int, ...]) -> list[str]:
     """The lines of an entry of a plugin. `place` is what messages call it."""
     if isinstance(value, dict):
-        return _plugin(name, value, outer_kind, place)
-    if name == "id":
-        return []
+        return _plugin(name, value, outer_kind, place, outer)
     element, text = _value(value, _duet.parameter_type(outer_kind, outer_type, name), place)
     if element == "transform":
         return [f"<transform name={quoteattr(name)}><matrix value={quoteattr(text)}/></transform>"]
     return [f"<{element} name={quoteattr(name)} value={quoteattr(text)}/>"]
 
 
-def _plugin(name: str, entries: dict[str, Any], outer_kind: str, place: str) -> list[str]:
-    kind = entries.get("type")
-    if not isinstance(kind, str):
+def _only(entries: dict[Any, Any], keys: set[str], place: str) -> None:
+    for key in entries:
+        if key not in keys:
+            raise ValueError(f'{place}: "{entries["type"]}" has no {key!r}')
+
+
+def _plugin(name: str, entries: dict[Any, Any], outer_kind: str, place: str, outer: tuple[int, ...]) -> list[str]:
+    if "type" not in entries:
         raise ValueError(f'{place}: a dict has a "type"')
+    kind = _checks.text(f"{place}.type", entries["type"])
     named = f"name={quoteattr(name)}"
     if kind == "ref":
+        _only(entries, {"type", "id"}, place)
         return [f"<ref {named} id={quoteattr(_text_of(entries, 'id', place))}/>"]
     if kind in _COLOURS and "value" in entries:
+        _only(entries, {"type", "value"}, place)
         return [f"<{kind} {named} value={quoteattr(_colour(entries['value'], place))}/>"]
     tags = _duet.plugin_kinds(kind, outer_kind)
     if not tags:
         raise ValueError(f'{place}: there is no plugin "{kind}" that can stand here')
     tag = tags[0]
-    own_id = entries.get("id", name) if outer_kind == "scene" or "id" in entries else None
+    own_id = name if outer_kind == "scene" else None
+    if "id" in entries:
+        own_id = _text_of(entries, "id", place)
     head = f"<{tag} type={quoteattr(kind)} {named}"
-    lines = [head + (f" id={quoteattr(str(own_id))}>" if own_id is not None else ">")]
-    for inner, value in entries.items():
-        if inner not in ("type", "id"):
-            lines += _entry(inner, value, tag, kind, f"{place}.{inner}")
-    return lines + [f"</{tag}>"]
+    lines = [head + (f" id={quoteattr(own_id)}>" if own_id is not None else ">")]
+    return [*lines, *_entries(entries, tag, kind, place, outer), f"</{tag}>"]
 
 
 def _text_of(entries: dict[str, Any], key: str, place: str) -> str:
-    text = entries.get(key)
-    if not isinstance(text, str):
+    if key not in entries:
         raise ValueError(f'{place}: there is no "{key}"')
-    return text
+    return _checks.text(f"{place}.{key}", entries[key])
 
 
 def _numbers(values: Iterable[float]) -> str:
@@ -75,38 +90,50 @@ def _numbers(values: Iterable[float]) -> str:
 
 
 def _colour(value: Any, place: str) -> str:
-    if isinstance(value, numbers.Real):
-        return repr(float(value))
+    if _is_number(value):
+        return repr(_checks.real(place, value))
     if isinstance(value, str):
-        return value
-    values = list(value)
+        return _checks.text(place, value)
+    values = list(value) if isinstance(value, Iterable) and not isinstance(value, (bytes, dict)) else []
+    if not values:
+        raise TypeError(f"{place}: a colour is a number, a text or a list of numbers, not {type(value).__name__}")
     if values and all(isinstance(v, (tuple, list)) and len(v) == 2 for v in values):
-        return ", ".join(f"{float(w)!r}:{float(v)!r}" for w, v in values)
+        return ", ".join(f"{_checks.real(place, w)!r}:{_checks.real(place, v)!r}" for w, v in values)
     array = _array(values, place)
     if array.ndim != 1:
         raise ValueError(f"{place}: a colour is a number, a list of numbers, or of (wavelength, value)")
     return _numbers(array)
 
 
+def _is_number(value: Any) -> bool:
+    value = _checks.plain(value)
+    return isinstance(value, numbers.Real) and not isinstance(value, (bool, numpy.bool_))
+
+
 def _array(value: Any, place: str) -> numpy.typing.NDArray[numpy.float64]:
+    # Of other kinds of arrays, such as complex or bytes, numbers would be made that nobody has meant.
     try:
-        return numpy.asarray(value, dtype=numpy.float64)
-    except (TypeError, ValueError):
-        raise TypeError(f"{place}: a value is a number, a text, a bool, a list of three numbers or a 4 × 4 array, not "
-                        f"{type(value).__name__}") from None
+        array = numpy.asarray(value)
+        if array.dtype.kind in "fiu" and array.ndim > 0:
+            return array.astype(numpy.float64)
+    except (TypeError, ValueError, OverflowError):
+        pass
+    raise TypeError(f"{place}: a value is a number, a text, a bool, a list of three numbers or a 4 × 4 array, not "
+                    f"{type(value).__name__}")
 
 
 def _value(value: Any, wanted: str, place: str) -> tuple[str, str]:
     """The XML element of a value, and its text. `wanted` is the type that the parameter has, as `duet plugins` prints it,
     or "" if it is not known."""
+    value = _checks.plain(value)
     if isinstance(value, (bool, numpy.bool_)):
         return "boolean", "true" if value else "false"
     if isinstance(value, (str, os.PathLike)):
-        return "string", os.fspath(value)
+        return "string", _checks.path(place, value)
     if isinstance(value, numbers.Integral) and wanted in ("integer", ""):
         return "integer", str(int(value))
-    if isinstance(value, numbers.Real):
-        return "float", repr(float(value))
+    if _is_number(value):
+        return "float", repr(_checks.real(place, value))
     # Transforms of Mitsuba's and other libraries have the array as an attribute.
     array = _array(getattr(value, "matrix", value), place)
     if array.shape == (4, 4):
