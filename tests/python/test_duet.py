@@ -55,6 +55,9 @@ class ImagesOfTheProgram(DuetTest):
         """The steps of Mitsuba 3's quick start, with the import changed."""
         mi = duet
         mi.set_variant("scalar_rgb")
+        self.assertIn(mi.variant(), mi.variants())
+        with self.assertRaisesRegex(TypeError, "a variant is a str, not NoneType"):
+            mi.set_variant(None)
         with self.assertRaisesRegex(ValueError, "scalar_spectral"):
             mi.set_variant("scalar_spectral")
         image = mi.render(mi.load_file(self.file), spp=4)

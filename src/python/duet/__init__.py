@@ -18,7 +18,7 @@ from ._image import DenoiserError, Image
 from ._render import merge, render
 from ._scene import Scene, SceneError, SceneWarning, load_dict, load_file, load_string
 from ._transform import Transform4f
-from ._variant import set_variant, variant
+from ._variant import set_variant, variant, variants
 
 __version__ = _version()
 
@@ -31,4 +31,5 @@ if hasattr(_os, "register_at_fork"):
 ScalarTransform4f = Transform4f
 
 __all__ = ["DenoiserError", "Image", "ScalarTransform4f", "Scene", "SceneError", "SceneWarning", "Transform4f", "Welch", "__version__",
-           "compare", "load_dict", "load_file", "load_string", "merge", "render", "set_variant", "util", "variant", "welch"]
+           "compare", "load_dict", "load_file", "load_string", "merge", "render", "set_variant", "util", "variant",
+           "variants", "welch"]
