@@ -41,7 +41,7 @@ Boxed<AreaEmission> read_area_light(Reader& reader, const Plugin& plugin,
   const double sides = emission.side == EmittingSide::both ? 2 : 1;
   const auto flux = [&] { return kPi * std::max(area(), 1e-30) * sides; };
   if (!v.has("filename")) {
-    if (v.has("power")) scale *= float(v.not_negative("power") / flux());
+    if (const auto power = positive_of(v, "power")) scale *= float(*power / flux());
     emission.radiance = emitted_color(v, "L") * scale;
     return emission;
   }

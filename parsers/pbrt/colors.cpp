@@ -48,6 +48,11 @@ bool is_narrow_illuminant(std::string_view name) {
 }  // namespace
 
 Spectrum Reader::triple_color(const Parameter& p, ColorMeaning meaning) {
+  if (version_ == Version::v4 && meaning != ColorMeaning::reflectance && p.type == Type::rgb &&
+      std::any_of(p.numbers.begin(), p.numbers.end(), [](double x) { return x < 0; })) {
+    report_.error(p.where, "parameter \"{}\" has a negative component", p.name);
+    return Spectrum(0.0f);
+  }
   const bool bounded = meaning == ColorMeaning::reflectance && p.type == Type::rgb;
   bool outside = false;
   for (const double x : p.numbers) {

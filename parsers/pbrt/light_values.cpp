@@ -10,16 +10,26 @@ namespace duet::pbrt {
 Spectrum scale_of(Values& v) {
   const Parameter* p = v.given("scale");
   if (!p || p->type == Type::number) return Spectrum(float(v.number("scale")));
-  return v.reader().constant_color(*p, ColorMeaning::emission);
+  if (v.reader().version() == Version::v3)
+    return v.reader().constant_color(*p, ColorMeaning::emission);
+  v.reader().report().error(p->where, "parameter \"scale\" must be of type float, not {}",
+                            type_name(p->type));
+  return Spectrum(1.0f);
+}
+
+std::optional<double> positive_of(Values& v, std::string_view name) {
+  if (!v.has(name) || !(v.number(name) > 0)) return std::nullopt;
+  return v.number(name);
 }
 
 void scale_to_power(Values& v, Spectrum& scale, const BitmapTexture& image,
                     const std::function<double(const TextureTexels&)>& power) {
-  if (!v.has("power")) return;
+  const auto wanted = positive_of(v, "power");
+  if (!wanted) return;
   const auto texels =
       v.reader().report().from_file(v.where("filename"), [&] { return read_texels(image); });
   const double own = texels ? power(*texels) : 0;
-  if (own > 0) scale *= float(v.not_negative("power") / own);
+  if (own > 0) scale *= float(*wanted / own);
 }
 
 double mean_number(const TextureTexels& image) {

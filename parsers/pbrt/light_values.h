@@ -2,6 +2,7 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 
 #include "pbrt/values.h"
 #include "scene/texture_texels.h"
@@ -10,6 +11,10 @@ namespace duet::pbrt {
 
 /// "scale", a colour in v3.
 Spectrum scale_of(Values& v);
+
+/// "power" or "illuminance"; nothing if the parameter is not given or not above zero: pbrt takes no
+/// notice of it then.
+std::optional<double> positive_of(Values& v, std::string_view name);
 
 /// Multiplies `scale` so that the light has the power that "power" says, if that is given; `power`
 /// is what it has with the image alone. An image that cannot be read is an error.

@@ -38,8 +38,10 @@ void add(Values& v, decltype(LightDescription::model) model, const Matrix4& to_l
   LightDescription light;
   light.where = v.where();
   light.model = std::move(model);
-  light.motion = reader.motion(v.plugin());
-  light.to_world = light.motion.empty() ? ctm * to_light : to_light;
+  if (reader.state().ctm[0] != reader.state().ctm[1])
+    reader.report().warning(v.where(),
+                            "lights do not move in pbrt: this one stands where its way begins");
+  light.to_world = ctm * to_light;
   light.medium = reader.state().outside;
   light.portal = portal;
   reader.scene().lights.push_back(std::move(light));
@@ -58,7 +60,7 @@ constexpr Spec kPoint[] = {
 
 void read_point(Values& v) {
   Spectrum intensity = emitted_color(v, "I") * scale_of(v);
-  if (v.has("power")) intensity *= float(v.not_negative("power") / (4 * kPi));
+  if (const auto power = positive_of(v, "power")) intensity *= float(*power / (4 * kPi));
   const auto p = v.point("from");
   add(v, PointLight{intensity}, Matrix4::translate(p[0], p[1], p[2]));
 }
@@ -77,12 +79,12 @@ void read_spot(Values& v) {
   SpotLight spot;
   spot.cutoff_angle = cone;
   spot.beam_width = full;
-  spot.falloff = SpotFalloff::smooth;
+  spot.falloff = v.reader().version() == Version::v3 ? SpotFalloff::quartic : SpotFalloff::smooth;
   spot.intensity = emitted_color(v, "I") * scale_of(v);
-  if (v.has("power")) {
+  if (const auto power = positive_of(v, "power")) {
     const double begin = std::cos(full * kRadians), end = std::cos(cone * kRadians);
     const double solid_angle = 2 * kPi * ((1 - begin) + (begin - end) / 2);
-    spot.intensity *= float(v.not_negative("power") / solid_angle);
+    spot.intensity *= float(*power / solid_angle);
   }
   add(v, spot, aimed(v.point("from"), v.point("to")));
 }
@@ -96,7 +98,7 @@ constexpr Spec kDistant[] = {{"L", kColor, "1", "irradiance across the direction
 void read_distant(Values& v) {
   if (!differ(v)) return;
   Spectrum irradiance = emitted_color(v, "L") * scale_of(v);
-  if (v.has("illuminance")) irradiance *= float(v.not_negative("illuminance"));
+  if (const auto wanted = positive_of(v, "illuminance")) irradiance *= float(*wanted);
   // The direction alone counts: the transform's stretch does not change the light.
   const auto from = v.point("from"), to = v.point("to");
   const Matrix4& ctm = v.reader().state().ctm[0];
@@ -156,7 +158,7 @@ void read_infinite(Values& v) {
   const Spectrum scale = scale_of(v);
   if (!v.has(name)) {
     Spectrum radiance = emitted_color(v, "L") * scale;
-    if (v.has("illuminance")) radiance *= float(v.not_negative("illuminance") / kPi);
+    if (const auto wanted = positive_of(v, "illuminance")) radiance *= float(*wanted / kPi);
     add(v, ConstantLight{radiance}, {}, read_portal(v));
     return;
   }
@@ -168,7 +170,7 @@ void read_infinite(Values& v) {
     v.reader().report().error(v.where("L"), "a light has either \"L\" or a file");
   map.tint = v3 ? emitted_color(v, "L") * scale : scale;
   map.layout = v3 ? EnvironmentLayout::row_centers : EnvironmentLayout::equal_area;
-  if (v.has("illuminance")) map.illuminance = v.not_negative("illuminance");
+  map.illuminance = positive_of(v, "illuminance");
   add(v, map, z_up(), read_portal(v));
 }
 
@@ -238,8 +240,7 @@ void read_projection(Values& v) {
 
 constexpr Record<void (*)(Values&)> kLights[] = {
     {"point", Versions::both, done, "", kPoint, read_point},
-    {"spot", Versions::both, done, "in v3, too, with v4's edge, t²(3 - 2t) instead of t⁴", kSpot,
-     read_spot},
+    {"spot", Versions::both, done, "the edge is t⁴ in v3, t²(3 − 2t) in v4", kSpot, read_spot},
     {"distant", Versions::both, done, "", kDistant, read_distant},
     {"infinite", Versions::both, done, "", kInfinite, read_infinite},
     {"exinfinite", Versions::v3, done, "", kInfinite, read_infinite},

@@ -33,7 +33,8 @@ std::string SceneWriter::text() const {
 
 namespace {
 
-/// The two times of all motion; nothing if there are others, or more than two.
+/// The two times of all motion but that of lights, which pbrt does not have; nothing if there are
+/// others, or more than two.
 std::optional<std::array<double, 2>> times_of_motion(const SceneDescription& scene) {
   std::optional<std::array<double, 2>> times;
   bool fits = true;
@@ -45,9 +46,9 @@ std::optional<std::array<double, 2>> times_of_motion(const SceneDescription& sce
     times = own;
   };
   for_each_shape(scene, [&](const ShapeDescription& s) { look(s.motion); });
-  for (const LightDescription& l : scene.lights) look(l.motion);
   for (const SensorDescription& s : scene.sensors) look(s.motion);
-  return fits ? times : std::nullopt;
+  if (!fits) return std::nullopt;
+  return times.value_or(std::array<double, 2>{0, 1});
 }
 
 PbrtText write(const SceneDescription& description, const std::array<double, 2>& times,
@@ -65,7 +66,6 @@ PbrtText write(const SceneDescription& description, const std::array<double, 2>&
 }  // namespace
 
 PbrtText write_pbrt(const SceneDescription& description) {
-  if (count_moving(description) == 0) return write(description, {0, 1}, {});
   if (const auto times = times_of_motion(description)) return write(description, *times, {});
   const double time = description.sensors.empty() ? 0 : description.sensors[0].shutter[0];
   return write(

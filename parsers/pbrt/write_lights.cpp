@@ -23,15 +23,6 @@ std::array<double, 3> place_of(const Matrix4& m) {
   return {m[0][3], m[1][3], m[2][3]};
 }
 
-/// Says by the light's own parameters where it stands and shines: what moves in pbrt is all of the
-/// transform, which goes straight from pose to pose.
-void aim(Statement& s, Matrix4& to_world) {
-  const std::array<double, 3> from = place_of(to_world), along = to_world.turned({0, 0, 1});
-  const std::array<double, 3> to{from[0] + along[0], from[1] + along[1], from[2] + along[2]};
-  s.list<double>("from", Type::point3, from).list<double>("to", Type::point3, to);
-  to_world = {};
-}
-
 }  // namespace
 
 std::optional<SceneWriter::ScaledImage> SceneWriter::scaled_image(TextureId id) const {
@@ -93,26 +84,22 @@ SceneWriter::MaybeLight SceneWriter::light(const PointLight& m, const LightDescr
       .list<double>("from", Type::point3, from);
 }
 
-SceneWriter::MaybeLight SceneWriter::light(const SpotLight& m, const LightDescription& l,
-                                           Matrix4& to_world) {
+SceneWriter::MaybeLight SceneWriter::light(const SpotLight& m, const LightDescription&, Matrix4&) {
   if (m.falloff == SpotFalloff::linear)
     lose("the edge of a spot light is smooth, not linear in the angle");
+  if (m.falloff == SpotFalloff::quartic)
+    lose("the edge of a spot light is t²(3 − 2t), not t⁴ as in pbrt-v3");
   if (m.texture) lose("the image of a spot light is missing");
   Statement s("LightSource", "spot");
   s.color("I", m.intensity).number("coneangle", m.cutoff_angle);
   s.number("conedeltaangle", m.cutoff_angle - m.beam_width);
-  if (!l.motion.empty()) aim(s, to_world);
   return s;
 }
 
-SceneWriter::MaybeLight SceneWriter::light(const DirectionalLight& m, const LightDescription& l,
+SceneWriter::MaybeLight SceneWriter::light(const DirectionalLight& m, const LightDescription&,
                                            Matrix4& to_world) {
   // pbrt takes no notice of stretches.
-  const Matrix4 start = l.motion.empty() ? to_world : l.motion.keyframes()[0].pose * to_world;
-  Statement s("LightSource", "distant");
-  s.color("L", m.irradiance * float(stretch_of(start)));
-  if (!l.motion.empty()) aim(s, to_world);
-  return s;
+  return Statement("LightSource", "distant").color("L", m.irradiance * float(stretch_of(to_world)));
 }
 
 SceneWriter::MaybeLight SceneWriter::light(const ConstantLight& m, const LightDescription&,
@@ -165,6 +152,10 @@ SceneWriter::MaybeLight SceneWriter::light(const ProjectorLight& m, const LightD
 
 void SceneWriter::light(const LightDescription& l) {
   Matrix4 to_world = l.to_world;
+  if (!l.motion.empty()) {
+    lose("lights do not move: they stand as they do when the shutter opens");
+    to_world = l.motion.at(d_.sensors.empty() ? 0 : d_.sensors.front().shutter[0]) * to_world;
+  }
   const auto write = [&]<class T>(const T& m) -> MaybeLight {
     if constexpr (requires { this->light(m, l, to_world); }) {
       return this->light(m, l, to_world);
@@ -181,7 +172,7 @@ void SceneWriter::light(const LightDescription& l) {
     s->list<double>("portal", Type::point3, corners);
   }
   world_text_ += "AttributeBegin\n" + media({}, l.medium);
-  place(world_text_, to_world, l.motion);
+  place(world_text_, to_world, {});
   world_text_ += s->text() + "AttributeEnd\n";
 }
 

@@ -91,7 +91,7 @@ double PointEmitter::power(double) const {
 }
 
 SpotEmitter::SpotEmitter(const Transform& to_world, const Spectrum& intensity, double cutoff,
-                         double beam_width, const Texture* texture, bool smooth)
+                         double beam_width, const Texture* texture, SpotFalloff falloff)
     : PositionEmitter(to_world(Point3f(0, 0, 0))),
       to_world_(to_world),
       intensity_(intensity),
@@ -100,7 +100,7 @@ SpotEmitter::SpotEmitter(const Transform& to_world, const Spectrum& intensity, d
       cutoff_angle_(float(cutoff)),
       inv_transition_(float(1 / std::max(cutoff_ - beam_width_, 1e-30))),
       uv_scale_(float(0.5 / std::tan(cutoff))),
-      smooth_(smooth),
+      falloff_(falloff),
       cos_cutoff_(float(std::cos(cutoff))),
       inv_cosines_(float(1 / std::max(std::cos(beam_width_) - std::cos(cutoff_), 1e-30))),
       span_(float(2 * std::sin(0.5 * cutoff) * std::sin(0.5 * cutoff))),
@@ -123,17 +123,19 @@ std::optional<LightBounds> SpotEmitter::bounds() const {
   return pyramid_bounds(position_, to_world_, corners);
 }
 
+inline float SpotEmitter::falloff(float angle) const {
+  if (falloff_ == SpotFalloff::linear)
+    return std::min((cutoff_angle_ - angle) * inv_transition_, 1.0f);
+  const float t = std::clamp((std::cos(angle) - cos_cutoff_) * inv_cosines_, 0.0f, 1.0f);
+  return falloff_ == SpotFalloff::smooth ? t * t * (3 - 2 * t) : t * t * t * t;
+}
+
 inline std::optional<LightSample> SpotEmitter::send(const Vector3f& away) const {
   const Vector3f local = to_world_.inverse(away);
   // By the arc tangent, because the arc cosine knows nothing about narrow cones.
   const float angle = std::atan2(std::sqrt(local.x * local.x + local.y * local.y), local.z);
   if (!(angle < cutoff_angle_)) return std::nullopt;
-  float falloff = std::min((cutoff_angle_ - angle) * inv_transition_, 1.0f);
-  if (smooth_) {
-    const float t = std::clamp((std::cos(angle) - cos_cutoff_) * inv_cosines_, 0.0f, 1.0f);
-    falloff = t * t * (3 - 2 * t);
-  }
-  Spectrum intensity = intensity_ * falloff;
+  Spectrum intensity = intensity_ * falloff(angle);
   if (texture_)
     intensity *= texture_->color(at_uv(
         {0.5f + uv_scale_ * local.x / local.z, 0.5f + uv_scale_ * local.y / local.z}, position_));
@@ -148,17 +150,20 @@ std::optional<EmissionSample> SpotEmitter::sample_emission(const Point2f&,
 }
 
 double SpotEmitter::power(double) const {
-  // 2π ∫ falloff(θ) sin θ dθ
-  const double fade = cutoff_ - beam_width_;
-  const double linear =
-      fade > 1e-9 ? 2 * std::numbers::pi * (1 - (std::sin(cutoff_) - std::sin(beam_width_)) / fade)
-                  : 2 * std::numbers::pi * (1 - std::cos(cutoff_));
-  // t²(3 − 2t) of what is linear in the cosine is one half on average.
-  const double even =
-      2 * std::numbers::pi * (1 - 0.5 * (std::cos(beam_width_) + std::cos(cutoff_)));
-  const double solid_angle = smooth_ ? even : linear;
+  // ∫ falloff(θ) sin θ dθ. What depends on the cosine alone adds its mean times the difference of
+  // the cosines: one half of t²(3 − 2t), one fifth of t⁴.
+  double integral = 0;
+  if (falloff_ != SpotFalloff::linear) {
+    const double mean = falloff_ == SpotFalloff::smooth ? 0.5 : 0.2;
+    const double full = std::cos(beam_width_), none = std::cos(cutoff_);
+    integral = 1 - full + mean * (full - none);
+  } else if (const double fade = cutoff_ - beam_width_; fade > 1e-9) {
+    integral = 1 - (std::sin(cutoff_) - std::sin(beam_width_)) / fade;
+  } else {
+    integral = 1 - std::cos(cutoff_);
+  }
   const Spectrum mean = texture_ ? intensity_ * texture_->average() : intensity_;
-  return solid_angle * double(mean.luminance());
+  return 2 * std::numbers::pi * integral * double(mean.luminance());
 }
 
 ProjectorEmitter::ProjectorEmitter(const Transform& to_world, const ColorSlot& irradiance,

@@ -3,6 +3,7 @@
 
 #include "lights/light.h"
 #include "lights/scene_sphere.h"
+#include "lights/spot_falloff.h"
 #include "math/distribution.h"
 #include "textures/texture.h"
 
@@ -39,14 +40,13 @@ class PointEmitter final : public PositionEmitter {
 };
 
 /// A point that shines into a cone around its +z axis: with full intensity (W/sr) up to the angle
-/// `beam_width`, then fading until `cutoff`: linearly in the angle or, if `smooth`, as t²(3 − 2t)
-/// where t is linear in the angle's cosine. Radians.
+/// `beam_width`, then fading until `cutoff`. Radians.
 class SpotEmitter final : public PositionEmitter {
  public:
   /// `texture` (or null) multiplies the intensity; the square around the cone at z = 1 is its
   /// domain.
   SpotEmitter(const Transform& to_world, const Spectrum& intensity, double cutoff,
-              double beam_width, const Texture* texture, bool smooth = false);
+              double beam_width, const Texture* texture, SpotFalloff falloff = SpotFalloff::linear);
   std::optional<LightBounds> bounds() const override;
   std::optional<LightSample> sample_direct(const Point3f& from, const Point2f& u) const override;
   double power(double scene_radius) const override;
@@ -57,13 +57,15 @@ class SpotEmitter final : public PositionEmitter {
  private:
   /// The light at the point that is `away` from the emitter.
   std::optional<LightSample> send(const Vector3f& away) const;
+  /// The share of the intensity at an angle less than the cutoff.
+  float falloff(float angle) const;
 
   Transform to_world_;
   Spectrum intensity_;
   double cutoff_, beam_width_;
   float cutoff_angle_, inv_transition_, uv_scale_;
-  bool smooth_;
-  float cos_cutoff_, inv_cosines_;  ///< of the smooth transition
+  SpotFalloff falloff_;
+  float cos_cutoff_, inv_cosines_;  ///< of a transition by the cosine
   float span_;                      ///< 1 − cos of the cutoff angle
   float density_;  ///< of directions, where the transform leaves lengths as they are
   const Texture* texture_;

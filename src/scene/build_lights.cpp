@@ -111,8 +111,7 @@ void SpotLight::count(SceneFeatures& f) const {
 LightPointer SpotLight::build(SceneBuilder& b, const LightDescription& d) const {
   const Texture* image = texture ? b.texture(*texture) : nullptr;
   return std::make_unique<SpotEmitter>(Transform(d.to_world), intensity, cutoff_angle * kRadians,
-                                       beam_width * kRadians, image,
-                                       falloff == SpotFalloff::smooth);
+                                       beam_width * kRadians, image, falloff);
 }
 
 void ProjectorLight::count(SceneFeatures& f) const {

@@ -7,6 +7,7 @@
 #include <variant>
 #include <vector>
 
+#include "lights/spot_falloff.h"
 #include "math/motion.h"
 #include "math/transform.h"
 #include "scene/description_base.h"
@@ -32,9 +33,6 @@ struct PointLight {
   LightPointer build(SceneBuilder& b, const LightDescription& d) const;
 };
 
-/// Between full and no intensity: linear in the angle, or t²(3 − 2t) of the angle's cosine.
-enum class SpotFalloff { linear, smooth };
-inline constexpr std::string_view kSpotFalloffs[] = {"linear", "smooth"};
 /// At the origin of its transform, along +z. Angles in degrees from the axis: full intensity within
 /// beam_width, none beyond cutoff_angle.
 struct SpotLight {

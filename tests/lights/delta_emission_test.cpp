@@ -187,18 +187,22 @@ TEST_CASE("parallel light is emitted through the whole scene") {
   CHECK_FALSE(DirectionalEmitter(Transform{}, Spectrum(0)).sample_emission({}, {}));
 }
 
-TEST_CASE("spot lights that fade smoothly emit the light that points find") {
-  for (const Matrix4& m : {place(), sheared()}) {
-    const Transform t(m);
-    check_position(SpotEmitter(t, kRgb, 40 * kDegree, 20 * kDegree, nullptr, true),
-                   t(Point3f(0, 0, 0)), t(Vector3f(0, 0, 1)), "smooth spot");
+TEST_CASE("spot lights that fade by the cosine emit the light that points find") {
+  for (const SpotFalloff falloff : {SpotFalloff::smooth, SpotFalloff::quartic}) {
+    for (const Matrix4& m : {place(), sheared()}) {
+      const Transform t(m);
+      check_position(SpotEmitter(t, kRgb, 40 * kDegree, 20 * kDegree, nullptr, falloff),
+                     t(Point3f(0, 0, 0)), t(Vector3f(0, 0, 1)),
+                     std::string(kSpotFalloffs[size_t(falloff)]));
+    }
+    // Halfway between the cosines.
+    const SpotEmitter spot(Transform(), Spectrum(1.0f), 60 * kDegree, 0, nullptr, falloff);
+    const float cosine = 0.75f;
+    const auto s = spot.sample_direct(Point3f(std::sqrt(1 - cosine * cosine), 0, cosine), {});
+    REQUIRE(s.has_value());
+    CHECK(double(s->weight.r) ==
+          doctest::Approx(falloff == SpotFalloff::smooth ? 0.5 : 0.0625).epsilon(1e-4));
   }
-  // Half of the intensity where the cosine is halfway.
-  const SpotEmitter spot(Transform(), Spectrum(1.0f), 60 * kDegree, 0, nullptr, true);
-  const float cosine = 0.75f;
-  const auto s = spot.sample_direct(Point3f(std::sqrt(1 - cosine * cosine), 0, cosine), {});
-  REQUIRE(s.has_value());
-  CHECK(double(s->weight.r) == doctest::Approx(0.5).epsilon(1e-4));
 }
 
 TEST_CASE("projectors of intensity, and goniometric lights, emit the light that points find") {

@@ -103,6 +103,9 @@ TEST_CASE("the power of a light at a point is the integral of what it sends") {
       std::make_unique<SpotEmitter>(to_world, rgb, 50 * kDegree, 20 * kDegree, nullptr));
   lights.push_back(
       std::make_unique<SpotEmitter>(to_world, rgb, 35 * kDegree, 35 * kDegree, nullptr));
+  for (const SpotFalloff falloff : {SpotFalloff::smooth, SpotFalloff::quartic})
+    lights.push_back(
+        std::make_unique<SpotEmitter>(to_world, rgb, 50 * kDegree, 20 * kDegree, nullptr, falloff));
   lights.push_back(std::make_unique<ProjectorEmitter>(to_world, ColorSlot{rgb}, 2.0f, 60, 1.5));
   for (const auto& light : lights) {
     Sampler sampler(SampleSequence::sobol, 1, 0, 0);

@@ -121,6 +121,13 @@ bool agrees(const std::vector<Image>& images, const PbrtReference& reference) {
   return agrees;
 }
 
+/// pbrt-v4 has rendered files of v3 after upgrading them itself; that leaves spot lights the edge
+/// of v4.
+void as_upgraded(SceneDescription& d) {
+  for (LightDescription& l : d.lights)
+    if (auto* spot = std::get_if<SpotLight>(&l.model)) spot->falloff = SpotFalloff::smooth;
+}
+
 }  // namespace
 
 TEST_SUITE("references") {
@@ -129,7 +136,8 @@ TEST_SUITE("references") {
     CHECK(references.size() >= 40);
     for (const PbrtReference& reference : references) {
       CAPTURE(reference.name);
-      CHECK(agrees(render_batches(PreparedScene(reference.name), 8), reference));
+      CHECK(
+          agrees(render_batches(PreparedScene(reference.name, {}, {}, as_upgraded), 8), reference));
     }
   }
 }

@@ -4,6 +4,7 @@
 #include <doctest/doctest.h>
 
 #include <filesystem>
+#include <functional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -25,9 +26,11 @@ inline std::string source_path(const std::string& path) {
 /// A scene of the folder scenes/, ready to be rendered.
 class PreparedScene {
  public:
-  /// `method` and its parameters replace the scene's integrator if a name is given.
+  /// `method` and its parameters replace the scene's integrator if a name is given; `change` alters
+  /// what the file describes.
   explicit PreparedScene(const std::string& name, const Defines& defines = {},
-                         const IntegratorOverride& method = {}) {
+                         const IntegratorOverride& method = {},
+                         const std::function<void(SceneDescription&)>& change = {}) {
     Diagnostics diagnostics;
     ReadingOptions options;
     options.defines = defines;
@@ -36,6 +39,7 @@ class PreparedScene {
                            options, diagnostics);
     REQUIRE(read);
     SceneDescription& d = read->description;
+    if (change) change(d);
     layout = film_layout(d.sensors.at(0).film);
     apply_override(d.integrator, method);
     Diagnostics limits;
