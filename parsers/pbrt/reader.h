@@ -147,6 +147,9 @@ class Reader {
   std::string spectrum_file(const std::string& name, const SourceLocation& where);
   bool is_awaited(MaterialId material) const;
   void finish_shapes();
+  /// Whether there is such an object by now; an error if not.
+  bool knows_object(const std::string& name, const SourceLocation& where);
+  void add_awaited_instances();
   /// Hair knows by the direction of its normal how far from the middle light meets it, and a tube
   /// has the normals that pbrt's model takes for granted on its ribbons.
   void make_hair_round();
@@ -185,6 +188,13 @@ class Reader {
   std::map<MaterialId, MediumId> interiors_;
   std::map<std::pair<std::string, PlyUse>, PlyMesh> ply_meshes_;
   std::unordered_map<std::string, uint32_t> objects_;
+  /// A use of an object that is defined later (v4).
+  struct AwaitedObject {
+    std::string name;
+    SourceLocation where;
+    std::array<Matrix4, 2> ctm;
+  };
+  std::vector<AwaitedObject> awaited_objects_;
   /// The group that ObjectBegin has begun.
   std::optional<uint32_t> object_;
   /// A shape of an object that moves in it: the only one of a group of its own.

@@ -121,6 +121,7 @@ void Reader::make_hair_round() {
 }
 
 void Reader::finish_shapes() {
+  add_awaited_instances();
   make_hair_round();
   for (const Waiting& w : waiting_) {
     ShapeDescription& shape = (w.group ? scene_.groups[*w.group].shapes : scene_.shapes)[w.index];
@@ -191,25 +192,40 @@ void Reader::end_object(const SourceLocation& where) {
   object_.reset();
 }
 
+bool Reader::knows_object(const std::string& name, const SourceLocation& where) {
+  if (objects_.contains(name)) return true;
+  report_.error(where, "there is no object {}{}", in_quotes(name),
+                did_you_mean(name, report_.names_for_hint(objects_)));
+  return false;
+}
+
+void Reader::add_awaited_instances() {
+  for (const AwaitedObject& use : std::exchange(awaited_objects_, {})) {
+    if (!knows_object(use.name, use.where)) continue;
+    state_.ctm = use.ctm;
+    add_instance(use.name, use.where);
+  }
+}
+
 void Reader::add_instance(const std::string& name, const SourceLocation& where) {
   if (object_) {
     report_.error(where, "an object cannot be used in another");
     return;
   }
-  const auto found = objects_.find(name);
-  if (found == objects_.end()) {
-    report_.error(where, "there is no object {}{}", in_quotes(name),
-                  did_you_mean(name, report_.names_for_hint(objects_)));
+  // v4 looks for objects when all files are read.
+  if (version_ == Version::v4 && !objects_.contains(name)) {
+    awaited_objects_.push_back({name, where, state_.ctm});
     return;
   }
-  if (!check_transform(state_.ctm[0], where)) return;
+  if (!knows_object(name, where) || !check_transform(state_.ctm[0], where)) return;
+  const uint32_t group = objects_.at(name);
   ShapeDescription shape;
   shape.where = where;
-  shape.geometry = InstanceShape{found->second};
+  shape.geometry = InstanceShape{group};
   Plugin instance{"ObjectInstance", name, where, {}};
   shape.motion = motion(instance);
   if (shape.motion.empty()) shape.to_world = state_.ctm[0];
-  const auto parts = moving_parts_.find(found->second);
+  const auto parts = moving_parts_.find(group);
   if (parts == moving_parts_.end()) {
     scene_.shapes.push_back(std::move(shape));
     return;
@@ -221,7 +237,7 @@ void Reader::add_instance(const std::string& name, const SourceLocation& where) 
     moving.motion = compose(shape.to_world, shape.motion, part.motion);
     scene_.shapes.push_back(std::move(moving));
   }
-  if (!scene_.groups[found->second].shapes.empty()) scene_.shapes.push_back(std::move(shape));
+  if (!scene_.groups[group].shapes.empty()) scene_.shapes.push_back(std::move(shape));
 }
 
 }  // namespace duet::pbrt
