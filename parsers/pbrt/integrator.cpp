@@ -1,5 +1,6 @@
 // Integrators and accelerators.
 #include <algorithm>
+#include <numbers>
 
 #include "pbrt/records.h"
 #include "pbrt/values.h"
@@ -42,9 +43,10 @@ constexpr Spec kSppm[] = {DUET_PATH_SPECS,
                           {"imagewritefrequency", kInteger, "1", "", 1, inert},
                           {"seed", kInteger, "0", "", 1, inert}};
 constexpr Spec kOcclusion[] = {{"maxdistance", kNumber, "", "default: no limit"},
-                               {"cossample", kBoolean, "true"},
-                               {"nsamples", kInteger, "64", "", 1, done, Versions::v3},
-                               {"pixelbounds", kInteger, "", "", 4, ignored, Versions::v3}};
+                               {"cossample", kBoolean, "true", "", 1, inert}};
+constexpr Spec kOcclusionV3[] = {{"cossample", kBoolean, "true", "", 1, inert},
+                                 {"nsamples", kInteger, "64", "", 1, inert},
+                                 {"pixelbounds", kInteger, "", "", 4, ignored}};
 constexpr Spec kDirect[] = {DUET_PATH_SPECS, {"strategy", kString, "all", "", 1, inert}};
 
 #undef DUET_PATH_SPECS
@@ -152,14 +154,33 @@ void read_sppm(Values& v, SceneDescription& scene) {
   scene.integrator.method = b;
 }
 
+/// Further than any scene is wide.
+constexpr double kNoLimit = 1e15;
+
 void read_occlusion(Values& v, SceneDescription& scene) {
   OcclusionIntegratorDescription o;
   o.background = false;
-  // Without a limit: further than any scene is wide.
-  o.ray_length = v.has("maxdistance") ? v.positive("maxdistance") : 1e15;
-  if (!v.boolean("cossample"))
-    v.reader().approximate(v.where("cossample"), "occlusion by directions with the cosine");
+  o.ray_length = v.has("maxdistance") ? v.positive("maxdistance") : kNoLimit;
   scene.integrator.method = o;
+}
+
+/// v3's sum of cosines lacks the division by π: where nothing is in the way it is π. The film
+/// multiplies by it, as by its own scale.
+void read_occlusion_v3(Values& v, SceneDescription& scene) {
+  OcclusionIntegratorDescription o;
+  o.background = false;
+  o.ray_length = kNoLimit;
+  scene.integrator.method = o;
+  if (v.reader().options().replaces_integrator) return;
+  const auto brighten = [](ColorMatrix& m) {
+    for (auto& row : m)
+      for (double& x : row) x *= std::numbers::pi;
+  };
+  for (SensorDescription& s : scene.sensors) {
+    if (!s.film.response) s.film.response = FilmResponse{{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
+    brighten(*s.film.response);
+    if (s.film.sample_limit) brighten(s.film.sample_limit->sensor);
+  }
 }
 
 /// Direct light on surfaces, and on those that smooth ones show.
@@ -186,7 +207,7 @@ constexpr Record<ReadIntegrator> kIntegrators[] = {
     {"lightpath", Versions::v4, done, "", kPath, read_light_path},
     {"sppm", Versions::both, done, "", kSppm, read_sppm},
     {"ambientocclusion", Versions::v4, done, "", kOcclusion, read_occlusion},
-    {"ao", Versions::v3, done, "", kOcclusion, read_occlusion},
+    {"ao", Versions::v3, done, "", kOcclusionV3, read_occlusion_v3},
     {"directlighting", Versions::v3, done, "what is beneath surfaces is not seen", kDirect,
      read_direct},
     {"whitted", Versions::v3, done, "what is beneath surfaces is not seen", kDirect, read_direct},
