@@ -58,7 +58,7 @@ std::span<const Directives::Command> Directives::commands() {
       {"Renderer", &D::of_version_2, 1},
       {"VolumeIntegrator", &D::of_version_2, 1},
       {"ColorSpace", &D::color_space},
-      {"Option", &D::option, 1},
+      {"Option", &D::option},
       {"Include", &D::include},
       {"Import", &D::import},
       {"WorldBegin", &D::world_begin, 1},
@@ -77,27 +77,32 @@ void Directives::read_main(const std::string& path) {
     report().error({std::make_shared<const std::string>(path), 0, 0}, "there is no WorldBegin");
 }
 
-void Directives::read_file(const std::string& path, const SourceLocation& where) {
+bool Directives::may_open(const std::string& path, const Lexer* in, size_t depth,
+                          const SourceLocation& where) {
+  // Whose end was reached since.
+  while (!open_files_.empty() && open_files_.back().in == in && open_files_.back().depth >= depth)
+    open_files_.pop_back();
   std::error_code error;
   std::string real = std::filesystem::canonical(path, error).string();
   if (error) real = path;
-  for (const std::string& open : open_files_)
-    if (open == real) {
-      report().error(where, "the file {} includes itself", in_quotes(path));
-      return;
-    }
-  if (open_files_.size() >= kDeepest) {
-    report().error(where, "more than {} files include each other", kDeepest);
-    return;
-  }
-  open_files_.push_back(real);
+  for (const OpenFile& open : open_files_)
+    if (open.path == real)
+      return report().error(where, "the file {} includes itself", in_quotes(path)), false;
+  if (open_files_.size() >= kDeepest)
+    return report().error(where, "more than {} files include each other", kDeepest), false;
+  open_files_.push_back({real, in, depth});
+  return true;
+}
+
+void Directives::read_file(const std::string& path, const SourceLocation& where) {
+  const size_t open_before = open_files_.size();
   try {
     Lexer in(path);
-    read(in);
+    if (may_open(path, &in, 0, where)) read(in);
   } catch (const ReadError& e) {
     report().error(where, "{}", e.what());
   }
-  open_files_.pop_back();
+  open_files_.resize(open_before);
 }
 
 void Directives::read(Lexer& in) {
@@ -136,14 +141,16 @@ void Directives::directive(Lexer& in) {
   for (const Command& c : commands())
     if (c.name == d.directive) {
       if (!(c.place & (in_world_ ? 2u : 1u))) {
-        const char* place = in_world_ ? "before" : "after";
+        const std::string wrong =
+            c.name == "WorldBegin"
+                ? "the world has begun already"
+                : fmt::format("{} stands {} WorldBegin", c.name, in_world_ ? "before" : "after");
         if (reader_.version() == Version::v3) {
-          report().warning(d.where, "{} stands {} WorldBegin; it is ignored, as pbrt-v3 does",
-                           c.name, place);
+          report().warning(d.where, "{}; it is ignored, as pbrt-v3 does", wrong);
           skip_arguments(in);
           return;
         }
-        report().error(d.where, "{} stands {} WorldBegin", c.name, place);
+        report().error(d.where, "{}", wrong);
       }
       (this->*c.run)(in, d);
       return;
@@ -261,11 +268,22 @@ void Directives::world_begin(Lexer&, const Plugin&) {
   state().active = 3;
 }
 
-void Directives::world_end(Lexer&, const Plugin&) {}
+void Directives::world_end(Lexer&, const Plugin& d) {
+  if (reader_.version() == Version::v4)
+    report().error(
+        d.where,
+        "WorldEnd is pbrt-v3's, and this file is read as pbrt-v4 (--pbrt-version 3 reads "
+        "it otherwise)");
+}
 
 void Directives::include(Lexer& in, const Plugin& d) {
   const std::string path = reader_.file(take_string(in, d), d.where);
-  if (!path.empty()) read_file(path, d.where);
+  if (path.empty() || !may_open(path, &in, in.depth() + 1, d.where)) return;
+  try {
+    in.include(path);
+  } catch (const ReadError& e) {
+    report().error(d.where, "{}", e.what());
+  }
 }
 
 void Directives::import(Lexer& in, const Plugin& d) {

@@ -35,7 +35,12 @@ class Directives {
   };
   static std::span<const Command> commands();
 
+  /// A file with what it includes, to its end.
   void read_file(const std::string& path, const SourceLocation& where);
+  /// Whether the file may be opened while others are open: not twice, and not too deep. Counts it
+  /// among them, as one that the lexer reads at that depth.
+  bool may_open(const std::string& path, const Lexer* in, size_t depth,
+                const SourceLocation& where);
   void directive(Lexer& in);
   /// To the next directive.
   void skip_arguments(Lexer& in);
@@ -104,7 +109,12 @@ class Directives {
 
   Reader& reader_;
   std::vector<Saved> saved_;
-  std::vector<std::string> open_files_;
+  struct OpenFile {
+    std::string path;
+    const Lexer* in;
+    size_t depth;
+  };
+  std::vector<OpenFile> open_files_;
   std::map<std::string, std::array<Matrix4, 2>, std::less<>> coordinate_systems_;
   bool in_world_ = false;
 };

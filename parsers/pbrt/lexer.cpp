@@ -7,6 +7,7 @@
 #include <charconv>
 #include <cmath>
 #include <cstring>
+#include <utility>
 
 #include "values/text.h"
 
@@ -20,7 +21,7 @@ struct Lexer::Source {
   ~Source() { gzclose(file); }
 };
 
-Lexer::Lexer(const std::string& path) : name_(std::make_shared<const std::string>(path)) {
+Lexer::Input Lexer::open(const std::string& path, uint64_t most) {
   struct stat status;
   if (stat(path.c_str(), &status) != 0)
     throw ReadError(fmt::format("{}: cannot be opened: {}", path, std::strerror(errno)));
@@ -28,49 +29,67 @@ Lexer::Lexer(const std::string& path) : name_(std::make_shared<const std::string
   // Files that are not compressed are read as they are.
   const gzFile file = gzopen(path.c_str(), "rb");
   if (!file) throw ReadError(fmt::format("{}: cannot be opened: {}", path, std::strerror(errno)));
-  source_ = std::make_unique<Source>(file);
+  Input in;
+  in.name = std::make_shared<const std::string>(path);
+  in.source = std::make_unique<Source>(file);
+  in.most = most;
   gzbuffer(file, unsigned(kBlock));
-  buffer_.resize(kBlock + kLongest);
-  begin_ = next_ = end_ = buffer_.data();
+  in.buffer.resize(kBlock + kLongest);
+  in.begin = in.next = in.end = in.buffer.data();
+  return in;
 }
 
-Lexer::Lexer(std::string name, std::string_view text)
-    : name_(std::make_shared<const std::string>(std::move(name))),
-      begin_(text.data()),
-      next_(begin_),
-      end_(begin_ + text.size()) {}
+Lexer::Lexer(const std::string& path, uint64_t most) : in_(open(path, most)) {}
+
+Lexer::Lexer(std::string name, std::string_view text) {
+  in_.name = std::make_shared<const std::string>(std::move(name));
+  in_.begin = in_.next = text.data();
+  in_.end = in_.begin + text.size();
+}
+
+void Lexer::include(const std::string& path) {
+  Input included = open(path, UINT64_MAX);
+  outer_.push_back(std::exchange(in_, std::move(included)));
+}
 
 Lexer::~Lexer() = default;
 
 void Lexer::refill() {
-  if (!source_) return;
-  base_ += uint64_t(next_ - begin_);
-  const size_t kept = size_t(end_ - next_);
-  std::memmove(buffer_.data(), next_, kept);
-  const int n = gzread(source_->file, buffer_.data() + kept, unsigned(buffer_.size() - kept));
-  begin_ = next_ = buffer_.data();
-  end_ = next_ + kept + size_t(std::max(n, 0));
+  if (!in_.source) return;
+  in_.base += uint64_t(in_.next - in_.begin);
+  const size_t kept = size_t(in_.end - in_.next);
+  std::memmove(in_.buffer.data(), in_.next, kept);
+  const size_t room = std::min<uint64_t>(in_.buffer.size() - kept, in_.most);
+  const int n = gzread(in_.source->file, in_.buffer.data() + kept, unsigned(room));
+  in_.most -= uint64_t(std::max(n, 0));
+  in_.begin = in_.next = in_.buffer.data();
+  in_.end = in_.next + kept + size_t(std::max(n, 0));
   if (n > 0) return;
   int code = 0;
-  const std::string message = gzerror(source_->file, &code);
-  source_.reset();
+  const std::string message = gzerror(in_.source->file, &code);
+  in_.source.reset();
   if (n < 0 || code < 0) throw SyntaxError{where(), "the file cannot be read on: " + message};
 }
 
 SourceLocation Lexer::where() const {
-  return {name_, line_, int(base_ + uint64_t(next_ - begin_) - line_start_) + 1};
+  return {in_.name, in_.line, int(in_.base + uint64_t(in_.next - in_.begin) - in_.line_start) + 1};
 }
 
 Kind Lexer::peek() {
   while (true) {
-    if (next_ == end_) {
+    if (in_.next == in_.end) {
       refill();
-      if (next_ == end_) return Kind::end;
+      if (in_.next == in_.end) {
+        if (outer_.empty()) return Kind::end;
+        in_ = std::move(outer_.back());
+        outer_.pop_back();
+        continue;
+      }
     }
-    const char c = *next_;
+    const char c = *in_.next;
     switch (c) {
       case '\n':
-        new_line(++next_);
+        new_line(++in_.next);
         continue;
       case ' ':
       case '\t':
@@ -78,11 +97,11 @@ Kind Lexer::peek() {
       case '\f':
       case '\v':
       case ',':
-        ++next_;
+        ++in_.next;
         continue;
       case '#':
-        while (next_ != end_ && *next_ != '\n')
-          if (++next_ == end_) refill();
+        while (in_.next != in_.end && *in_.next != '\n')
+          if (++in_.next == in_.end) refill();
         continue;
       case '"':
         return Kind::string;
@@ -96,8 +115,8 @@ Kind Lexer::peek() {
     if ((c >= '0' && c <= '9') || c == '-' || c == '+' || c == '.') return Kind::number;
     if ((c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z')) return Kind::word;
     const SourceLocation place = where();
-    const std::string shown = in_quotes(std::string_view(next_, 1));
-    ++next_;
+    const std::string shown = in_quotes(std::string_view(in_.next, 1));
+    ++in_.next;
     throw SyntaxError{place, fmt::format("the character {} cannot stand here", shown)};
   }
 }
@@ -105,30 +124,31 @@ Kind Lexer::peek() {
 std::string Lexer::take_word() {
   std::string word;
   while (true) {
-    if (next_ == end_) refill();
-    if (next_ == end_) return word;
-    const char c = *next_;
+    if (in_.next == in_.end) refill();
+    if (in_.next == in_.end) return word;
+    const char c = *in_.next;
     const bool part = (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') ||
                       c == '_' || c == ':';
     if (!part) return word;
     word += c;
-    ++next_;
+    ++in_.next;
   }
 }
 
 std::string Lexer::take_string() {
   const SourceLocation start = where();
-  ++next_;
+  ++in_.next;
   std::string text;
   while (true) {
-    if (next_ == end_) refill();
-    if (next_ == end_ || *next_ == '\n') throw SyntaxError{start, "a string without its end"};
-    char c = *next_++;
+    if (in_.next == in_.end) refill();
+    if (in_.next == in_.end || *in_.next == '\n')
+      throw SyntaxError{start, "a string without its end"};
+    char c = *in_.next++;
     if (c == '"') return text;
     if (c == '\\') {
-      if (next_ == end_) refill();
-      if (next_ == end_) continue;
-      c = *next_++;
+      if (in_.next == in_.end) refill();
+      if (in_.next == in_.end) continue;
+      c = *in_.next++;
       if (c == 'n') c = '\n';
       if (c == 't') c = '\t';
       if (c == 'r') c = '\r';
@@ -139,9 +159,9 @@ std::string Lexer::take_string() {
 
 double Lexer::take_number() {
   need(kLongest);
-  const char* first = *next_ == '+' ? next_ + 1 : next_;
+  const char* first = *in_.next == '+' ? in_.next + 1 : in_.next;
   double x = 0;
-  auto [stop, error] = std::from_chars(first, end_, x);
+  auto [stop, error] = std::from_chars(first, in_.end, x);
   const auto ends = [](char c) {
     return c == ' ' || c == '\n' || c == ']' || c == '\t' || c == '\r' || c == '"' || c == '#' ||
            c == '[' || c == ',' || c == '\f' || c == '\v';
@@ -153,18 +173,18 @@ double Lexer::take_number() {
     const bool tiny =
         out_of_range && (text.find("e-") != text.npos || text.find("E-") != text.npos);
     if (tiny) x = 0;
-    if ((stop == end_ || ends(*stop)) && (!out_of_range || tiny) && std::isfinite(float(x))) {
-      next_ = stop;
+    if ((stop == in_.end || ends(*stop)) && (!out_of_range || tiny) && std::isfinite(float(x))) {
+      in_.next = stop;
       return x;
     }
   }
-  stop = next_;
-  while (stop != end_ && !ends(*stop)) ++stop;
+  stop = in_.next;
+  while (stop != in_.end && !ends(*stop)) ++stop;
   const SourceLocation place = where();
-  const std::string_view text(next_, size_t(stop - next_));
+  const std::string_view text(in_.next, size_t(stop - in_.next));
   std::string message = fmt::format("{} is not a number", in_quotes(text));
   if (out_of_range) message += " that single precision can hold";
-  next_ = stop;
+  in_.next = stop;
   throw SyntaxError{place, message};
 }
 
@@ -175,12 +195,13 @@ void Lexer::take_numbers(std::vector<double>& values) {
 
 void Lexer::skip_to_next_line() {
   while (true) {
-    if (next_ == end_) refill();
-    if (next_ == end_) return;
-    if (*next_++ != '\n') continue;
-    new_line(next_);
-    if (next_ == end_) refill();
-    if (next_ != end_ && ((*next_ >= 'A' && *next_ <= 'Z') || *next_ == ' ' || *next_ == '\t'))
+    if (in_.next == in_.end) refill();
+    if (in_.next == in_.end) return;
+    if (*in_.next++ != '\n') continue;
+    new_line(in_.next);
+    if (in_.next == in_.end) refill();
+    if (in_.next != in_.end &&
+        ((*in_.next >= 'A' && *in_.next <= 'Z') || *in_.next == ' ' || *in_.next == '\t'))
       return;
   }
 }

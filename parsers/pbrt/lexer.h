@@ -23,13 +23,19 @@ struct SyntaxError {
 /// Reads a file, gzipped or not, piece by piece: of its text no more than a block is held.
 class Lexer {
  public:
-  /// Throws ReadError if there is no such file.
-  explicit Lexer(const std::string& path);
+  /// Throws ReadError if there is no such file. Of its text no more than `most` bytes are read.
+  explicit Lexer(const std::string& path, uint64_t most = UINT64_MAX);
   /// Reads `text`, which must outlive the lexer; `name` is used in messages.
   Lexer(std::string name, std::string_view text);
   ~Lexer();
   Lexer(const Lexer&) = delete;
   Lexer& operator=(const Lexer&) = delete;
+
+  /// Goes on with another file, and at its end with this one: also in the middle of what belongs
+  /// together. Throws as the constructor does.
+  void include(const std::string& path);
+  /// How many files wait for the end of one that they include.
+  size_t depth() const { return outer_.size(); }
 
   /// Skips white space and comments. A character that nothing begins with throws SyntaxError.
   Kind peek();
@@ -43,7 +49,7 @@ class Lexer {
   /// The numbers that come next, to the end of `values`. Throws SyntaxError at the first that is
   /// none, or is not finite.
   void take_numbers(std::vector<double>& values);
-  void take_bracket() { ++next_; }
+  void take_bracket() { ++in_.next; }
 
   /// Goes on behind a syntax error: at the next word that begins a line, or the end.
   void skip_to_next_line();
@@ -54,24 +60,32 @@ class Lexer {
   /// The longest number; strings and words may be longer.
   static constexpr size_t kLongest = 512;
 
+  /// A file, or a text in memory, and how far it is read.
+  struct Input {
+    std::shared_ptr<const std::string> name;
+    std::unique_ptr<Source> source;  ///< null when reading from memory or at the end
+    uint64_t most = UINT64_MAX;      ///< bytes that may still be taken from the source
+    std::vector<char> buffer;
+    const char *begin = nullptr, *next = nullptr, *end = nullptr;
+    uint64_t base = 0;        ///< position in the text of begin
+    uint64_t line_start = 0;  ///< position in the text of the line's first character
+    int line = 1;
+  };
+  static Input open(const std::string& path, uint64_t most);
+
   /// Makes sure that `count` bytes can be seen, as far as there are so many.
   void need(size_t count) {
-    if (size_t(end_ - next_) < count) refill();
+    if (size_t(in_.end - in_.next) < count) refill();
   }
   void refill();
   void new_line(const char* behind) {
-    ++line_;
-    line_start_ = base_ + uint64_t(behind - begin_);
+    ++in_.line;
+    in_.line_start = in_.base + uint64_t(behind - in_.begin);
   }
   double take_number();
 
-  std::shared_ptr<const std::string> name_;
-  std::unique_ptr<Source> source_;  ///< null when reading from memory or at the end
-  std::vector<char> buffer_;
-  const char *begin_ = nullptr, *next_ = nullptr, *end_ = nullptr;
-  uint64_t base_ = 0;        ///< position in the text of begin_
-  uint64_t line_start_ = 0;  ///< position in the text of the line's first character
-  int line_ = 1;
+  Input in_;
+  std::vector<Input> outer_;  ///< those that include in_, the first one first
 };
 
 }  // namespace duet::pbrt

@@ -16,12 +16,7 @@ std::optional<PbrtScene> read_pbrt(const std::string& file, const Options& optio
   // Tells the caller that the file is read.
   if (options.exists) options.exists(file);
   try {
-    if (options.version) {
-      scene.version = *options.version;
-    } else {
-      Lexer in(file);
-      scene.version = find_version(in);
-    }
+    scene.version = options.version ? *options.version : find_version(file, options);
     Reader reader(file, options, scene.version, report);
     reader.read();
     scene.description = reader.take();

@@ -38,8 +38,17 @@ bool is_pbrt_file(std::string_view file);
 std::optional<PbrtScene> read_pbrt(const std::string& file, const Options& options,
                                    Diagnostics& diagnostics);
 
-/// The version that the main file's own directives tell, up to the first that only one version has;
-/// v4 if there is none.
-Version find_version(Lexer& in);
+/// The version that a file's own directives tell, up to the first that only one version has;
+/// nothing if there is none. The names of the files that it includes until then are added to
+/// `includes`.
+std::optional<Version> find_evidence(Lexer& in, std::vector<std::string>& includes);
+
+/// The version that the main file tells, or the first that can of those that it includes, of which
+/// only the heads are looked at; v4 if there is none. Throws ReadError if there is no main file.
+Version find_version(const std::string& file, const Options& options);
+
+/// The path of a file that the scene in `file` names: beside that or in the search paths; "" if
+/// there is none.
+std::string find_file(const std::string& file, const std::string& name, const Options& options);
 
 }  // namespace duet::pbrt

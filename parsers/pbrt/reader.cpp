@@ -33,28 +33,32 @@ void Reader::approximate(const SourceLocation& where, std::string what) {
   scene_.approximations.push_back({Severity::warning, where, std::move(what)});
 }
 
-std::string Reader::file(const std::string& name, const SourceLocation& where) {
+std::string find_file(const std::string& file, const std::string& name, const Options& options) {
   namespace fs = std::filesystem;
   const auto exists = [&](const std::string& path) {
     std::error_code ignored;
-    return options_.exists ? options_.exists(path) : fs::exists(path, ignored);
+    return options.exists ? options.exists(path) : fs::exists(path, ignored);
   };
-  std::vector<std::string> folders{fs::path(file_).parent_path().string()};
-  folders.insert(folders.end(), options_.search_paths.begin(), options_.search_paths.end());
+  std::vector<std::string> folders{fs::path(file).parent_path().string()};
+  folders.insert(folders.end(), options.search_paths.begin(), options.search_paths.end());
   std::string slashes = name;
-  if (!name.empty() && name.find('\0') == name.npos) {
-    for (const std::string& folder : folders)
-      if (const std::string path = (fs::path(folder) / name).lexically_normal().string();
-          exists(path))
-        return path;
-    std::replace(slashes.begin(), slashes.end(), '\\', '/');
-    for (const std::string& folder : folders)
-      if (const std::string path = (fs::path(folder) / slashes).lexically_normal().string();
-          slashes != name && exists(path))
-        return path;
-  }
-  report_.error(where, "file {} not found", in_quotes(name));
+  if (name.empty() || name.find('\0') != name.npos) return "";
+  for (const std::string& folder : folders)
+    if (const std::string path = (fs::path(folder) / name).lexically_normal().string();
+        exists(path))
+      return path;
+  std::replace(slashes.begin(), slashes.end(), '\\', '/');
+  for (const std::string& folder : folders)
+    if (const std::string path = (fs::path(folder) / slashes).lexically_normal().string();
+        slashes != name && exists(path))
+      return path;
   return "";
+}
+
+std::string Reader::file(const std::string& name, const SourceLocation& where) {
+  std::string path = find_file(file_, name, options_);
+  if (path.empty()) report_.error(where, "file {} not found", in_quotes(name));
+  return path;
 }
 
 MaterialId Reader::add_material(MaterialModel model, const SourceLocation& where) {

@@ -79,8 +79,9 @@ void Directives::coord_sys_transform(Lexer& in, const Plugin& d) {
   const std::string name = take_string(in, d);
   const auto found = coordinate_systems_.find(name);
   if (found == coordinate_systems_.end()) {
-    report().error(d.where, "there is no coordinate system {}{}", in_quotes(name),
-                   did_you_mean(name, report().names_for_hint(coordinate_systems_)));
+    report().warning(d.where, "there is no coordinate system {}; nothing changes, as in pbrt{}",
+                     in_quotes(name),
+                     did_you_mean(name, report().names_for_hint(coordinate_systems_)));
     return;
   }
   state().ctm = found->second;

@@ -1,4 +1,5 @@
 // Finds out which version of pbrt a file is for.
+#include <algorithm>
 #include <string_view>
 
 #include "pbrt/pbrt.h"
@@ -78,36 +79,83 @@ constexpr Evidence kDirectives[] = {
     {"Renderer", "", v3}, {"VolumeIntegrator", "", v3},
 };
 
+/// Parameters that only v3 has.
+constexpr std::string_view kParametersOfV3[] = {"mapname", "samples", "nsamples"};
+
+/// What a file says from its beginning on.
+class Search {
+ public:
+  explicit Search(std::vector<std::string>& includes) : includes_(includes) {}
+
+  std::optional<Version> directive(std::string word) {
+    directive_ = std::move(word);
+    strings_ = 0;
+    for (const Evidence& e : kDirectives)
+      if (e.directive == directive_) return e.version;
+    return std::nullopt;
+  }
+
+  std::optional<Version> string(const std::string& text) {
+    const size_t index = strings_++;
+    if (directive_ == "Include") {
+      if (index == 0) includes_.push_back(text);
+      return std::nullopt;
+    }
+    const bool is_name = index == 0 || is_type_;
+    const std::string_view directive = is_type_ ? "Material" : std::string_view(directive_);
+    // A named material's type is a value.
+    is_type_ = directive_ == "MakeNamedMaterial" && text.ends_with(" type");
+    if (is_name) {
+      for (const Evidence& e : kEvidence)
+        if (!directive.empty() && e.directive == directive && e.name == text) return e.version;
+      return std::nullopt;
+    }
+    if (directive_ == "Texture" && index == 1)
+      return text == "color" ? std::optional(v3) : std::nullopt;
+    return parameter(text);
+  }
+
+ private:
+  /// Of "type name"; also of a value that looks like one.
+  static std::optional<Version> parameter(std::string_view text) {
+    const size_t gap = text.find(' ');
+    if (gap == text.npos) return std::nullopt;
+    for (const Evidence& e : kEvidence)
+      if (e.directive.empty() && e.name == text.substr(0, gap)) return e.version;
+    const std::string_view name = text.substr(text.rfind(' ') + 1);
+    const bool is_known = find_type(text.substr(0, gap)).has_value();
+    if (is_known && std::ranges::find(kParametersOfV3, name) != std::end(kParametersOfV3))
+      return v3;
+    return std::nullopt;
+  }
+
+  std::vector<std::string>& includes_;
+  std::string directive_;
+  size_t strings_ = 0;  ///< behind the directive
+  bool is_type_ = false;
+};
+
+/// Of an included file, where evidence stands at the beginning if there is any.
+constexpr uint64_t kHead = uint64_t(1) << 20;
+constexpr size_t kMostFiles = 64;
+
 }  // namespace
 
-Version find_version(Lexer& in) {
-  std::string directive;
-  bool is_name = false;
+std::optional<Version> find_evidence(Lexer& in, std::vector<std::string>& includes) {
+  Search search(includes);
   std::vector<double> ignored;
   while (true) {
     try {
+      std::optional<Version> found;
       switch (in.peek()) {
         case Kind::end:
-          return v4;
+          return std::nullopt;
         case Kind::word:
-          directive = in.take_word();
-          is_name = true;
-          for (const Evidence& e : kDirectives)
-            if (e.directive == directive) return e.version;
+          found = search.directive(in.take_word());
           break;
-        case Kind::string: {
-          const std::string text = in.take_string();
-          const std::string_view type = std::string_view(text).substr(0, text.find(' '));
-          for (const Evidence& e : kEvidence) {
-            if (e.directive.empty() ? !is_name && type.size() < text.size() && type == e.name
-                                    : is_name && directive == e.directive && text == e.name)
-              return e.version;
-          }
-          // A named material's type is a value.
-          is_name = directive == "MakeNamedMaterial" && text.ends_with(" type");
-          if (is_name) directive = "Material";
+        case Kind::string:
+          found = search.string(in.take_string());
           break;
-        }
         case Kind::number:
           in.take_numbers(ignored);
           ignored.clear();
@@ -115,10 +163,30 @@ Version find_version(Lexer& in) {
         default:
           in.take_bracket();
       }
+      if (found) return found;
     } catch (const SyntaxError&) {
       in.skip_to_next_line();
     }
   }
+}
+
+Version find_version(const std::string& file, const Options& options) {
+  std::vector<std::string> names, seen{file};
+  Lexer main(file);
+  if (const auto found = find_evidence(main, names)) return *found;
+  // Those that come first are asked first, and then those that they include.
+  for (size_t i = 0; i < names.size() && seen.size() <= kMostFiles; ++i) {
+    const std::string path = find_file(file, names[i], options);
+    if (path.empty() || std::ranges::find(seen, path) != seen.end()) continue;
+    seen.push_back(path);
+    try {
+      Lexer in(path, kHead);
+      if (const auto found = find_evidence(in, names)) return *found;
+    } catch (const ReadError&) {
+      continue;  // the reader reports it
+    }
+  }
+  return v4;
 }
 
 }  // namespace duet::pbrt

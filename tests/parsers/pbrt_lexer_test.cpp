@@ -79,7 +79,8 @@ TEST_CASE("pbrt lexer: files larger than a block, plain and gzipped, are the sam
 TEST_CASE("pbrt versions are found from what a file uses") {
   const auto version = [](std::string_view text) {
     Lexer in("test", text);
-    return int(pbrt::find_version(in));
+    std::vector<std::string> includes;
+    return int(pbrt::find_evidence(in, includes).value_or(pbrt::Version::v4));
   };
   CHECK(version("Film \"image\"") == 3);
   CHECK(version("Film \"rgb\" \"string filename\" \"image\"") == 4);
@@ -89,6 +90,13 @@ TEST_CASE("pbrt versions are found from what a file uses") {
   CHECK(version("LightSource \"point\" \"point from\" [1 2 3]") == 3);
   CHECK(version("LightSource \"point\" \"point3 from\" [1 2 3]") == 4);
   CHECK(version("WorldBegin WorldEnd") == 3);
+  CHECK(version("LightSource \"infinite\" \"string mapname\" \"x.exr\"") == 3);
+  CHECK(version("LightSource \"infinite\" \"integer samples\" 4") == 3);
+  CHECK(version("AreaLightSource \"diffuse\" \"integer nsamples\" [4]") == 3);
+  CHECK(version("Sampler \"halton\" \"integer pixelsamples\" 4") == 4);
+  CHECK(version("Texture \"u\" \"color\" \"constant\" \"rgb value\" [.2 .2 .2]") == 3);
+  CHECK(version("Texture \"color\" \"spectrum\" \"constant\"") == 4);
+  CHECK(version("Include \"mapname\" Shape \"sphere\"") == 4);
   CHECK(version("Attribute \"shape\" \"float radius\" 2") == 4);
   CHECK(version("") == 4);
 }
