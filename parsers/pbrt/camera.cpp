@@ -41,8 +41,11 @@ constexpr Spec kSpherical[] = {
 
 Window window(Values& v, const FilmDescription& film) {
   if (v.has("screenwindow")) {
+    // pbrt sorts the two of each side.
     const auto w = v.numbers("screenwindow");
-    if (w[0] < w[1] && w[2] < w[3]) return {w[0], w[1], w[2], w[3]};
+    if (w[0] != w[1] && w[2] != w[3])
+      return {std::min(w[0], w[1]), std::max(w[0], w[1]), std::min(w[2], w[3]),
+              std::max(w[2], w[3])};
     v.reader().report().error(v.where("screenwindow"), "the screen window is empty");
   }
   const double aspect =

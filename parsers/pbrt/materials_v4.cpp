@@ -11,8 +11,6 @@ namespace {
 
 using enum Status;
 
-constexpr Types kIndex = kNumber | of(Type::spectrum);
-
 #define DUET_ROUGHNESS_SPECS                                                          \
   {"roughness", kNumberTexture, "0"}, {"uroughness", kNumberTexture, "0"},            \
       {"vroughness", kNumberTexture, "0"}, {                                          \
@@ -41,7 +39,17 @@ Spectrum k_for(const Spectrum& reflectance) {
   return k;
 }
 
+/// A metal is given by its index or by what it reflects.
+void check_metal(Values& v, std::string_view eta, std::string_view k) {
+  if (!v.has("reflectance")) return;
+  for (const std::string_view name : {eta, k})
+    if (v.has(name))
+      v.reader().report().error(v.where(name),
+                                "a metal has either \"reflectance\" or an index: \"{}\"", name);
+}
+
 std::optional<MaterialId> read_conductor(Values& v) {
+  check_metal(v, "eta", "k");
   ConductorMaterial m;
   if (v.has("reflectance")) {
     const ColorInput r = v.color_input("reflectance", ColorMeaning::reflectance);
@@ -137,6 +145,7 @@ constexpr Spec kCoatedConductor[] = {{"interface.roughness", kNumberTexture, "0"
                                      DUET_COAT_SPECS};
 
 std::optional<MaterialId> read_coated_conductor(Values& v) {
+  check_metal(v, "conductor.eta", "conductor.k");
   CoatedConductorMaterial m;
   read_coat(
       v, m, "interface.eta",

@@ -146,6 +146,30 @@ const Parameter* Plugin::find(std::string_view parameter) const {
   return nullptr;
 }
 
+Parameter read_option(Lexer& in, std::span<const Spec> known) {
+  Parameter p;
+  p.where = in.where();
+  const std::string declared = in.take_string();
+  const std::string_view text = trim(declared);
+  const size_t gap = text.find_first_of(" \t");
+  for (const char c : gap == text.npos ? text : trim(text.substr(gap)))
+    if (c != '-' && c != '_') p.name += c;
+  p.name = to_lower(p.name);
+  std::optional<Type> type;
+  if (gap != text.npos) type = find_type(text.substr(0, gap));
+  for (const Spec& s : known)
+    for (unsigned i = 0; s.name == p.name && !type && i <= unsigned(Type::texture); ++i)
+      if (s.types & (1u << i)) type = Type(i);
+  // Of what there is not, the value is read, so that what follows is understood.
+  const Kind value = in.peek();
+  p.type = type.value_or(value == Kind::word     ? Type::boolean
+                         : value == Kind::string ? Type::string
+                                                 : Type::number);
+  ValueReader(in, p).read();
+  if (const std::string why = mismatch(p); !why.empty()) throw SyntaxError{p.where, why};
+  return p;
+}
+
 std::vector<Parameter> read_parameters(Lexer& in, uint8_t color_space, Report& report) {
   std::vector<Parameter> result;
   while (in.peek() == Kind::string) {

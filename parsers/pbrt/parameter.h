@@ -51,6 +51,7 @@ inline constexpr Types kInteger = of(Type::integer), kNumber = of(Type::number),
                        kNormal = of(Type::normal), kTexture = of(Type::texture),
                        kColor =
                            of(Type::rgb) | of(Type::xyz) | of(Type::blackbody) | of(Type::spectrum),
+                       kIndex = kNumber | of(Type::spectrum) | of(Type::rgb),
                        kColorTexture = kColor | kTexture, kNumberTexture = kNumber | kTexture;
 
 /// One parameter of a file.
@@ -77,6 +78,11 @@ struct Plugin {
 /// Reads parameters until something else than a string comes. What is wrong is reported, and left
 /// out.
 std::vector<Parameter> read_parameters(Lexer& in, uint8_t color_space, Report& report);
+
+struct Spec;
+/// Reads `"name" value` of an option: pbrt gives it no type (but one may stand before the name),
+/// and takes no notice of case, dashes and underscores in the name, which the result is without.
+Parameter read_option(Lexer& in, std::span<const Spec> known);
 
 /// How much of a plugin or parameter there is.
 enum class Status : uint8_t {

@@ -44,8 +44,6 @@ void Directives::color_space(Lexer& in, const Plugin& d) {
 }
 
 void Directives::option(Lexer& in, const Plugin& d) {
-  Plugin plugin = d;
-  plugin.parameters = read_parameters(in, state().color_space, report());
   using enum Status;
   static constexpr Spec kOptions[] = {
       {"disablepixeljitter", kBoolean, "false", "", 1, ignored},
@@ -60,7 +58,8 @@ void Directives::option(Lexer& in, const Plugin& d) {
       {"seed", kInteger, "0", "", 1, inert},
       {"wavefront", kBoolean, "false", "", 1, inert},
   };
-  plugin.name = "";
+  Plugin plugin = d;
+  while (in.peek() == Kind::string) plugin.parameters.push_back(read_option(in, kOptions));
   Values v(reader_, plugin, kOptions);
   if (v.has("displacementedgescale"))
     reader_.displacement_edge_scale = v.positive("displacementedgescale");

@@ -11,8 +11,6 @@ namespace duet::pbrt {
 
 namespace {
 
-constexpr Types kIndex = kNumber | of(Type::spectrum);
-
 // clang-format off
 #define DUET_SURFACE_SPECS                                                          \
   {"g", kNumber, "0", "mean cosine of scattering"},                                 \

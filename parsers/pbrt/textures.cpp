@@ -56,8 +56,9 @@ constexpr Spec kImage[] = {
     {"invert", kBoolean, "false", "", 1, done, Versions::v4},
     {"encoding", kString, "", "sRGB, linear or gamma and a number", 1, done, Versions::v4},
     {"gamma", kBoolean, "", "whether it is sRGB", 1, done, Versions::v3},
-    {"wrap", kString, "repeat", "repeat, black or clamp"},
-    {"filter", kString, "bilinear", "point, or anything else as bilinear", 1, done, Versions::v4},
+    {"wrap", kString, "repeat", "repeat, black or clamp; octahedralsphere as clamp"},
+    {"filter", kString, "bilinear", "point; bilinear, trilinear and ewa as bilinear", 1, done,
+     Versions::v4},
     {"maxanisotropy", kNumber, "8", "", 1, inert},
     {"trilinear", kBoolean, "false", "", 1, inert, Versions::v3},
     DUET_MAPPING_SPECS};
@@ -87,6 +88,31 @@ void read_encoding(Values& v, BitmapTexture& image) {
                               in_quotes(encoding));
 }
 
+TextureFilter read_filter(Values& v) {
+  const std::vector<std::string> known{"point", "bilinear", "trilinear", "ewa", "EWA"};
+  const std::string filter = v.string("filter");
+  if (std::find(known.begin(), known.end(), filter) == known.end())
+    v.reader().report().warning(v.where("filter"),
+                                "there is no filter {}{}; the image is interpolated, as in pbrt",
+                                in_quotes(filter), did_you_mean(filter, known));
+  return filter == "point" ? TextureFilter::nearest : TextureFilter::bilinear;
+}
+
+WrapMode read_wrap(Values& v) {
+  const std::string wrap = v.string("wrap");
+  if (wrap == "clamp") return WrapMode::clamp;
+  if (wrap == "black") return WrapMode::zero;
+  if (wrap == "octahedralsphere" && v.reader().version() == Version::v4) {
+    v.reader().approximate(v.where("wrap"),
+                           "an image of a sphere as octahedron does not go on behind its edges");
+    return WrapMode::clamp;
+  }
+  if (wrap != "repeat")
+    v.reader().report().error(v.where("wrap"), "the wrap mode {} is not supported",
+                              in_quotes(wrap));
+  return WrapMode::repeat;
+}
+
 void read_image(Values& v, const Request& request, Made& made) {
   Reader& reader = v.reader();
   if (!v.has("filename")) {
@@ -97,15 +123,8 @@ void read_image(Values& v, const Request& request, Made& made) {
   image.file = v.file("filename");
   if (image.file.empty()) return;
   read_encoding(v, image);
-  if (v.reader().version() == Version::v4 && v.string("filter") == "point")
-    image.filter = TextureFilter::nearest;
-  const std::string wrap = v.string("wrap");
-  if (wrap == "clamp")
-    image.wrap_u = image.wrap_v = WrapMode::clamp;
-  else if (wrap == "black")
-    image.wrap_u = image.wrap_v = WrapMode::zero;
-  else if (wrap != "repeat")
-    reader.report().error(v.where("wrap"), "the wrap mode {} is not supported", in_quotes(wrap));
+  if (reader.version() == Version::v4) image.filter = read_filter(v);
+  image.wrap_u = image.wrap_v = read_wrap(v);
   image.to_uv = mapping(v);
   // A number of an image in colours: in v3 the luminance, as textures have it by themselves.
   if (!request.is_color && reader.version() == Version::v4) image.channel = TextureChannel::number;
@@ -226,16 +245,27 @@ const std::vector<Record<ReadTexture>>& textures() {
   return all;
 }
 
+/// v4 has some patterns of one kind only.
+void check_kind(Reader& reader, const Plugin& plugin, bool is_color) {
+  const bool of_numbers =
+      plugin.name == "fbm" || plugin.name == "wrinkled" || plugin.name == "windy";
+  if (is_color ? of_numbers : plugin.name == "marble")
+    reader.report().error(plugin.where, "Texture \"{}\" makes {} in pbrt-v4", plugin.name,
+                          is_color ? "numbers, not colours," : "colours, not numbers,");
+}
+
 }  // namespace
 
 void read_texture(Reader& reader, const Plugin& plugin, const std::string& name,
                   const std::string& kind) {
-  Request request{kind == "spectrum" || kind == "color"};
+  const bool is_v4 = reader.version() == Version::v4;
+  Request request{kind == "spectrum" || (kind == "color" && !is_v4)};
   if (!request.is_color && kind != "float") {
     reader.report().error(plugin.where, "a texture is of \"spectrum\" or \"float\", not {}",
                           in_quotes(kind));
     return;
   }
+  if (is_v4) check_kind(reader, plugin, request.is_color);
   const auto* record = find_record<ReadTexture>(reader, plugin, textures());
   Made made;
   if (request.is_color)

@@ -61,7 +61,7 @@ warning. Names that are in no table are warnings with the nearest known one.
   finely enough not to be seen.
 - Files of v3 may have parameters of another type than the known one, textures and materials that there are not, and
   directives on the wrong side of WorldBegin: pbrt-v3 goes on without them, and so does Duet, with a warning.
-- Several infinite lights add up.
+- Several infinite lights add up. Lights do not move, as in pbrt: they stand where their way begins.
 - Curves that are no hair face each ray as pbrt's do; only the methods that follow light from the camera alone can render
   such ribbons. Opaque ones are lit where rays are clear of them: a width in front of them, as in pbrt.
 - Bumps on meshes with normals have pbrt's tangents: in v4 the second one is as long as the first, in v3 both are unit
