@@ -238,7 +238,7 @@ TEST_CASE("pbrt-v4: indices of refraction by rgb, and metals by one thing only")
   const SceneDescription d =
       silent(v4("Material \"dielectric\" \"rgb eta\" [1.25 1.25 1.25]\nShape \"sphere\""));
   CHECK(d.materials.at(size_t(d.shapes.at(0).material)).model.get<DielectricMaterial>().eta ==
-        1.25);
+        FloatInput(1.25));
   CHECK(has(v4("Material \"dielectric\" \"rgb eta\" [1.2 1.3 1.4]"),
             "3:23: warning: approximated: a refractive index without dispersion"));
   check_refused(v4("Material \"conductor\" \"rgb reflectance\" [.5 .5 .5] \"rgb eta\" [1 1 1]"),
