@@ -3,8 +3,8 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
-#include <filesystem>
 #include <fstream>
+#include <sstream>
 
 #include "app/arguments.h"
 #include "app/commands.h"
@@ -12,7 +12,6 @@
 #include "app/signals.h"
 #include "base/atomic_file.h"
 #include "base/diagnostics.h"
-#include "base/run_program.h"
 #include "evaluate/render/output.h"
 #include "evaluate/render/output_checks.h"
 #include "evaluate/stability/run.h"
@@ -26,21 +25,9 @@ using namespace stability;
 
 struct StabilityOptions {
   std::vector<std::string> cases;
-  std::string methods, markdown, json, folder, threads;
+  std::string methods, markdown, html, json, folder, threads;
   bool fast = false, list = false, quiet = false;
 };
-
-/// The catalogue that the option names; otherwise that of the source tree, or the installed one.
-std::string catalogue_folder(const std::string& option) {
-  if (!option.empty()) return option;
-  std::error_code ignored;
-  // Packages are built for one place and unpacked in another.
-  const std::filesystem::path program = own_program();
-  const std::string beside = program.parent_path().parent_path() / "share/duet/stability";
-  for (const std::string& folder : {std::string(DUET_STABILITY_SOURCE), beside})
-    if (std::filesystem::exists(folder + "/catalogue.json", ignored)) return folder;
-  return DUET_STABILITY_INSTALLED;
-}
 
 /// The page that is to be brought up to date, if only a part of the table is measured.
 std::string earlier_page(const StabilityOptions& o) {
@@ -59,6 +46,14 @@ std::string earlier_page(const StabilityOptions& o) {
 std::string whole_command(const StabilityOptions& o) {
   return fmt::format("duet stability{}{} --markdown {}", o.fast ? " --fast" : "",
                      o.folder.empty() ? "" : " --catalogue " + o.folder, o.markdown);
+}
+
+/// The names in a list with commas.
+std::vector<std::string> names_of(const std::string& list) {
+  std::vector<std::string> names;
+  std::istringstream text(list);
+  for (std::string name; std::getline(text, name, ',');) names.push_back(name);
+  return names;
 }
 
 /// What `select` finds; that there is nothing of the kind is wrong usage.
@@ -89,10 +84,11 @@ RunEvents printed(size_t rows, Log& log) {
 }
 
 int run_stability(const StabilityOptions& o, Program& program) {
-  const Catalogue catalogue = read_catalogue(catalogue_folder(o.folder));
+  const Catalogue catalogue = read_catalogue(o.folder.empty() ? catalogue_folder() : o.folder);
   const Selection selection{selected([&] { return select_rows(catalogue, o.cases, o.fast); }),
-                            selected([&] { return select_methods(o.methods); }), o.fast};
+                            selected([&] { return select_methods(names_of(o.methods)); }), o.fast};
   check_writable("--markdown", o.markdown);
+  check_writable("--html", o.html);
   check_writable("--json", o.json);
   const std::string earlier = earlier_page(o);
   if (o.list) {
@@ -112,6 +108,8 @@ int run_stability(const StabilityOptions& o, Program& program) {
   }
   if (!o.markdown.empty())
     write_file_atomically(o.markdown, markdown(catalogue, results, whole_command(o), earlier));
+  if (!o.html.empty())
+    write_file_atomically(o.html, page(catalogue, results, o.fast, program.command_line));
   if (!o.json.empty()) write_file_atomically(o.json, json(results));
   fmt::print("{}", summary(results, o.fast));
   program.log.info("measured in {:.0f} s", seconds_of(results));
@@ -132,6 +130,9 @@ void add_stability_command(CLI::App& app, Program& program) {
       "--markdown", o->markdown,
       "Also write the table as docs/stability.md has it; if only some rows or methods are "
       "run, the others of a page that is there stay");
+  c->add_option("--html", o->html,
+                "Write a report of what is run that opens in a browser, with what each cell would "
+                "have noticed");
   c->add_option("--json", o->json, "Also write it for programs");
   c->add_option("--catalogue", o->folder,
                 "Folder with another catalogue.json and the scenes that it names")
@@ -145,7 +146,7 @@ void add_stability_command(CLI::App& app, Program& program) {
       "much is not resolved, and counts as a failure.\n"
       "Exit codes: 0 all as expected; 1 something is not; 2 wrong usage; 130/143 interrupted.\n"
       "Examples:\n"
-      "  duet stability --fast\n"
+      "  duet stability --fast --html stability.html\n"
       "  duet stability point-light-mirror 27 --methods bdpt,vcm\n"
       "  duet stability --markdown docs/stability.md --json stability.json");
   c->callback([o, &program] { program.exit_code = run_stability(*o, program); });

@@ -104,7 +104,8 @@ TEST_SUITE("program") {
     known["name"] = "grey", known["define"] = {{"albedo", 0.5}};
     known["methods"] = {{"*", {{"fails", {-0.4, -0.1}}, {"why", "absorbs half"}}}};
     c.catalogue(json::array({Cabinet::row(), known, planned}));
-    const Outcome one = c.stability({"-q", "-t", "1", "--json", "a.json", "--markdown", "a.md"});
+    const Outcome one = c.stability(
+        {"-q", "-t", "1", "--json", "a.json", "--markdown", "a.md", "--html", "a.html"});
     CHECK(one.code == 0);
     CHECK(one.err.empty());
     CHECK(c.stability({"-q", "-t", "3", "--json", "b.json"}).out == one.out);
@@ -119,6 +120,15 @@ TEST_SUITE("program") {
     CHECK(contains(page, "**✗ -"));
     CHECK(contains(page, "| 41 | [later](#later) | Media | planned |"));
     CHECK(contains(page, "absorbs half"));
+    const std::string html = read_file(c.path("a.html"));
+    CHECK(contains(html, "<p class=\"soft\">14 of 14 cells as expected.</p>"));
+    CHECK(contains(html, "<span class=\"badge pass\">✓ "));
+    CHECK(contains(html, "<span class=\"badge noisy\">✗ -"));
+    CHECK(contains(html, "<br><span class=\"interval\">notices "));
+    CHECK(contains(html, "(bound 1.00 %)"));
+    CHECK(contains(html, "<tr data-verdict=\"planned\">"));
+    CHECK(contains(html, "absorbs half"));
+    CHECK(contains(html, "--html a.html</pre>"));
     // Named by number, and the short run.
     CHECK(contains(c.stability({"41"}).out, "planned: not yet"));
     CHECK(contains(c.stability({"--fast", "--list"}).out, "19 ball"));
@@ -260,6 +270,7 @@ TEST_SUITE("program") {
         {{"--methods", "path,bdtp"}, "did you mean \"bdpt\"?"},
         {{"--methods", "path", "--markdown", "a.md"}, "a.md is not there"},
         {{"--json", "/dev/null/a.json"}, "/dev/null"},
+        {{"--html", "/dev/null/a.html"}, "/dev/null"},
         {{"-t", "0"}, "--threads"},
     };
     for (const auto& [arguments, named] : cases) {

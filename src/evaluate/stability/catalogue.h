@@ -111,6 +111,9 @@ struct Catalogue {
   int measured_cells() const;
 };
 
+/// The folder with the catalogue of Duet: installed beside the program or the library that this
+/// code is in, or else in the source tree that it was built from.
+std::string catalogue_folder();
 /// Reads FOLDER/catalogue.json. Throws CatalogueError.
 Catalogue read_catalogue(const std::string& folder);
 

@@ -3,9 +3,9 @@
 
 #include <algorithm>
 #include <map>
-#include <set>
 #include <sstream>
 
+#include "evaluate/stability/explanations.h"
 #include "evaluate/stability/table.h"
 
 namespace duet::stability {
@@ -85,12 +85,8 @@ std::string number_text(const Row& row) {
 std::string cell_line(const Row& row, const CellResult& c) {
   if (c.outcome == Outcome::not_applicable)
     return fmt::format("| {} | – | – | not applicable | {} |\n", c.method, c.why);
-  std::string measured = format_value(row, c.measured.value);
-  if (c.measured.error > 0) measured += " ± " + format_value(row, c.measured.error);
-  std::string remark = c.measured.detail;
-  if (!c.why.empty()) remark += (remark.empty() ? "" : ". ") + c.why;
-  return fmt::format("| {} | {} | {} | {} | {} |\n", c.method, measured,
-                     describe_power(row, c.measured.power), describe(row, c), remark);
+  return fmt::format("| {} | {} | {} | {} | {} |\n", c.method, measured_text(row, c.measured),
+                     describe_power(row, c.measured.power), describe(row, c), remark(c));
 }
 
 /// A row's own words, and every method that does not hold there with the reason.
@@ -125,40 +121,19 @@ std::string overview_line(const RowResult& r, const EarlierPage& earlier) {
 std::string introduction(const std::string& command) {
   return fmt::format(
       "# Stability: where methods fail\n\n"
-      "Made by `{}`. Every row is a small scene in `scenes/stability/` on which renderers of this "
-      "kind have failed; every column a method. `duet stability` measures all of it again, and "
-      "exits with 1 if a method fails that should hold, holds where it is known to fail, fails by "
-      "another amount than is known, or holds only because the measurement is too noisy to say. "
-      "Seeds are fixed: the same program gives the same table.\n\n"
+      "Made by `{}`. {}\n\n"
       "✓ holds; **✗ fails as known**: inherent in the method; – does not apply. The number is "
       "what the row's check measures, explained below the table.\n\n",
-      command);
+      command, about_table());
 }
 
 std::string explanation(const Catalogue& catalogue) {
   std::string text = fmt::format(
-      "\n## Checks\n\n"
-      "All tests together have a level of significance of {:g} %, shared by the {} cells (Šidák). "
-      "Methods that merge are biased as long as their radius is not zero: in comparisons of means "
-      "they hold if they differ by no more than a margin; so does `auto` where the method that it "
-      "takes merges.\n\n"
-      "**Notices** is the smallest deviation that the measurement would have noticed with a "
-      "probability of {:g} %. “Holds” counts only if that is no more than a bound: {:g} % of a "
-      "tile "
-      "or pixel, {:g} % of the mean of an image, or twice the margin if that is more; for other "
-      "checks, values as far beyond the limit as the limit is from what is right (for “at least”: "
-      "half the limit). Images are added until the bound is met (at most {} unless the row says "
-      "otherwise). What still does not meet it is not resolved, and the table fails. Known "
-      "failures "
-      "have no bound. `--fast` renders fewer images and has bounds {:g} times as coarse.\n\n"
+      "\n## Checks\n\n{}\n\n{}\n\n"
       "| check | what the number is | what is noticed |\n|---|---|---|\n",
-      100 * kTableLevel, catalogue.measured_cells(), 100 * kPowerShare, 100 * kTileResolution,
-      100 * kMeanResolution, Row().most_batches, kFastFactor);
-  std::set<std::string> used;
-  for (const Row& row : catalogue.rows) used.insert(row.check);
-  for (const Check& c : checks())
-    if (used.contains(c.name))
-      text += fmt::format("| `{}` | {} | {} |\n", c.name, c.summary, c.power);
+      about_level(catalogue), about_power());
+  for (const Check* c : used_checks(catalogue))
+    text += fmt::format("| `{}` | {} | {} |\n", c->name, c->summary, c->power);
   return text + "\n## Rows\n\n";
 }
 

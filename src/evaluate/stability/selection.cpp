@@ -3,7 +3,6 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <sstream>
 
 #include "base/diagnostics.h"
 
@@ -32,18 +31,14 @@ std::vector<const Row*> select_rows(const Catalogue& catalogue,
   return rows;
 }
 
-std::vector<std::string> select_methods(const std::string& list) {
+std::vector<std::string> select_methods(const std::vector<std::string>& names) {
   const std::vector<std::string> known(kMethods.begin(), kMethods.end());
-  if (list.empty()) return known;
-  std::vector<std::string> methods;
-  std::istringstream names(list);
-  for (std::string name; std::getline(names, name, ',');) {
+  if (names.empty()) return known;
+  for (const std::string& name : names)
     if (std::find(known.begin(), known.end(), name) == known.end())
-      throw std::out_of_range(fmt::format("--methods: there is no method \"{}\"{}; there are {}",
-                                          name, did_you_mean(name, known), fmt::join(known, ", ")));
-    methods.push_back(name);
-  }
-  return methods;
+      throw std::out_of_range(fmt::format("there is no method \"{}\"{}; there are {}", name,
+                                          did_you_mean(name, known), fmt::join(known, ", ")));
+  return names;
 }
 
 }  // namespace duet::stability

@@ -14,7 +14,7 @@ namespace duet::stability {
 std::vector<const Row*> select_rows(const Catalogue& catalogue,
                                     const std::vector<std::string>& names, bool fast);
 
-/// The methods of a list with commas, or all. Throws std::out_of_range for one that is not there.
-std::vector<std::string> select_methods(const std::string& list);
+/// These methods, or all if none is named. Throws std::out_of_range for one that is not there.
+std::vector<std::string> select_methods(const std::vector<std::string>& names);
 
 }  // namespace duet::stability

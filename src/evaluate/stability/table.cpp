@@ -38,6 +38,18 @@ std::string format_value(const Row& row, double value) {
   return format_number(find_check(row.check).unit, value);
 }
 
+std::string measured_text(const Row& row, const Measurement& measured) {
+  std::string text = format_value(row, measured.value);
+  if (measured.error > 0) text += " ± " + format_value(row, measured.error);
+  return text;
+}
+
+std::string remark(const CellResult& cell) {
+  std::string text = cell.measured.detail;
+  if (!cell.why.empty()) text += (text.empty() ? "" : ". ") + cell.why;
+  return text;
+}
+
 std::string describe_limit(const Row& row) {
   const Check& check = find_check(row.check);
   std::string text;
@@ -52,8 +64,12 @@ std::string describe_limit(const Row& row) {
   return text;
 }
 
+bool is_exact(const Power& power) {
+  return power.noise == 0 && power.noticed == power.required;
+}
+
 std::string describe_power(const Row& row, const Power& power) {
-  if (power.noise == 0 && power.noticed == power.required) return "exact";
+  if (is_exact(power)) return "exact";
   return fmt::format("{} (bound {})", format_value(row, power.noticed),
                      format_value(row, power.required));
 }
@@ -121,8 +137,7 @@ std::string result_line(const Row& row, const CellResult& c) {
       "{:>3} {:22} {:8}", row.number > 0 ? fmt::to_string(row.number) : "", row.name, c.method);
   if (c.outcome == Outcome::not_applicable)
     return fmt::format("{} {:>20} {}", line, "", describe(row, c));
-  std::string value = format_value(row, c.measured.value);
-  if (c.measured.error > 0) value += " ± " + format_value(row, c.measured.error);
+  const std::string value = measured_text(row, c.measured);
   // The sign is one column of two bytes.
   const size_t width = 20 + (c.measured.error > 0);
   return fmt::format("{} {:>{}} {}; notices {}{}", line, value, width, describe(row, c),

@@ -41,6 +41,10 @@ int count(const std::vector<RowResult>& results, Outcome outcome);
 
 /// "+1.2 %", "0.34" or "3", by the unit of the row's statistic.
 std::string format_value(const Row& row, double value);
+/// What was measured, with its standard error where there is one.
+std::string measured_text(const Row& row, const Measurement& measured);
+/// Further figures of a cell, and why it is as it is.
+std::string remark(const CellResult& cell);
 /// "holds", "fails as known (-4 % to -1 %)", …
 std::string describe(const Row& row, const CellResult& cell);
 /// Both with what was measured and what would have been noticed, on one line for people.
@@ -49,6 +53,8 @@ double limit_of(const Row& row);
 double margin_of(const Row& row);
 /// "below 5.00 %": the limit of the row and its margin, as far as it has them.
 std::string describe_limit(const Row& row);
+/// Whether any deviation beyond the limit is noticed.
+bool is_exact(const Power& power);
 /// "4.31 % (bound 5.00 %)": what the cell would have noticed, and had to.
 std::string describe_power(const Row& row, const Power& power);
 
@@ -56,6 +62,10 @@ std::string describe_power(const Row& row, const Power& power);
 /// `earlier`, a page that this function made before, or "".
 std::string markdown(const Catalogue& catalogue, const std::vector<RowResult>& results,
                      const std::string& command, const std::string& earlier);
+/// The same for a browser, of what was measured alone: one HTML file that opens from disk and needs
+/// nothing else. Mentions the command that made it; `fast` as in Selection.
+std::string page(const Catalogue& catalogue, const std::vector<RowResult>& results, bool fast,
+                 const std::string& command_line);
 /// The same for programs.
 std::string json(const std::vector<RowResult>& results);
 

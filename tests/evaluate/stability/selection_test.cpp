@@ -1,4 +1,4 @@
-// Rows and methods as the command line names them.
+// Rows and methods by their names.
 #include "evaluate/stability/selection.h"
 
 #include <doctest/doctest.h>
@@ -39,8 +39,8 @@ TEST_CASE("selection: rows by name and by number, in the order of the catalogue"
                        "none of these cases is part of --fast", std::out_of_range);
 }
 
-TEST_CASE("selection: methods of a list with commas") {
-  CHECK(select_methods("").size() == kMethods.size());
-  CHECK(select_methods("vcm,path") == Names{"vcm", "path"});
-  CHECK_THROWS_AS(select_methods("path,bdtp"), std::out_of_range);
+TEST_CASE("selection: methods by their names") {
+  CHECK(select_methods({}).size() == kMethods.size());
+  CHECK(select_methods({"vcm", "path"}) == Names{"vcm", "path"});
+  CHECK_THROWS_AS(select_methods({"path", "bdtp"}), std::out_of_range);
 }
