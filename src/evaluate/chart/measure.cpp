@@ -167,7 +167,8 @@ class SceneChart {
       return false;
     }
     plan_.reference = std::move(*made);
-    save_reference(*plan_.reference, plan_.directory, plan_.command_line);
+    if (!plan_.directory.empty())
+      save_reference(*plan_.reference, plan_.directory, plan_.command_line);
     return true;
   }
 

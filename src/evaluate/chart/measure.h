@@ -33,10 +33,11 @@ struct ChartPlan {
   std::optional<Point2i> size;  ///< instead of the reference's or the scene's
   std::vector<ChartMethod> methods;
   std::vector<ExternalMethod> external;
-  /// What is right; without it one is made, by `reference_method` or by a choice, and saved.
+  /// What is right; without it one is made, by `reference_method` or by a choice.
   std::optional<ChartReference> reference;
   std::optional<ChartMethod> reference_method;
-  std::string directory;     ///< where files go
+  std::string directory;     ///< where a reference that is made is saved; "": nowhere. External
+                             ///< renderers need one, too.
   std::string command_line;  ///< for the header of a reference that is made
   double seconds = 60;       ///< for all methods and the reference together
   uint64_t seed = 0;
