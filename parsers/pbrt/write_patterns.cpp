@@ -75,6 +75,22 @@ void SceneWriter::write(const BilerpDescription& t, const Target& target) {
 }
 
 void SceneWriter::write(const NoiseTextureDescription& t, const Target& target) {
+  // Marble makes colours only, the others make numbers only.
+  const bool makes_color = t.kind == NoiseKind::marble;
+  if (makes_color && !target.is_color) {
+    lose("numbers by the texture \"marble\" do not exist in pbrt-v4: they are 0.5");
+    Statement even = target.begin("constant");
+    add_texture(even.number("value", 0.5), {});
+    return;
+  }
+  if (!makes_color && target.is_color) {
+    const std::string number = target.name + "-number";
+    write(t, {number, false, target.map});
+    Statement mix = target.begin("mix");
+    mix.color("tex1", Spectrum(0.0f)).color("tex2", Spectrum(1.0f)).refer("amount", number);
+    add_texture(mix, {});
+    return;
+  }
   Statement s = target.begin(NoiseTextureDescription::kKinds[size_t(t.kind)]);
   if (t.kind != NoiseKind::windy) s.integer("octaves", t.octaves).number("roughness", t.roughness);
   if (t.kind == NoiseKind::marble) s.number("scale", t.scale).number("variation", t.variation);

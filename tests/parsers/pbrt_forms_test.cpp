@@ -15,11 +15,17 @@ PbrtFile read_text(const std::string& text) {
   return read_pbrt_file(folder.write("scene.pbrt", text));
 }
 
+/// One before what follows on the line, unless the header has it.
+std::string camera_after(const std::string& header) {
+  return header.find("Camera") == header.npos ? "Camera \"perspective\" " : "";
+}
+
 PbrtFile v4(const std::string& world, const std::string& header = "") {
-  return read_text(header + "Film \"rgb\"\nWorldBegin\n" + world + "\n");
+  return read_text(header + camera_after(header) + "Film \"rgb\"\nWorldBegin\n" + world + "\n");
 }
 PbrtFile v3(const std::string& world, const std::string& header = "") {
-  return read_text(header + "Film \"image\"\nWorldBegin\n" + world + "\nWorldEnd\n");
+  return read_text(header + camera_after(header) + "Film \"image\"\nWorldBegin\n" + world +
+                   "\nWorldEnd\n");
 }
 
 bool has(const PbrtFile& f, const std::string& message) {
@@ -74,31 +80,34 @@ TEST_CASE("pbrt-v3: unoccluded, ao is pi; in v4 it is one") {
                   .film.response.has_value());
   // It multiplies what the film does, and limits of samples are those of the product.
   const TemporaryDirectory folder;
-  const std::string both = folder.write(
-      "scene.pbrt",
-      "Integrator \"ao\"\nFilm \"image\" \"float scale\" 2 \"float maxsampleluminance\" 3\n"
-      "WorldBegin\nShape \"sphere\"\nWorldEnd\n");
+  const std::string both = folder.write("scene.pbrt",
+                                        "Integrator \"ao\"\nCamera \"perspective\" Film \"image\" "
+                                        "\"float scale\" 2 \"float maxsampleluminance\" 3\n"
+                                        "WorldBegin\nShape \"sphere\"\nWorldEnd\n");
   const FilmDescription film = silent(read_pbrt_file(both)).sensors.at(0).film;
   CHECK((*film.response)[0][0] == doctest::Approx(2 * 3.14159265358979));
-  const FilmDescription path =
-      silent(read_text("Film \"image\" \"float maxsampleluminance\" 3\nWorldBegin\nWorldEnd\n"))
-          .sensors.at(0)
-          .film;
+  const FilmDescription path = silent(read_text("Camera \"perspective\" Film \"image\" \"float "
+                                                "maxsampleluminance\" 3\nWorldBegin\nWorldEnd\n"))
+                                   .sensors.at(0)
+                                   .film;
   CHECK(film.sample_limit->sensor[1][1] ==
         doctest::Approx(path.sample_limit->sensor[1][1] * 3.14159265358979));
   // Another integrator has its own unit.
   pbrt::Options options;
   options.replaces_integrator = true;
-  CHECK_FALSE(silent(read_pbrt_file(folder.write("plain.pbrt",
-                                                 "Integrator \"ao\"\nFilm \"image\"\nWorldBegin\n"
-                                                 "Shape \"sphere\"\nWorldEnd\n"),
-                                    options))
-                  .sensors.at(0)
-                  .film.response.has_value());
+  CHECK_FALSE(
+      silent(
+          read_pbrt_file(
+              folder.write("plain.pbrt",
+                           "Integrator \"ao\"\nCamera \"perspective\" Film \"image\"\nWorldBegin\n"
+                           "Shape \"sphere\"\nWorldEnd\n"),
+              options))
+          .sensors.at(0)
+          .film.response.has_value());
   // pbrt-v4 says it by the film's speed.
   const pbrt::PbrtText written = pbrt::write_pbrt(dark);
   CHECK(written.losses.empty());
-  CHECK(written.text.find("\"float iso\" [314.159") != std::string::npos);
+  CHECK(written.text.find("\"float iso\" 314.159") != std::string::npos);
 }
 
 TEST_CASE("pbrt versions are found in what a file includes") {
@@ -205,7 +214,13 @@ TEST_CASE("pbrt-v4: textures of the other kind, and words that there are not") {
     const std::string colours = "Texture \"t\" \"spectrum\" \"" + name + "\"",
                       numbers = "Texture \"t\" \"float\" \"" + name + "\"";
     check_refused(v4(colours), "Texture \"" + name + "\" makes numbers, not colours, in pbrt-v4");
-    silent(v4(numbers)), silent(v3(colours)), silent(v3(numbers));
+    silent(v4(numbers)), silent(v3(numbers));
+    // What v3 does with it v4 does with the number.
+    const pbrt::PbrtText written = pbrt::write_pbrt(
+        silent(v3(colours + "\nMaterial \"matte\" \"texture Kd\" \"t\"\nShape \"sphere\"")));
+    CHECK(written.losses.empty());
+    CHECK(written.text.find("\"float\" \"" + name + "\"") != std::string::npos);
+    CHECK(silent(read_text(written.text)).shapes.size() == 1);
   }
   check_refused(v4("Texture \"t\" \"float\" \"marble\""),
                 "Texture \"marble\" makes colours, not numbers, in pbrt-v4");
@@ -216,11 +231,11 @@ TEST_CASE("pbrt images: filters by their names, and octahedral wrapping") {
   const TemporaryDirectory folder;
   const auto image = [&](const std::string& more) {
     folder.write("image.png", "");
-    return read_pbrt_file(folder.write(
-        "scene.pbrt",
-        "Film \"rgb\"\nWorldBegin\nTexture \"t\" \"spectrum\" \"imagemap\" \"string filename\" "
-        "\"image.png\"\n" +
-            more + "\n"));
+    return read_pbrt_file(folder.write("scene.pbrt",
+                                       "Camera \"perspective\" Film \"rgb\"\nWorldBegin\nTexture "
+                                       "\"t\" \"spectrum\" \"imagemap\" \"string filename\" "
+                                       "\"image.png\"\n" +
+                                           more + "\n"));
   };
   for (const std::string filter : {"point", "bilinear", "trilinear", "ewa", "EWA"})
     silent(image("\"string filter\" \"" + filter + "\""));

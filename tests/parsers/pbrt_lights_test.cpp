@@ -14,9 +14,9 @@ namespace {
 
 PbrtFile world(const std::string& text, bool v3 = false) {
   const TemporaryDirectory folder;
-  return read_pbrt_file(folder.write(
-      "scene.pbrt",
-      (v3 ? "Film \"image\"" : "Film \"rgb\"") + std::string("\nWorldBegin\n") + text + "\n"));
+  return read_pbrt_file(folder.write("scene.pbrt", "Camera \"perspective\" Film \"" +
+                                                       std::string(v3 ? "image" : "rgb") +
+                                                       "\"\nWorldBegin\n" + text + "\n"));
 }
 
 template <class Model>
