@@ -6,6 +6,7 @@
 #include "app/workplace.h"
 #include "evaluate/web/page.h"
 #include "support/browser.h"
+#include "support/stability_catalogue.h"
 
 using namespace duet::test;
 
@@ -43,13 +44,14 @@ struct Desk : Workplace {
   /// Cells that hold, that fail as known, that do not, and that do not apply.
   void stability() const {
     std::filesystem::create_directory(path("ball"));
-    write("ball/scene.xml", lamp_text());
+    write("ball/scene.xml", kBallScene);
     json row{{"name", "ball"},
              {"number", 19},
              {"title", "A ball under a sky"},
              {"about", "Its light is `grey`, see `a_name_that_is_rather_long_and_has_no_space`"},
              {"check", "energy"},
              {"scene", "ball"},
+             {"define", {{"albedo", 0.5}}},
              {"spp", 8},
              {"batches", 8},
              {"most_batches", 8},
@@ -65,18 +67,6 @@ struct Desk : Workplace {
     write("catalogue.json", json::array({row, noisy, planned}).dump());
     REQUIRE(run({"stability", "--catalogue", ".", "--html", "stability.html", "--json", "s.json"})
                 .code == 1);
-  }
-  static const char* lamp_text() {
-    return R"(<scene version="3.0.0">
-<default name="albedo" value="0.5"/>
-<integrator type="path"/>
-<sensor type="perspective"><float name="fov" value="40"/>
-  <transform name="to_world"><lookat origin="0,0,4" target="0,0,0" up="0,1,0"/></transform>
-  <film type="hdrfilm"><integer name="width" value="8"/><integer name="height" value="8"/>
-    <rfilter type="box"/></film></sensor>
-<shape type="sphere"><bsdf type="diffuse"><rgb name="reflectance" value="$albedo"/></bsdf></shape>
-<emitter type="constant"/>
-</scene>)";
   }
   void batch() const {
     write("bad.xml", "<scene version='3.0.0'><shape type='spere'/></scene>");

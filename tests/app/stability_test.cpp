@@ -6,6 +6,7 @@
 #include <set>
 
 #include "app/workplace.h"
+#include "support/stability_catalogue.h"
 
 using namespace duet::test;
 
@@ -17,30 +18,12 @@ using nlohmann::json;
 struct Cabinet : Workplace {
   Cabinet() {
     std::filesystem::create_directory(path("ball"));
-    write("ball/scene.xml", R"(<scene version="3.0.0">
-<default name="albedo" value="1"/>
-<integrator type="path"/>
-<sensor type="perspective"><float name="fov" value="40"/>
-  <transform name="to_world"><lookat origin="0,0,4" target="0,0,0" up="0,1,0"/></transform>
-  <film type="hdrfilm"><integer name="width" value="8"/><integer name="height" value="8"/>
-    <rfilter type="box"/></film></sensor>
-<shape type="sphere">
-  <bsdf type="diffuse"><rgb name="reflectance" value="$albedo"/></bsdf></shape>
-<emitter type="constant"/>
-</scene>)");
+    write("ball/scene.xml", kBallScene);
   }
   static json row() {
-    return {{"name", "ball"},
-            {"number", 19},
-            {"title", "A white ball is seen"},
-            {"check", "energy"},
-            {"scene", "ball"},
-            {"spp", 8},
-            {"batches", 8},
-            {"margin", 0.02},
-            {"fast", true},
-            {"reference", {{"value", 1}}},
-            {"methods", {{"*", "holds"}}}};
+    json row = ball_row();
+    row["fast"] = true;
+    return row;
   }
   void catalogue(const json& rows) const { write("catalogue.json", rows.dump()); }
   Outcome stability(std::vector<std::string> arguments) const {

@@ -7,6 +7,7 @@
 
 #include "app/workplace.h"
 #include "duet/duet.h"
+#include "support/stability_catalogue.h"
 
 using namespace duet;
 using namespace duet::test;
@@ -35,25 +36,8 @@ struct Inside {
 /// Two rows: one that holds, and one that fails where it should hold.
 std::string catalogue(const Workplace& place) {
   std::filesystem::create_directory(place.path("ball"));
-  place.write("ball/scene.xml", R"(<scene version="3.0.0">
-<default name="albedo" value="1"/>
-<sensor type="perspective"><float name="fov" value="40"/>
-  <transform name="to_world"><lookat origin="0,0,4" target="0,0,0" up="0,1,0"/></transform>
-  <film type="hdrfilm"><integer name="width" value="8"/><integer name="height" value="8"/>
-    <rfilter type="box"/></film></sensor>
-<shape type="sphere"><bsdf type="diffuse"><rgb name="reflectance" value="$albedo"/></bsdf></shape>
-<emitter type="constant"/>
-</scene>)");
-  nlohmann::json white{{"name", "ball"},
-                       {"number", 19},
-                       {"title", "A white ball is seen"},
-                       {"check", "energy"},
-                       {"scene", "ball"},
-                       {"spp", 8},
-                       {"batches", 8},
-                       {"margin", 0.02},
-                       {"reference", {{"value", 1}}},
-                       {"methods", {{"*", "holds"}}}};
+  place.write("ball/scene.xml", kBallScene);
+  const nlohmann::json white = ball_row();
   nlohmann::json grey = white;
   grey["name"] = "grey", grey["define"] = {{"albedo", 0.5}};
   place.write("catalogue.json", nlohmann::json::array({white, grey}).dump());

@@ -10,22 +10,18 @@ using namespace duet::test;
 
 namespace {
 
-PbrtFile read_text(const std::string& text) {
-  const TemporaryDirectory folder;
-  return read_pbrt_file(folder.write("scene.pbrt", text));
-}
-
 /// One before what follows on the line, unless the header has it.
 std::string camera_after(const std::string& header) {
   return header.find("Camera") == header.npos ? "Camera \"perspective\" " : "";
 }
 
 PbrtFile v4(const std::string& world, const std::string& header = "") {
-  return read_text(header + camera_after(header) + "Film \"rgb\"\nWorldBegin\n" + world + "\n");
+  return read_pbrt_file_of(header + camera_after(header) + "Film \"rgb\"\nWorldBegin\n" + world +
+                           "\n");
 }
 PbrtFile v3(const std::string& world, const std::string& header = "") {
-  return read_text(header + camera_after(header) + "Film \"image\"\nWorldBegin\n" + world +
-                   "\nWorldEnd\n");
+  return read_pbrt_file_of(header + camera_after(header) + "Film \"image\"\nWorldBegin\n" + world +
+                           "\nWorldEnd\n");
 }
 
 bool has(const PbrtFile& f, const std::string& message) {
@@ -86,10 +82,11 @@ TEST_CASE("pbrt-v3: unoccluded, ao is pi; in v4 it is one") {
                                         "WorldBegin\nShape \"sphere\"\nWorldEnd\n");
   const FilmDescription film = silent(read_pbrt_file(both)).sensors.at(0).film;
   CHECK((*film.response)[0][0] == doctest::Approx(2 * 3.14159265358979));
-  const FilmDescription path = silent(read_text("Camera \"perspective\" Film \"image\" \"float "
-                                                "maxsampleluminance\" 3\nWorldBegin\nWorldEnd\n"))
-                                   .sensors.at(0)
-                                   .film;
+  const FilmDescription path =
+      silent(read_pbrt_file_of("Camera \"perspective\" Film \"image\" \"float "
+                               "maxsampleluminance\" 3\nWorldBegin\nWorldEnd\n"))
+          .sensors.at(0)
+          .film;
   CHECK(film.sample_limit->sensor[1][1] ==
         doctest::Approx(path.sample_limit->sensor[1][1] * 3.14159265358979));
   // Another integrator has its own unit.
@@ -220,7 +217,7 @@ TEST_CASE("pbrt-v4: textures of the other kind, and words that there are not") {
         silent(v3(colours + "\nMaterial \"matte\" \"texture Kd\" \"t\"\nShape \"sphere\"")));
     CHECK(written.losses.empty());
     CHECK(written.text.find("\"float\" \"" + name + "\"") != std::string::npos);
-    CHECK(silent(read_text(written.text)).shapes.size() == 1);
+    CHECK(silent(read_pbrt_file_of(written.text)).shapes.size() == 1);
   }
   check_refused(v4("Texture \"t\" \"float\" \"marble\""),
                 "Texture \"marble\" makes colours, not numbers, in pbrt-v4");

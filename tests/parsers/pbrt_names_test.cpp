@@ -12,16 +12,11 @@ using namespace duet::test;
 
 namespace {
 
-PbrtFile read_text(const std::string& text) {
-  const TemporaryDirectory folder;
-  return read_pbrt_file(folder.write("scene.pbrt", text));
-}
-
 SceneDescription v4_scene(const std::string& world) {
-  return scene_of(read_text("Film \"rgb\"\nWorldBegin\n" + world));
+  return scene_of(read_pbrt_file_of("Film \"rgb\"\nWorldBegin\n" + world));
 }
 PbrtFile v3_scene(const std::string& world) {
-  return read_text("Film \"image\"\nWorldBegin\n" + world + "\nWorldEnd\n");
+  return read_pbrt_file_of("Film \"image\"\nWorldBegin\n" + world + "\nWorldEnd\n");
 }
 
 const MaterialModel& model_of(const SceneDescription& d, size_t shape) {
@@ -58,7 +53,7 @@ TEST_CASE("pbrt-v4: textures are used before they are defined, constants and oth
   const TextureId other = clamped_from(board, reflectance_of(board, 0));
   CHECK(std::holds_alternative<CheckerboardTexture>(board.textures.at(size_t(other)).model));
   // Textures that are made of others come after them, and names belong to one kind.
-  const PbrtFile nested = read_text(
+  const PbrtFile nested = read_pbrt_file_of(
       "Film \"rgb\"\nWorldBegin\nTexture \"a\" \"float\" \"scale\" \"texture tex\" \"a\"\n");
   CHECK_MESSAGE(nested.messages.find("error: texture \"a\" is defined only after this one") !=
                     std::string::npos,
@@ -77,10 +72,10 @@ TEST_CASE("pbrt-v4: textures are used before they are defined, constants and oth
   const TextureId half = clamped_from(image, reflectance_of(image, 0));
   const auto& product = std::get<ScaledTextureDescription>(image.textures.at(size_t(half)).model);
   CHECK(std::holds_alternative<BitmapTexture>(image.textures.at(size_t(product.inner)).model));
-  const PbrtFile never = read_text("Film \"rgb\"\nWorldBegin\n" + scaled);
+  const PbrtFile never = read_pbrt_file_of("Film \"rgb\"\nWorldBegin\n" + scaled);
   CHECK(never.messages.find("there is no texture \"later\" of colours") != std::string::npos);
-  const PbrtFile kind =
-      read_text("Film \"rgb\"\nWorldBegin\n" + shapes + "Texture \"t\" \"float\" \"constant\"\n");
+  const PbrtFile kind = read_pbrt_file_of("Film \"rgb\"\nWorldBegin\n" + shapes +
+                                          "Texture \"t\" \"float\" \"constant\"\n");
   CHECK(kind.messages.find("there is no texture \"t\" of colours") != std::string::npos);
   const PbrtFile v3 =
       v3_scene("Material \"matte\" \"texture Kd\" \"t\"\nTexture \"t\" \"color\" \"constant\"");
@@ -146,7 +141,7 @@ TEST_CASE("pbrt-v3 goes on without textures and materials that there are not") {
 }
 
 TEST_CASE("pbrt-v3: directives at the wrong place and those of version 2 are left out") {
-  const PbrtFile r = read_text(
+  const PbrtFile r = read_pbrt_file_of(
       "Renderer \"sampler\"\nVolumeIntegrator \"single\"\nMaterial \"matte\" \"rgb Kd\" [0 0 0]\n"
       "WorldBegin\nFilm \"image\" \"integer xresolution\" 7\nShape \"sphere\"\nWorldEnd\n");
   REQUIRE_MESSAGE(r.scene.has_value(), r.messages);

@@ -7,6 +7,7 @@
 #include <string>
 
 #include "pbrt/pbrt.h"
+#include "support/files.h"
 
 namespace duet::test {
 
@@ -23,6 +24,12 @@ inline PbrtFile read_pbrt_file(const std::string& file, const pbrt::Options& opt
   for (const Diagnostic& d : diagnostics.all()) result.messages += d.to_string() + "\n";
   if (read) result.scene = std::move(read->description);
   return result;
+}
+
+/// A file of that text, which finds no others.
+inline PbrtFile read_pbrt_file_of(const std::string& text) {
+  const TemporaryDirectory folder;
+  return read_pbrt_file(folder.write("scene.pbrt", text));
 }
 
 /// The scene; the test fails with the messages if there is none.
