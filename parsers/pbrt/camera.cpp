@@ -86,9 +86,7 @@ void read_perspective(Values& v, SensorDescription& sensor) {
     sensor.kind = SensorKind::thinlens;
     sensor.aperture_radius = radius;
     sensor.focus_distance = v.positive("focaldistance");
-    if (stretch != 1)
-      report.error(v.where("lensradius"),
-                   "a lens with pixels that are not square is not supported");
+    sensor.aperture_aspect = 1 / stretch;
   }
   no_clipping(sensor);
   place_camera(sensor, v.reader(), Matrix4::scale(-1, stretch, 1));

@@ -53,7 +53,10 @@ void SceneWriter::camera(const SensorDescription& s) {
     for (size_t i = 0; i < 2; ++i) {
       window[i] += s.principal_point_offset_x * 2 * std::max(aspect, 1.0);
       window[i + 2] -= s.principal_point_offset_y * 2 / std::min(aspect, 1.0);
+      // The window is stretched in place of the pose, which would stretch the lens as well.
+      window[i + 2] /= s.aperture_aspect;
     }
+    to_description = to_description * Matrix4::scale(1, s.aperture_aspect, 1);
   } else if (s.kind == SensorKind::orthographic || s.kind == SensorKind::telecentric) {
     kind = "orthographic";
     window = {-1, 1, -1 / aspect, 1 / aspect};

@@ -60,12 +60,11 @@ std::optional<CameraSample> PerspectiveCamera::sample_lens(const Point3f& from,
   return seen_from(eye_, Vector3f(0), from);
 }
 
-ThinLensCamera::ThinLensCamera(const PerspectiveView& view, double aperture_radius,
-                               double focus_distance)
+ThinLensCamera::ThinLensCamera(const PerspectiveView& view, const ThinLens& lens)
     : PerspectiveCamera(view),
-      lens_x_(view.to_world(Vector3f(float(aperture_radius), 0, 0))),
-      lens_y_(view.to_world(Vector3f(0, float(aperture_radius), 0))),
-      inv_focus_distance_(float(1 / focus_distance)) {}
+      lens_x_(view.to_world(Vector3f(float(lens.radius), 0, 0))),
+      lens_y_(view.to_world(Vector3f(0, float(lens.radius * lens.aspect), 0))),
+      inv_focus_distance_(float(1 / lens.focus_distance)) {}
 
 inline Vector3f ThinLensCamera::lens_point(const Point2f& lens) const {
   const Point2f disk = square_to_disk(lens);

@@ -42,10 +42,17 @@ class PerspectiveCamera : public Camera {
   FilmAxes axes_;
 };
 
-/// Rays leave a disk-shaped aperture and meet in the plane of focus.
+/// A lens, in the camera's space.
+struct ThinLens {
+  double radius;  ///< of the aperture, across the image
+  double focus_distance;
+  double aspect = 1;  ///< of the aperture: height over width
+};
+
+/// Rays leave an aperture, an ellipse, and meet in the plane of focus.
 class ThinLensCamera final : public PerspectiveCamera {
  public:
-  ThinLensCamera(const PerspectiveView& view, double aperture_radius, double focus_distance);
+  ThinLensCamera(const PerspectiveView& view, const ThinLens& lens);
   CameraRay sample_ray(const Point2f& film, const Point2f& lens) const override;
   std::optional<CameraSample> sample_lens(const Point3f& from, const Point2f& lens) const override;
   bool has_lens() const override { return true; }

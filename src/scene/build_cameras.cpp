@@ -28,7 +28,8 @@ std::unique_ptr<Camera> SceneBuilder::camera(SensorDescription& d, const Point2i
     case SensorKind::perspective:
       return std::make_unique<PerspectiveCamera>(perspective());
     case SensorKind::thinlens:
-      return std::make_unique<ThinLensCamera>(perspective(), d.aperture_radius, d.focus_distance);
+      return std::make_unique<ThinLensCamera>(
+          perspective(), ThinLens{d.aperture_radius, d.focus_distance, d.aperture_aspect});
     case SensorKind::orthographic:
       return std::make_unique<OrthographicCamera>(orthographic());
     case SensorKind::telecentric:

@@ -86,10 +86,7 @@ std::unique_ptr<Texture> VolumeTextureDescription::build(SceneBuilder& b,
 std::shared_ptr<const BitmapPixels> SceneBuilder::pixels(const std::string& file,
                                                          const BitmapDecoding& decoding,
                                                          const SourceLocation& where) {
-  constexpr double kFromFile = 0;  // no gamma value
-  const auto [entry, is_new] =
-      pixels_.try_emplace({file, decoding.raw, decoding.gamma.value_or(kFromFile), decoding.channel,
-                           decoding.colors, decoding.clamped});
+  const auto [entry, is_new] = pixels_.try_emplace({file, decoding});
   if (is_new) {
     try {
       entry->second =

@@ -5,7 +5,6 @@
 #include <map>
 #include <set>
 #include <string>
-#include <tuple>
 
 #include "cameras/lens_stop.h"
 #include "materials/materials.h"
@@ -169,9 +168,7 @@ class SceneBuilder {
   /// Of what is being made.
   ShapeTextureSet shape_textures_;
   /// Images by file and by how they are decoded; null after an error.
-  std::map<std::tuple<std::string, bool, double, TextureChannel, std::optional<ColorMatrix>, bool>,
-           std::shared_ptr<const BitmapPixels>>
-      pixels_;
+  std::map<std::pair<std::string, BitmapDecoding>, std::shared_ptr<const BitmapPixels>> pixels_;
   std::vector<Emission> emissions_;
   std::vector<DescribedLight> described_lights_;
   /// Per light of the scene.

@@ -190,7 +190,8 @@ struct SensorDescription {
   double principal_point_offset_x = 0, principal_point_offset_y = 0;  ///< in image sizes
   double near_clip = 1e-2, far_clip = 1e4;
   double aperture_radius = 0, focus_distance = 0;  ///< thinlens, telecentric
-  std::array<double, 2> distortion{};              ///< perspective_rdist: of r³ and r⁵
+  double aperture_aspect = 1;          ///< thinlens: height over width, in the camera's space
+  std::array<double, 2> distortion{};  ///< perspective_rdist: of r³ and r⁵
   SphereMapping sphere_mapping = SphereMapping::latitude_longitude;  ///< spherical
   LensDescription lenses;                                            ///< realistic
   uint32_t shape = 0;  ///< irradiancemeter: index in `shapes`
@@ -221,6 +222,7 @@ struct SensorDescription {
         field(&S::aperture_radius, Parameter{"aperture_radius", number, kInitial, "", not_negative})
             .when(lens)
             .shown(", aperture radius "),
+        field(&S::aperture_aspect).when(lens).shown_if_changed(", aperture aspect "),
         field(&S::focus_distance,
               Parameter{"focus_distance", number, "(far_clip)", "along the axis", positive})
             .when(lens)
@@ -280,6 +282,8 @@ struct SensorDescription {
       lost.push_back("the sensor \"" + std::string(name()) + "\" does not exist in Mitsuba 3");
     if (sphere_mapping == SphereMapping::equal_area)
       lost.emplace_back("the image of a spherical camera is one by latitude and longitude");
+    if (aperture_aspect != 1)
+      lost.emplace_back("the lens of the camera is stretched with its pixels");
     return lost;
   }
 };

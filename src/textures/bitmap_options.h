@@ -26,7 +26,7 @@ struct BitmapDecoding {
   std::optional<ColorMatrix> colors = std::nullopt;
   /// At last, values above one become one and negative ones zero.
   bool clamped = false;
-  bool operator==(const BitmapDecoding&) const = default;
+  auto operator<=>(const BitmapDecoding&) const = default;
 };
 
 }  // namespace duet

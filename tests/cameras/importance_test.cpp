@@ -43,8 +43,11 @@ std::vector<View> views() {
     const PerspectiveView shifted{t, kFilm, 70, 0.2, -0.3, kNear, kFar};
     add("pinhole", std::make_unique<PerspectiveCamera>(centered));
     add("pinhole with a shifted centre", std::make_unique<PerspectiveCamera>(shifted));
-    add("thin lens", std::make_unique<ThinLensCamera>(centered, 0.3, 4));
-    add("thin lens with a shifted centre", std::make_unique<ThinLensCamera>(shifted, 0.2, 6));
+    add("thin lens", std::make_unique<ThinLensCamera>(centered, ThinLens{0.3, 4}));
+    add("thin lens with a shifted centre",
+        std::make_unique<ThinLensCamera>(shifted, ThinLens{0.2, 6}));
+    add("thin lens with an elliptic aperture",
+        std::make_unique<ThinLensCamera>(centered, ThinLens{0.3, 4, 0.5}));
     if (std::string(how) == "placed" || std::string(how) == "mirrored") {
       add("barrel distortion", std::make_unique<DistortedCamera>(centered, 0.1, 0.05));
       add("pincushion distortion", std::make_unique<DistortedCamera>(centered, -0.1, 0.02));

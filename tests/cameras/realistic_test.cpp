@@ -115,7 +115,7 @@ TEST_CASE("realistic camera: lenses show what a thin lens shows, in focus where 
       const PerspectiveView view{Transform(Matrix4::translate(0, 0, image)),
                                  {40, 30},
                                  2 * std::atan(0.002 / image) * 180 / kPiD};
-      const ThinLensCamera model(view, 0.002, object);
+      const ThinLensCamera model(view, ThinLens{0.002, object});
       const auto p = at_depth(model.sample_ray(film, sampler.next_2d()), 2);
       for (size_t c = 0; c < 2; ++c) CHECK(std::abs(0.5 * (low[c] + high[c]) - p[c]) < 2e-4);
     }

@@ -146,6 +146,19 @@ TEST_CASE("pbrt-v4: the window of a camera is sorted") {
                 "the screen window is empty");
 }
 
+TEST_CASE("pbrt-v4: a lens is round whatever the shape of the pixels") {
+  for (const auto& [aspect, height] : {std::pair{"1", 1.0}, {"2", 0.5}, {"0.5", 2.0}}) {
+    const SceneDescription d =
+        silent(v4("", std::string("Film \"rgb\" \"integer xresolution\" 40 \"integer "
+                                  "yresolution\" 40\nCamera \"perspective\" \"float lensradius\" "
+                                  "0.1 \"float frameaspectratio\" ") +
+                          aspect + "\n"));
+    const SensorDescription& camera = d.sensors.at(0);
+    CHECK(std::abs(camera.to_world[1][1]) == doctest::Approx(height));
+    CHECK(camera.aperture_aspect == doctest::Approx(1 / height));
+  }
+}
+
 TEST_CASE("pbrt-v4: options have no type, any case and dashes, and stand anywhere") {
   const auto scale = [](const std::string& option) {
     const SceneDescription d = silent(v4("Shape \"sphere\"", option + "\n"));

@@ -32,6 +32,7 @@ TEST_CASE("pbrt writer: cameras survive") {
   for (const std::string camera :
        {"\"perspective\" \"float fov\" 50", "\"perspective\" \"float screenwindow\" [-1 2 -0.5 1]",
         "\"perspective\" \"float lensradius\" 0.5 \"float focaldistance\" 7",
+        "\"perspective\" \"float lensradius\" 0.5 \"float frameaspectratio\" 2",
         "\"orthographic\" \"float screenwindow\" [-2 4 -1.5 3]",
         "\"orthographic\" \"float lensradius\" 0.5 \"float focaldistance\" 7", "\"spherical\"",
         "\"spherical\" \"string mapping\" \"equirectangular\"",
@@ -47,6 +48,7 @@ TEST_CASE("pbrt writer: cameras survive") {
       CHECK(a.principal_point_offset_x == doctest::Approx(b.principal_point_offset_x));
       CHECK(a.principal_point_offset_y == doctest::Approx(b.principal_point_offset_y));
       CHECK(a.aperture_radius == doctest::Approx(b.aperture_radius));
+      CHECK(a.aperture_aspect == doctest::Approx(b.aperture_aspect).epsilon(1e-12));
       CHECK(a.focus_distance == doctest::Approx(b.focus_distance));
       CHECK(a.sphere_mapping == b.sphere_mapping);
       CHECK(a.shutter == b.shutter);

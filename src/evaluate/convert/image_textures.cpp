@@ -1,5 +1,5 @@
 // How formats make numbers and colours of the pixels of an image.
-#include <tuple>
+#include <map>
 
 #include "evaluate/convert/new_files.h"
 #include "image/image_io.h"
@@ -35,11 +35,11 @@ std::optional<ImageFile> try_read(const std::string& path) {
 }  // namespace
 
 void settle_image_colors(SceneDescription& scene, NewFiles& files) {
-  std::map<std::tuple<std::string, std::optional<double>, ColorMatrix, bool>, std::string> names;
+  std::map<std::pair<std::string, BitmapDecoding>, std::string> names;
   for (TextureDescription& t : scene.textures) {
     auto* b = std::get_if<BitmapTexture>(&t.model);
     if (!b || !b->colors) continue;
-    std::string& name = names[{b->file, b->gamma, *b->colors, b->clamped}];
+    std::string& name = names[{b->file, b->decoding()}];
     if (name.empty()) {
       const TextureTexels texels = read_texels(*b);
       Image image(texels.width, texels.height, {"R", "G", "B"});
