@@ -35,7 +35,8 @@ inline std::unique_ptr<Camera> to_camera(const Json& c) {
   view.near_clip = p["near_clip"];
   view.far_clip = p["far_clip"];
   if (c["kind"] == "thinlens")
-    return std::make_unique<ThinLensCamera>(view, p["aperture_radius"], p["focus_distance"]);
+    return std::make_unique<ThinLensCamera>(view,
+                                            ThinLens{p["aperture_radius"], p["focus_distance"]});
   return std::make_unique<PerspectiveCamera>(view);
 }
 
