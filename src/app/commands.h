@@ -1,6 +1,8 @@
 // The subcommands of the program, one file each.
 #pragma once
 
+#include <string_view>
+
 #include "base/failures.h"
 
 // CLI11 is large: only files that add options include it.
@@ -18,6 +20,18 @@ enum ExitCode : int {
   kThresholdMissed = 3,
   kTargetMissed = 4,
 };
+
+struct ExitStatus {
+  std::string_view codes, meaning;
+};
+/// For `duet --help` and the manual page.
+inline constexpr ExitStatus kExitStatus[] = {
+    {"0", "all was done, and no threshold missed"},
+    {"1", "a scene, a job or a file failed"},
+    {"2", "wrong usage: nothing was rendered"},
+    {"3", "a threshold was missed: --require, --require-complete, a row of stability"},
+    {"4", "--require-target, and the error was not reached"},
+    {"129, 130, 143", "interrupted by SIGHUP, SIGINT (Ctrl-C) or SIGTERM"}};
 
 struct Program;
 

@@ -48,10 +48,11 @@ ShellCommand shell_command(const CLI::App& app) {
 
 CommandTable command_table(const CLI::App& app) {
   CommandTable table{
-      app.get_name(), DUET_VERSION, "renders Mitsuba and pbrt scenes", {}, "render", {}};
+      app.get_name(), DUET_VERSION, "renders Mitsuba and pbrt scenes", {}, "render", {}, {}};
   for (const CLI::App* c : app.get_subcommands([](const CLI::App*) { return true; }))
     table.commands.push_back(shell_command(*c));
   for (const auto& [name, what] : kEnvironment) table.environment.emplace_back(name, what);
+  for (const auto& [codes, meaning] : kExitStatus) table.exit_status.emplace_back(codes, meaning);
   return table;
 }
 

@@ -6,6 +6,8 @@
 #include "base/memory_limit.h"
 #include "base/parallel.h"
 #include "evaluate/report/read_scene.h"
+#include "image/codecs.h"
+#include "image/denoiser_library.h"
 
 namespace duet {
 
@@ -15,6 +17,8 @@ struct EnvironmentVariable {
 inline constexpr EnvironmentVariable kEnvironment[] = {
     {kThreadsVariable, "number of threads where no option says it"},
     {kPathVariable, "further folders to look for files of scenes, between colons"},
-    {kMemoryLimitVariable, "bytes of memory that a render may take"}};
+    {kMemoryLimitVariable, "bytes of memory that a render may take"},
+    {kImageModuleVariable, "duet_oiio.so, for image files but .exr and plain .png"},
+    {kDenoiserVariable, "libOpenImageDenoise.so, for --denoise"}};
 
 }  // namespace duet

@@ -84,6 +84,9 @@ std::string footer() {
       "duet help COMMAND, or duet COMMAND --help, has its options and examples.\n\n"
       "Environment:";
   for (const auto& [name, what] : kEnvironment) text += fmt::format("\n  {:<19} {}", name, what);
+  text += "\n\nExit codes:";
+  for (const auto& [codes, meaning] : kExitStatus)
+    text += fmt::format("\n  {:<19} {}", codes, meaning);
   return text;
 }
 

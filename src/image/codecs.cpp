@@ -17,11 +17,10 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr const char* kModule = "duet_oiio.so";
-constexpr const char* kVariable = "DUET_IMAGE_MODULE";
 
 /// Where the module may be: where the user says, or in one of the directories for modules.
 std::vector<fs::path> candidates() {
-  if (const char* chosen = std::getenv(kVariable)) return {chosen};
+  if (const char* chosen = std::getenv(kImageModuleVariable)) return {chosen};
   std::vector<fs::path> paths = module_directories();
   for (fs::path& path : paths) path /= kModule;
   return paths;
@@ -54,7 +53,7 @@ const DuetCodecs* load() {
   }
   throw std::runtime_error(fmt::format(
       "this image format needs the library {}, which was not found (set {} to its path); tried{}",
-      kModule, kVariable, tried));
+      kModule, kImageModuleVariable, tried));
 }
 
 const DuetCodecs& codecs() {

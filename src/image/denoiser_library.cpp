@@ -19,7 +19,6 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr const char* kDenoiserVariable = "DUET_OIDN_LIBRARY";
 constexpr const char* kLibraryNames[] = {"libOpenImageDenoise.so.2", "libOpenImageDenoise.so"};
 
 /// Whether a library ends before the table that its header says is at its end: the loader would

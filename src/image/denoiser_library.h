@@ -28,6 +28,9 @@ struct OidnFunctions {
   void (*release_filter)(OidnFilterHandle*);
 };
 
+/// The environment variable that says where the library is.
+inline constexpr const char* kDenoiserVariable = "DUET_OIDN_LIBRARY";
+
 /// Loads the library: the file that DUET_OIDN_LIBRARY names, else one in the directories for
 /// modules (module_paths.h), else what the system's loader finds. Throws std::runtime_error with
 /// what was tried if there is none, if it cannot be loaded, and if it is something else. It stays

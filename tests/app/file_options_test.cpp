@@ -82,6 +82,42 @@ TEST_SUITE("program") {
     CHECK(place.run({"tiny.xml", "--png-depth", "12"}).code == 2);
   }
 
+  TEST_CASE("a form of files that are not written is a warning") {
+    const Workplace place;
+    place.scene("tiny.xml");
+    struct Form {
+      Texts options;
+      Texts without, with;  ///< files that have no such form, and files that have it
+    };
+    const Form forms[] = {{{"--png-depth", "16"}, {"a.jpg", "a.exr"}, {"a.png"}},
+                          {{"--tonemap", "agx"}, {"a.exr"}, {"a.jpg", "a.png"}},
+                          {{"--exposure", "1"}, {"a.exr"}, {"a.jpg", "a.png"}},
+                          {{"--exposure", "auto"}, {"a.exr"}, {"a.jpg", "a.png"}},
+                          {{"--aov-names", "nuke"}, {"a.jpg", "a.png"}, {"a.exr"}},
+                          {{"--exr-parts"}, {"a.jpg", "a.png"}, {"a.exr"}}};
+    const auto run = [&](const Form& form, const std::string& file, Texts more = {}) {
+      Texts arguments{"tiny.xml", "--spp", "1", "-q", "-o", file};
+      arguments.insert(arguments.end(), form.options.begin(), form.options.end());
+      arguments.insert(arguments.end(), more.begin(), more.end());
+      return place.run(arguments);
+    };
+    for (const Form& form : forms) {
+      CAPTURE(form.options[0]);
+      const std::string text = form.options[0] + ": there is no ";
+      for (const std::string& file : form.without) {
+        CHECK(contains(run(form, file).err, text));
+        CHECK(run(form, file, {"--strict"}).code == 1);
+        for (const std::string& other : form.with)
+          CHECK(run(form, file, {"-o", other}).err.empty());
+      }
+      for (const std::string& file : form.with) CHECK(run(form, file).err.empty());
+    }
+    REQUIRE(place.run({"tiny.xml", "--spp", "1", "--raw", "raw.exr", "-q"}).code == 0);
+    const Outcome merged = place.run({"merge", "raw.exr", "-o", "a.exr", "-q", "--tonemap", "agx"});
+    CHECK(merged.code == 0);
+    CHECK(contains(merged.err, "--tonemap: there is no .png or .jpg to be written"));
+  }
+
   TEST_CASE("alpha of 16 bits is not multiplied into colours") {
     const Workplace place;
     place.write("lamp.xml", R"(<scene version="3.0.0">

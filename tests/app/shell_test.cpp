@@ -80,6 +80,20 @@ TEST_SUITE("program") {
     CHECK(offered(place, "duet render -o a", 4) == "\n");
   }
 
+  TEST_CASE("help and the manual page have the exit codes and the environment") {
+    const Workplace place;
+    const std::string help = place.run({"--help"}).out;
+    const std::string page = place.run({"completion", "man"}).out;
+    CHECK(contains(help, "Exit codes:\n  0   "));
+    CHECK(contains(page, ".SH EXIT STATUS\n.TP\n\\fB0\\fR\n"));
+    for (const char* name : {"DUET_THREADS", "DUET_PATH", "DUET_MEMORY_LIMIT", "DUET_IMAGE_MODULE",
+                             "DUET_OIDN_LIBRARY", "129, 130, 143"}) {
+      CAPTURE(name);
+      CHECK(contains(help, std::string("\n  ") + name + " "));
+      CHECK(contains(page, std::string(".TP\n\\fB") + name + "\\fR\n"));
+    }
+  }
+
   TEST_CASE("every line of the manual page is text or a macro that man knows") {
     const std::string page = Workplace().run({"completion", "man"}).out;
     const std::set<std::string> macros{"TH", "SH", "SS", "TP", "PP", "B", "br", "nf", "fi"};

@@ -41,6 +41,8 @@ bool merge_to_files(MergeRequest r, Messages& messages) {
   const MergedFilms merged = merge_raw_films(r.films);
   if (merged.result.spp == 0) throw std::runtime_error("the films have no samples");
   check_formats(r.outputs, merged.image.contents.channels, r.files);
+  for (const std::string& text : settings_without_effect(r.outputs, r.files))
+    messages.warning("{}", text);
   RenderRecord record = record_of(merged);
   record.command_line = r.command_line;
   record.threads = r.threads;

@@ -70,6 +70,25 @@ void check_formats(const std::vector<std::string>& paths, const std::vector<std:
   }
 }
 
+std::vector<std::string> settings_without_effect(const std::vector<std::string>& paths,
+                                                 const FileSettings& settings) {
+  std::vector<std::string> all;
+  const auto check = [&](bool is_asked_for, const char* option, const char* formats,
+                         const auto& shows) {
+    if (is_asked_for && std::none_of(paths.begin(), paths.end(), shows))
+      all.push_back(fmt::format("{}: there is no {} to be written", option, formats));
+  };
+  const auto is_png = [](const std::string& path) { return image_format(path) == "png"; };
+  const auto is_exr = [](const std::string& path) { return image_format(path) == "exr"; };
+  const DisplaySettings& d = settings.display;
+  check(d.exposure != 0 || d.automatic, "--exposure", ".png or .jpg", is_display_format);
+  check(d.curve.has_value(), "--tonemap", ".png or .jpg", is_display_format);
+  check(d.png_depth != 8, "--png-depth", ".png", is_png);
+  check(settings.aov_names != AovNames::duet, "--aov-names", ".exr", is_exr);
+  check(settings.exr_parts, "--exr-parts", ".exr", is_exr);
+  return all;
+}
+
 std::string output_path(const std::string& pattern, const OutputNames& names,
                         const std::string& extension) {
   if (pattern == "-") return kStandardOutput + extension;

@@ -33,6 +33,10 @@ std::string output_path(const std::string& pattern, const OutputNames& names,
 void check_formats(const std::vector<std::string>& paths, const std::vector<std::string>& channels,
                    const FileSettings& settings);
 
+/// What users ask for of files that are not written: sentences with the option before a colon.
+std::vector<std::string> settings_without_effect(const std::vector<std::string>& paths,
+                                                 const FileSettings& settings);
+
 /// Makes a directory and those above it. Whether it is there now; the current one has an empty
 /// name.
 bool make_directories(const std::filesystem::path& directory, std::error_code& error);

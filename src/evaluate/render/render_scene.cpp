@@ -151,6 +151,7 @@ class SceneRenderer {
     for (const std::string& path : planned)
       if (const std::string why = prepare_file(path); !why.empty()) throw SceneFailure(why);
     check_formats(planned, written_channels(), options_.files);
+    for (const std::string& text : settings_without_effect(planned, options_.files)) warn(text);
   }
 
   std::vector<std::string> written_channels() const {

@@ -35,6 +35,8 @@ struct CommandTable {
   std::string implied;
   /// Environment variables and what they are for.
   std::vector<std::pair<std::string, std::string>> environment;
+  /// Exit codes and what they mean.
+  std::vector<std::pair<std::string, std::string>> exit_status;
 };
 
 /// Completion scripts. bash's needs no package but bash itself.

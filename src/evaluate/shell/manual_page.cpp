@@ -52,6 +52,14 @@ std::string command_section(const CommandTable& table, const ShellCommand& c) {
   return text;
 }
 
+std::string list_section(const char* title,
+                         const std::vector<std::pair<std::string, std::string>>& list) {
+  std::string text = fmt::format(".SH {}\n", title);
+  for (const auto& [name, what] : list)
+    text += fmt::format(".TP\n\\fB{}\\fR\n{}\n", name, roff(what));
+  return text;
+}
+
 }  // namespace
 
 std::string manual_page(const CommandTable& t) {
@@ -63,10 +71,8 @@ std::string manual_page(const CommandTable& t) {
                         roff(c.operands));
   text += ".SH COMMANDS\n";
   for (const ShellCommand& c : t.commands) text += command_section(t, c);
-  text += ".SH ENVIRONMENT\n";
-  for (const auto& [name, what] : t.environment)
-    text += fmt::format(".TP\n\\fB{}\\fR\n{}\n", name, roff(what));
-  return text;
+  return text + list_section("ENVIRONMENT", t.environment) +
+         list_section("EXIT STATUS", t.exit_status);
 }
 
 }  // namespace duet
