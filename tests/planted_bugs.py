@@ -58,7 +58,7 @@ MUTATIONS = [
     ("merges dropped from the sum of the eye", "src/transport/mis.h",
      "eye.vcm * connection_term + eye_reverse * eye.vm", "eye.vcm * connection_term", SUMS),
     ("pairs of a batch weighed without the techniques beyond the light vertex",
-     "src/integrators/wide_eye_kernels.cpp", "l.vcm, l.reverse, light_sum)", "0.0f, l.reverse, light_sum)",
+     "src/integrators/wide_eye_kernels.cpp", "l.vcm, g.reverse, light_sum)", "0.0f, g.reverse, light_sum)",
      "eye sub-paths of a batch are*"),
     ("roulette of a batch's connections is not made up for", "src/integrators/wide_eye_kernels.cpp",
      "out.contribution.set(i, r * kept, g * kept, b * kept);", "out.contribution.set(i, r, g, b);",

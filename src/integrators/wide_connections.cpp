@@ -33,12 +33,10 @@ void WideEye::find_pairs(int i, int count, int depth, WideSamples& samples,
   const DiffuseVertex* const vertices = plan_.lights->diffuse().data() + light.first;
   const Point3f position = points_.position.point(i);
   const Vector3f lit = ends_.lit.vector(i);
-  const WideShape& shape = wide_.shapes[hits_.shape[i]];
-  const size_t number = shape.model == WideModel::glossy ? 1 + size_t(shape.glossy) : 0;
-  PairList& list = pairs_[number];
+  const auto own = size_t(wide_.shapes[hits_.shape[i]].pair_list());
   for (int k = 0; k < count; ++k) {
     const DiffuseVertex& l = vertices[k];
-    if (l.other) {
+    if (l.material == DiffuseVertex::kOther) {
       const Vector3f d = l.position - position;
       if (l.faces && !(dot(lit, d) > 0 && dot(l.lit, d) < 0))
         ++counters.connections.failed_zero;
@@ -46,6 +44,8 @@ void WideEye::find_pairs(int i, int count, int depth, WideSamples& samples,
         connect_one_by_one(i, k, depth, samples, counters);
       continue;
     }
+    const size_t number = l.material == DiffuseVertex::kDiffuse ? own : pairs_.size() - 1;
+    PairList& list = pairs_[number];
     if (list.count == kBatch) flush_pairs(number, depth, samples, counters);
     // Without branches: half of the vertices do not face each other, and which cannot be predicted.
     const Vector3f d = l.position - position;
@@ -61,6 +61,7 @@ void WideEye::weigh(size_t number, int depth) {
   const auto& [pairs, count] = pairs_[number];
   const DiffuseVertex* const light = plan_.lights->diffuse().data() + first_light_;
   if (number == 0) return weigh_pairs(count, pairs, connections(depth), light, shadows_);
+  if (number + 1 == pairs_.size()) return weigh_glossy_lights(count, pairs, depth);
   const WideVertices vertices{paths_, points_, numbers_};
   WideGlossy& g = glossy_;
   std::copy_n(pairs.eye.begin(), count, g.at.begin());
@@ -73,14 +74,41 @@ void WideEye::weigh(size_t number, int depth) {
   weigh_glossy_pairs(count, pairs, connections(depth), light, g, shadows_);
 }
 
+void WideEye::weigh_glossy_lights(int count, const WidePairs& pairs, int depth) {
+  const DiffuseVertex* const light = plan_.lights->diffuse().data() + first_light_;
+  const LightVertex* const packed = plan_.lights->vertices().vertices.data() + first_light_;
+  GlossyLightEnds& l = glossy_lights_;
+  find_directions(count, pairs, points_, light, eye_bsdfs_.towards);
+  for (int k = 0; k < count; ++k) {
+    const DiffuseVertex& v = light[pairs.light[k]];
+    const LightVertex& p = packed[pairs.light[k]];
+    eye_bsdfs_.material[k] = wide_.shapes[hits_.shape[pairs.eye[k]]].pair_list();
+    eye_bsdfs_.at[k] = pairs.eye[k];
+    l.bsdfs.material[k] = v.material;
+    l.bsdfs.at[k] = k;
+    l.bsdfs.towards.set(k, -eye_bsdfs_.towards.vector(k));
+    l.paths.ray.direction.set(k, -p.direction_to_previous());
+    l.points.ns.set(k, v.lit);
+    l.points.reflectance.set(k, v.flux.r, v.flux.g, v.flux.b);
+    l.throughput.set(k, p.throughput.r, p.throughput.g, p.throughput.b);
+  }
+  evaluate_ends_.evaluate(count, {paths_, points_, numbers_}, eye_bsdfs_);
+  evaluate_ends_.evaluate(count, {l.paths, l.points, numbers_}, l.bsdfs);
+  weigh_glossy_ends(count, pairs, connections(depth), light, {eye_bsdfs_, l.bsdfs, l.throughput},
+                    shadows_);
+}
+
 void WideEye::flush_pairs(size_t number, int depth, WideSamples& samples,
                           RenderCounters& counters) {
   int& count = pairs_[number].count;
   if (count == 0) return;
   weigh(number, depth);
+  const auto zero = std::count(shadows_.blocked.begin(), shadows_.blocked.begin() + count,
+                               WideShadowRays::kNothing);
   const Tested tested = test_shadows(count, shadows_, samples);
   counters.shadow_rays += uint64_t(tested.rays);
-  counters.connections.skipped += uint64_t(count - tested.rays);
+  counters.connections.failed_zero += uint64_t(zero);
+  counters.connections.skipped += uint64_t(count - zero - tested.rays);
   counters.connections.failed_occluded += uint64_t(tested.rays - tested.lit);
   counters.connections.contributed += uint64_t(tested.lit);
   count = 0;

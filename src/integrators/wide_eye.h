@@ -2,6 +2,7 @@
 #pragma once
 
 #include "integrators/wide_eye_kernels.h"
+#include "integrators/wide_glossy_ends.h"
 #include "integrators/wide_merge_kernels.h"
 #include "integrators/wide_subpath_stages.h"
 #include "integrators/wide_walk.h"
@@ -30,9 +31,8 @@ struct WideEyePlan {
 
 /// Traces eye sub-paths of bidirectional path tracing without media, in the same way as
 /// BidirectionalIntegrator traces one: the same random numbers give the same sub-paths and, to
-/// rounding, the same contributions. Connections of diffuse and glossy points with diffuse light
-/// vertices are weighed in loops over pairs, others one by one; their shadow rays are tested
-/// together.
+/// rounding, the same contributions. Connections of diffuse and glossy vertices are weighed in
+/// loops over pairs, others one by one; their shadow rays are tested together.
 class WideEye final : public WideWalk, private WideSubpathStages {
  public:
   /// What is referred to must outlive this; the plan may change between batches.
@@ -40,7 +40,8 @@ class WideEye final : public WideWalk, private WideSubpathStages {
       : WideSubpathStages(scene, limits),
         plan_(plan),
         starts_(scene.scene),
-        pairs_(1 + scene.glossy.size()) {}
+        pairs_(2 + scene.glossy.size()),
+        evaluate_ends_(scene.glossy) {}
 
   WidePaths& paths() override { return paths_; }
   void enter(std::span<const uint64_t> pixels) override;
@@ -72,7 +73,9 @@ class WideEye final : public WideWalk, private WideSubpathStages {
   void find_pairs(int i, int count, int depth, WideSamples& samples, RenderCounters& counters);
   /// Makes shadow rays of the pairs in a list.
   void weigh(size_t list, int depth);
-  /// One vertex with one of its light sub-path; at least one of them is not diffuse.
+  /// The same of pairs whose light vertices are glossy.
+  void weigh_glossy_lights(int count, const WidePairs& pairs, int depth);
+  /// One vertex with one of its light sub-path; at least one of them is special.
   void connect_one_by_one(int i, int number, int depth, WideSamples& samples,
                           RenderCounters& counters);
   void flush_pairs(size_t list, int depth, WideSamples& samples, RenderCounters& counters);
@@ -139,13 +142,24 @@ class WideEye final : public WideWalk, private WideSubpathStages {
   };
   std::array<Leader, 4 * kBatch> leaders_;  ///< a hash table
   std::vector<PathVertex> unpacked_;        ///< light vertices that were needed as such
-  /// Those of eye vertices of one material: the first list has all diffuse ones, the others have
-  /// one glossy material each.
+  /// Those of eye vertices of one material with diffuse light vertices: the first list has all
+  /// diffuse ones, others have one glossy material each (WideShape::pair_list()). The last list has
+  /// the pairs with glossy light vertices.
   struct PairList {
     WidePairs pairs{};
     int count = 0;
   };
   std::vector<PairList> pairs_;
+  EvaluateEnds evaluate_ends_;
+  EndBsdfs eye_bsdfs_{};
+  /// The light vertices of the last list, by pair.
+  struct GlossyLightEnds {
+    EndBsdfs bsdfs;
+    WidePaths paths;    ///< with directions of arrival alone
+    WidePoints points;  ///< with the lit normal and the reflectance alone
+    BatchTriples throughput;
+  };
+  GlossyLightEnds glossy_lights_{};
   WideShadowRays single_{};  ///< of connections that were weighed one by one
   int single_count_ = 0;
   uint32_t first_light_ = 0;  ///< the light vertex that pairs count from

@@ -20,7 +20,7 @@ namespace {
   // What is not a number is to be seen, and counted; but not the weight of nothing, which a surface
   // without a normal may have.
   const int32_t dropped = kept > 0 ? 0 : 1, nothing = most <= 0 ? 1 : dropped;
-  out.blocked[i] = unweighted <= 0 ? 1 : nothing;
+  out.blocked[i] = unweighted <= 0 ? WideShadowRays::kNothing : nothing;
 }
 
 }  // namespace
@@ -98,16 +98,18 @@ DUET_WIDEST void find_directions(int n, const WidePairs& pairs, const WidePoints
 
 namespace {
 
-/// What an eye vertex makes of the light of a pair: its BSDF times the throughput, and densities.
+/// What a vertex of a pair makes of the other's direction: its BSDF times the throughput, and
+/// densities.
 struct Scattered {
   float r, g, b, pdf, reverse;
 };
 
-/// `scattered(k, i, direction)` is of pair k, whose eye vertex is i.
+/// `both.eye(k, i, direction)` is of pair k, whose eye vertex is i, `both.light(k, vertex, cosine)`
+/// of the other end.
 template <class F>
 [[gnu::always_inline]] inline void weigh_all_pairs(int n, const WidePairs& pairs,
                                                    const WideConnections& c,
-                                                   const DiffuseVertex* light, const F& scattered,
+                                                   const DiffuseVertex* light, const F& both,
                                                    WideShadowRays& out) {
   const float* const numbers = &light->position.x;
   const WideConnections all = c;
@@ -120,8 +122,8 @@ template <class F>
     const Vector3f d = l.position - position;
     const float d2 = length_squared(d), inverse_d2 = 1 / d2;
     const Vector3f to_light = d * (1 / std::sqrt(d2));
-    const Scattered f = scattered(k, i, to_light);
-    const float cosine = -dot(l.lit, to_light), g = cosine * kInvPi;
+    const float cosine = -dot(l.lit, to_light);
+    const Scattered f = both.eye(k, i, to_light), g = both.light(k, l, cosine);
     const float eye_geometric = dot(ng, to_light), light_geometric = -dot(l.ng, to_light);
     // Vertices that faced each other may not do so by the unit direction.
     const float facing = l.adjoint * std::abs(light_geometric) / cosine;
@@ -131,11 +133,11 @@ template <class F>
     const float light_sum = all.eye.unmerged[i] != 0 ? l.vm : l.vc;
     const float weight = 1 / (1 +
                               beyond(f.pdf * std::abs(light_geometric) * inverse_d2, merge_term,
-                                     l.vcm, l.reverse, light_sum) +
-                              beyond(g * std::abs(eye_geometric) * inverse_d2, merge_term,
+                                     l.vcm, g.reverse, light_sum) +
+                              beyond(g.pdf * std::abs(eye_geometric) * inverse_d2, merge_term,
                                      all.subpaths.vcm[i], f.reverse, all.eye.sum[i]));
-    const float both = g * (adjoint * inverse_d2);
-    const Spectrum value(f.r * l.flux[0] * both, f.g * l.flux[1] * both, f.b * l.flux[2] * both);
+    const float scale = adjoint * inverse_d2;
+    const Spectrum value(f.r * g.r * scale, f.g * g.g * scale, f.b * g.b * scale);
     set_contribution(
         k, value, weight, all.threshold,
         ConnectionRoulette::draw(all.eye.roulette[i], all.connection + uint32_t(l.depth)), out);
@@ -149,33 +151,71 @@ template <class F>
   }
 }
 
+/// The ends of pairs, by what their vertices are.
+struct DiffuseEye {
+  const WideEnds& ends;
+  [[gnu::always_inline]] Scattered eye(int, int i, const Vector3f& to_light) const {
+    const float pdf = dot(ends.lit.vector(i), to_light) * kInvPi;
+    return {ends.flux.x[i] * pdf, ends.flux.y[i] * pdf, ends.flux.z[i] * pdf, pdf, ends.reverse[i]};
+  }
+};
+struct DiffuseLight {
+  [[gnu::always_inline]] Scattered light(int, const GatheredVertex& l, float cosine) const {
+    const float pdf = cosine * kInvPi;
+    return {l.flux[0] * pdf, l.flux[1] * pdf, l.flux[2] * pdf, pdf, l.reverse};
+  }
+};
+struct DiffuseEnds : DiffuseEye, DiffuseLight {};
+
+struct GlossyEyeEnds : DiffuseLight {
+  const WidePaths& paths;
+  const WideGlossy& glossy;
+  [[gnu::always_inline]] Scattered eye(int k, int i, const Vector3f&) const {
+    return {paths.throughput.x[i] * glossy.value.x[k], paths.throughput.y[i] * glossy.value.y[k],
+            paths.throughput.z[i] * glossy.value.z[k], glossy.value_pdf[k], glossy.reverse[k]};
+  }
+};
+
+struct GlossyLightEnds {
+  const WideConnections& c;
+  const WideGlossyEnds& ends;
+  [[gnu::always_inline]] Scattered eye(int k, int i, const Vector3f& to_light) const {
+    const Scattered diffuse = DiffuseEye{c.eye}.eye(k, i, to_light);
+    const Scattered glossy = scattered(ends.eye, k, c.paths.throughput, i);
+    const bool is_diffuse = ends.eye.material[k] == DiffuseVertex::kDiffuse;
+    return {is_diffuse ? diffuse.r : glossy.r, is_diffuse ? diffuse.g : glossy.g,
+            is_diffuse ? diffuse.b : glossy.b, is_diffuse ? diffuse.pdf : glossy.pdf,
+            is_diffuse ? diffuse.reverse : glossy.reverse};
+  }
+  [[gnu::always_inline]] Scattered light(int k, const GatheredVertex&, float) const {
+    return scattered(ends.light, k, ends.light_throughput, k);
+  }
+
+ private:
+  [[gnu::always_inline]] static Scattered scattered(const EndBsdfs& f, int k,
+                                                    const BatchTriples& throughput, int i) {
+    return {throughput.x[i] * f.value.x[k], throughput.y[i] * f.value.y[k],
+            throughput.z[i] * f.value.z[k], f.pdf[k], f.reverse[k]};
+  }
+};
+
 }  // namespace
 
 DUET_WIDEST void weigh_pairs(int n, const WidePairs& pairs, const WideConnections& c,
                              const DiffuseVertex* light, WideShadowRays& out) {
-  const WideEnds& eye = c.eye;
-  weigh_all_pairs(
-      n, pairs, c, light,
-      [&](int, int i, const Vector3f& to_light) __attribute__((always_inline)) {
-        const float pdf = dot(eye.lit.vector(i), to_light) * kInvPi;
-        return Scattered{eye.flux.x[i] * pdf, eye.flux.y[i] * pdf, eye.flux.z[i] * pdf, pdf,
-                         eye.reverse[i]};
-      },
-      out);
+  weigh_all_pairs(n, pairs, c, light, DiffuseEnds{{c.eye}, {}}, out);
 }
 
 DUET_WIDEST void weigh_glossy_pairs(int n, const WidePairs& pairs, const WideConnections& c,
                                     const DiffuseVertex* light, const WideGlossy& glossy,
                                     WideShadowRays& out) {
-  const WidePaths& paths = c.paths;
-  weigh_all_pairs(
-      n, pairs, c, light,
-      [&](int k, int i, const Vector3f&) __attribute__((always_inline)) {
-        return Scattered{
-            paths.throughput.x[i] * glossy.value.x[k], paths.throughput.y[i] * glossy.value.y[k],
-            paths.throughput.z[i] * glossy.value.z[k], glossy.value_pdf[k], glossy.reverse[k]};
-      },
-      out);
+  weigh_all_pairs(n, pairs, c, light, GlossyEyeEnds{{}, c.paths, glossy}, out);
+}
+
+DUET_WIDEST void weigh_glossy_ends(int n, const WidePairs& pairs, const WideConnections& c,
+                                   const DiffuseVertex* light, const WideGlossyEnds& ends,
+                                   WideShadowRays& out) {
+  weigh_all_pairs(n, pairs, c, light, GlossyLightEnds{c, ends}, out);
 }
 
 }  // namespace duet

@@ -2,6 +2,7 @@
 // that the results are the same to rounding.
 #pragma once
 
+#include "integrators/wide_glossy_ends.h"
 #include "integrators/wide_subpaths.h"
 #include "transport/diffuse_vertex.h"
 
@@ -18,7 +19,7 @@ struct WideConnections {
   uint32_t connection;  ///< ConnectionRoulette::event() of the connection with the light itself
 };
 
-/// Pairs of an eye vertex of one material with a diffuse light vertex.
+/// Pairs of an eye vertex with a light vertex.
 struct WidePairs {
   BatchArray<int32_t> eye;    ///< number in the batch
   BatchArray<int32_t> light;  ///< number in the list of light vertices
@@ -36,4 +37,12 @@ void weigh_pairs(int n, const WidePairs& pairs, const WideConnections& c,
 /// The same with eye vertices that are glossy: `glossy` has what they make of the directions.
 void weigh_glossy_pairs(int n, const WidePairs& pairs, const WideConnections& c,
                         const DiffuseVertex* light, const WideGlossy& glossy, WideShadowRays& out);
+/// The same with light vertices that are glossy, and eye vertices of any of these materials.
+struct WideGlossyEnds {
+  const EndBsdfs &eye, &light;
+  const BatchTriples& light_throughput;
+};
+void weigh_glossy_ends(int n, const WidePairs& pairs, const WideConnections& c,
+                       const DiffuseVertex* light, const WideGlossyEnds& ends, WideShadowRays& out);
+
 }  // namespace duet

@@ -192,14 +192,16 @@ DiffuseVertex WideLightWalk::diffuse_vertex(int i, int depth) const {
   v.position = points_.position.point(i);
   v.lit = ends_.lit.normal(i);
   v.faces = 1;
-  if (wide_.shapes[hits_.shape[i]].model != WideModel::diffuse) return v;
+  const WideShape& shape = wide_.shapes[hits_.shape[i]];
+  const bool glossy = shape.model == WideModel::glossy;
+  const BatchTriples& flux = glossy ? points_.reflectance : ends_.flux;
+  v.material = glossy ? shape.pair_list() : DiffuseVertex::kDiffuse;
   v.offset = points_.offset[i];
   v.ng = points_.ng.normal(i);
-  v.flux = {ends_.flux.x[i], ends_.flux.y[i], ends_.flux.z[i]};
+  v.flux = {flux.x[i], flux.y[i], flux.z[i]};
   const Vector3f direction = paths_.ray.direction.vector(i);
   v.set_cosines(dot(points_.ns.vector(i), direction), dot(points_.ng.vector(i), direction));
   v.vcm = subpaths_.vcm[i], v.vc = subpaths_.vc[i], v.vm = subpaths_.vm[i];
-  v.other = 0;
   return v;
 }
 

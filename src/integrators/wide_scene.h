@@ -37,6 +37,10 @@ struct alignas(64) WideShape {
   bool two_sided = false;  ///< see DiffuseSurface; not of WideModel::other
   bool emits = false;
   int32_t glossy = 0;  ///< its number in WideScene::glossy, if it is that
+
+  /// The number of the material among those of vertices that are connected in loops: zero for all
+  /// that are diffuse.
+  int32_t pair_list() const { return model == WideModel::glossy ? 1 + glossy : 0; }
 };
 
 /// A scene, which must outlive this and stand still, as batches of paths see it.

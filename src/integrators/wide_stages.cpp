@@ -177,7 +177,7 @@ std::optional<BsdfSample> WideStages::scatter_at(int i, const Bsdf& bsdf, Transp
 }
 
 int WideStages::find_unblocked(int n, WideShadowRays& rays) {
-  const int count = gaps_.find(n, [&](int i) { return 1 - rays.blocked[i]; });
+  const int count = gaps_.find(n, [&](int i) { return int(rays.blocked[i] == 0); });
   gaps_.fill(rays);
   wide_.scene.accel->occluded(rays.ray, count, rays.blocked);
   return count;

@@ -56,7 +56,9 @@ struct WideShadowRays {
   RayBatch ray;
   BatchTriples contribution;
   BatchArray<int32_t> id;
-  BatchArray<int32_t> blocked;  ///< also where there is nothing to contribute
+  /// What is not 0 need not be tested: something is in the way, or there is nothing to contribute.
+  BatchArray<int32_t> blocked;
+  static constexpr int32_t kNothing = 2;  ///< in `blocked` of connections: even without roulette
 };
 
 /// How the paths go on.

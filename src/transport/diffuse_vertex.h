@@ -5,9 +5,13 @@
 
 namespace duet {
 
-/// A light vertex whose BSDF is a reflectance, as connections of many pairs of vertices see it:
+/// A light vertex as connections of many pairs of vertices see it: where its BSDF is a reflectance
 /// nothing has to be bound again. `Surface` and `PathVertex` say what the terms mean.
 struct DiffuseVertex {
+  /// Values of `material`. Above them stand the glossy materials of batches, from 1: of these
+  /// `flux` is what their reflectance is, and `reverse` is not valid.
+  static constexpr int32_t kDiffuse = 0, kOther = -1;
+
   Point3f position{0};
   float offset = 0;
   Normal3f ng{0};
@@ -17,7 +21,7 @@ struct DiffuseVertex {
   float adjoint = 0;  ///< what adjoint_factor() has of the direction back: |l·n_s| / |l·n_g|
   float vcm = 0, vc = 0, vm = 0;  ///< Partials
   int32_t depth = 0;              ///< as a vertex's
-  int32_t other = 1;  ///< 1 where the BSDF is not a reflectance: then only the depth is valid
+  int32_t material = kOther;      ///< of kOther only the depth is valid
   int32_t faces = 0;  ///< 1 if position and `lit` are valid, also where the rest is not: all light
                       ///< stays on that side
 
@@ -36,7 +40,7 @@ struct DiffuseVertex {
     flux = v.throughput * only->model.diffuse.reflectance;
     set_cosines(cosine, geometric);
     vcm = v.partials.vcm, vc = v.partials.vc, vm = v.partials.vm;
-    other = 0;
+    material = kDiffuse;
   }
 
   /// Of the direction back with the shading and with the geometric normal.

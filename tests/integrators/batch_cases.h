@@ -60,6 +60,14 @@ inline std::string emitter(const std::string& type, const std::string& transform
 inline const std::string kDiskLamp =
     emitter("disk", "<scale x='0.3' y='0.2'/><rotate x='1' angle='170'/><translate z='1.9'/>");
 
+/// A mesh whose shading normals are not those of its triangles.
+inline std::string lumpy_xml(const std::string& center, const std::string& bsdf) {
+  return "<shape type='serialized'><string name='filename' value='" DUET_SOURCE_DIR
+         "/scenes/mesh-lumpy/lumpy.serialized'/><transform name='to_world'><scale value='0.3'/>"
+         "<translate value='" +
+         center + "'/></transform>" + bsdf + "</shape>";
+}
+
 /// A sphere whose normals point inwards.
 inline std::string hollow_xml(const std::string& center, const std::string& radius,
                               const std::string& bsdf) {
@@ -82,6 +90,8 @@ inline std::string camera(const std::string& type = "perspective", const std::st
 struct BatchCase {
   const char* name;
   std::string content;
+
+  TransportScene scene() const { return {TemporaryDirectory(), content}; }
 };
 
 inline const BatchCase kBatchCases[] = {
@@ -134,6 +144,9 @@ inline const BatchCase kBatchCases[] = {
          "<shape type='cube'><transform name='to_world'><scale value='0.2'/><rotate z='1' "
          "angle='30'/><translate y='-0.5' z='1.2'/></transform>" +
          kAluminium + "</shape>"},
+    {"diffuse and glossy meshes with shading normals",
+     camera() + room_xml(kVarnishedCheckers) + kLamp + lumpy_xml("-0.4,0.2,0.5", grey("0.7")) +
+         lumpy_xml("0.4,-0.1,0.5", kAluminium) + lumpy_xml("0.1,0.2,1.3", kPlastic)},
     {"textures on meshes and analytic shapes",
      camera() + room_xml(kCheckers) + kLamp + sphere_xml("-0.4,0.2,0.4", "0.35", kCheckers) +
          "<shape type='disk'><transform name='to_world'><scale value='0.3'/>"

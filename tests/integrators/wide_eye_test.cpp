@@ -35,7 +35,7 @@ void check_same_work(const RenderCounters& a, const RenderCounters& b) {
 TEST_CASE("eye sub-paths of a batch are those that are traced one by one") {
   for (const BatchCase& c : kBatchCases) {
     CAPTURE(std::string(c.name));
-    const TransportScene scene(c.content);
+    const TransportScene scene = c.scene();
     for (const int depth : {1, 3, 20})
       for (const double light_paths : {0.25, 1.0}) {
         CAPTURE(depth);
@@ -69,7 +69,7 @@ TEST_CASE("batches of eye sub-paths need no connections") {
 TEST_CASE("batches merge photons as one eye sub-path does, everywhere or in parts of the image") {
   for (const BatchCase& c : kBatchCases) {
     CAPTURE(std::string(c.name));
-    const TransportScene scene(c.content);
+    const TransportScene scene = c.scene();
     for (const bool in_parts : {false, true}) {
       CAPTURE(in_parts);
       BidirectionalIntegratorDescription options;

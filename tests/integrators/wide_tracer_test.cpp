@@ -18,7 +18,7 @@ RenderResult render_path(const TransportScene& s, PathBatches batches, const Ren
 TEST_CASE("paths of a batch are those that are traced one by one") {
   for (const BatchCase& c : kBatchCases) {
     CAPTURE(std::string(c.name));
-    const TransportScene scene(c.content);
+    const TransportScene scene = c.scene();
     for (const SampleSequence sequence : {SampleSequence::sobol, SampleSequence::independent})
       for (const int depth : {1, 3, 20}) {
         CAPTURE(depth);
