@@ -1,8 +1,8 @@
 // Eye sub-paths of many pixels at once, stage by stage.
 #pragma once
 
+#include "integrators/wide_end_bsdfs.h"
 #include "integrators/wide_eye_kernels.h"
-#include "integrators/wide_glossy_ends.h"
 #include "integrators/wide_merge_kernels.h"
 #include "integrators/wide_subpath_stages.h"
 #include "integrators/wide_walk.h"
@@ -90,9 +90,10 @@ class WideEye final : public WideWalk, private WideSubpathStages {
   size_t list_photons(int i, int& count);
   /// Merges those of the first `count` listed photons that are near their points.
   void merge_listed(int count, int depth, RenderCounters& counters);
-  /// With a point that is not diffuse.
+  /// With a special point.
   void merge_one(int i, const LightVertex& photon, int depth, RenderCounters& counters);
-  void merge_near(int count, int depth, RenderCounters& counters);
+  /// With those of the points listed that are diffuse, or glossy.
+  void merge_near(bool glossy, int depth, RenderCounters& counters);
   void add_merged(int i, const Spectrum& s) {
     merged_.set(i, merged_.x[i] + s.r, merged_.y[i] + s.g, merged_.z[i] + s.b);
   }
@@ -132,7 +133,11 @@ class WideEye final : public WideWalk, private WideSubpathStages {
   static constexpr int kPhotonsAtOnce = kMostMergedPhotons;
   std::vector<uint32_t> photon_entries_;
   std::vector<int32_t> photon_points_;
-  WidePhotons near_{};  ///< diffuse points' photons
+  struct NearPhotons {
+    WidePhotons photons{};
+    int count = 0;
+  };
+  std::array<NearPhotons, 2> near_;  ///< photons of diffuse points, and of glossy ones
   BatchTriples near_sums_{};
   BatchArray<int32_t> near_merged_{};
   std::vector<LightSubpath> light_;  ///< by id

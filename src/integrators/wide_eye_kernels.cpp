@@ -98,12 +98,6 @@ DUET_WIDEST void find_directions(int n, const WidePairs& pairs, const WidePoints
 
 namespace {
 
-/// What a vertex of a pair makes of the other's direction: its BSDF times the throughput, and
-/// densities.
-struct Scattered {
-  float r, g, b, pdf, reverse;
-};
-
 /// `both.eye(k, i, direction)` is of pair k, whose eye vertex is i, `both.light(k, vertex, cosine)`
 /// of the other end.
 template <class F>
@@ -155,8 +149,7 @@ template <class F>
 struct DiffuseEye {
   const WideEnds& ends;
   [[gnu::always_inline]] Scattered eye(int, int i, const Vector3f& to_light) const {
-    const float pdf = dot(ends.lit.vector(i), to_light) * kInvPi;
-    return {ends.flux.x[i] * pdf, ends.flux.y[i] * pdf, ends.flux.z[i] * pdf, pdf, ends.reverse[i]};
+    return scattered_diffusely(ends, i, to_light);
   }
 };
 struct DiffuseLight {
@@ -180,7 +173,7 @@ struct GlossyLightEnds {
   const WideConnections& c;
   const WideGlossyEnds& ends;
   [[gnu::always_inline]] Scattered eye(int k, int i, const Vector3f& to_light) const {
-    const Scattered diffuse = DiffuseEye{c.eye}.eye(k, i, to_light);
+    const Scattered diffuse = scattered_diffusely(c.eye, i, to_light);
     const Scattered glossy = scattered(ends.eye, k, c.paths.throughput, i);
     const bool is_diffuse = ends.eye.material[k] == DiffuseVertex::kDiffuse;
     return {is_diffuse ? diffuse.r : glossy.r, is_diffuse ? diffuse.g : glossy.g,
@@ -189,13 +182,6 @@ struct GlossyLightEnds {
   }
   [[gnu::always_inline]] Scattered light(int k, const GatheredVertex&, float) const {
     return scattered(ends.light, k, ends.light_throughput, k);
-  }
-
- private:
-  [[gnu::always_inline]] static Scattered scattered(const EndBsdfs& f, int k,
-                                                    const BatchTriples& throughput, int i) {
-    return {throughput.x[i] * f.value.x[k], throughput.y[i] * f.value.y[k],
-            throughput.z[i] * f.value.z[k], f.pdf[k], f.reverse[k]};
   }
 };
 

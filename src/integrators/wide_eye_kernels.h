@@ -2,8 +2,7 @@
 // that the results are the same to rounding.
 #pragma once
 
-#include "integrators/wide_glossy_ends.h"
-#include "integrators/wide_subpaths.h"
+#include "integrators/wide_end_bsdfs.h"
 #include "transport/diffuse_vertex.h"
 
 namespace duet {

@@ -4,8 +4,13 @@
 
 namespace duet {
 
-DUET_WIDEST void merge_photons(int n, const WidePhotons& photons, const WideMerges& m,
-                               BatchTriples& out, BatchArray<int32_t>& merged) {
+namespace {
+
+/// `scattered(k, i, wi)` is what point i makes of the direction of photon k.
+template <class F>
+[[gnu::always_inline]] inline void merge_all(int n, const WidePhotons& photons, const WideMerges& m,
+                                             const F& scattered, BatchTriples& out,
+                                             BatchArray<int32_t>& merged) {
   const WideMerges all = m;
   const float term = all.connection_term;
   // BalanceWeights::merges() of the sums.
@@ -19,19 +24,41 @@ DUET_WIDEST void merge_photons(int n, const WidePhotons& photons, const WideMerg
     // Photons are counted per area of the surface, not of the shading normal's.
     const float cosine = std::abs(dot(all.points.ng.vector(i), wi)),
                 inverse = cosine > 0 ? 1 / cosine : 0.0f;
-    const float pdf = std::max(0.0f, dot(all.ends.lit.vector(i), wi) * kInvPi);
-    const float weight =
-        1 / (1 + photons.vcm[k] * term + pdf * (light_sums[k] * unit) + all.subpaths.vcm[i] * term +
-             all.ends.reverse[i] * (eye_sums[i] * unit));
+    const Scattered f = scattered(k, i, wi);
+    const float weight = 1 / (1 + photons.vcm[k] * term + f.pdf * (light_sums[k] * unit) +
+                              all.subpaths.vcm[i] * term + f.reverse * (eye_sums[i] * unit));
     const float within = photons.depth[k] <= all.most ? 1.0f : 0.0f;
-    const float scale = pdf * all.kernel[i] * inverse * within;
-    const float r = all.ends.flux.x[i] * photons.throughput.x[k] * scale,
-                g = all.ends.flux.y[i] * photons.throughput.y[k] * scale,
-                b = all.ends.flux.z[i] * photons.throughput.z[k] * scale;
+    const float scale = all.kernel[i] * inverse * within;
+    const float r = f.r * photons.throughput.x[k] * scale,
+                g = f.g * photons.throughput.y[k] * scale,
+                b = f.b * photons.throughput.z[k] * scale;
     // What is not a number is to be seen, and counted.
     merged[k] = std::max(std::max(r, g), b) == 0 ? 0 : 1;
     out.set(k, r * weight, g * weight, b * weight);
   }
+}
+
+}  // namespace
+
+DUET_WIDEST void merge_photons(int n, const WidePhotons& photons, const WideMerges& m,
+                               BatchTriples& out, BatchArray<int32_t>& merged) {
+  const WideEnds& ends = m.ends;
+  merge_all(
+      n, photons, m,
+      [&](int, int i, const Vector3f& wi)
+          __attribute__((always_inline)) { return scattered_diffusely(ends, i, wi); },
+      out, merged);
+}
+
+DUET_WIDEST void merge_glossy_photons(int n, const WidePhotons& photons, const EndBsdfs& bsdfs,
+                                      const WideMerges& m, BatchTriples& out,
+                                      BatchArray<int32_t>& merged) {
+  const BatchTriples& throughput = m.paths.throughput;
+  merge_all(
+      n, photons, m,
+      [&](int k, int i, const Vector3f&)
+          __attribute__((always_inline)) { return scattered(bsdfs, k, throughput, i); },
+      out, merged);
 }
 
 }  // namespace duet

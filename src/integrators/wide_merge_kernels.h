@@ -2,7 +2,7 @@
 // point (connection.h), so that the results are the same to rounding.
 #pragma once
 
-#include "integrators/wide_subpaths.h"
+#include "integrators/wide_end_bsdfs.h"
 #include "transport/light_vertex.h"
 
 namespace duet {
@@ -26,6 +26,7 @@ struct WidePhotons {
 
 /// What merges at the points of a batch have in common.
 struct WideMerges {
+  const WidePaths& paths;
   const WideSubpaths& subpaths;
   const WidePoints& points;
   const WideEnds& ends;
@@ -38,5 +39,8 @@ struct WideMerges {
 /// What `n` photons contribute at diffuse points: connect_merge(). `merged` is 1 for those that do.
 void merge_photons(int n, const WidePhotons& photons, const WideMerges& m, BatchTriples& out,
                    BatchArray<int32_t>& merged);
+/// The same at glossy points: `bsdfs` has what they make of the photons' directions.
+void merge_glossy_photons(int n, const WidePhotons& photons, const EndBsdfs& bsdfs,
+                          const WideMerges& m, BatchTriples& out, BatchArray<int32_t>& merged);
 
 }  // namespace duet

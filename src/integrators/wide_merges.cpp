@@ -45,19 +45,21 @@ void WideEye::merge_listed(int count, int depth, RenderCounters& counters) {
   // They lie anywhere in memory.
   constexpr int kAhead = 16;
   for (int k = 0; k < std::min(kAhead, near); ++k) __builtin_prefetch(photons + indices[k]);
-  int diffuse = 0;
   for (int k = 0; k < near; ++k) {
     __builtin_prefetch(photons + indices[std::min(k + kAhead, near - 1)]);
     const int i = photon_points_[size_t(k)];
     const LightVertex& photon = photons[indices[k]];
-    if (wide_.shapes[hits_.shape[i]].model != WideModel::diffuse) {
+    const WideModel model = wide_.shapes[hits_.shape[i]].model;
+    if (model == WideModel::other) {
       merge_one(i, photon, depth, counters);
       continue;
     }
-    near_.set(diffuse++, i, photon);
-    if (diffuse == kBatch) merge_near(std::exchange(diffuse, 0), depth, counters);
+    const bool glossy = model == WideModel::glossy;
+    auto& [list, listed] = near_[glossy];
+    list.set(listed++, i, photon);
+    if (listed == kBatch) merge_near(glossy, depth, counters);
   }
-  merge_near(diffuse, depth, counters);
+  for (const bool glossy : {false, true}) merge_near(glossy, depth, counters);
 }
 
 void WideEye::merge_one(int i, const LightVertex& photon, int depth, RenderCounters& counters) {
@@ -69,15 +71,32 @@ void WideEye::merge_one(int i, const LightVertex& photon, int depth, RenderCount
   add_merged(i, found.value * found.weight);
 }
 
-void WideEye::merge_near(int count, int depth, RenderCounters& counters) {
+void WideEye::merge_near(bool glossy, int depth, RenderCounters& counters) {
+  const WidePhotons& photons = near_[glossy].photons;
+  const int count = std::exchange(near_[glossy].count, 0);
   const TechniqueSet& set = plan_.set;
-  merge_photons(count, near_,
-                {subpaths_, points_, ends_, kernel_, set.connection_term(), set.partly_merged,
-                 limits_.max_depth - depth},
-                near_sums_, near_merged_);
+  const WideMerges merges{paths_,
+                          subpaths_,
+                          points_,
+                          ends_,
+                          kernel_,
+                          set.connection_term(),
+                          set.partly_merged,
+                          limits_.max_depth - depth};
+  if (glossy) {
+    for (int k = 0; k < count; ++k) {
+      const int i = eye_bsdfs_.at[k] = photons.point[k];
+      eye_bsdfs_.material[k] = wide_.shapes[hits_.shape[i]].pair_list();
+      eye_bsdfs_.towards.set(k, decode_direction(photons.u[k], photons.v[k]));
+    }
+    evaluate_ends_.evaluate(count, {paths_, points_, numbers_}, eye_bsdfs_);
+    merge_glossy_photons(count, photons, eye_bsdfs_, merges, near_sums_, near_merged_);
+  } else {
+    merge_photons(count, photons, merges, near_sums_, near_merged_);
+  }
   for (int k = 0; k < count; ++k) {
     counters.merges += uint64_t(near_merged_[k]);
-    add_merged(near_.point[k], {near_sums_.x[k], near_sums_.y[k], near_sums_.z[k]});
+    add_merged(photons.point[k], {near_sums_.x[k], near_sums_.y[k], near_sums_.z[k]});
   }
 }
 

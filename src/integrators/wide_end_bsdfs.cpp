@@ -1,4 +1,4 @@
-#include "integrators/wide_glossy_ends.h"
+#include "integrators/wide_end_bsdfs.h"
 
 #include <algorithm>
 #include <numeric>
