@@ -1,23 +1,14 @@
 #include "mesh/byte_reader.h"
 
-#include <sys/stat.h>
-
 #include <algorithm>
 #include <cerrno>
 #include <cstring>
 
 namespace duet {
 
-ByteReader::ByteReader(const std::string& path)
-    : name_(path), file_(std::fopen(path.c_str(), "rb")) {
-  if (!file_) throw ReadError(fmt::format("{}: cannot be opened: {}", path, std::strerror(errno)));
-  struct stat status;
-  if (fstat(fileno(file_.get()), &status) != 0)
-    throw ReadError(fmt::format("{}: cannot be read: {}", path, std::strerror(errno)));
-  if (!S_ISREG(status.st_mode)) throw ReadError(fmt::format("{}: is not a file", path));
-  size_ = uint64_t(status.st_size);
+ByteReader::ByteReader(const std::string& path) : name_(path), file_(path), size_(file_->size()) {
   // The buffer here is the only one.
-  std::setvbuf(file_.get(), nullptr, _IONBF, 0);
+  std::setvbuf(file_->stream(), nullptr, _IONBF, 0);
   buffer_.resize(size_t(std::min<uint64_t>(kBlock, std::max<uint64_t>(size_, 1))));
   begin_ = next_ = end_ = buffer_.data();
 }
@@ -35,9 +26,9 @@ void ByteReader::refill(size_t count) {
   size_t kept = available();
   std::memmove(buffer_.data(), next_, kept);
   while (kept < std::min(count, buffer_.size())) {
-    const size_t n = std::fread(buffer_.data() + kept, 1, buffer_.size() - kept, file_.get());
+    const size_t n = std::fread(buffer_.data() + kept, 1, buffer_.size() - kept, file_->stream());
     if (n == 0) {
-      if (std::ferror(file_.get())) fail("cannot be read: {}", std::strerror(errno));
+      if (std::ferror(file_->stream())) fail("cannot be read: {}", std::strerror(errno));
       break;
     }
     kept += n;
@@ -52,8 +43,7 @@ void ByteReader::seek(uint64_t position) {
     next_ = begin_ + position;
     return;
   }
-  if (fseeko(file_.get(), off_t(position), SEEK_SET) != 0)
-    fail("cannot be read: {}", std::strerror(errno));
+  if (!file_->seek(position)) fail("cannot be read: {}", std::strerror(errno));
   next_ = end_ = buffer_.data();
   block_end_ = position;
 }

@@ -8,14 +8,15 @@
 #include <cstdint>
 #include <cstdio>
 #include <cstring>
-#include <memory>
 #include <new>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "base/diagnostics.h"
+#include "base/system/files.h"
 
 namespace duet {
 
@@ -83,16 +84,13 @@ class ByteReader {
   void end_text() { line_ = 0; }
 
  private:
-  struct Close {
-    void operator()(std::FILE* f) const { std::fclose(f); }
-  };
   size_t available() const { return size_t(end_ - next_); }
   /// Moves what is left to the front of the buffer and reads on, until `count` bytes are there.
   void refill(size_t count);
   std::string place() const;
 
   std::string name_;
-  std::unique_ptr<std::FILE, Close> file_;  ///< null when reading from memory
+  std::optional<InputFile> file_;  ///< unless it is memory that is read
   std::vector<uint8_t> buffer_;
   const uint8_t* begin_ = nullptr;  ///< the block in memory
   const uint8_t* next_ = nullptr;

@@ -1,12 +1,12 @@
 #include "pbrt/lexer.h"
 
-#include <sys/stat.h>
 #include <zlib.h>
 
 #include <cerrno>
 #include <charconv>
 #include <cmath>
 #include <cstring>
+#include <filesystem>
 #include <utility>
 
 #include "values/text.h"
@@ -22,10 +22,11 @@ struct Lexer::Source {
 };
 
 Lexer::Input Lexer::open(const std::string& path, uint64_t most) {
-  struct stat status;
-  if (stat(path.c_str(), &status) != 0)
-    throw ReadError(fmt::format("{}: cannot be opened: {}", path, std::strerror(errno)));
-  if (!S_ISREG(status.st_mode)) throw ReadError(fmt::format("{}: is not a file", path));
+  std::error_code error;
+  const std::filesystem::file_status status = std::filesystem::status(path, error);
+  if (error) throw ReadError(fmt::format("{}: cannot be opened: {}", path, error.message()));
+  if (!std::filesystem::is_regular_file(status))
+    throw ReadError(fmt::format("{}: is not a file", path));
   // Files that are not compressed are read as they are.
   const gzFile file = gzopen(path.c_str(), "rb");
   if (!file) throw ReadError(fmt::format("{}: cannot be opened: {}", path, std::strerror(errno)));

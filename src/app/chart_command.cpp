@@ -7,7 +7,7 @@
 #include "app/chart_options.h"
 #include "app/commands.h"
 #include "app/program.h"
-#include "app/signals.h"
+#include "base/system/signals.h"
 #include "evaluate/chart/page.h"
 #include "evaluate/compare/linear_image.h"
 #include "evaluate/render/output.h"

@@ -9,7 +9,7 @@
 #include "app/commands.h"
 #include "app/compare_options.h"
 #include "app/program.h"
-#include "base/atomic_file.h"
+#include "base/system/atomic_file.h"
 #include "evaluate/compare/json.h"
 #include "evaluate/compare/text.h"
 

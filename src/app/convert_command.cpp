@@ -4,7 +4,7 @@
 #include "app/commands.h"
 #include "app/program.h"
 #include "app/read_options.h"
-#include "base/atomic_file.h"
+#include "base/system/atomic_file.h"
 #include "evaluate/convert/convert_scene.h"
 #include "evaluate/render/scene_operand.h"
 

@@ -1,9 +1,8 @@
 #include "app/help.h"
 
-#include <unistd.h>
-
 #include <algorithm>
 
+#include "base/system/standard_streams.h"
 #include "base/terminal.h"
 
 namespace duet {
@@ -57,7 +56,7 @@ void replace_all(std::string& text, std::string_view what, std::string_view by) 
 }  // namespace
 
 HelpFormatter::HelpFormatter()
-    : width_(std::clamp(terminal_width(STDOUT_FILENO), kLeastWidth, kMostWidth)) {
+    : width_(std::clamp(terminal_width(StandardStream::output), kLeastWidth, kMostWidth)) {
   column_width(kNameColumns);
 }
 

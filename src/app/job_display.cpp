@@ -1,11 +1,11 @@
 #include "app/job_display.h"
 
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <algorithm>
 
 #include "base/seconds_text.h"
+#include "base/system/standard_streams.h"
 #include "evaluate/batch/reports.h"
 
 namespace duet {
@@ -13,7 +13,7 @@ namespace duet {
 JobDisplay::JobDisplay(ProgressStyle style, size_t jobs, Log& log)
     : has_bar_(log.level() != Log::Level::quiet &&
                (style == ProgressStyle::bar ||
-                (style == ProgressStyle::automatic && isatty(STDERR_FILENO)))),
+                (style == ProgressStyle::automatic && is_terminal(StandardStream::error)))),
       jobs_(jobs),
       log_(log),
       bar_(log) {}

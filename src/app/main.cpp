@@ -14,9 +14,9 @@
 #include "app/environment.h"
 #include "app/help.h"
 #include "app/program.h"
-#include "app/standard_streams.h"
 #include "base/diagnostics.h"
 #include "base/shell.h"
+#include "base/system/standard_streams.h"
 #include "evaluate/report/provenance.h"
 #include "evaluate/report/version.h"
 

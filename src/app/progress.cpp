@@ -1,7 +1,6 @@
 #include "app/progress.h"
 
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <cmath>
@@ -10,6 +9,7 @@
 
 #include "base/percent.h"
 #include "base/seconds_text.h"
+#include "base/system/standard_streams.h"
 #include "base/terminal.h"
 
 namespace duet {
@@ -55,7 +55,7 @@ ProgressDisplay::ProgressDisplay(ProgressStyle style, std::string scene, const B
                                  Log& log)
     : style_(style), scene_(std::move(scene)), batch_(batch), log_(log), bar_(log) {
   if (style_ == ProgressStyle::automatic)
-    style_ = isatty(STDERR_FILENO) ? ProgressStyle::bar : ProgressStyle::plain;
+    style_ = is_terminal(StandardStream::error) ? ProgressStyle::bar : ProgressStyle::plain;
 }
 
 std::string ProgressDisplay::time_left(const RenderProgress& p) const {

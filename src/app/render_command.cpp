@@ -5,7 +5,7 @@
 #include "app/commands.h"
 #include "app/program.h"
 #include "app/render_options.h"
-#include "app/signals.h"
+#include "base/system/signals.h"
 #include "evaluate/render/output.h"
 #include "evaluate/render/render_scene.h"
 #include "evaluate/render/scene_operand.h"

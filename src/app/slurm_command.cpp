@@ -4,7 +4,7 @@
 #include "app/commands.h"
 #include "app/program.h"
 #include "app/slurm_plan.h"
-#include "base/run_program.h"
+#include "base/system/run_program.h"
 #include "evaluate/slurm/submit.h"
 
 namespace duet {

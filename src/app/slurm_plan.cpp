@@ -8,7 +8,7 @@
 #include "app/program.h"
 #include "app/render_grammar.h"
 #include "base/file_names.h"
-#include "base/run_program.h"
+#include "base/system/process.h"
 #include "evaluate/batch/job_arguments.h"
 #include "evaluate/slurm/plan.h"
 #include "evaluate/slurm/sbatch.h"

@@ -1,9 +1,8 @@
 #include "app/terminal_bar.h"
 
-#include <unistd.h>
-
 #include <cstdio>
 
+#include "base/system/standard_streams.h"
 #include "base/terminal.h"
 
 namespace duet {
@@ -18,7 +17,7 @@ TerminalBar::~TerminalBar() {
 }
 
 size_t TerminalBar::width() {
-  return terminal_width(STDERR_FILENO) - 1;
+  return terminal_width(StandardStream::error) - 1;
 }
 
 void TerminalBar::draw(const std::string& line) {

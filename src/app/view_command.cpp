@@ -4,7 +4,7 @@
 
 #include "app/commands.h"
 #include "app/program.h"
-#include "base/atomic_file.h"
+#include "base/system/atomic_file.h"
 #include "evaluate/render/output.h"
 #include "evaluate/web/browser.h"
 #include "evaluate/web/image_page.h"

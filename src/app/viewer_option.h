@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "base/tcp.h"
+#include "base/system/tcp.h"
 
 namespace duet {
 

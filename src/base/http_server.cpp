@@ -1,18 +1,11 @@
 #include "base/http_server.h"
 
-#include <arpa/inet.h>
 #include <fmt/format.h>
-#include <netinet/in.h>
-#include <poll.h>
-#include <sys/socket.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <cctype>
-#include <cerrno>
 #include <chrono>
 #include <optional>
-#include <system_error>
 #include <utility>
 #include <vector>
 
@@ -25,10 +18,6 @@ using Clock = std::chrono::steady_clock;
 constexpr size_t kMostClients = 16, kMostRequestBytes = 8192;
 /// How often the thread looks whether it should end.
 constexpr int kMillisecondsBetweenLooks = 50;
-
-[[noreturn]] void fail() {
-  throw std::system_error(errno, std::generic_category());
-}
 
 const char* reason_of(int status) {
   constexpr std::pair<int, const char*> reasons[] = {{200, "OK"},
@@ -78,7 +67,7 @@ std::optional<std::string> field(const std::string& request, const std::string& 
 }  // namespace
 
 struct HttpServer::Client {
-  int socket;
+  TcpClient connection;
   std::string request = {}, response = {};
   size_t sent = 0;
   Clock::time_point last = Clock::now();  ///< when something happened
@@ -86,85 +75,52 @@ struct HttpServer::Client {
   bool is_answered() const { return !response.empty(); }
 };
 
-HttpServer::HttpServer(uint16_t port, Handler handler) : handler_(std::move(handler)) {
-  socket_ = socket(AF_INET, SOCK_STREAM | SOCK_NONBLOCK | SOCK_CLOEXEC, 0);
-  if (socket_ < 0) fail();
-  try {
-    // What the render before left waiting is no reason to refuse its port.
-    const int yes = 1;
-    setsockopt(socket_, SOL_SOCKET, SO_REUSEADDR, &yes, sizeof(yes));
-    sockaddr_in address{};
-    address.sin_family = AF_INET;
-    address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
-    address.sin_port = htons(port);
-    socklen_t size = sizeof(address);
-    auto* const any = reinterpret_cast<sockaddr*>(&address);
-    if (bind(socket_, any, size) != 0 || listen(socket_, int(kMostClients)) != 0 ||
-        getsockname(socket_, any, &size) != 0)
-      fail();
-    port_ = ntohs(address.sin_port);
-    thread_ = std::thread([this] { work(); });
-  } catch (...) {
-    close(socket_);
-    throw;
-  }
-}
+HttpServer::HttpServer(uint16_t port, Handler handler)
+    : handler_(std::move(handler)), server_(port, int(kMostClients)), thread_([this] { work(); }) {}
 
 HttpServer::~HttpServer() {
   ends_ = true;
   thread_.join();
-  close(socket_);
 }
 
 void HttpServer::work() {
   std::vector<Client> clients;
-  std::vector<pollfd> waits;
+  std::vector<TcpServer::Wait> waits;
   while (!ends_) {
-    waits.assign(1, {socket_, POLLIN, 0});
-    for (const Client& c : clients)
-      waits.push_back({c.socket, short(c.is_answered() ? POLLOUT : POLLIN), 0});
-    poll(waits.data(), waits.size(), kMillisecondsBetweenLooks);
-    for (size_t i = clients.size(); i-- > 0;) {
-      if (waits[i + 1].revents == 0 || go_on(clients[i])) continue;
-      close(clients[i].socket);
-      clients.erase(clients.begin() + ptrdiff_t(i));
-    }
-    if (waits[0].revents != 0) accept_client(clients);
+    waits.clear();
+    for (const Client& c : clients) waits.push_back({&c.connection, c.is_answered()});
+    const bool has_come = server_.wait(waits, kMillisecondsBetweenLooks);
+    for (size_t i = clients.size(); i-- > 0;)
+      if (waits[i].is_ready && !go_on(clients[i])) clients.erase(clients.begin() + ptrdiff_t(i));
+    if (has_come) accept_client(clients);
   }
-  for (const Client& c : clients) close(c.socket);
 }
 
 void HttpServer::accept_client(std::vector<Client>& clients) const {
-  const int s = accept4(socket_, nullptr, nullptr, SOCK_NONBLOCK | SOCK_CLOEXEC);
-  if (s < 0) return;
-  clients.push_back({s});
+  std::optional<TcpClient> connection = server_.accept();
+  if (!connection) return;
+  clients.push_back({std::move(*connection)});
   if (clients.size() <= kMostClients) return;
-  const auto idle =
-      std::min_element(clients.begin(), clients.end(),
-                       [](const Client& a, const Client& b) { return a.last < b.last; });
-  close(idle->socket);
-  clients.erase(idle);
+  clients.erase(std::min_element(clients.begin(), clients.end(),
+                                 [](const Client& a, const Client& b) { return a.last < b.last; }));
 }
 
 bool HttpServer::go_on(Client& c) const {
   c.last = Clock::now();
   if (!c.is_answered()) return read_request(c);
-  const ssize_t n =
-      send(c.socket, c.response.data() + c.sent, c.response.size() - c.sent, MSG_NOSIGNAL);
-  if (n < 0) return errno == EAGAIN || errno == EWOULDBLOCK || errno == EINTR;
-  c.sent += size_t(n);
+  const auto n = c.connection.send(std::string_view(c.response).substr(c.sent));
+  if (!n) return false;
+  c.sent += *n;
   if (c.sent < c.response.size()) return true;
-  // So that what was sent is not lost by closing while something is unread.
-  shutdown(c.socket, SHUT_WR);
+  c.connection.end_sending();
   return false;
 }
 
 bool HttpServer::read_request(Client& c) const {
   char block[4096];
-  const ssize_t n = recv(c.socket, block, sizeof(block), 0);
-  if (n == 0) return false;
-  if (n < 0) return errno == EAGAIN || errno == EWOULDBLOCK || errno == EINTR;
-  c.request.append(block, size_t(n));
+  const auto n = c.connection.receive(block);
+  if (!n) return false;
+  c.request.append(block, *n);
   if (const size_t end = c.request.find("\r\n\r\n"); end != c.request.npos)
     c.response = answer(c.request.substr(0, end + 2));
   else if (c.request.size() > kMostRequestBytes)
@@ -180,7 +136,7 @@ std::string HttpServer::answer(const std::string& request) const {
   if (line.substr(0, target) != "GET") return response(refusal(405));
   const std::optional<std::string> host = field(request, "host");
   if (!host) return response(refusal(400));
-  if (*host != fmt::format("127.0.0.1:{}", port_) && *host != fmt::format("localhost:{}", port_))
+  if (*host != fmt::format("127.0.0.1:{}", port()) && *host != fmt::format("localhost:{}", port()))
     return response(refusal(403));
   return response(handler_(line.substr(target + 1, version - target - 1)));
 }

@@ -8,6 +8,8 @@
 #include <thread>
 #include <vector>
 
+#include "base/system/tcp_server.h"
+
 namespace duet {
 
 struct HttpAnswer {
@@ -33,7 +35,7 @@ class HttpServer {
   HttpServer(const HttpServer&) = delete;
   HttpServer& operator=(const HttpServer&) = delete;
 
-  uint16_t port() const { return port_; }
+  uint16_t port() const { return server_.port(); }
 
  private:
   struct Client;
@@ -48,8 +50,7 @@ class HttpServer {
   std::string answer(const std::string& request) const;
 
   const Handler handler_;
-  int socket_ = -1;
-  uint16_t port_ = 0;
+  const TcpServer server_;
   std::atomic<bool> ends_{false};
   std::thread thread_;
 };

@@ -12,6 +12,8 @@
 #include <optional>
 #include <stdexcept>
 
+#include "base/system/files.h"
+
 namespace duet {
 
 namespace {
@@ -26,21 +28,17 @@ std::string with_time(std::string_view line) {
   const auto now = system_clock::now();
   const auto milliseconds = duration_cast<std::chrono::milliseconds>(now.time_since_epoch()) % 1000;
   const std::time_t seconds = system_clock::to_time_t(now);
-  std::tm local{};
-  localtime_r(&seconds, &local);
-  return fmt::format("{:%Y-%m-%d %H:%M:%S}.{:03} {}\n", local, milliseconds.count(), line);
+  return fmt::format("{:%Y-%m-%d %H:%M:%S}.{:03} {}\n", fmt::localtime(seconds),
+                     milliseconds.count(), line);
 }
 
 }  // namespace
 
 struct Log::State {
-  struct CloseFile {
-    void operator()(std::FILE* f) const { std::fclose(f); }
-  };
   std::atomic<Level> level{Level::normal};
   std::mutex mutex;  ///< of all below
   std::function<void()> before_write;
-  std::unique_ptr<std::FILE, CloseFile> file;
+  FileStream file;
   std::string path;
   std::optional<std::vector<std::string>> recording;
 };
@@ -71,7 +69,7 @@ void Log::set_before_write(std::function<void()> hook) {
 void Log::open_file(const std::string& path) {
   State& s = *state_;
   const std::scoped_lock lock(s.mutex);
-  s.file.reset(std::fopen(path.c_str(), "we"));
+  s.file = open_for_writing(path);
   s.path = path;
   if (!s.file) throw std::runtime_error(path + ": " + std::strerror(errno));
 }

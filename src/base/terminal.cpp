@@ -1,15 +1,8 @@
 #include "base/terminal.h"
 
-#include <sys/ioctl.h>
-
 #include <algorithm>
 
 namespace duet {
-
-size_t terminal_width(int stream) {
-  winsize size{};
-  return ioctl(stream, TIOCGWINSZ, &size) == 0 && size.ws_col > 0 ? size.ws_col : 80;
-}
 
 size_t columns(std::string_view text) {
   const auto begins_character = [](char c) {

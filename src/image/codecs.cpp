@@ -1,13 +1,13 @@
 #include "image/codecs.h"
 
-#include <dlfcn.h>
-
 #include <cstdlib>
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <stdexcept>
 
 #include "base/parallel.h"
+#include "base/system/shared_library.h"
 #include "image/module_paths.h"
 
 namespace duet {
@@ -41,11 +41,12 @@ const DuetCodecs* load() {
       throw std::runtime_error(
           "the library for image formats needs threads, and the system lets this process have no "
           "more");
-    void* library = dlopen(path.c_str(), RTLD_NOW | RTLD_LOCAL);
+    std::string failure;
+    const std::optional<SharedLibrary> library = SharedLibrary::load(path, failure);
     if (!library)
       throw std::runtime_error(
-          fmt::format("the library for image formats cannot be loaded: {}", dlerror()));
-    const auto get = reinterpret_cast<const DuetCodecs* (*)()>(dlsym(library, DUET_CODEC_SYMBOL));
+          fmt::format("the library for image formats cannot be loaded: {}", failure));
+    const auto get = library->function<const DuetCodecs* (*)()>(DUET_CODEC_SYMBOL);
     if (!get || get()->version != DUET_CODEC_VERSION)
       throw std::runtime_error(
           fmt::format("the library for image formats, {}, is of another version", path.string()));

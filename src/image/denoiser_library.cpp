@@ -1,16 +1,14 @@
 #include "image/denoiser_library.h"
 
-#include <dlfcn.h>
-#include <elf.h>
 #include <fmt/format.h>
 
 #include <cstdlib>
-#include <cstring>
 #include <filesystem>
-#include <fstream>
+#include <optional>
 #include <stdexcept>
 #include <string>
 
+#include "base/system/shared_library.h"
 #include "image/module_paths.h"
 
 namespace duet {
@@ -21,36 +19,23 @@ namespace {
 
 constexpr const char* kLibraryNames[] = {"libOpenImageDenoise.so.2", "libOpenImageDenoise.so"};
 
-/// Whether a library ends before the table that its header says is at its end: the loader would
-/// read beyond the end, which kills the program.
-bool is_cut_off(const fs::path& path) {
-  std::error_code error;
-  const uintmax_t size = fs::file_size(path, error);
-  Elf64_Ehdr header{};
-  std::ifstream file(path, std::ios::binary);
-  if (error || !file.read(reinterpret_cast<char*>(&header), sizeof(header))) return false;
-  if (std::memcmp(header.e_ident, ELFMAG, SELFMAG) != 0) return false;
-  const uintmax_t table = uintmax_t(header.e_shnum) * header.e_shentsize;
-  return header.e_shoff > size || table > size - header.e_shoff;
-}
-
 [[noreturn]] void fail_to_load(const std::string& why) {
   throw std::runtime_error("Open Image Denoise cannot be loaded: " + why);
 }
 
-void* open_denoiser(const fs::path& path) {
+std::optional<SharedLibrary> open_denoiser(const fs::path& path, std::string& failure) {
   if (path.has_parent_path() && is_cut_off(path)) fail_to_load(path.string() + " has been cut off");
-  return dlopen(path.c_str(), RTLD_NOW | RTLD_LOCAL);
+  return SharedLibrary::load(path, failure);
 }
 
-/// The library's handle; `path` becomes the name that it was found by.
-void* find_denoiser(std::string& path) {
-  std::string tried;
+/// The library; `path` becomes the name that it was found by.
+SharedLibrary find_denoiser(std::string& path) {
+  std::string tried, failure;
   const auto open = [&](const fs::path& candidate) {
-    void* const library = open_denoiser(candidate);
-    if (!library) fail_to_load(dlerror());
+    const std::optional<SharedLibrary> library = open_denoiser(candidate, failure);
+    if (!library) fail_to_load(failure);
     path = candidate.string();
-    return library;
+    return *library;
   };
   if (const char* chosen = std::getenv(kDenoiserVariable)) {
     // A name without a slash would be looked for elsewhere.
@@ -68,8 +53,8 @@ void* find_denoiser(std::string& path) {
     }
   for (const char* name : kLibraryNames) {
     path = name;
-    if (void* const library = open_denoiser(name)) return library;
-    tried += fmt::format("\n  {} ({})", name, dlerror());
+    if (const auto library = open_denoiser(name, failure)) return *library;
+    tried += fmt::format("\n  {} ({})", name, failure);
   }
   fail_to_load(
       fmt::format("it was not found (set {} to the path of libOpenImageDenoise.so); tried{}",
@@ -78,10 +63,10 @@ void* find_denoiser(std::string& path) {
 
 OidnFunctions load_functions() {
   std::string path;
-  void* const library = find_denoiser(path);
+  const SharedLibrary library = find_denoiser(path);
   OidnFunctions f;
   const auto get = [&]<class F>(F& function, const char* name) {
-    function = reinterpret_cast<F>(dlsym(library, name));
+    function = library.function<F>(name);
     if (!function)
       fail_to_load(fmt::format("{} is not its version 2: it has no function {}", path, name));
   };

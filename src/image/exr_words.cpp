@@ -14,8 +14,8 @@
 
 #include <algorithm>
 
-#include "base/atomic_file.h"
 #include "base/diagnostics.h"
+#include "base/system/atomic_file.h"
 #include "image/exr_sizes.h"
 
 namespace duet {

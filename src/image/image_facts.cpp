@@ -1,13 +1,10 @@
 #include "image/image_facts.h"
 
-#include <sys/stat.h>
-
-#include <cerrno>
-#include <cstring>
-#include <memory>
+#include <cstdio>
 #include <string_view>
 
 #include "base/diagnostics.h"
+#include "base/system/files.h"
 #include "image/exr_io.h"
 #include "image/text_fields.h"
 
@@ -20,22 +17,17 @@ std::string ImageFacts::field(const std::string& name) const {
 }
 
 ImageFacts read_image_facts(const std::string& path) {
-  const auto close = [](std::FILE* f) { std::fclose(f); };
-  const std::unique_ptr<std::FILE, decltype(close)> file(std::fopen(path.c_str(), "rbe"), close);
-  if (!file) throw ReadError(path + ": cannot be opened: " + std::strerror(errno));
-  struct stat status;
-  if (fstat(fileno(file.get()), &status) != 0 || !S_ISREG(status.st_mode))
-    throw ReadError(path + ": is not a file");
-  if (status.st_size == 0) throw ReadError(path + ": is empty");
+  const InputFile file(path);
+  if (file.size() == 0) throw ReadError(path + ": is empty");
   std::vector<uint8_t> begin(8);
-  begin.resize(std::fread(begin.data(), 1, begin.size(), file.get()));
+  begin.resize(std::fread(begin.data(), 1, begin.size(), file.stream()));
   const std::string_view mark(reinterpret_cast<const char*>(begin.data()), begin.size());
   if (is_exr(begin)) return exr_facts(path);
   TextFieldsFound found;
   if (mark == "\x89PNG\r\n\x1a\n")
-    found = find_png_text(file.get());
+    found = find_png_text(file.stream());
   else if (mark.starts_with("\xff\xd8\xff"))
-    found = find_jpeg_comment(file.get());
+    found = find_jpeg_comment(file.stream());
   else
     throw ReadError(path + ": is not an EXR, PNG or JPEG image");
   return {std::move(found.fields), found.is_complete};

@@ -1,19 +1,15 @@
 #include "image/image_io.h"
 
-#include <sys/stat.h>
-
 #include <algorithm>
-#include <cerrno>
 #include <cstdio>
-#include <cstring>
 #include <limits>
-#include <memory>
 #include <optional>
 #include <stdexcept>
 #include <string_view>
 
-#include "base/atomic_file.h"
 #include "base/file_names.h"
+#include "base/system/atomic_file.h"
+#include "base/system/files.h"
 #include "image/codecs.h"
 #include "image/exr_io.h"
 #include "image/plain_png.h"
@@ -23,16 +19,11 @@ namespace duet {
 namespace {
 
 std::vector<uint8_t> read_bytes(const std::string& path) {
-  const auto fail = [&](const std::string& reason) { throw ReadError(path + ": " + reason); };
-  const auto close = [](std::FILE* f) { std::fclose(f); };
-  const std::unique_ptr<std::FILE, decltype(close)> file(std::fopen(path.c_str(), "rb"), close);
-  if (!file) fail(fmt::format("cannot be opened: {}", std::strerror(errno)));
-  struct stat status;
-  if (fstat(fileno(file.get()), &status) != 0 || !S_ISREG(status.st_mode)) fail("is not a file");
+  const InputFile file(path);
   try {
-    std::vector<uint8_t> bytes(size_t(status.st_size));
-    if (std::fread(bytes.data(), 1, bytes.size(), file.get()) != bytes.size())
-      fail("cannot be read");
+    std::vector<uint8_t> bytes(size_t(file.size()));
+    if (std::fread(bytes.data(), 1, bytes.size(), file.stream()) != bytes.size())
+      throw ReadError(path + ": cannot be read");
     return bytes;
   } catch (const std::bad_alloc&) {
     throw ReadError(path + ": is too large for the memory");

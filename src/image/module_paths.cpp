@@ -1,10 +1,9 @@
 #include "image/module_paths.h"
 
-#include <dlfcn.h>
-
 #include <algorithm>
 
-#include "base/run_program.h"
+#include "base/system/process.h"
+#include "base/system/shared_library.h"
 
 namespace duet {
 
@@ -17,12 +16,10 @@ std::vector<fs::path> module_directories() {
       directories.push_back(directory);
   };
   std::error_code error;
-  Dl_info self;
-  if (dladdr(reinterpret_cast<const void*>(&module_directories), &self) && self.dli_fname)
-    if (const fs::path p = fs::canonical(self.dli_fname, error); !error) {
-      add(p.parent_path());
-      add(p.parent_path() / "duet");
-    }
+  if (const fs::path p = fs::canonical(own_library(), error); !error) {
+    add(p.parent_path());
+    add(p.parent_path() / "duet");
+  }
   // The name that the program was called by may be relative to a directory that has been left
   // since.
   if (const fs::path p = own_program(); !p.empty()) {

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "base/atomic_file.h"
+#include "base/system/atomic_file.h"
 #include "evaluate/report/exposure.h"
 #include "evaluate/report/image_file.h"
 #include "library/contents.h"

@@ -8,6 +8,7 @@
 #include <filesystem>
 #include <map>
 
+#include "base/system/files.h"
 #include "math/hash.h"
 #include "scene/description.h"
 
@@ -196,15 +197,14 @@ void Hasher::add_file(const std::string& path) {
   std::error_code ignored;
   // A pipe would wait forever.
   const bool is_file = std::filesystem::is_regular_file(path, ignored);
-  std::FILE* const file = is_file ? std::fopen(path.c_str(), "rbe") : nullptr;
+  const FileStream file = is_file ? open_for_reading(path) : nullptr;
   if (!file) return add(path);
   std::vector<char> block(1 << 20);
   size_t size = 0;
-  while (const size_t n = std::fread(block.data(), 1, block.size(), file)) {
+  while (const size_t n = std::fread(block.data(), 1, block.size(), file.get())) {
     words_.add_bytes(block.data(), n);
     size += n;
   }
-  std::fclose(file);
   words_.add(size);
 }
 

@@ -6,7 +6,7 @@
 #include <set>
 
 #include "app/workplace.h"
-#include "base/run_program.h"
+#include "base/system/run_program.h"
 #include "support/files.h"
 
 using namespace duet::test;

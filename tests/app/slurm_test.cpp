@@ -4,7 +4,7 @@
 #include <filesystem>
 
 #include "app/workplace.h"
-#include "base/run_program.h"
+#include "base/system/run_program.h"
 #include "image/image_io.h"
 
 using namespace duet;

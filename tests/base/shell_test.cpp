@@ -2,7 +2,7 @@
 
 #include <doctest/doctest.h>
 
-#include "base/run_program.h"
+#include "base/system/run_program.h"
 
 using namespace duet;
 

@@ -1,13 +1,11 @@
 #include "evaluate/batch/job_queue.h"
 
 #include <fmt/format.h>
-#include <poll.h>
 
 #include <algorithm>
 #include <charconv>
 #include <chrono>
 #include <cmath>
-#include <csignal>
 #include <filesystem>
 #include <stdexcept>
 
@@ -104,11 +102,10 @@ void JobQueue::start_what_fits() {
   start({job, settings_.threads}, true);
 }
 
-void JobQueue::wait_for_messages() {
-  std::vector<pollfd> streams;
-  for (const Running& r : running_) streams.push_back({r.process.stream(), POLLIN, 0});
-  // A signal ends it early, as it should.
-  poll(streams.data(), streams.size(), kTickMilliseconds);
+void JobQueue::wait() {
+  std::vector<const ChildProcess*> processes;
+  for (const Running& r : running_) processes.push_back(&r.process);
+  wait_for_messages(processes, kTickMilliseconds);
 }
 
 void JobQueue::finish(Running& r, const QueueEvents& events) {
@@ -137,10 +134,10 @@ void JobQueue::run(const QueueEvents& events) {
       for (const Running& r : running_) r.process.send(signal);
     }
     if (events.wants_snapshots())
-      for (const Running& r : running_) r.process.send(SIGUSR1);
+      for (const Running& r : running_) r.process.ask_for_snapshot();
     if (signal == 0) start_what_fits();
     if (running_.empty()) return;
-    wait_for_messages();
+    wait();
     for (auto r = running_.begin(); r != running_.end();) {
       if (r->process.read_messages()) {
         ++r;

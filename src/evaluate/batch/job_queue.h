@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "evaluate/batch/child_process.h"
+#include "base/system/child_process.h"
 #include "evaluate/batch/job.h"
 #include "evaluate/batch/job_result.h"
 
@@ -74,7 +74,8 @@ class JobQueue {
   std::optional<Planned> choose();
   void start(const Planned& planned, bool alone);
   void start_what_fits();
-  void wait_for_messages();
+  /// A signal ends it early.
+  void wait();
   void finish(Running& running, const QueueEvents& events);
 
   const std::vector<Job>& jobs_;

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <csignal>
 #include <cstring>
 #include <filesystem>
 #include <fstream>
@@ -12,6 +11,7 @@
 #include "base/file_names.h"
 #include "base/memory_limit.h"
 #include "base/printable.h"
+#include "base/system/signals.h"
 #include "evaluate/report/partial_image.h"
 #include "image/image_facts.h"
 
@@ -28,7 +28,7 @@ constexpr size_t kMostMessages = 50;
 /// had not yet taken over the signal.
 int stop_signal_of(const ChildEnd& end) {
   const int signal = end.signal != 0 ? end.signal : end.exit_code - 128;
-  return signal == SIGHUP || signal == SIGINT || signal == SIGTERM ? signal : 0;
+  return is_stop_signal(signal) ? signal : 0;
 }
 
 std::string without_program(const std::string& line) {
@@ -127,7 +127,7 @@ JobResult result_of(const Job& job, const ChildEnd& end, const std::string& stat
 }
 
 bool lacks_memory(const ChildEnd& end, bool kernel_ended) {
-  if (end.signal == SIGKILL) return kernel_ended;
+  if (is_kill_signal(end.signal)) return kernel_ended;
   if (end.signal != 0 || end.exit_code == 0) return false;
   for (const char* text : {kMemoryLimitVariable, "out of memory"})
     if (end.messages.find(text) != std::string::npos) return true;

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "evaluate/batch/child_process.h"
+#include "base/system/child_process.h"
 #include "evaluate/batch/job.h"
 
 namespace duet::batch {

@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "base/atomic_file.h"
 #include "base/messages.h"
+#include "base/system/atomic_file.h"
 #include "evaluate/batch/job.h"
 #include "evaluate/batch/job_result.h"
 

@@ -2,11 +2,10 @@
 
 #include <fmt/format.h>
 
-#include <cerrno>
-#include <cstdlib>
-#include <cstring>
 #include <filesystem>
 #include <stdexcept>
+
+#include "base/system/files.h"
 
 namespace duet::batch {
 
@@ -16,10 +15,11 @@ TemporaryFolder::TemporaryFolder() {
   std::error_code ignored;
   fs::path where = fs::temp_directory_path(ignored);
   if (where.empty()) where = "/tmp";
-  path_ = (where / "duet-batch-XXXXXX").string();
-  if (!mkdtemp(path_.data()))
-    throw std::runtime_error(fmt::format("no temporary folder can be made in {}: {}",
-                                         where.string(), std::strerror(errno)));
+  std::error_code error;
+  path_ = make_temporary_folder((where / "duet-batch-").string(), error);
+  if (error)
+    throw std::runtime_error(
+        fmt::format("no temporary folder can be made in {}: {}", where.string(), error.message()));
 }
 
 TemporaryFolder::~TemporaryFolder() {

@@ -6,9 +6,9 @@
 #include <cmath>
 #include <filesystem>
 
-#include "base/atomic_file.h"
 #include "base/percent.h"
 #include "base/seconds_text.h"
+#include "base/system/atomic_file.h"
 #include "evaluate/chart/colours.h"
 #include "evaluate/chart/svg.h"
 #include "evaluate/web/page.h"

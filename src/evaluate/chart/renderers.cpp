@@ -1,11 +1,12 @@
 #include "evaluate/chart/renderers.h"
 
 #include <fmt/format.h>
-#include <sys/resource.h>
 
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+
+#include "base/system/process.h"
 
 namespace duet {
 
@@ -17,13 +18,6 @@ constexpr double kPointDistance = 1.41421356;
 constexpr double kFirstShare = 1.0 / 1024;
 
 }  // namespace
-
-double process_cpu_seconds() {
-  rusage u{};
-  getrusage(RUSAGE_SELF, &u);
-  const auto seconds = [](const timeval& t) { return double(t.tv_sec) + 1e-6 * double(t.tv_usec); };
-  return seconds(u.ru_utime) + seconds(u.ru_stime);
-}
 
 void ChartRenderer::record(double seconds, double cpu_seconds, int spp, Image image) {
   const ReferenceErrors e = reference_.errors(image);

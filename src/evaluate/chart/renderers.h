@@ -108,7 +108,4 @@ class ExternalRenderer : public ChartRenderer {
   double used_ = 0, last_ = 0;
 };
 
-/// CPU seconds, of the user and of the system, that this process has used in all its threads.
-double process_cpu_seconds();
-
 }  // namespace duet

@@ -1,6 +1,5 @@
 // Comparisons of several images: two sets of renders, or two directories.
 #include <fmt/format.h>
-#include <glob.h>
 
 #include <algorithm>
 #include <filesystem>
@@ -8,6 +7,7 @@
 #include <map>
 
 #include "base/failures.h"
+#include "base/system/files.h"
 #include "evaluate/compare/compare.h"
 #include "image/colours.h"
 
@@ -152,11 +152,7 @@ std::vector<std::string> images_of_set(const std::string& set) {
     return files;
   }
   if (set.find_first_of("*?") != std::string::npos && !fs::exists(set, ignored)) {
-    glob_t found{};
-    if (glob(set.c_str(), 0, nullptr, &found) == 0)
-      files.assign(found.gl_pathv, found.gl_pathv + found.gl_pathc);
-    globfree(&found);
-    return files;
+    return files_of_pattern(set);
   }
   for (size_t from = 0; from <= set.size();) {
     const size_t to = std::min(set.find(',', from), set.size());

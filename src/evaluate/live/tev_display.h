@@ -8,7 +8,7 @@
 #include <string>
 #include <thread>
 
-#include "base/tcp.h"
+#include "base/system/tcp.h"
 #include "image/image.h"
 
 namespace duet {

@@ -1,14 +1,15 @@
 #include "evaluate/render/output.h"
 
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <filesystem>
 #include <stdexcept>
 
-#include "base/atomic_file.h"
 #include "base/failures.h"
-#include "base/standard_output.h"
+#include "base/system/atomic_file.h"
+#include "base/system/files.h"
+#include "base/system/process.h"
+#include "base/system/standard_streams.h"
 #include "evaluate/render/placeholders.h"
 #include "evaluate/render/scene_operand.h"
 
@@ -33,7 +34,7 @@ std::string obstacle_to(const std::string& path) {
   const fs::path parent = fs::path(path).has_parent_path() ? fs::path(path).parent_path() : ".";
   if (!make_directories(parent, error))
     return fmt::format("the directory \"{}\" cannot be made: {}", parent.string(), error.message());
-  if (access(parent.c_str(), W_OK) != 0)
+  if (!is_writable(parent.string()))
     return fmt::format("the directory \"{}\" is not writable", parent.string());
   return "";
 }
@@ -142,7 +143,7 @@ void write_image(const std::string& path, const Image& image, const ImageForm& f
     std::string rescue;
     // Scenes of one call may have the same name.
     for (int number = 0; rescue.empty() || fs::exists(rescue, ignored); ++number)
-      rescue = (folder / fmt::format("duet-{}-{}-{}.exr", stem, getpid(), number)).string();
+      rescue = (folder / fmt::format("duet-{}-{}-{}.exr", stem, process_id(), number)).string();
     std::string outcome;
     try {
       write(rescue);

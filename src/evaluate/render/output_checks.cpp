@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <map>
 
-#include "base/standard_output.h"
+#include "base/system/standard_streams.h"
 #include "evaluate/render/output.h"
 
 namespace duet {

@@ -6,7 +6,7 @@
 
 #include "base/diagnostics.h"
 #include "base/failures.h"
-#include "base/standard_output.h"
+#include "base/system/standard_streams.h"
 
 namespace duet {
 

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "base/tcp.h"
+#include "base/system/tcp.h"
 #include "evaluate/render/scene_file.h"
 #include "evaluate/report/file_settings.h"
 #include "image/cryptomatte.h"

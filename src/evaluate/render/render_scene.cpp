@@ -4,8 +4,8 @@
 
 #include "base/failures.h"
 #include "base/memory_limit.h"
-#include "base/standard_output.h"
 #include "base/stopwatch.h"
+#include "base/system/standard_streams.h"
 #include "evaluate/live/live_display.h"
 #include "evaluate/raw/identity.h"
 #include "evaluate/render/asked.h"

@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <stdexcept>
 
-#include "base/standard_output.h"
+#include "base/system/standard_streams.h"
 #include "evaluate/render/file_settings_text.h"
 #include "evaluate/report/denoised_image.h"
 #include "evaluate/report/partial_image.h"

@@ -2,10 +2,10 @@
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <cerrno>
+#include <cstdio>
 #include <cstring>
 #include <filesystem>
 #include <stdexcept>
@@ -91,16 +91,15 @@ std::string read_standard_input(const std::vector<std::string>& scene_files) {
   std::string text;
   if (count == 0) return text;
   char block[1 << 16];
-  while (const ssize_t n = read(STDIN_FILENO, block, sizeof block)) {
-    if (n < 0 && errno == EINTR) continue;
-    if (n < 0)
-      throw std::runtime_error(
-          fmt::format("cannot read {}: {}", kStandardInput, std::strerror(errno)));
-    text.append(block, size_t(n));
+  while (const size_t n = std::fread(block, 1, sizeof block, stdin)) {
+    text.append(block, n);
     if (text.size() > kLargestText)
       throw std::runtime_error(fmt::format("cannot read {}: it is larger than {} MB",
                                            kStandardInput, kLargestText >> 20));
   }
+  if (std::ferror(stdin))
+    throw std::runtime_error(
+        fmt::format("cannot read {}: {}", kStandardInput, std::strerror(errno)));
   return text;
 }
 

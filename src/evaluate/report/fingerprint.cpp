@@ -6,9 +6,9 @@
 #include <cstdio>
 #include <cstring>
 #include <filesystem>
-#include <memory>
 #include <vector>
 
+#include "base/system/files.h"
 #include "math/hash.h"
 
 namespace duet {
@@ -34,9 +34,7 @@ void Fingerprint::add_file(const std::string& path) {
   std::error_code ignored;
   // A pipe would wait forever.
   const bool is_file = std::filesystem::is_regular_file(path, ignored);
-  const auto close = [](std::FILE* f) { std::fclose(f); };
-  const std::unique_ptr<std::FILE, decltype(close)> file(
-      is_file ? std::fopen(path.c_str(), "rbe") : nullptr, close);
+  const FileStream file = is_file ? open_for_reading(path) : nullptr;
   uint64_t size = 0;
   if (!file) return add_word(~size);
   std::vector<char> block(1 << 20);

@@ -2,8 +2,8 @@
 
 #include <nlohmann/json.hpp>
 
-#include "base/atomic_file.h"
-#include "base/memory_limit.h"
+#include "base/system/atomic_file.h"
+#include "base/system/memory.h"
 #include "evaluate/report/scene_json.h"
 
 namespace duet {

@@ -4,8 +4,8 @@
 #include <filesystem>
 #include <stdexcept>
 
-#include "base/atomic_file.h"
-#include "base/run_program.h"
+#include "base/system/atomic_file.h"
+#include "base/system/run_program.h"
 #include "evaluate/slurm/sbatch.h"
 
 namespace duet::slurm {

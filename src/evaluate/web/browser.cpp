@@ -1,14 +1,13 @@
 #include "evaluate/web/browser.h"
 
 #include <fmt/format.h>
-#include <unistd.h>
 
-#include <cerrno>
 #include <filesystem>
 #include <stdexcept>
 #include <system_error>
 
-#include "base/run_program.h"
+#include "base/system/files.h"
+#include "base/system/run_program.h"
 
 namespace duet {
 
@@ -19,8 +18,10 @@ std::string page_opener() {
 }
 
 std::string temporary_page(const std::string& file) {
-  std::string folder = (fs::temp_directory_path() / "duet-view-XXXXXX").string();
-  if (!mkdtemp(folder.data())) throw std::system_error(errno, std::generic_category(), folder);
+  std::error_code error;
+  const std::string folder =
+      make_temporary_folder((fs::temp_directory_path() / "duet-view-").string(), error);
+  if (error) throw std::system_error(error, folder);
   return (fs::path(folder) / fs::path(file).filename()).string() + ".html";
 }
 

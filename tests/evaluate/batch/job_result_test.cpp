@@ -6,6 +6,7 @@
 
 #include "support/files.h"
 
+using duet::ChildEnd;
 using namespace duet::batch;
 using namespace duet::test;
 

@@ -1,7 +1,8 @@
-#include "evaluate/batch/child_process.h"
+#include "base/system/child_process.h"
 
 #include <fcntl.h>
 #include <fmt/format.h>
+#include <poll.h>
 #include <sys/prctl.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -13,9 +14,9 @@
 #include <stdexcept>
 #include <utility>
 
-#include "base/run_program.h"
+#include "base/system/process.h"
 
-namespace duet::batch {
+namespace duet {
 
 namespace {
 
@@ -141,6 +142,10 @@ void ChildProcess::send(int signal) const {
   if (id_ > 0) kill(id_, signal);
 }
 
+void ChildProcess::ask_for_snapshot() const {
+  send(SIGUSR1);
+}
+
 bool ChildProcess::read_messages() {
   char block[4096];
   while (true) {
@@ -167,4 +172,10 @@ ChildEnd ChildProcess::end() {
   return end;
 }
 
-}  // namespace duet::batch
+void wait_for_messages(const std::vector<const ChildProcess*>& processes, int milliseconds) {
+  std::vector<pollfd> streams;
+  for (const ChildProcess* process : processes) streams.push_back({process->stream_, POLLIN, 0});
+  poll(streams.data(), streams.size(), milliseconds);
+}
+
+}  // namespace duet

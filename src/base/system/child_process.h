@@ -1,12 +1,10 @@
-// A process of this program that renders a job.
+// This program, started again as a process of its own.
 #pragma once
-
-#include <sys/types.h>
 
 #include <string>
 #include <vector>
 
-namespace duet::batch {
+namespace duet {
 
 /// How a process ended.
 struct ChildEnd {
@@ -30,10 +28,9 @@ class ChildProcess {
   ChildProcess(ChildProcess&& other) noexcept;
   ChildProcess& operator=(ChildProcess&&) = delete;
 
-  /// Becomes readable when there are messages, and when the process ends.
-  int stream() const { return stream_; }
-  pid_t id() const { return id_; }
   void send(int signal) const;
+  /// Wishes the image so far, which the process may not hear if it has just been started.
+  void ask_for_snapshot() const;
   /// Reads the messages that there are. False if there will be no more: the process has ended or is
   /// about to.
   bool read_messages();
@@ -41,10 +38,17 @@ class ChildProcess {
   ChildEnd end();
 
  private:
-  pid_t id_ = -1;
+  friend void wait_for_messages(const std::vector<const ChildProcess*>& processes,
+                                int milliseconds);
+
+  int id_ = -1;
   int stream_ = -1;
   std::string messages_;
   bool has_more_messages_ = false;
 };
 
-}  // namespace duet::batch
+/// Waits until one of the processes has messages or ends, a signal comes, or so many milliseconds
+/// have passed.
+void wait_for_messages(const std::vector<const ChildProcess*>& processes, int milliseconds);
+
+}  // namespace duet

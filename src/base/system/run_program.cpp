@@ -1,20 +1,23 @@
-#include "base/run_program.h"
+#include "base/system/run_program.h"
 
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <poll.h>
 #include <spawn.h>
-#include <sys/auxv.h>
+#include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <cerrno>
+#include <chrono>
+#include <csignal>
 #include <cstdlib>
 #include <cstring>
 #include <filesystem>
 #include <stdexcept>
 #include <string_view>
+#include <thread>
 #include <utility>
 
 namespace duet {
@@ -86,15 +89,6 @@ void read_streams(Pipe& out, Pipe& err, ProgramEnd& end) {
 
 }  // namespace
 
-std::string own_program() {
-  std::error_code error;
-  const auto path = std::filesystem::read_symlink("/proc/self/exe", error);
-  if (!error) return path.string();
-  // A bare chroot has no /proc.
-  const auto name = reinterpret_cast<const char*>(getauxval(AT_EXECFN));
-  return name ? std::filesystem::canonical(name, error).string() : "";
-}
-
 std::string find_program(const std::string& name) {
   const char* const path = std::getenv("PATH");
   std::string_view folders = path ? path : "";
@@ -120,6 +114,39 @@ ProgramEnd run_program(const std::vector<std::string>& arguments) {
   while (waitpid(id, &status, 0) < 0)
     if (errno != EINTR) fail_to_run(arguments[0], errno);
   end.exit_code = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
+  return end;
+}
+
+CommandEnd run_timed(const std::string& command, double limit, const std::atomic<bool>& cancel) {
+  using Clock = std::chrono::steady_clock;
+  CommandEnd end;
+  const Clock::time_point start = Clock::now();
+  const pid_t child = fork();
+  if (child < 0) return end;
+  if (child == 0) {
+    setpgid(0, 0);
+    dup2(STDERR_FILENO, STDOUT_FILENO);
+    for (const int s : {SIGINT, SIGTERM, SIGXFSZ, SIGPIPE}) std::signal(s, SIG_DFL);
+    execl("/bin/sh", "sh", "-c", command.c_str(), static_cast<char*>(nullptr));
+    _exit(127);
+  }
+  setpgid(child, child);
+  end.started = true;
+  int status = 0;
+  rusage usage{};
+  const auto elapsed = [&] { return std::chrono::duration<double>(Clock::now() - start).count(); };
+  while (wait4(child, &status, WNOHANG, &usage) == 0) {
+    if (!end.stopped && (cancel.load() || elapsed() > limit)) {
+      end.stopped = true;
+      kill(-child, SIGKILL);
+    }
+    std::this_thread::sleep_for(std::chrono::milliseconds(2));
+  }
+  end.seconds = elapsed();
+  const auto seconds = [](const timeval& t) { return double(t.tv_sec) + 1e-6 * double(t.tv_usec); };
+  end.cpu_seconds = seconds(usage.ru_utime) + seconds(usage.ru_stime);
+  end.exit_code = WIFEXITED(status) ? WEXITSTATUS(status) : 0;
+  end.signal = WIFSIGNALED(status) ? WTERMSIG(status) : 0;
   return end;
 }
 

@@ -19,4 +19,9 @@ int interrupt_exit_code();
 /// Whether SIGUSR1 has arrived since the last call.
 bool take_snapshot_request();
 
+/// Whether a signal asks a program to stop: SIGINT, SIGTERM or SIGHUP.
+bool is_stop_signal(int signal);
+/// Whether it is the one that ends a program without asking, as the kernel does when memory is out.
+bool is_kill_signal(int signal);
+
 }  // namespace duet

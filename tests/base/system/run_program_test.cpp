@@ -1,4 +1,4 @@
-#include "base/run_program.h"
+#include "base/system/run_program.h"
 
 #include <doctest/doctest.h>
 

@@ -1,5 +1,5 @@
 // Connections to programs that take what they get, or do not.
-#include "base/tcp.h"
+#include "base/system/tcp.h"
 
 #include <doctest/doctest.h>
 

@@ -1,11 +1,9 @@
-#include "base/tcp.h"
+#include "base/system/tcp.h"
 
-#include <fcntl.h>
 #include <fmt/format.h>
 #include <netdb.h>
 #include <poll.h>
 #include <sys/socket.h>
-#include <unistd.h>
 
 #include <cerrno>
 #include <chrono>
@@ -49,27 +47,6 @@ int connect_within(int socket, const addrinfo& to, double seconds) {
 
 }  // namespace
 
-std::string TcpAddress::text() const {
-  return host.find(':') == std::string::npos ? fmt::format("{}:{}", host, port)
-                                             : fmt::format("[{}]:{}", host, port);
-}
-
-std::optional<AddressParts> split_address(const std::string& text) {
-  AddressParts parts{text, std::nullopt};
-  std::string& host = parts.host;
-  // An IPv6 address has colons of its own.
-  const size_t bracket = host.find(']'), colon = host.find(':', bracket == host.npos ? 0 : bracket);
-  if (colon != host.npos) {
-    parts.port = host.substr(colon + 1);
-    host.erase(colon);
-  }
-  if (host.starts_with('[')) {
-    if (!host.ends_with(']')) return std::nullopt;
-    host = host.substr(1, host.size() - 2);
-  }
-  return host.empty() ? std::nullopt : std::optional(parts);
-}
-
 TcpPeer::TcpPeer(const TcpAddress& address) : address_(address) {
   addrinfo hints{};
   hints.ai_family = AF_UNSPEC;
@@ -84,28 +61,20 @@ TcpPeer::TcpPeer(const TcpAddress& address) : address_(address) {
 
 TcpConnection::TcpConnection(const TcpPeer& peer, double seconds) {
   int error = EADDRNOTAVAIL;
-  for (const addrinfo* a = peer.found_.get(); a; a = a->ai_next) {
-    const int s = socket(a->ai_family, a->ai_socktype | SOCK_NONBLOCK | SOCK_CLOEXEC, 0);
-    if (s < 0) continue;
-    error = connect_within(s, *a, seconds);
-    if (error == 0) {
-      socket_ = s;
-      return;
-    }
-    close(s);
+  for (auto a = static_cast<const addrinfo*>(peer.found_.get()); a; a = a->ai_next) {
+    socket_ = Descriptor(socket(a->ai_family, a->ai_socktype | SOCK_NONBLOCK | SOCK_CLOEXEC, 0));
+    if (socket_.number() < 0) continue;
+    error = connect_within(socket_.number(), *a, seconds);
+    if (error == 0) return;
   }
   throw std::runtime_error(fmt::format("{}: {}", peer.address().text(), std::strerror(error)));
-}
-
-TcpConnection::~TcpConnection() {
-  close(socket_);
 }
 
 void TcpConnection::send(std::span<const uint8_t> bytes, double seconds,
                          const std::atomic<bool>& cancel) {
   Clock::time_point last = Clock::now();
   while (!bytes.empty()) {
-    const ssize_t n = ::send(socket_, bytes.data(), bytes.size(), MSG_NOSIGNAL);
+    const ssize_t n = ::send(socket_.number(), bytes.data(), bytes.size(), MSG_NOSIGNAL);
     if (n > 0) {
       bytes = bytes.subspan(size_t(n));
       last = Clock::now();
@@ -113,7 +82,7 @@ void TcpConnection::send(std::span<const uint8_t> bytes, double seconds,
     }
     if (n < 0 && errno != EAGAIN && errno != EWOULDBLOCK && errno != EINTR)
       throw std::runtime_error(std::strerror(errno));
-    is_writable(socket_, kMillisecondsBetweenLooks);
+    is_writable(socket_.number(), kMillisecondsBetweenLooks);
     if (cancel.load()) throw std::runtime_error("there was no time to send all of it");
     if (std::chrono::duration<double>(Clock::now() - last).count() > seconds)
       throw std::runtime_error(std::strerror(ETIMEDOUT));

@@ -1,4 +1,4 @@
-#include "app/signals.h"
+#include "base/system/signals.h"
 
 #include <unistd.h>
 
@@ -55,6 +55,13 @@ int interrupt_exit_code() {
 }
 bool take_snapshot_request() {
   return snapshot_wanted.exchange(false);
+}
+
+bool is_stop_signal(int signal) {
+  return signal == SIGHUP || signal == SIGINT || signal == SIGTERM;
+}
+bool is_kill_signal(int signal) {
+  return signal == SIGKILL;
 }
 
 }  // namespace duet

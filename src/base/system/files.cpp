@@ -1,0 +1,56 @@
+#include "base/system/files.h"
+
+#include <glob.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstdlib>
+#include <cstring>
+
+#include "base/diagnostics.h"
+
+namespace duet {
+
+FileStream open_for_reading(const std::string& path) {
+  return FileStream(std::fopen(path.c_str(), "rbe"));
+}
+
+FileStream open_for_writing(const std::string& path) {
+  return FileStream(std::fopen(path.c_str(), "we"));
+}
+
+InputFile::InputFile(const std::string& path) : stream_(open_for_reading(path)) {
+  if (!stream_) throw ReadError(path + ": cannot be opened: " + std::strerror(errno));
+  struct stat status {};
+  if (fstat(fileno(stream_.get()), &status) != 0)
+    throw ReadError(path + ": cannot be read: " + std::strerror(errno));
+  if (!S_ISREG(status.st_mode)) throw ReadError(path + ": is not a file");
+  size_ = uint64_t(status.st_size);
+}
+
+bool InputFile::seek(uint64_t position) const {
+  return fseeko(stream_.get(), off_t(position), SEEK_SET) == 0;
+}
+
+bool is_writable(const std::string& path) {
+  return access(path.c_str(), W_OK) == 0;
+}
+
+std::string make_temporary_folder(const std::string& beginning, std::error_code& error) {
+  std::string path = beginning + "XXXXXX";
+  error.clear();
+  if (!mkdtemp(path.data())) error.assign(errno, std::generic_category());
+  return path;
+}
+
+std::vector<std::string> files_of_pattern(const std::string& pattern) {
+  std::vector<std::string> files;
+  glob_t found{};
+  if (glob(pattern.c_str(), 0, nullptr, &found) == 0)
+    files.assign(found.gl_pathv, found.gl_pathv + found.gl_pathc);
+  globfree(&found);
+  return files;
+}
+
+}  // namespace duet
