@@ -1,4 +1,4 @@
-// progress: renders a scene that is a text here, on a thread of its own, shows how far it is, and stops after a second.
+// progress: puts a scene together, renders it on a thread of its own, shows how far it is, and stops after a second.
 #include <duet/duet.h>
 
 #include <atomic>
@@ -8,20 +8,34 @@
 
 namespace {
 
-const char* const kScene = R"(<scene version="3.0.0">
-  <integrator type="path"><integer name="max_depth" value="8"/></integrator>
-  <sensor type="perspective">
-    <transform name="to_world"><lookat origin="0, 1, 5" target="0, 0, 0" up="0, 1, 0"/></transform>
-    <film type="hdrfilm"><integer name="width" value="64"/><integer name="height" value="48"/></film>
-  </sensor>
-  <shape type="sphere"><bsdf type="roughplastic"/></shape>
-  <emitter type="constant"/>
-</scene>)";
+/// A ball on a floor of two triangles, under a white sky.
+duet::SceneObject ball_on_floor() {
+  duet::SceneObject film("film", "hdrfilm");
+  film.set("width", 64).set("height", 48);
+  duet::SceneObject sensor("sensor", "perspective");
+  sensor.set("to_world", duet::SceneTransform::look_at({0, 1, 5}, {0, 0, 0}, {0, 1, 0}));
+  sensor.add(film);
+
+  duet::SceneObject wood("bsdf", "diffuse", "wood");
+  wood.set("reflectance", duet::SceneRgb{0.5, 0.3, 0.2});
+  duet::SceneMesh square;
+  square.positions = {{-3, -1, -3}, {3, -1, -3}, {3, -1, 3}, {-3, -1, 3}};
+  square.triangles = {{0, 2, 1}, {0, 3, 2}};
+  duet::SceneObject floor = duet::SceneObject::mesh(square, "floor");
+  floor.add(duet::SceneReference{"wood"});
+
+  duet::SceneObject scene = duet::SceneObject::scene();
+  scene.add(duet::SceneObject("integrator", "path").set("max_depth", 8)).add(sensor);
+  scene.add(wood).add(floor);
+  scene.add(duet::SceneObject("shape", "sphere").add(duet::SceneObject("bsdf", "roughplastic")));
+  scene.add(duet::SceneObject("emitter", "constant"));
+  return scene;
+}
 
 }  // namespace
 
 int main() {
-  const duet::SceneFile scene = duet::SceneFile::from_text(kScene);
+  const duet::SceneFile scene = duet::SceneFile::from_description(ball_on_floor());
   duet::RenderSettings settings;
   settings.spp = 1 << 20;
   std::atomic<bool> stop{false};

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <functional>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -37,6 +38,9 @@ struct FileAccess {
   std::function<CurveSet(const std::string& path, CurveKind kind)> read_curves;
   /// Reads a file of 0.6's hair, to be of this radius; throws ReadError.
   std::function<CurveSet(const std::string& path, float radius)> read_hair;
+  /// What messages name instead of a line (from 1) of a text that nobody has seen. Where it is null
+  /// or returns null, they name file, line and column.
+  std::function<std::shared_ptr<const std::string>(const std::string& path, int line)> place;
 };
 
 /// `access` with what it leaves open done on the disk.

@@ -13,7 +13,7 @@ namespace duet {
 
 namespace {
 
-constexpr int kDeepestInclude = 16, kDeepestNesting = 64;
+constexpr int kDeepestInclude = 16;
 constexpr int kMostIncludes = 10000;
 constexpr size_t kMostNodes = 4'000'000;
 constexpr std::string_view kWayOut = "; -i METHOD renders the scene with another one";

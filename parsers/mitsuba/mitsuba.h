@@ -14,6 +14,9 @@ namespace duet {
 
 class Vocabulary;
 
+/// How deep elements may be nested, those of values counted, too.
+inline constexpr int kDeepestNesting = 64;
+
 struct MitsubaOptions {
   /// The plugins that are known; null for those that come with the program. Must outlive reading.
   const Vocabulary* vocabulary = nullptr;

@@ -34,8 +34,9 @@ Properties::Properties(const Node& node, Report& report) : node_(node), report_(
       continue;
     }
     if (first) {
-      report_.error(p.where, "the parameter {} is given twice, first in line {}",
-                    in_quotes(p.written), first->property->where.line);
+      const int line = first->property->where.line;
+      report_.error(p.where, "the parameter {} is given twice{}", in_quotes(p.written),
+                    line > 0 ? fmt::format(", first in line {}", line) : "");
       continue;
     }
     entries_.push_back({&p, parameter});

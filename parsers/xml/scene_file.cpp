@@ -1,5 +1,7 @@
 #include "xml/scene_file.h"
 
+#include <functional>
+
 #include "values/text.h"
 
 namespace duet {
@@ -57,7 +59,9 @@ std::optional<SceneFileXml> parse_scene_file(std::string bytes, const std::strin
     report.error({name, 1, 1}, "this is not an XML file in UTF-8 or UTF-16");
     return std::nullopt;
   }
-  XmlText text(std::move(*utf8), name);
+  XmlText::PlaceOfLine place;
+  if (access.place) place = std::bind_front(access.place, path);
+  XmlText text(std::move(*utf8), name, std::move(place));
   std::optional<XmlText> with_entities;
   if (text.declares_entities()) with_entities = text;
   SceneFileXml file;

@@ -50,12 +50,17 @@ class XmlPrinter {
   void rgb(std::string_view name, const Spectrum& s) {
     value("rgb", name, fmt::format("{} {} {}", s.r, s.g, s.b));
   }
+  void rgb(std::string_view name, const std::array<double, 3>& c) {
+    value("rgb", name, fmt::format("{} {} {}", c[0], c[1], c[2]));
+  }
   void reference(std::string_view name, std::string_view id) {
     line(fmt::format("<ref{}{}/>", attribute("name", name), attribute("id", id)));
   }
   /// Nothing for the identity, which is what holds without a transform.
   void transform(std::string_view name, const Matrix4& m) {
-    if (m == Matrix4{}) return;
+    if (m != Matrix4{}) matrix(name, m);
+  }
+  void matrix(std::string_view name, const Matrix4& m) {
     std::string numbers;
     for (int i = 0; i < 4; ++i)
       for (double v : m[i]) numbers += fmt::format("{}{}", numbers.empty() ? "" : " ", v);
@@ -67,11 +72,14 @@ class XmlPrinter {
     text_.append(2 * (tags_.size() + 1), ' ');
     text_ += text;
     text_ += '\n';
+    ++lines_;
   }
 
   const std::string& text() const { return text_; }
+  int lines() const { return lines_; }
 
-  /// A value as an attribute has it: `$` is no parameter.
+  /// A value as an attribute has it, on one line: `$` is no parameter, and white space, which
+  /// would become plain spaces, stays as it is.
   static std::string escaped(std::string_view value) {
     std::string s;
     for (char c : value) switch (c) {
@@ -86,6 +94,11 @@ class XmlPrinter {
           break;
         case '$':
           s += "\\$";
+          break;
+        case '\n':
+        case '\r':
+        case '\t':
+          s += fmt::format("&#{};", int(c));
           break;
         default:
           s += c;
@@ -102,6 +115,7 @@ class XmlPrinter {
   }
 
   std::string text_;
+  int lines_ = 0;
   std::vector<std::string> tags_;  ///< that are open
   size_t opened_ = 0;              ///< end of the text after the last opening tag
 };

@@ -82,15 +82,16 @@ std::optional<std::string> to_utf8(std::string text) {
 
 XmlText::Source XmlText::make_source(const std::string& text,
                                      std::shared_ptr<const std::string> file) {
-  Source source{std::move(file), {0}};
+  Source source{std::move(file), {0}, {}};
   for (size_t i = 0; i < text.size(); ++i)
     if (text[i] == '\n') source.line_starts.push_back(i + 1);
   return source;
 }
 
-XmlText::XmlText(std::string text, std::shared_ptr<const std::string> file)
+XmlText::XmlText(std::string text, std::shared_ptr<const std::string> file, PlaceOfLine place)
     : text_(std::move(text)) {
   sources_.push_back(make_source(text_, std::move(file)));
+  sources_.back().place = std::move(place);
   pieces_.push_back({0, 0, 0});
 }
 
@@ -103,6 +104,8 @@ SourceLocation XmlText::at(size_t offset) const {
   const auto& starts = source.line_starts;
   const size_t line =
       size_t(std::upper_bound(starts.begin(), starts.end(), place) - starts.begin());
+  if (auto named = source.place ? source.place(int(line)) : nullptr)
+    return {std::move(named), 0, 0};
   return {source.file, int(line), int(place - starts[line - 1]) + 1};
 }
 

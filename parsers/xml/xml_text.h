@@ -18,8 +18,10 @@ std::optional<std::string> to_utf8(std::string text);
 /// A text made of parts of files.
 class XmlText {
  public:
+  /// What stands for a line; null for the file with line and column.
+  using PlaceOfLine = std::function<std::shared_ptr<const std::string>(int line)>;
   /// A whole file.
-  XmlText(std::string text, std::shared_ptr<const std::string> file);
+  XmlText(std::string text, std::shared_ptr<const std::string> file, PlaceOfLine place = {});
 
   const std::string& text() const { return text_; }
   /// Gives the text away; what at() needs stays.
@@ -39,6 +41,7 @@ class XmlText {
   struct Source {
     std::shared_ptr<const std::string> file;
     std::vector<size_t> line_starts;
+    PlaceOfLine place = {};  ///< or null
   };
   /// From `begin` on the text is that of a source from `source_begin` on.
   struct Piece {

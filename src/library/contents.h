@@ -13,6 +13,7 @@
 #include "evaluate/report/header.h"
 #include "evaluate/report/image_form.h"
 #include "evaluate/report/loaded_scene.h"
+#include "evaluate/report/read_scene.h"
 
 namespace duet {
 
@@ -43,6 +44,12 @@ void check_settings(const RenderSettings& settings);
 
 /// Throws std::invalid_argument for a path with a zero byte, which would name another file.
 void check_path(const std::string& path);
+
+/// Throws std::invalid_argument for search paths with zero bytes.
+ReadingOptions reading_options(const SceneFileOptions& options);
+
+/// Throws SceneError.
+LoadedScene read_or_throw(const std::string& name, const ReadingOptions& options);
 
 /// Errors and warnings as the public headers have them.
 std::vector<SceneMessage> scene_messages(const Diagnostics& diagnostics);

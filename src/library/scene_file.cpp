@@ -6,7 +6,6 @@
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 
-#include "evaluate/report/read_scene.h"
 #include "evaluate/report/scene_json.h"
 #include "evaluate/report/scene_summary.h"
 #include "library/contents.h"
@@ -25,21 +24,22 @@ std::string all_errors(const std::vector<SceneMessage>& messages) {
   return text;
 }
 
-LoadedScene read(const std::string& name, const ReadingOptions& options) {
-  Diagnostics diagnostics;
-  std::optional<LoadedScene> scene = read_scene(name, options, diagnostics);
-  if (!scene || diagnostics.has_errors()) throw SceneError(scene_messages(diagnostics));
-  return std::move(*scene);
-}
+}  // namespace
 
 ReadingOptions reading_options(const SceneFileOptions& options) {
+  for (const std::string& folder : options.search_paths) check_path(folder);
   ReadingOptions reading;
   reading.defines = options.defines;
   reading.search_paths = options.search_paths;
   return reading;
 }
 
-}  // namespace
+LoadedScene read_or_throw(const std::string& name, const ReadingOptions& options) {
+  Diagnostics diagnostics;
+  std::optional<LoadedScene> scene = read_scene(name, options, diagnostics);
+  if (!scene || diagnostics.has_errors()) throw SceneError(scene_messages(diagnostics));
+  return std::move(*scene);
+}
 
 std::vector<SceneMessage> scene_messages(const Diagnostics& diagnostics) {
   std::vector<SceneMessage> messages;
@@ -68,18 +68,17 @@ const SceneMessage& SceneError::first() const {
 
 SceneFile SceneFile::load(const std::string& path, const SceneFileOptions& options) {
   check_path(path);
-  for (const std::string& folder : options.search_paths) check_path(folder);
-  return SceneFile(
-      std::make_shared<const Contents>(Contents{path, read(path, reading_options(options))}));
+  const ReadingOptions reading = reading_options(options);
+  return SceneFile(std::make_shared<const Contents>(Contents{path, read_or_throw(path, reading)}));
 }
 
 SceneFile SceneFile::from_text(const std::string& text, const SceneFileOptions& options) {
-  for (const std::string& folder : options.search_paths) check_path(folder);
   ReadingOptions reading = reading_options(options);
   reading.files.read = [&text, on_disk = with_disk({}).read](const std::string& path) {
     return path == kTextName ? std::optional(text) : on_disk(path);
   };
-  return SceneFile(std::make_shared<const Contents>(Contents{kTextName, read(kTextName, reading)}));
+  return SceneFile(
+      std::make_shared<const Contents>(Contents{kTextName, read_or_throw(kTextName, reading)}));
 }
 
 const std::string& SceneFile::name() const {

@@ -1,4 +1,4 @@
-// Duet as a C++ library: scene files to images, and images to figures.
+// Duet as a C++ library: scenes to images, and images to figures.
 #pragma once
 
 #include <duet/chart.h>
@@ -7,6 +7,7 @@
 #include <duet/merge.h>
 #include <duet/render.h>
 #include <duet/rendered_image.h>
+#include <duet/scene_description.h>
 #include <duet/scene_file.h>
 #include <duet/stability.h>
 #include <duet/version.h>

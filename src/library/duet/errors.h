@@ -11,8 +11,9 @@ namespace duet {
 /// An error or a warning about a scene.
 struct SceneMessage {
   bool is_error = true;
-  std::string file;          ///< or "" if it is not known
-  int line = 0, column = 0;  ///< from 1; 0 if they are not known
+  /// The file, or of a description the object ("scene.ball.radius"); "" if it is not known.
+  std::string file;
+  int line = 0, column = 0;  ///< from 1; 0 if they are not known, and in descriptions
   std::string text;          ///< "file:line:column: error: what is wrong"
 };
 

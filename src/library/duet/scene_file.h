@@ -1,4 +1,4 @@
-// Scenes, from files and from texts.
+// Scenes, from files, from texts and from descriptions.
 #pragma once
 
 #include <memory>
@@ -7,6 +7,8 @@
 #include <vector>
 
 namespace duet {
+
+class SceneObject;
 
 /// How a scene is read.
 struct SceneFileOptions {
@@ -25,10 +27,14 @@ class [[gnu::visibility("default")]] SceneFile {
   /// The text of a Mitsuba XML file. Its relative files are looked for from the current folder.
   /// Throws SceneError.
   static SceneFile from_text(const std::string& text, const SceneFileOptions& options = {});
+  /// A scene that is put together (scene_description.h). It has no `$name` parameters. Relative
+  /// files as for texts. Throws SceneError, whose messages name objects instead of lines.
+  static SceneFile from_description(const SceneObject& scene, const SceneFileOptions& options = {});
 
-  /// The path, or "<string>".
+  /// The path, "<string>" or "<description>".
   const std::string& name() const;
-  /// What was noticed while it was read, as "file:line:column: warning: text".
+  /// What was noticed while it was read, as "file:line:column: warning: text"
+  /// or "scene.object.parameter: warning: text".
   std::vector<std::string> warnings() const;
   /// What `duet info --json` prints.
   std::string info_json() const;
