@@ -107,7 +107,7 @@ double BidirectionalIntegrator::memory_bytes(const FilmLayout& film) const {
   plan.subpaths = light_subpaths(film.full);
   plan.keep_vertices =
       merges(options_.method) || (connects(options_.method) && options_.connections != 0);
-  plan.keep_diffuse = may_take_eye_batches() && options_.connections != 0;
+  plan.keep_connection_vertices = may_take_eye_batches() && options_.connections != 0;
   if (options_.method == Method::reuse && !is_thesis_) plan.windows = &windows_;
   return LightPass::memory_bytes(plan, vertices) +
          (merges(options_.method)
@@ -215,7 +215,7 @@ void BidirectionalIntegrator::iteration(const Scene& scene, Film& film, const Sa
   plan.keep_vertices = plan.set.merges || plan.set.connections;
   plan.tracer = batches_ ? &batches_->lights : nullptr;
   const bool eye_batches = batches_ && batches_->eye;
-  plan.keep_diffuse = eye_batches && plan.set.connections;
+  plan.keep_connection_vertices = eye_batches && plan.set.connections;
   // A sub-path counts 1 / N_L.
   plan.roulette_threshold = pilot_->roulette_threshold() * plan.set.light_paths;
   set_ = plan.set;

@@ -8,15 +8,15 @@
 namespace duet {
 
 void WideEye::connect(int n, int depth, WideSamples& samples, RenderCounters& counters) {
-  const std::vector<DiffuseVertex>& diffuse = plan_.lights->diffuse();
+  const std::vector<ConnectionVertex>& vertices = plan_.lights->connection_vertices();
   const int most = limits_.max_depth - depth - 1;
-  if (!plan_.set.connections || diffuse.empty() || most <= 0) return;
+  if (!plan_.set.connections || vertices.empty() || most <= 0) return;
   for (int i = 0; i < n; ++i) {
     if (!carries(i)) continue;
     const LightSubpath& light = light_[size_t(paths_.id[i])];
     const PathVertex* const special = special_vertex(i);
     int count = (special ? special->is_smooth() : is_smooth(i)) ? light.count : 0;
-    while (count > 0 && diffuse[light.first + uint32_t(count) - 1].depth > most) --count;
+    while (count > 0 && vertices[light.first + uint32_t(count) - 1].depth > most) --count;
     counters.connections.failed_specular += uint64_t(std::min(most, light.length) - count);
     if (!special)
       find_pairs(i, count, depth, samples, counters);
@@ -30,13 +30,13 @@ void WideEye::connect(int n, int depth, WideSamples& samples, RenderCounters& co
 void WideEye::find_pairs(int i, int count, int depth, WideSamples& samples,
                          RenderCounters& counters) {
   const LightSubpath& light = light_[size_t(paths_.id[i])];
-  const DiffuseVertex* const vertices = plan_.lights->diffuse().data() + light.first;
+  const ConnectionVertex* const vertices = plan_.lights->connection_vertices().data() + light.first;
   const Point3f position = points_.position.point(i);
   const Vector3f lit = ends_.lit.vector(i);
   const auto own = size_t(wide_.shapes[hits_.shape[i]].pair_list());
   for (int k = 0; k < count; ++k) {
-    const DiffuseVertex& l = vertices[k];
-    if (l.material == DiffuseVertex::kOther) {
+    const ConnectionVertex& l = vertices[k];
+    if (l.material == ConnectionVertex::kOther) {
       const Vector3f d = l.position - position;
       if (l.faces && !(dot(lit, d) > 0 && dot(l.lit, d) < 0))
         ++counters.connections.failed_zero;
@@ -44,7 +44,7 @@ void WideEye::find_pairs(int i, int count, int depth, WideSamples& samples,
         connect_one_by_one(i, k, depth, samples, counters);
       continue;
     }
-    const size_t number = l.material == DiffuseVertex::kDiffuse ? own : pairs_.size() - 1;
+    const size_t number = l.material == ConnectionVertex::kDiffuse ? own : pairs_.size() - 1;
     PairList& list = pairs_[number];
     if (list.count == kBatch) flush_pairs(number, depth, samples, counters);
     // Without branches: half of the vertices do not face each other, and which cannot be predicted.
@@ -59,7 +59,7 @@ void WideEye::find_pairs(int i, int count, int depth, WideSamples& samples,
 
 void WideEye::weigh(size_t number, int depth) {
   const auto& [pairs, count] = pairs_[number];
-  const DiffuseVertex* const light = plan_.lights->diffuse().data() + first_light_;
+  const ConnectionVertex* const light = plan_.lights->connection_vertices().data() + first_light_;
   if (number == 0) return weigh_pairs(count, pairs, connections(depth), light, shadows_);
   if (number + 1 == pairs_.size()) return weigh_glossy_lights(count, pairs, depth);
   const WideVertices vertices{paths_, points_, numbers_};
@@ -75,12 +75,12 @@ void WideEye::weigh(size_t number, int depth) {
 }
 
 void WideEye::weigh_glossy_lights(int count, const WidePairs& pairs, int depth) {
-  const DiffuseVertex* const light = plan_.lights->diffuse().data() + first_light_;
+  const ConnectionVertex* const light = plan_.lights->connection_vertices().data() + first_light_;
   const LightVertex* const packed = plan_.lights->vertices().vertices.data() + first_light_;
-  GlossyLightEnds& l = glossy_lights_;
+  GlossyLightVertices& l = glossy_lights_;
   find_directions(count, pairs, points_, light, eye_bsdfs_.towards);
   for (int k = 0; k < count; ++k) {
-    const DiffuseVertex& v = light[pairs.light[k]];
+    const ConnectionVertex& v = light[pairs.light[k]];
     const LightVertex& p = packed[pairs.light[k]];
     eye_bsdfs_.material[k] = wide_.shapes[hits_.shape[pairs.eye[k]]].pair_list();
     eye_bsdfs_.at[k] = pairs.eye[k];

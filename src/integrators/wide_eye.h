@@ -18,7 +18,7 @@ struct WideEyePlan {
   TechniqueSet set;
   uint64_t key = 0;  ///< of the iteration's random numbers beside the sampler's
   float roulette_threshold = 0;
-  const LightPass* lights = nullptr;  ///< with LightPassPlan::keep_diffuse
+  const LightPass* lights = nullptr;  ///< with LightPassPlan::keep_connection_vertices
   const SubpathSharing* sharing = nullptr;
   const EmissionGuide* guide = nullptr;  ///< or null
   const VertexGrid* photons = nullptr;   ///< if the set merges
@@ -158,13 +158,13 @@ class WideEye final : public WideWalk, private WideSubpathStages {
   EvaluateEnds evaluate_ends_;
   EndBsdfs eye_bsdfs_{};
   /// The light vertices of the last list, by pair.
-  struct GlossyLightEnds {
+  struct GlossyLightVertices {
     EndBsdfs bsdfs;
     WidePaths paths;    ///< with directions of arrival alone
     WidePoints points;  ///< with the lit normal and the reflectance alone
     BatchTriples throughput;
   };
-  GlossyLightEnds glossy_lights_{};
+  GlossyLightVertices glossy_lights_{};
   WideShadowRays single_{};  ///< of connections that were weighed one by one
   int single_count_ = 0;
   uint32_t first_light_ = 0;  ///< the light vertex that pairs count from

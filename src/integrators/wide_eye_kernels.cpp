@@ -58,7 +58,7 @@ DUET_WIDEST void weigh_light_samples(int n, const WideConnections& c,
 
 namespace {
 
-constexpr int kVertexNumbers = sizeof(DiffuseVertex) / sizeof(float);
+constexpr int kVertexNumbers = sizeof(ConnectionVertex) / sizeof(float);
 static_assert(kVertexNumbers == 21);
 
 /// See flat_light_at() (wide_lights.cpp).
@@ -85,7 +85,7 @@ struct GatheredVertex {
 }  // namespace
 
 DUET_WIDEST void find_directions(int n, const WidePairs& pairs, const WidePoints& points,
-                                 const DiffuseVertex* light, BatchTriples& out) {
+                                 const ConnectionVertex* light, BatchTriples& out) {
   const float* const numbers = &light->position.x;
   DUET_LANES
   for (int k = 0; k < n; ++k) {
@@ -103,7 +103,7 @@ namespace {
 template <class F>
 [[gnu::always_inline]] inline void weigh_all_pairs(int n, const WidePairs& pairs,
                                                    const WideConnections& c,
-                                                   const DiffuseVertex* light, const F& both,
+                                                   const ConnectionVertex* light, const F& both,
                                                    WideShadowRays& out) {
   const float* const numbers = &light->position.x;
   const WideConnections all = c;
@@ -158,9 +158,9 @@ struct DiffuseLight {
     return {l.flux[0] * pdf, l.flux[1] * pdf, l.flux[2] * pdf, pdf, l.reverse};
   }
 };
-struct DiffuseEnds : DiffuseEye, DiffuseLight {};
+struct DiffusePairs : DiffuseEye, DiffuseLight {};
 
-struct GlossyEyeEnds : DiffuseLight {
+struct GlossyEyePairs : DiffuseLight {
   const WidePaths& paths;
   const WideGlossy& glossy;
   [[gnu::always_inline]] Scattered eye(int k, int i, const Vector3f&) const {
@@ -169,13 +169,13 @@ struct GlossyEyeEnds : DiffuseLight {
   }
 };
 
-struct GlossyLightEnds {
+struct GlossyLightPairs {
   const WideConnections& c;
   const WideGlossyEnds& ends;
   [[gnu::always_inline]] Scattered eye(int k, int i, const Vector3f& to_light) const {
     const Scattered diffuse = scattered_diffusely(c.eye, i, to_light);
     const Scattered glossy = scattered(ends.eye, k, c.paths.throughput, i);
-    const bool is_diffuse = ends.eye.material[k] == DiffuseVertex::kDiffuse;
+    const bool is_diffuse = ends.eye.material[k] == ConnectionVertex::kDiffuse;
     return {is_diffuse ? diffuse.r : glossy.r, is_diffuse ? diffuse.g : glossy.g,
             is_diffuse ? diffuse.b : glossy.b, is_diffuse ? diffuse.pdf : glossy.pdf,
             is_diffuse ? diffuse.reverse : glossy.reverse};
@@ -188,20 +188,20 @@ struct GlossyLightEnds {
 }  // namespace
 
 DUET_WIDEST void weigh_pairs(int n, const WidePairs& pairs, const WideConnections& c,
-                             const DiffuseVertex* light, WideShadowRays& out) {
-  weigh_all_pairs(n, pairs, c, light, DiffuseEnds{{c.eye}, {}}, out);
+                             const ConnectionVertex* light, WideShadowRays& out) {
+  weigh_all_pairs(n, pairs, c, light, DiffusePairs{{c.eye}, {}}, out);
 }
 
 DUET_WIDEST void weigh_glossy_pairs(int n, const WidePairs& pairs, const WideConnections& c,
-                                    const DiffuseVertex* light, const WideGlossy& glossy,
+                                    const ConnectionVertex* light, const WideGlossy& glossy,
                                     WideShadowRays& out) {
-  weigh_all_pairs(n, pairs, c, light, GlossyEyeEnds{{}, c.paths, glossy}, out);
+  weigh_all_pairs(n, pairs, c, light, GlossyEyePairs{{}, c.paths, glossy}, out);
 }
 
 DUET_WIDEST void weigh_glossy_ends(int n, const WidePairs& pairs, const WideConnections& c,
-                                   const DiffuseVertex* light, const WideGlossyEnds& ends,
+                                   const ConnectionVertex* light, const WideGlossyEnds& ends,
                                    WideShadowRays& out) {
-  weigh_all_pairs(n, pairs, c, light, GlossyLightEnds{c, ends}, out);
+  weigh_all_pairs(n, pairs, c, light, GlossyLightPairs{c, ends}, out);
 }
 
 }  // namespace duet

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "integrators/wide_end_bsdfs.h"
-#include "transport/diffuse_vertex.h"
+#include "transport/connection_vertex.h"
 
 namespace duet {
 
@@ -29,19 +29,21 @@ void weigh_light_samples(int n, const WideConnections& c, const WideLightSamples
                          WideShadowRays& out);
 /// Unit directions from the eye vertices of pairs to the light vertices.
 void find_directions(int n, const WidePairs& pairs, const WidePoints& points,
-                     const DiffuseVertex* light, BatchTriples& out);
+                     const ConnectionVertex* light, BatchTriples& out);
 /// Contributions of pairs and their shadow rays: weigh_ends().
 void weigh_pairs(int n, const WidePairs& pairs, const WideConnections& c,
-                 const DiffuseVertex* light, WideShadowRays& out);
+                 const ConnectionVertex* light, WideShadowRays& out);
 /// The same with eye vertices that are glossy: `glossy` has what they make of the directions.
 void weigh_glossy_pairs(int n, const WidePairs& pairs, const WideConnections& c,
-                        const DiffuseVertex* light, const WideGlossy& glossy, WideShadowRays& out);
+                        const ConnectionVertex* light, const WideGlossy& glossy,
+                        WideShadowRays& out);
 /// The same with light vertices that are glossy, and eye vertices of any of these materials.
 struct WideGlossyEnds {
   const EndBsdfs &eye, &light;
   const BatchTriples& light_throughput;
 };
 void weigh_glossy_ends(int n, const WidePairs& pairs, const WideConnections& c,
-                       const DiffuseVertex* light, const WideGlossyEnds& ends, WideShadowRays& out);
+                       const ConnectionVertex* light, const WideGlossyEnds& ends,
+                       WideShadowRays& out);
 
 }  // namespace duet

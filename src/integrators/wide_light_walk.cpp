@@ -169,11 +169,11 @@ void WideLightWalk::keep_vertices(int n, int depth) {
       kept_.emplace_back(*special, hit(i));
     else
       kept_.push_back(light_vertex(i, depth));
-    if (!plan_->keep_diffuse) continue;
+    if (!plan_->keep_connection_vertices) continue;
     if (special)
-      kept_diffuse_.emplace_back(*special);
+      kept_connection_vertices_.emplace_back(*special);
     else
-      kept_diffuse_.push_back(diffuse_vertex(i, depth));
+      kept_connection_vertices_.push_back(connection_vertex(i, depth));
   }
 }
 
@@ -186,8 +186,8 @@ LightVertex WideLightWalk::light_vertex(int i, int depth) const {
           at};
 }
 
-DiffuseVertex WideLightWalk::diffuse_vertex(int i, int depth) const {
-  DiffuseVertex v;
+ConnectionVertex WideLightWalk::connection_vertex(int i, int depth) const {
+  ConnectionVertex v;
   v.depth = depth;
   v.position = points_.position.point(i);
   v.lit = ends_.lit.normal(i);
@@ -195,7 +195,7 @@ DiffuseVertex WideLightWalk::diffuse_vertex(int i, int depth) const {
   const WideShape& shape = wide_.shapes[hits_.shape[i]];
   const bool glossy = shape.model == WideModel::glossy;
   const BatchTriples& flux = glossy ? points_.reflectance : ends_.flux;
-  v.material = glossy ? shape.pair_list() : DiffuseVertex::kDiffuse;
+  v.material = glossy ? shape.pair_list() : ConnectionVertex::kDiffuse;
   v.offset = points_.offset[i];
   v.ng = points_.ng.normal(i);
   v.flux = {flux.x[i], flux.y[i], flux.z[i]};
@@ -217,14 +217,15 @@ void WideLightWalk::append_kept(int subpaths, LightBlock& block) {
     block.end_subpath(end, lengths_[size_t(id)]);
   }
   vertices.resize(end);
-  if (plan_->keep_diffuse) block.diffuse.resize(end);
+  if (plan_->keep_connection_vertices) block.connection_vertices.resize(end);
   for (size_t k = 0; k < kept_.size(); ++k) {
     const uint32_t place = places_[size_t(kept_ids_[k])]++;
     vertices[place] = kept_[k];
-    if (plan_->keep_diffuse) block.diffuse[place] = kept_diffuse_[k];
+    if (plan_->keep_connection_vertices)
+      block.connection_vertices[place] = kept_connection_vertices_[k];
   }
   kept_.clear();
-  kept_diffuse_.clear();
+  kept_connection_vertices_.clear();
   kept_ids_.clear();
 }
 

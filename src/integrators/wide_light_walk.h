@@ -32,7 +32,7 @@ class WideLightWalk final : private WideSubpathStages {
   void scatter(int n, const BatchSampler& sampler, uint32_t dimension, int depth);
   void keep_vertices(int n, int depth);
   LightVertex light_vertex(int i, int depth) const;
-  DiffuseVertex diffuse_vertex(int i, int depth) const;
+  ConnectionVertex connection_vertex(int i, int depth) const;
   /// Adds what was kept to the block, sub-path after sub-path.
   void append_kept(int subpaths, LightBlock& block);
 
@@ -45,7 +45,7 @@ class WideLightWalk final : private WideSubpathStages {
   WideSeen seen_{};
   /// Vertices of the batch in the order in which they were found, and their ids.
   std::vector<LightVertex> kept_;
-  std::vector<DiffuseVertex> kept_diffuse_;
+  std::vector<ConnectionVertex> kept_connection_vertices_;
   std::vector<int32_t> kept_ids_;
   std::vector<uint32_t> places_;  ///< of the sub-paths' next vertices in the block, by id
 };

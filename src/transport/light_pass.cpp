@@ -56,7 +56,7 @@ uint64_t LightPassPlan::key(uint32_t i) const {
 
 void LightBlock::clear() {
   vertices.clear();
-  diffuse.clear();
+  connection_vertices.clear();
   pdf_lists.clear();
   pdf_ends.clear();
   end_pdfs.clear();
@@ -72,13 +72,14 @@ double LightPass::memory_bytes(const LightPassPlan& plan, int vertices_per_subpa
       plan.windows
           ? kGrowth * ((vertices + 2) * sizeof(VertexPdfs) + 4 + vertices * sizeof(EndPdfs))
           : 0.0;
-  const double diffuse = plan.keep_diffuse ? sizeof(DiffuseVertex) : 0.0;
-  const double kept = plan.keep_vertices ? vertices * (sizeof(LightVertex) + diffuse) + 6 : 0.0;
+  const double for_connections = plan.keep_connection_vertices ? sizeof(ConnectionVertex) : 0.0;
+  const double kept =
+      plan.keep_vertices ? vertices * (sizeof(LightVertex) + for_connections) + 6 : 0.0;
   const double at_a_time =
       std::min(double(plan.subpaths), double(kSubpathsPerBlock) * blocks_at_a_time(plan.threads));
   return double(plan.subpaths) * (kept + pdfs) +
          at_a_time * kGrowth *
-             (vertices * (sizeof(LightVertex) + diffuse + sizeof(LightSplat)) + pdfs);
+             (vertices * (sizeof(LightVertex) + for_connections + sizeof(LightSplat)) + pdfs);
 }
 
 void LightPass::reserve(size_t vertices, size_t subpaths) {
@@ -112,7 +113,7 @@ void LightPass::trace(const Scene& scene, const LightPassPlan& plan, const Weigh
       if (plan.keep_vertices && (plan.set.connections || v.merges())) {
         block.vertices.vertices.emplace_back(v, hit);
         if constexpr (!Vertex::kMedia)
-          if (plan.keep_diffuse) block.diffuse.emplace_back(v);
+          if (plan.keep_connection_vertices) block.connection_vertices.emplace_back(v);
         if (Vertex::kMedia && pdfs) block.end_pdfs.push_back({pdfs->front(), pdfs->back()});
       }
     };
@@ -164,7 +165,8 @@ void LightPass::append_blocks(const LightPassPlan& plan, uint32_t count) {
     append(
         vertices_.lengths, [&](uint32_t i) -> auto& { return blocks[i].vertices.lengths; }, same);
     append(
-        diffuse_, [&](uint32_t i) -> auto& { return blocks[i].diffuse; }, same);
+        connection_vertices_, [&](uint32_t i) -> auto& { return blocks[i].connection_vertices; },
+        same);
   }
   if (!plan.windows) return;
   const auto begins = append(
@@ -179,7 +181,7 @@ void LightPass::append_blocks(const LightPassPlan& plan, uint32_t count) {
 void LightPass::run(const Scene& scene, const LightPassPlan& plan, const TakeSplats& splats,
                     RenderCounters& counters) {
   vertices_.clear();
-  diffuse_.clear();
+  connection_vertices_.clear();
   pdf_lists_.clear();
   pdf_ends_.clear();
   end_pdfs_.clear();

@@ -5,7 +5,7 @@
 #include <functional>
 
 #include "image/film.h"
-#include "transport/diffuse_vertex.h"
+#include "transport/connection_vertex.h"
 #include "transport/weights.h"
 #include "transport/window_weights.h"
 
@@ -41,7 +41,8 @@ struct LightPassPlan {
   bool hide_emitters = false;
   float roulette_threshold = 0;  ///< for what a sub-path adds to the film; see ConnectionRoulette
   bool keep_vertices = false;
-  bool keep_diffuse = false;  ///< DiffuseVertex of each kept vertex as well; not where media are
+  /// ConnectionVertex of each kept vertex as well; not where media are.
+  bool keep_connection_vertices = false;
   SampleSequence sequence = SampleSequence::sobol;
   uint64_t seed = 0;
   uint32_t scramble = 0, iteration = 0;
@@ -64,7 +65,7 @@ struct LightSplat {
 /// What comes of some of a pass's sub-paths.
 struct LightBlock {
   LightVertices vertices;
-  std::vector<DiffuseVertex> diffuse;
+  std::vector<ConnectionVertex> connection_vertices;
   SubpathPdfs pdf_lists;
   std::vector<uint32_t> pdf_ends;
   std::vector<EndPdfs> end_pdfs;
@@ -91,7 +92,7 @@ class LightPass {
 
   const LightVertices& vertices() const { return vertices_; }
   /// One for each of the vertices, if the plan keeps them.
-  const std::vector<DiffuseVertex>& diffuse() const { return diffuse_; }
+  const std::vector<ConnectionVertex>& connection_vertices() const { return connection_vertices_; }
   /// Vertex pdfs of a sub-path; if there are windows.
   std::span<const VertexPdfs> pdfs(size_t subpath) const {
     const uint32_t first = subpath == 0 ? 0 : pdf_ends_[subpath - 1];
@@ -121,7 +122,7 @@ class LightPass {
 
   std::vector<LightBlock> blocks_;
   LightVertices vertices_;
-  std::vector<DiffuseVertex> diffuse_;
+  std::vector<ConnectionVertex> connection_vertices_;
   SubpathPdfs pdf_lists_;
   std::vector<uint32_t> pdf_ends_;
   std::vector<EndPdfs> end_pdfs_;

@@ -36,8 +36,8 @@ struct Traced {
     pass.run(scene, plan, take, counters);
   }
   std::span<const LightVertex> subpath(size_t i) const { return pass.vertices().subpath(i); }
-  std::span<const DiffuseVertex> diffuse(size_t i) const {
-    return pass.vertices().part_of(pass.diffuse(), i);
+  std::span<const ConnectionVertex> connection_vertices(size_t i) const {
+    return pass.vertices().part_of(pass.connection_vertices(), i);
   }
 };
 
@@ -56,10 +56,10 @@ bool close(const LightVertex& a, const LightVertex& b) {
          std::abs(a.barycentric[1] - b.barycentric[1]) < 8 &&
          length(a.direction_to_previous() - b.direction_to_previous()) < 1e-4f;
 }
-bool close(const DiffuseVertex& a, const DiffuseVertex& b) {
+bool close(const ConnectionVertex& a, const ConnectionVertex& b) {
   // Only batches tell glossy materials from others.
-  const bool diffuse = a.material == DiffuseVertex::kDiffuse;
-  if (diffuse != (b.material == DiffuseVertex::kDiffuse)) return false;
+  const bool diffuse = a.material == ConnectionVertex::kDiffuse;
+  if (diffuse != (b.material == ConnectionVertex::kDiffuse)) return false;
   if (a.depth != b.depth || a.faces != b.faces) return false;
   const bool placed =
       length(a.position - b.position) < 1e-4f && length(Vector3f(a.lit) - Vector3f(b.lit)) < 1e-4f;
@@ -85,7 +85,7 @@ LightPassPlan plan_of(uint32_t subpaths, SampleSequence sequence) {
   plan.subpath.rr_depth = 3;
   plan.max_depth = 7;
   plan.subpaths = subpaths;
-  plan.keep_vertices = plan.keep_diffuse = true;
+  plan.keep_vertices = plan.keep_connection_vertices = true;
   plan.sequence = sequence;
   plan.seed = 5;
   plan.iteration = 2;
@@ -104,12 +104,12 @@ TEST_CASE("light sub-paths of a batch have the vertices of those that are traced
       const LightPassPlan plan = plan_of(3000, sequence);
       const Traced batches(*scene.scene, plan, &tracer), singly(*scene.scene, plan, nullptr);
       REQUIRE(batches.pass.vertices().ends.size() == plan.subpaths);
-      REQUIRE(batches.pass.diffuse().size() == batches.pass.vertices().vertices.size());
+      REQUIRE(batches.pass.connection_vertices().size() == batches.pass.vertices().vertices.size());
       int different = 0;
       for (uint32_t i = 0; i < plan.subpaths; ++i)
         different += batches.pass.vertices().lengths[i] != singly.pass.vertices().lengths[i] ||
                      !close(batches.subpath(i), singly.subpath(i)) ||
-                     !close(batches.diffuse(i), singly.diffuse(i));
+                     !close(batches.connection_vertices(i), singly.connection_vertices(i));
       // But for rays that meet an edge, and what rounding decides otherwise.
       CHECK(different <= int(plan.subpaths / 200));
       CHECK(singly.pass.vertices().vertices.size() > plan.subpaths / 2);

@@ -1,4 +1,4 @@
-// Light vertices on diffuse surfaces, with what connections ask of them.
+// Light vertices with what connections of many pairs ask of them.
 #pragma once
 
 #include "transport/path_vertex.h"
@@ -7,7 +7,7 @@ namespace duet {
 
 /// A light vertex as connections of many pairs of vertices see it: where its BSDF is a reflectance
 /// nothing has to be bound again. `Surface` and `PathVertex` say what the terms mean.
-struct DiffuseVertex {
+struct ConnectionVertex {
   /// Values of `material`. Above them stand the glossy materials of batches, from 1: of these
   /// `flux` is what their reflectance is, and `reverse` is not valid.
   static constexpr int32_t kDiffuse = 0, kOther = -1;
@@ -25,8 +25,8 @@ struct DiffuseVertex {
   int32_t faces = 0;  ///< 1 if position and `lit` are valid, also where the rest is not: all light
                       ///< stays on that side
 
-  DiffuseVertex() = default;
-  explicit DiffuseVertex(const PathVertex& v) : depth(v.depth) {
+  ConnectionVertex() = default;
+  explicit ConnectionVertex(const PathVertex& v) : depth(v.depth) {
     const BsdfComponent* const only = v.bsdf.only_component();
     if (!only || !reflects(only->kind)) return;
     const Surface& s = v.surface;
