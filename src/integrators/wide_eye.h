@@ -18,7 +18,9 @@ struct WideEyePlan {
   TechniqueSet set;
   uint64_t key = 0;  ///< of the iteration's random numbers beside the sampler's
   float roulette_threshold = 0;
-  const LightPass* lights = nullptr;  ///< with LightPassPlan::keep_connection_vertices
+  /// With LightPassPlan::keep_connection_vertices; if in batches, of the same WideScene, since its
+  /// vertices name the glossy materials of that.
+  const LightPass* lights = nullptr;
   const SubpathSharing* sharing = nullptr;
   const EmissionGuide* guide = nullptr;  ///< or null
   const VertexGrid* photons = nullptr;   ///< if the set merges
