@@ -126,8 +126,13 @@ void SampleAdder::add(int x, int y, const Point2f& position, std::span<const flo
 }
 
 void SampleAdder::move_to_tile() {
-  for (size_t i = 0; i < coarse_.size(); ++i)
-    tile_.sums_[i].add_units(std::llrint(coarse_[i] * 0x1p32), std::llrint(fine_[i] * 0x1p64));
+  // A pixel whose weights are all one has no samples if their sum is zero.
+  const size_t step = filter_.is_unit_box() ? tile_.stride_ : 1;
+  for (size_t first = 0; first < coarse_.size(); first += step) {
+    if (coarse_[first] == 0 && fine_[first] == 0) continue;
+    for (size_t i = first; i < first + step; ++i)
+      tile_.sums_[i].add_units(std::llrint(coarse_[i] * 0x1p32), std::llrint(fine_[i] * 0x1p64));
+  }
 }
 
 }  // namespace duet

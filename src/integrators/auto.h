@@ -26,6 +26,7 @@ class AutoIntegrator final : public Integrator {
   std::string bias() const override { return decision_.bias; }
   bool blurs() const override { return chosen_->blurs(); }
   bool layers_tell_noise() const override { return chosen_->layers_tell_noise(); }
+  uint32_t most_phases(Point2i film) const override { return chosen_->most_phases(film); }
   bool tiles_may_differ() const override { return chosen_->tiles_may_differ(); }
   double memory_bytes(const FilmLayout& film) const override { return chosen_->memory_bytes(film); }
   void prepare(Film& film) const override;

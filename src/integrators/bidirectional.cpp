@@ -94,6 +94,13 @@ std::string BidirectionalIntegrator::bias() const {
       options_.weights == ReuseWeights::thesis_a ? "a" : "b");
 }
 
+uint32_t BidirectionalIntegrator::most_phases(Point2i film) const {
+  // Photons have to be those of the same time: the fewer of them, the more noise.
+  if (merges(options_.method)) return 1;
+  // Each phase needs light sub-paths.
+  return light_subpaths(film) < PixelPhases::kMost ? 1 : PixelPhases::kMost;
+}
+
 bool BidirectionalIntegrator::blurs() const {
   return merges(options_.method);
 }
@@ -220,7 +227,8 @@ void BidirectionalIntegrator::iteration(const Scene& scene, Film& film, const Sa
   plan.roulette_threshold = pilot_->roulette_threshold() * plan.set.light_paths;
   set_ = plan.set;
   const uint64_t sequence_key = hash_combine(samples.seed, samples.scramble);
-  sharing_.start(film.full_size(), sequence_key);
+  sharing_.start(film.full_size(), sequence_key, samples.phase);
+  if (samples.phase) plan.take_part(samples.phase->index, samples.phase->count);
   key_ = hash_combine(sequence_key, samples.first);
   if (scene.lights.empty()) plan.subpaths = 0;
   if (plan.keep_vertices)
@@ -245,7 +253,7 @@ void BidirectionalIntegrator::iteration(const Scene& scene, Film& film, const Sa
     trace_batches(sums, samples, control, counters);
   else
     CameraIntegrator::render_samples(scene, sums, samples, control, counters);
-  film.end_pass();
+  if (!samples.phase || samples.phase->is_last()) film.end_pass();
 }
 
 void BidirectionalIntegrator::splat(Film& film, std::span<const LightSplat> splats,

@@ -25,6 +25,7 @@ class BidirectionalIntegrator final : public CameraIntegrator {
   ~BidirectionalIntegrator() override;
 
   std::string bias() const override;
+  uint32_t most_phases(Point2i film) const override;
   bool blurs() const override;
   bool layers_tell_noise() const override { return false; }
   double memory_bytes(const FilmLayout& film) const override;

@@ -65,11 +65,12 @@ void BidirectionalIntegrator::connect(const Weights& weights, const Vertex& v,
 template <class Vertex, class Weights>
 void BidirectionalIntegrator::connect_to_cache(const Weights& weights, const Vertex& v,
                                                Eye<Vertex>& eye) const {
-  const std::vector<LightVertex>& cache = lights_.vertices().vertices;
+  const LightVertices& light = lights_.vertices();
+  const std::vector<LightVertex>& cache = light.vertices;
   if (cache.empty()) return;
   // Every vertex of all sub-paths is drawn with the same probability.
   const float scale =
-      float(double(cache.size()) / (double(set_.light_paths) * options_.connections));
+      float(double(cache.size()) / (double(light.ends.size()) * options_.connections));
   const ConnectionContext<Weights> connections = eye.connections(weights, options_.strict_normals);
   for (int i = 0; i < options_.connections; ++i) {
     const LightVertex& drawn =

@@ -144,6 +144,8 @@ void CameraIntegrator::render_tile(const Scene& scene, const Film& film, FilmTil
   for (int y = b.y0; y < b.y1; ++y)
     for (int x = b.x0; x < b.x1; ++x) {
       const uint64_t pixel = uint64_t(y) * uint64_t(film.full_size().x) + uint64_t(x);
+      if (!has_pixel(range, pixel)) continue;
+      counters.camera_paths += range.count;
       Sampler sampler(range.sequence, range.seed, range.scramble, pixel);
       for (uint32_t i = range.first; i < range.first + range.count; ++i) {
         sampler.start_sample(i);
@@ -167,7 +169,6 @@ void CameraIntegrator::render_tile(const Scene& scene, const Film& film, FilmTil
         sums.add(x, y, position, values);
       }
     }
-  counters.camera_paths += uint64_t(b.width()) * uint64_t(b.height()) * range.count;
 }
 
 void CameraIntegrator::prepare(Film& film) const {

@@ -32,10 +32,12 @@ void Integrator::render_pass(const Scene& scene, Film& film, const SampleRange& 
                              const PassControl& control, RenderCounters& counters) {
   if (!scene.motion) return render_samples(scene, film, samples, control, counters);
   const MotionLease lease(scene.motion.get());
-  for_each_sample(samples, control, [&](const SampleRange& one, const PassControl& part) {
-    scene.motion->pose(time_of_sample(samples, one.first));
-    render_samples(scene, film, one, part, counters);
-  });
+  if (!phases_) phases_ = std::make_shared<MotionPhases>();
+  phases_->start(scene, film.full_size(), most_phases(film.full_size()), samples);
+  for_each_pose(scene, *phases_, samples, control,
+                [&](const SampleRange& some, const PassControl& part) {
+                  render_samples(scene, film, some, part, counters);
+                });
 }
 
 }  // namespace duet

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "image/film.h"
+#include "math/pixel_order.h"
 #include "math/sampler.h"
 #include "scene/scene.h"
 #include "transport/counters.h"
@@ -29,6 +30,8 @@ struct SampleRange {
   /// If not empty, what each tile of the film gets instead; `count` is the greatest of theirs.
   /// Sub-paths that start at lights are not part of a tile and follow the range.
   std::span<const TileSamples> tiles = {};
+  /// If not null, the pixels that are meant; light sub-paths are shared out among the phases.
+  const PixelPhase* phase = nullptr;
 };
 
 /// The samples `done` … `done` + `count` − 1 of a range. `tiles` holds those of its tiles, if the
@@ -39,6 +42,11 @@ SampleRange part_of(const SampleRange& range, uint32_t done, uint32_t count,
 /// Those of a range that the `tile`-th tile of a film gets.
 inline TileSamples samples_of_tile(const SampleRange& range, size_t tile) {
   return range.tiles.empty() ? TileSamples{range.first, range.count} : range.tiles[tile];
+}
+
+/// Whether a range has a pixel, y · width + x of the full image.
+inline bool has_pixel(const SampleRange& range, uint64_t pixel) {
+  return !range.phase || range.phase->has(pixel);
 }
 
 /// How a pass is to be run.
@@ -71,6 +79,8 @@ struct MethodDecision {
   std::string bias = {};                  ///< why the mean of many images is wrong, or ""
 };
 
+class MotionPhases;
+
 /// A method of light transport, for any number of images of one scene and one size of film. An
 /// image does not depend on those that were rendered before it.
 class Integrator {
@@ -92,6 +102,9 @@ class Integrator {
   /// Whether the layers of the image tell how noisy it is: not where light sub-paths add to pixels
   /// that are not theirs. To be asked after begin().
   virtual bool layers_tell_noise() const { return true; }
+  /// Of a scene that moves, into how many parts the pixels may be divided that see a sample at
+  /// times of their own: a power of two. To be asked after begin().
+  virtual uint32_t most_phases(Point2i) const { return PixelPhases::kMost; }
   /// Whether tiles may have different numbers of samples.
   virtual bool tiles_may_differ() const { return true; }
   /// What the method keeps in memory besides the film, in bytes, estimated before it is known. To
@@ -104,8 +117,8 @@ class Integrator {
   virtual std::vector<std::string> data_channels() const { return {}; }
   /// Adds samples to every pixel of the film. The sums of the film are the same bit for bit however
   /// its samples are divided into passes. A pass that is cancelled leaves a film whose mean is
-  /// still right. If the scene moves, it is posed for each sample (motion_blur.h), so passes over
-  /// it come one after another: this and begin() take a MotionLease.
+  /// still right. If the scene moves, it is posed for each phase of each sample (motion_blur.h), so
+  /// passes over it come one after another: this and begin() take a MotionLease.
   void render_pass(const Scene& scene, Film& film, const SampleRange& samples,
                    const PassControl& control, RenderCounters& counters);
 
@@ -114,6 +127,9 @@ class Integrator {
   virtual void choose(const Scene&, const RenderOutlook&) {}
   virtual void render_samples(const Scene& scene, Film& film, const SampleRange& samples,
                               const PassControl& control, RenderCounters& counters) = 0;
+
+ private:
+  std::shared_ptr<MotionPhases> phases_;  ///< of a scene that moves
 };
 
 }  // namespace duet

@@ -95,15 +95,17 @@ class MattePass {
                  [&](size_t row) { work(int(row)); });
   }
 
-  /// The scene is posed for one sample of all pixels at a time, so that all of them are counted
-  /// together.
+  /// The scene is posed for a part of a sample of all pixels at a time, so that all of them are
+  /// counted together.
   void count_moving(const SampleRange& all, Image& image) const {
     const MotionLease lease(scene_.motion.get());
     std::vector<Row> rows(size_t(layout_.crop.height()), empty_row());
-    for_each_sample(all, PassControl(), [&](const SampleRange& one, const PassControl&) {
-      scene_.motion->pose(time_of_sample(all, one.first));
-      for_each_row([&](int row) { count(row, one, rows[size_t(row)]); });
-    });
+    MotionPhases phases;
+    phases.start(scene_, layout_.full, PixelPhases::kMost, all);
+    for_each_pose(scene_, phases, all, PassControl(),
+                  [&](const SampleRange& some, const PassControl&) {
+                    for_each_row([&](int row) { count(row, some, rows[size_t(row)]); });
+                  });
     for_each_row([&](int row) { write(row, rows[size_t(row)], image); });
   }
 
@@ -114,6 +116,7 @@ class MattePass {
     const int y = window.y0 + row;
     for (int x = window.x0; x < window.x1; ++x) {
       const uint64_t pixel = uint64_t(y) * uint64_t(layout_.full.x) + uint64_t(x);
+      if (!has_pixel(range, pixel)) continue;
       Sampler sampler(range.sequence, range.seed, range.scramble, pixel);
       for (uint32_t i = range.first; i < range.first + range.count; ++i) {
         sampler.start_sample(i);

@@ -73,11 +73,13 @@ void for_each_tile(
   std::vector<RenderCounters> of_piece(all.size());
   std::vector<std::mutex> locks(film.tiles().size());
   std::atomic<size_t> done{0};
+  // All phases of a sample are one.
+  const bool counts = !range.phase || range.phase->index == 0;
   parallel_for(all.size(), control.threads, [&](size_t i) {
     if (control.cancelled()) return;
     const Piece& piece = all[i];
     FilmTile& tile = film.tiles()[piece.tile];
-    const uint64_t count = piece.counts ? piece.samples.count : 0;
+    const uint64_t count = piece.counts && counts ? piece.samples.count : 0;
     if (piece.pixels == tile.sampled() &&
         piece.samples.count == samples_of_tile(range, piece.tile).count) {
       work(tile, piece.samples, of_piece[i]);

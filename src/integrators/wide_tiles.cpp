@@ -28,9 +28,12 @@ PixelBounds whole_square(const Film& film, const FilmTile& tile) {
 struct WideTiles::Workspace {
   Workspace(const Camera& c, std::unique_ptr<WideWalk> w) : camera(c), walk(std::move(w)) {}
 
-  void enter(const PixelBounds& pixels, int width, const BatchSampler& sampler);
+  void enter(const PixelBounds& pixels, int width, const SampleRange& range,
+             const BatchSampler& sampler);
   /// Begins the paths of a sample; returns how many there are.
   int start_paths(uint32_t index, BatchSampler& sampler);
+  /// Pixels of the range.
+  uint64_t meant_within(const PixelBounds& bounds) const;
   /// Weights samples by the camera's weights, and makes those black that no film can add.
   void weight_samples(const PixelBounds& bounds, RenderCounters& counters);
   void add_to(BatchAdder& sums) const {
@@ -45,13 +48,14 @@ struct WideTiles::Workspace {
   int count = 0;
   BatchArray<uint64_t> pixels{};
   BatchArray<uint64_t> pixel_keys{};
+  BatchArray<bool> is_meant{};  ///< whether the range has the pixel
   BatchKeys keys{};
   BatchArray<float> x{}, y{}, lens_x{}, lens_y{};
   BatchArray<float> weight{};  ///< of the camera's rays
   WideSamples samples{};
 };
 
-void WideTiles::Workspace::enter(const PixelBounds& bounds, int width,
+void WideTiles::Workspace::enter(const PixelBounds& bounds, int width, const SampleRange& range,
                                  const BatchSampler& sampler) {
   square = bounds;
   count = 0;
@@ -59,6 +63,7 @@ void WideTiles::Workspace::enter(const PixelBounds& bounds, int width,
     for (int px = square.x0; px < square.x1; ++px, ++count) {
       pixels[count] = uint64_t(py) * uint64_t(width) + uint64_t(px);
       pixel_keys[count] = sampler.pixel_key(pixels[count]);
+      is_meant[count] = has_pixel(range, pixels[count]);
     }
   walk->enter({pixels.data(), size_t(count)});
 }
@@ -72,6 +77,8 @@ int WideTiles::Workspace::start_paths(uint32_t index, BatchSampler& sampler) {
   int n = 0, id = 0;
   for (int py = square.y0; py < square.y1; ++py)
     for (int px = square.x0; px < square.x1; ++px, ++id) {
+      weight[id] = 0;
+      if (!is_meant[id]) continue;
       x[id] += float(px), y[id] += float(py);
       const CameraRay ray = camera.sample_ray({x[id], y[id]}, {lens_x[id], lens_y[id]});
       weight[id] = ray.weight;
@@ -116,9 +123,18 @@ void WideTiles::Workspace::add_to(SampleAdder& sums, const PixelBounds& bounds) 
   int id = 0;
   for (int py = square.y0; py < square.y1; ++py)
     for (int px = square.x0; px < square.x1; ++px, ++id)
-      if (bounds.contains(px, py))
+      if (is_meant[id] && bounds.contains(px, py))
         sums.add(px, py, {x[id], y[id]},
                  std::array{samples.r[id], samples.g[id], samples.b[id], samples.alpha[id]});
+}
+
+uint64_t WideTiles::Workspace::meant_within(const PixelBounds& bounds) const {
+  uint64_t n = 0;
+  int id = 0;
+  for (int py = square.y0; py < square.y1; ++py)
+    for (int px = square.x0; px < square.x1; ++px, ++id)
+      n += is_meant[id] && bounds.contains(px, py);
+  return n;
 }
 
 WideTiles::WideTiles(const Camera& camera, MakeWalk make_walk)
@@ -131,7 +147,7 @@ void WideTiles::render(const Film& film, FilmTile& tile, const SampleRange& rang
   auto workspace =
       workspaces_.take([&] { return std::make_unique<Workspace>(camera_, make_walk_()); });
   BatchSampler sampler(range.sequence, range.seed, range.scramble);
-  workspace->enter(whole_square(film, tile), film.full_size().x, sampler);
+  workspace->enter(whole_square(film, tile), film.full_size().x, range, sampler);
   const PixelBounds& bounds = tile.sampled();
   const auto trace = [&](auto&& add) {
     for (uint32_t i = samples.first; i < samples.first + samples.count; ++i) {
@@ -141,14 +157,14 @@ void WideTiles::render(const Film& film, FilmTile& tile, const SampleRange& rang
       add();
     }
   };
-  if (BatchAdder::suits(film)) {
+  if (!range.phase && BatchAdder::suits(film)) {
     BatchAdder sums(film, tile, workspace->square);
     trace([&] { workspace->add_to(sums); });
   } else {
     SampleAdder sums(film, tile);
     trace([&] { workspace->add_to(sums, bounds); });
   }
-  counters.camera_paths += uint64_t(bounds.width()) * uint64_t(bounds.height()) * samples.count;
+  counters.camera_paths += workspace->meant_within(bounds) * samples.count;
   workspaces_.give_back(std::move(workspace));
 }
 

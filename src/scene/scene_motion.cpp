@@ -79,6 +79,13 @@ void SceneMotion::pose(double share) {
   builder_->settle();
 }
 
+size_t SceneMotion::moved_triangles() const {
+  size_t sum = 0;
+  for (const Mover& m : movers_)
+    if (m.mesh) sum += m.mesh->triangles.size();
+  return sum;
+}
+
 MotionLease::MotionLease(SceneMotion* motion) : motion_(motion) {
   if (!motion) return;
   std::thread::id holder;

@@ -39,6 +39,8 @@ class SceneMotion {
   /// Puts everything where it is at a share of the time from the opening of the shutter (0) to its
   /// closing (1). Does nothing if it is there already.
   void pose(double share);
+  /// Triangles that each pose moves and sorts anew.
+  size_t moved_triangles() const;
 
  private:
   friend class MotionLease;

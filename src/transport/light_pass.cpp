@@ -50,6 +50,13 @@ uint64_t LightPassPlan::sampler_seed() const {
   return seed ^ kLightStream;
 }
 
+void LightPassPlan::take_part(uint32_t k, uint32_t n) {
+  const auto begin = [&](uint64_t i) { return uint32_t(subpaths * i / n); };
+  const uint32_t end = begin(k + 1);
+  first = begin(k);
+  subpaths = end - first;
+}
+
 uint64_t LightPassPlan::key(uint32_t i) const {
   return hash_combine(hash_combine(seed, scramble ^ kLightStream), (uint64_t(iteration) << 32) + i);
 }
@@ -191,8 +198,9 @@ void LightPass::run(const Scene& scene, const LightPassPlan& plan, const TakeSpl
     const uint32_t left = (plan.subpaths - wave + size - 1) / size;
     const uint32_t count = std::min(left, at_a_time);
     parallel_for(count, plan.threads, [&](size_t i) {
-      const uint32_t first = wave + uint32_t(i) * size;
-      const uint32_t end = std::min(first + size, plan.subpaths);
+      const uint32_t begin = wave + uint32_t(i) * size;
+      const uint32_t first = plan.first + begin;
+      const uint32_t end = plan.first + std::min(begin + size, plan.subpaths);
       LightBlock& block = blocks_[i];
       block.clear();
       if (plan.tracer)

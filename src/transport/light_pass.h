@@ -33,8 +33,8 @@ struct LightPassPlan {
   const EmissionGuide* guide = nullptr;  ///< of the starts of sub-paths, or null
   TechniqueSet set;
   SubpathOptions subpath;
-  int max_depth = 0;  ///< segments of a light sub-path
-  uint32_t subpaths = 0;
+  int max_depth = 0;                 ///< segments of a light sub-path
+  uint32_t first = 0, subpaths = 0;  ///< number of the first, and how many
   bool unit_weights = false;         ///< each path is made by one technique alone
   const Windows* windows = nullptr;  ///< if the sub-paths of the method are limited
   const MergeMask* mask = nullptr;   ///< if the set is partly merged
@@ -49,6 +49,8 @@ struct LightPassPlan {
   int threads = 1;
   LightTracer* tracer = nullptr;  ///< if they are not traced one by one
 
+  /// Leaves the k-th of n parts of the sub-paths.
+  void take_part(uint32_t k, uint32_t n);
   /// Of the sampler of sub-path i, for which i stands in the place of the pixel.
   uint64_t sampler_seed() const;
   /// Seeds what is decided about sub-path i beside its samples.

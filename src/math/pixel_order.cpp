@@ -1,4 +1,4 @@
-#include "transport/subpath_sharing.h"
+#include "math/pixel_order.h"
 
 #include <algorithm>
 #include <numeric>
@@ -36,7 +36,7 @@ std::vector<uint8_t> spread_order(uint32_t width, uint32_t height) {
 
 }  // namespace
 
-void SubpathSharing::start(Point2i film, uint64_t key) {
+void PixelOrder::start(Point2i film, uint64_t key) {
   key_ = key;
   if (width_ == uint32_t(film.x) && height_ == uint32_t(film.y)) return;
   width_ = uint32_t(film.x), height_ = uint32_t(film.y);
@@ -45,7 +45,7 @@ void SubpathSharing::start(Point2i film, uint64_t key) {
              spread_order(right, bottom)};
 }
 
-uint64_t SubpathSharing::number(uint64_t pixel) const {
+uint64_t PixelOrder::number(uint64_t pixel) const {
   const uint32_t y = uint32_t(pixel / width_), x = uint32_t(pixel % width_);
   const uint32_t x0 = x / kTile * kTile, y0 = y / kTile * kTile;
   const uint32_t w = std::min(kTile, width_ - x0), h = std::min(kTile, height_ - y0);
@@ -54,6 +54,22 @@ uint64_t SubpathSharing::number(uint64_t pixel) const {
                  shifted_y = (y - y0 + uint32_t(random >> 32 & 0xffff)) % h;
   const std::vector<uint8_t>& order = orders_[size_t(w < kTile) + 2 * size_t(h < kTile)];
   return uint64_t(y0) * width_ + uint64_t(x0) * h + order[size_t(shifted_y) * w + shifted_x];
+}
+
+void PixelPhases::start(Point2i film, uint64_t key) {
+  if (film.x == film_.x && film.y == film_.y && key == key_) return;
+  film_ = film, key_ = key;
+  order_.start(film, key);
+  const uint64_t pixels = order_.pixels();
+  phases_.resize(pixels <= kMostListed ? pixels : 0);
+  for (uint64_t pixel = 0; pixel < phases_.size(); ++pixel)
+    phases_[pixel] = uint8_t(computed_phase(pixel));
+}
+
+uint64_t PixelPhase::pixels() const {
+  const uint64_t all_pixels = all->order().pixels(), whole = all_pixels / kRound * run();
+  const int64_t left = int64_t(all_pixels % kRound) - int64_t(run() * index);
+  return whole + uint64_t(std::clamp(left, int64_t{0}, int64_t(run())));
 }
 
 }  // namespace duet
