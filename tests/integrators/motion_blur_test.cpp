@@ -317,13 +317,11 @@ TEST_CASE("the image is the mean over the time that the shutter is open") {
 }
 
 TEST_CASE("neighbouring pixels see a sample at different times") {
-  // A light that crosses the image, seen directly: at one time for all pixels, four samples are
-  // four lights. Within 8 × 8 pixels the mean of some of them is near the true one.
+  // A wide bar of light that crosses the image: at one time for all pixels, four samples are four
+  // bars. Of 8 × 8 pixels that see different times the mean is near the true one.
+  const std::string bar = "<scale x='0.6' y='2'/><rotate x='1' angle='90'/>";
   const Described d(kStillCamera + "<shape type='rectangle'>" + kGlow +
-                    animation("<scale value='0.4'/><rotate x='1' angle='90'/><translate x='-1' "
-                              "z='1'/>",
-                              "<scale value='0.4'/><rotate x='1' angle='90'/><translate x='1' "
-                              "z='1'/>") +
+                    animation(bar + "<translate x='-1' z='1'/>", bar + "<translate x='1' z='1'/>") +
                     "</shape>");
   const auto blocks = [](const Image& image) {
     std::vector<double> sums(4);
