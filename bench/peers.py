@@ -17,6 +17,11 @@ and takes user + system CPU seconds of each process and the error of its image a
 reference, which is made with Mitsuba (and kept in --references). Printed are medians over the rounds of
 the CPU seconds, of the ratios within a round, and of the efficiency 1 / (trimmed relMSE × CPU s), where
 relMSE = mean of (a − b)² / (b² + 0.01) without the worst 0.1 % of the pixels. Needs mitsuba and numpy.
+
+    peers.py --per-sample 8 …
+
+takes instead what one more sample takes, start-up apart: the CPU microseconds per sample of a pixel between 8 and --spp
+samples per pixel, of the first and the last of these in turn, and prints the least of the rounds and their ratios.
 """
 import argparse
 import json
@@ -84,12 +89,12 @@ def cpu_seconds(command):
     return after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime
 
 
-def commands(args, scene, mitsuba_scene, size, out, seed):
+def commands(args, scene, mitsuba_scene, size, out, seed, spp):
     width, height = map(str, size)
-    ours = [args.duet, 'render', str(scene), '-o', out, '--spp', str(args.spp), '--seed', str(seed), '-q',
+    ours = [args.duet, 'render', str(scene), '-o', out, '--spp', str(spp), '--seed', str(seed), '-q',
             '--size', f'{width}x{height}', '-t', str(args.threads), '-i', args.integrator]
     theirs = lambda variant: [sys.executable, '-c', RENDER_WITH_MITSUBA, variant, str(mitsuba_scene), out,
-                              str(args.spp), str(seed), width, height, str(args.threads)]
+                              str(spp), str(seed), width, height, str(args.threads)]
     return {'duet-independent': ours + ['--strict-sampler'], 'duet': ours,
             'llvm_ad_rgb': theirs('llvm_ad_rgb'), 'scalar_rgb': theirs('scalar_rgb')}
 
@@ -100,7 +105,7 @@ def bench(name, scene, mitsuba_scene, size, args):
     with tempfile.TemporaryDirectory() as folder:
         out = os.path.join(folder, 'image.exr')
         for seed in range(1, args.rounds + 1):
-            for label, command in commands(args, scene, mitsuba_scene, size, out, seed).items():
+            for label, command in commands(args, scene, mitsuba_scene, size, out, seed, args.spp).items():
                 seconds = cpu_seconds(command)
                 runs.setdefault(label, []).append((seconds, trimmed_relmse(read(out), reference)))
     median = statistics.median
@@ -122,6 +127,23 @@ def bench(name, scene, mitsuba_scene, size, args):
     return result
 
 
+def per_sample(name, scene, mitsuba_scene, size, args):
+    further = (args.spp - args.per_sample) * size[0] * size[1] / 1e6
+    slopes = {'duet-independent': [], 'llvm_ad_rgb': []}
+    with tempfile.TemporaryDirectory() as folder:
+        out = os.path.join(folder, 'image.exr')
+        for seed in range(1, args.rounds + 1):
+            for label, of_rounds in slopes.items():
+                few, many = (cpu_seconds(commands(args, scene, mitsuba_scene, size, out, seed, spp)[label])
+                             for spp in (args.per_sample, args.spp))
+                of_rounds.append((many - few) / further)
+    ours, theirs = slopes.values()
+    ratios = ', '.join(f'{a / b:.2f}' for a, b in zip(ours, theirs))
+    print(f'{name}, {size[0]}x{size[1]}: {min(ours):.3f} µs against {min(theirs):.3f} µs, ratio '
+          f'{min(ours) / min(theirs):.2f} (rounds: {ratios})', flush=True)
+    return {'scene': name, 'microseconds': slopes}
+
+
 def parse_scene(text):
     files, _, size = text.partition(':')
     first, _, second = files.partition(',')
@@ -141,9 +163,11 @@ def main():
     parser.add_argument('--references', type=Path, default=Path(tempfile.gettempdir()) / 'duet-references')
     parser.add_argument('--reference-spp', type=int, default=2048)
     parser.add_argument('--duet', default=str(ROOT / 'build' / 'duet'))
+    parser.add_argument('--per-sample', type=int, metavar='FEW')
     parser.add_argument('--json', type=Path)
     args = parser.parse_args()
-    results = [bench(*parse_scene(scene), args) for scene in args.scenes]
+    measure = per_sample if args.per_sample else bench
+    results = [measure(*parse_scene(scene), args) for scene in args.scenes]
     if args.json:
         args.json.write_text(json.dumps(results, indent=1) + '\n')
 

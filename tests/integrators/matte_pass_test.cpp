@@ -17,19 +17,24 @@ namespace {
 
 constexpr uint32_t kSamples = 256;
 
-/// A camera of parallel rays that sees the square from (−1, −1) to (1, 1) from above, in 2 × 2
-/// pixels of which each is a unit wide.
-const std::string kView =
-    "<integrator type='path'/><sensor type='orthographic'><float name='shutterOpen' value='0'/>"
-    "<float name='shutterClose' value='1'/><transform name='toWorld'>"
-    "<lookat origin='0,0,5' target='0,0,0' up='0,1,0'/></transform><film type='hdrfilm'>"
-    "<integer name='width' value='2'/><integer name='height' value='2'/></film></sensor>"
-    "<emitter type='constant'/>";
+/// A camera of parallel rays that sees the square from (−1, −1) to (1, 1) from above, in so many
+/// pixels across and down.
+std::string view(int pixels) {
+  const std::string size = std::to_string(pixels);
+  return "<integrator type='path'/><sensor type='orthographic'><float name='shutterOpen' "
+         "value='0'/>"
+         "<float name='shutterClose' value='1'/><transform name='toWorld'>"
+         "<lookat origin='0,0,5' target='0,0,0' up='0,1,0'/></transform><film type='hdrfilm'>"
+         "<integer name='width' value='" +
+         size + "'/><integer name='height' value='" + size +
+         "'/></film></sensor><emitter type='constant'/>";
+}
 
 class MatteScene {
  public:
-  explicit MatteScene(const std::string& content) {
-    ReadResult r = read_text("<scene version='0.6.0'>" + kView + content + "</scene>");
+  /// Of 2 × 2 pixels each is a unit wide.
+  explicit MatteScene(const std::string& content, int pixels = 2) {
+    ReadResult r = read_text("<scene version='0.6.0'>" + view(pixels) + content + "</scene>");
     REQUIRE_MESSAGE(r.scene, r.messages());
     SceneDescription description = std::move(r.scene->description);
     layout_ = film_layout(description.sensors[0].film, std::nullopt, std::nullopt);
@@ -135,14 +140,23 @@ TEST_CASE("lights that the camera does not see are no part of a matte") {
 }
 
 TEST_CASE("what moves is covered for as long as it is seen") {
-  const MatteScene scene(
+  const std::string runner =
       "<shape type='rectangle' id='runner'>" + kGrey +
       "<animation name='toWorld'><transform time='0'><translate x='1'/></transform>"
-      "<transform time='1'><translate x='3'/></transform></animation></shape>");
+      "<transform time='1'><translate x='3'/></transform></animation></shape>";
+  const MatteScene scene(runner);
   // Its edge moves from the middle of the image to the right, and has left it at half of the time.
   auto right = coverages(scene.image(MatteKind::object), 1, 0);
   CHECK(right[matte_id("runner")] == doctest::Approx(0.25).epsilon(0.04));
   CHECK(coverages(scene.image(MatteKind::object), 0, 0).empty());
+  // Pixels that see it at times of their own are covered as much on average.
+  constexpr int kPixels = 32;
+  const Image many = MatteScene(runner, kPixels).image(MatteKind::object);
+  double sum = 0;
+  for (int y = 0; y < kPixels; ++y)
+    for (int x = kPixels / 2; x < kPixels; ++x)
+      sum += double(coverages(many, x, y)[matte_id("runner")]);
+  CHECK(sum / (kPixels * kPixels / 2) == doctest::Approx(0.25).epsilon(0.01));
 }
 
 TEST_CASE("instances have names of their own, or those of what they show") {
