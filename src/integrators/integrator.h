@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <memory>
 #include <optional>
 #include <span>
 #include <string>
@@ -129,7 +130,8 @@ class Integrator {
                               const PassControl& control, RenderCounters& counters) = 0;
 
  private:
-  std::shared_ptr<MotionPhases> phases_;  ///< of a scene that moves
+  /// Of a scene that moves; shared only because the type is not complete here.
+  std::shared_ptr<MotionPhases> phases_;
 };
 
 }  // namespace duet
