@@ -52,7 +52,8 @@ void MotionPhases::start(const Scene& scene, Point2i film, uint32_t most,
   if (pixels < double(PixelPhases::kRun * PixelPhases::kMost)) most = 1;
   while (most > 1 && most * moved > pixels) most /= 2;
   most_ = most;
-  pixels_.start(film, hash_combine(samples.seed, samples.scramble));
+  // Who has one phase has all pixels.
+  if (most > 1) pixels_.start(film, hash_combine(samples.seed, samples.scramble));
 }
 
 void for_each_sample(const SampleRange& samples, const PassControl& control,
