@@ -43,7 +43,7 @@ ROOT = Path(__file__).resolve().parent.parent
 REFERENCE_PASS_SPP = 256
 
 RENDER_WITH_MITSUBA = '''
-import sys, mitsuba as mi
+import sys, numpy as np, mitsuba as mi
 variant, scene, out, spp, seed, width, height, threads = sys.argv[1:]
 mi.set_variant(variant); mi.set_log_level(mi.LogLevel.Error)
 import drjit as dr
@@ -51,8 +51,10 @@ dr.set_thread_count(int(threads))
 s = mi.load_file(scene)
 p = mi.traverse(s.sensors()[0])
 p['film.size'] = mi.ScalarVector2u(int(width), int(height)); p.update()
-mi.render(s, spp=int(spp), seed=int(seed))
-s.sensors()[0].film().bitmap().write(out)
+# The array waits for the image. To write a file with one thread would wait for ever.
+image = np.array(mi.render(s, spp=int(spp), seed=int(seed)))
+dr.set_thread_count(max(2, int(threads)))
+mi.Bitmap(image).write(out)
 '''
 
 
