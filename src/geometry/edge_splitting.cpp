@@ -1,6 +1,7 @@
 #include "geometry/edge_splitting.h"
 
 #include <algorithm>
+#include <cmath>
 #include <unordered_map>
 #include <utility>
 
@@ -30,11 +31,26 @@ class Middles {
   std::unordered_map<uint64_t, uint32_t> vertices_;
 };
 
+/// A number of triangles with edges shorter than `length` that is too few to cover the mesh: none
+/// of them is larger than one of three such edges.
+double too_few_triangles(const TriangleMesh& mesh, const Transform& place, double length) {
+  double area = 0;
+  for (const auto& [a, b, c] : mesh.triangles) {
+    const Point3f p = place(mesh.positions[a]);
+    area += 0.5 *
+            double(duet::length(cross(place(mesh.positions[b]) - p, place(mesh.positions[c]) - p)));
+  }
+  // Midpoints are rounded.
+  return 0.99 * area / (std::sqrt(3.0) / 4 * length * length);
+}
+
 }  // namespace
 
 bool split_long_edges(TriangleMesh& mesh, const Matrix4& to_world, double length, size_t most) {
   mesh.attributes.clear();
   const Transform place(to_world);
+  // It would take minutes and gigabytes to find out.
+  if (too_few_triangles(mesh, place, length) > double(most)) return false;
   const auto edge_length = [&](uint32_t a, uint32_t b) {
     return double(duet::length(place(mesh.positions[b]) - place(mesh.positions[a])));
   };

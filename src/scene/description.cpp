@@ -14,6 +14,13 @@ void for_each_movable(Scene& scene, Visit visit) {
 
 }  // namespace
 
+SceneDescription::SceneDescription() = default;
+SceneDescription::SceneDescription(const SceneDescription&) = default;
+SceneDescription::SceneDescription(SceneDescription&&) noexcept = default;
+SceneDescription& SceneDescription::operator=(const SceneDescription&) = default;
+SceneDescription& SceneDescription::operator=(SceneDescription&&) noexcept = default;
+SceneDescription::~SceneDescription() = default;
+
 size_t count_moving(const SceneDescription& scene) {
   size_t count = 0;
   for_each_movable(scene, [&](const auto& thing) { count += !thing.motion.empty(); });

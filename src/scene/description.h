@@ -35,6 +35,14 @@ struct SceneDescription {
   /// What is rendered differently from what the file asks for, one sentence each.
   std::vector<Diagnostic> approximations;
 
+  /// The special members are compiled once, and not by all that describe or read scenes.
+  SceneDescription();
+  SceneDescription(const SceneDescription&);
+  SceneDescription(SceneDescription&&) noexcept;
+  SceneDescription& operator=(const SceneDescription&);
+  SceneDescription& operator=(SceneDescription&&) noexcept;
+  ~SceneDescription();
+
   /// Of what is compared, the order of things counts.
   static constexpr auto fields() {
     using S = SceneDescription;

@@ -64,7 +64,8 @@ struct Scene {
   /// are those of MediaVertex then.
   bool needs_media_vertices() const { return !media.empty() || skips_passed_surfaces; }
 
-  Scene() = default;
+  Scene();
+  ~Scene();
   Scene(const Scene&) = delete;
   Scene& operator=(const Scene&) = delete;
 

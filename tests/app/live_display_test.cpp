@@ -86,7 +86,7 @@ std::string viewer(uint16_t port) {
   return "tev://127.0.0.1:" + std::to_string(port);
 }
 
-int count(const std::string& text, const std::string& part) {
+int occurrences(const std::string& text, const std::string& part) {
   int n = 0;
   for (size_t at = text.find(part); at != text.npos; at = text.find(part, at + 1)) ++n;
   return n;
@@ -109,7 +109,7 @@ void check_failing_viewer(const std::string& address, const TinyScene& scene) {
   REQUIRE(plain.code == 0);
   const Outcome o = place.run({"tiny.xml", "-o", "shown.exr", "--spp", "2", "--display", address});
   CHECK(o.code == 0);
-  CHECK(count(o.err, "warning:") == 1);
+  CHECK(occurrences(o.err, "warning:") == 1);
   CHECK(contains(o.err, "does not show shown.exr"));
   CHECK(read_image(place.path("shown.exr")).image.data ==
         read_image(place.path("plain.exr")).image.data);
@@ -166,7 +166,7 @@ TEST_SUITE("program") {
     const Outcome o =
         place.run({"endless.xml", "--time", "2s", "--display", viewer(silent_port())});
     CHECK(o.code == 0);
-    CHECK(count(o.err, "warning:") == 1);
+    CHECK(occurrences(o.err, "warning:") == 1);
     CHECK(contains(o.err, "Connection refused"));
   }
 

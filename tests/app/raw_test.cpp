@@ -16,18 +16,11 @@ using namespace duet::test;
 
 namespace {
 
-using Arguments = std::vector<std::string>;
-
 /// One whose images keep all bits and that takes a while: light within a white sphere.
 TinyScene long_scene() {
   TinyScene s = endless_scene();
   s.film = exact_scene().film;
   return s;
-}
-
-Arguments operator+(Arguments a, const Arguments& b) {
-  a.insert(a.end(), b.begin(), b.end());
-  return a;
 }
 
 void check_same_pixels(const std::string& a, const std::string& b) {

@@ -7,31 +7,20 @@
 
 using namespace duet::test;
 
-namespace {
-
-using Texts = std::vector<std::string>;
-
-Texts operator+(Texts a, const Texts& b) {
-  a.insert(a.end(), b.begin(), b.end());
-  return a;
-}
-
-}  // namespace
-
 TEST_SUITE("program") {
   TEST_CASE("finished images of the same settings are skipped") {
     const Workplace place;
     place.scene("a.xml");
     place.scene("b.xml");
-    const Texts outputs{"-o", "{scene}.exr", "-o", "{scene}.png", "-o", "{scene}.jpg"};
-    REQUIRE(place.run(Texts{"a.xml"} + outputs).code == 0);
+    const Arguments outputs{"-o", "{scene}.exr", "-o", "{scene}.png", "-o", "{scene}.jpg"};
+    REQUIRE(place.run(Arguments{"a.xml"} + outputs).code == 0);
     const std::string before = read_file(place.path("a.exr"));
-    const Outcome o = place.run(Texts{"a.xml", "b.xml", "-x", "-t", "1"} + outputs);
+    const Outcome o = place.run(Arguments{"a.xml", "b.xml", "-x", "-t", "1"} + outputs);
     CHECK(o.code == 0);
     CHECK(contains(o.err, "a.xml: skipped"));
     CHECK(read_file(place.path("a.exr")) == before);
     CHECK(place.has("b.exr"));
-    CHECK(contains(place.run(Texts{"a.xml", "-x", "--spp", "4"} + outputs).err, "skipped"));
+    CHECK(contains(place.run(Arguments{"a.xml", "-x", "--spp", "4"} + outputs).err, "skipped"));
   }
 
   TEST_CASE("images that are not whole are rendered again") {
@@ -39,7 +28,7 @@ TEST_SUITE("program") {
     place.scene("a.xml");
     for (const char* name : {"a.exr", "a.png", "a.jpg"}) {
       CAPTURE(name);
-      const Texts arguments{"a.xml", "-x", "-o", name};
+      const Arguments arguments{"a.xml", "-x", "-o", name};
       REQUIRE(place.run(arguments).code == 0);
       const std::string whole = read_file(place.path(name));
       CHECK(contains(place.run(arguments).err, "skipped"));
@@ -75,39 +64,39 @@ TEST_SUITE("program") {
     place.write("mesh.obj", mesh);
     REQUIRE(place.run({"plain.xml", "-o", "t.png"}).code == 0);
     REQUIRE(place.run({"plain.xml", "-o", "other.png", "--exposure", "1"}).code == 0);
-    const Texts arguments{"a.xml", "-x", "-o", "a.exr", "-o", "a.png"};
+    const Arguments arguments{"a.xml", "-x", "-o", "a.exr", "-o", "a.png"};
     REQUIRE(place.run(arguments).code == 0);
-    const auto is_skipped = [&](const Texts& more) {
+    const auto is_skipped = [&](const Arguments& more) {
       const Outcome o = place.run(arguments + more);
       CAPTURE(o.err);
       REQUIRE(o.code == 0);
       return contains(o.err, "skipped") && !contains(o.err, "again");
     };
     CHECK(is_skipped({}));
-    for (const Texts& more : {Texts{"--spp", "5"},
-                              {"--seed", "3"},
-                              {"-D", "spp=6"},
-                              {"-i", "direct"},
-                              {"-I", "max_depth=3"},
-                              {"--size", "8x8"},
-                              {"--crop", "1,1,4,4"},
-                              {"--aov", "depth"},
-                              {"--strict-sampler"},
-                              {"--time", "0.01"},
-                              {"--target-error", "50%"}}) {
+    for (const Arguments& more : {Arguments{"--spp", "5"},
+                                  {"--seed", "3"},
+                                  {"-D", "spp=6"},
+                                  {"-i", "direct"},
+                                  {"-I", "max_depth=3"},
+                                  {"--size", "8x8"},
+                                  {"--crop", "1,1,4,4"},
+                                  {"--aov", "depth"},
+                                  {"--strict-sampler"},
+                                  {"--time", "0.01"},
+                                  {"--target-error", "50%"}}) {
       CAPTURE(more[0]);
       CHECK(!is_skipped(more));
       CHECK(is_skipped(more));
       CHECK(!is_skipped({}));
     }
     // Exposure is for display alone.
-    const Outcome brighter = place.run(arguments + Texts{"--exposure", "1"});
+    const Outcome brighter = place.run(arguments + Arguments{"--exposure", "1"});
     CHECK(contains(brighter.err, "a.png is rendered again"));
     CHECK(!contains(brighter.err, "a.exr is rendered again"));
     CHECK(!is_skipped({}));
     // The form of a kind of file concerns that kind alone.
     for (const auto& [options, changed, kept] :
-         {std::tuple<Texts, const char*, const char*>{{"--png-depth", "16"}, "a.png", "a.exr"},
+         {std::tuple<Arguments, const char*, const char*>{{"--png-depth", "16"}, "a.png", "a.exr"},
           {{"--aov-names", "blender"}, "a.exr", "a.png"},
           {{"--exr-parts"}, "a.exr", "a.png"}}) {
       CAPTURE(options[0]);
@@ -132,16 +121,16 @@ TEST_SUITE("program") {
   TEST_CASE("a partial image is rendered again, whatever its name") {
     const Workplace place;
     place.scene("endless.xml", endless_scene());
-    const Texts arguments{"endless.xml", "--time", "2s", "--keep-partial-name", "-v"};
+    const Arguments arguments{"endless.xml", "--time", "2s", "--keep-partial-name", "-v"};
     Process duet(arguments, {.directory = place.path("")});
     REQUIRE(duet.wait_for_message("built in", 300));
     duet.send(SIGUSR1);
     REQUIRE(Process::wait_until([&] { return place.has("endless.exr"); }, 300));
     duet.send(SIGKILL);
     duet.wait(300);
-    const Outcome o = place.run(arguments + Texts{"-x"});
+    const Outcome o = place.run(arguments + Arguments{"-x"});
     CAPTURE(o.err);
     CHECK(contains(o.err, "endless.exr is rendered again: its render was interrupted"));
-    CHECK(contains(place.run(arguments + Texts{"-x"}).err, "skipped"));
+    CHECK(contains(place.run(arguments + Arguments{"-x"}).err, "skipped"));
   }
 }

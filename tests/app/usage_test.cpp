@@ -10,8 +10,6 @@ using namespace duet::test;
 
 namespace {
 
-using Arguments = std::vector<std::string>;
-
 /// The command is refused with exit code 2 and a message that names what is wrong, and leaves
 /// nothing behind.
 void check_refused(const Workplace& place, const Arguments& arguments, const std::string& named) {

@@ -1,22 +1,15 @@
 // Curvature against what geometry says of spheres, tubes, ellipsoids and meshes of them.
 #include "geometry/curvature.h"
+#include "support/lamp.h"
 
 #include <doctest/doctest.h>
 
 #include <cmath>
 
 using namespace duet;
+using namespace duet::test;
 
 namespace {
-
-Shape analytic(ShapeKind kind, const Matrix4& to_world, bool flip = false) {
-  Shape s;
-  s.kind = kind;
-  s.flip_normals = flip;
-  s.to_world = Transform(to_world);
-  s.to_local = *to_world.inverse();
-  return s;
-}
 
 Curvature at(const Shape& shape, const Point2f& uv) {
   Surface s;

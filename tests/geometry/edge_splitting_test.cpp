@@ -70,6 +70,13 @@ TEST_CASE("edges: a mesh that is short enough stays, and one that would be endle
   REQUIRE(split_long_edges(mesh, {}, 5, 10));
   CHECK(mesh == tetrahedron());
   CHECK_FALSE(split_long_edges(mesh, {}, 0.1, 100));
+  // No area, but edges to be split.
+  TriangleMesh needle;
+  needle.positions = {{0, 0, 0}, {2, 0, 0}, {1, 0, 0}};
+  needle.triangles = {{0, 1, 2}};
+  CHECK_FALSE(split_long_edges(needle, {}, 0.01, 100));
+  // No memory would do.
+  CHECK_FALSE(split_long_edges(mesh, {}, 1e-30, size_t(1) << 60));
   // Shorter than coordinates can tell apart.
   mesh = tetrahedron();
   CHECK_FALSE(split_long_edges(mesh, Matrix4::translate(1e6, 0, 0), 1e-6, 10000));

@@ -53,7 +53,7 @@ void check_normal(const Normal3f& n, double x, double y, double z) {
   CHECK(double(n.z) == doctest::Approx(z / l).epsilon(1e-5));
 }
 
-double area(const TriangleMesh& mesh) {
+double mesh_area(const TriangleMesh& mesh) {
   double sum = 0;
   for (const auto& t : mesh.triangles) {
     const Point3f& a = mesh.positions[t[0]];
@@ -73,7 +73,7 @@ TEST_CASE("height field: a plane is two triangles a patch, with its slope and it
     const TriangleMesh mesh = make_height_field(f);
     CHECK(mesh.triangles.size() == 2 * 4 * 2);
     CHECK(mesh.positions.size() == (smooth ? 15 : 4 * 8));
-    CHECK(area(mesh) == doctest::Approx(4));
+    CHECK(mesh_area(mesh) == doctest::Approx(4));
     for (size_t i = 0; i < mesh.positions.size(); ++i) {
       const Point3f& p = mesh.positions[i];
       CHECK(double(p.z) == doctest::Approx(0.25 * double(p.x) - 0.5 * double(p.y) + 3));
@@ -95,7 +95,7 @@ TEST_CASE("height field: twisted patches are divided until they are close") {
     // 4 / (4 n²) ≤ 2 / 512 from n = 16 on.
     CHECK(mesh.triangles.size() == 2 * 16 * 16);
     CHECK(mesh.positions.size() == 17 * 17);
-    CHECK(area(mesh) == doctest::Approx(4));
+    CHECK(mesh_area(mesh) == doctest::Approx(4));
     const double d = deviation(f, mesh);
     CHECK(d <= 2.0 / 512 * (1 + 1e-6));
     CHECK(d > 0.9 * 2 / 512);

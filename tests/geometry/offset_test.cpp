@@ -6,8 +6,10 @@
 #include "geometry/surface.h"
 #include "math/sampler.h"
 #include "math/warp.h"
+#include "support/lamp.h"
 
 using namespace duet;
+using namespace duet::test;
 
 namespace {
 
@@ -27,14 +29,6 @@ struct Target {
     return make_surface(shapes[hit.shape], instances.empty() ? nullptr : &instances[0], ray, hit);
   }
 };
-
-Shape analytic(ShapeKind kind, const Matrix4& to_world) {
-  Shape s;
-  s.kind = kind;
-  s.to_world = Transform(to_world);
-  s.to_local = *to_world.inverse();
-  return s;
-}
 
 Shape triangle(const Point3f& a, const Point3f& b, const Point3f& c) {
   auto mesh = std::make_shared<TriangleMesh>();

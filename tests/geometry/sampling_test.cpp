@@ -3,21 +3,15 @@
 
 #include "geometry/shape.h"
 #include "math/sampler.h"
+#include "support/lamp.h"
 #include "support/statistics.h"
 
 using namespace duet;
+using namespace duet::test;
 
 namespace {
 
 constexpr double kPiD = 3.14159265358979323846;
-
-Shape analytic(ShapeKind kind, const Matrix4& to_world) {
-  Shape s;
-  s.kind = kind;
-  s.to_world = Transform(to_world);
-  s.to_local = *to_world.inverse();
-  return s;
-}
 
 /// A point of the unit shape by uniform parameters: longitude and height, or angle and squared
 /// radius.

@@ -10,7 +10,7 @@ using namespace duet;
 
 namespace {
 
-constexpr int kSize = 64;
+constexpr int kBiasSize = 64;
 
 /// A picture with a gradient, a dark part, and light that few samples carry.
 struct Synthetic {
@@ -19,15 +19,15 @@ struct Synthetic {
   double deviation = 1;   ///< of the other samples, relative to their mean
   bool filtered = false;  ///< each pixel is the mean of 3×3, as a wide filter makes it
 
-  static double mean_at(int x, int y) { return y < 8 ? 0.002 : 0.2 + 0.8 * x / kSize; }
+  static double mean_at(int x, int y) { return y < 8 ? 0.002 : 0.2 + 0.8 * x / kBiasSize; }
   static bool in_caustic(int x, int y) { return x >= 24 && x < 36 && y >= 40 && y < 48; }
   /// The mean of n samples of each pixel.
   Image render(int n, std::mt19937& generator, double scale = 1) const {
-    Image image(kSize, kSize, {"R", "G", "B"});
+    Image image(kBiasSize, kBiasSize, {"R", "G", "B"});
     std::normal_distribution<double> normal;
     std::poisson_distribution<int> in_spot(n * rare), elsewhere(0.05 * n * rare);
-    for (int y = 0; y < kSize; ++y)
-      for (int x = 0; x < kSize; ++x) {
+    for (int y = 0; y < kBiasSize; ++y)
+      for (int x = 0; x < kBiasSize; ++x) {
         const double noise = deviation * normal(generator) / std::sqrt(double(n));
         const double value =
             mean_at(x, y) * (1 + noise) +
@@ -39,13 +39,14 @@ struct Synthetic {
 
   static Image blurred(const Image& image) {
     Image out = image;
-    for (int y = 0; y < kSize; ++y)
-      for (int x = 0; x < kSize; ++x)
+    for (int y = 0; y < kBiasSize; ++y)
+      for (int x = 0; x < kBiasSize; ++x)
         for (int c = 0; c < 3; ++c) {
           double sum = 0;
           for (int dy = -1; dy <= 1; ++dy)
             for (int dx = -1; dx <= 1; ++dx)
-              sum += image.pixel((x + dx + kSize) % kSize, (y + dy + kSize) % kSize)[c];
+              sum += image.pixel((x + dx + kBiasSize) % kBiasSize,
+                                 (y + dy + kBiasSize) % kBiasSize)[c];
           out.pixel(x, y)[c] = float(sum / 9);
         }
     return out;
@@ -55,7 +56,7 @@ struct Synthetic {
 /// Mean and variance of one sample from the spread of 32 passes, as references have them.
 struct Reference {
   static constexpr int kPasses = 32, kSpp = 128;
-  Image mean{kSize, kSize, {"R", "G", "B"}}, variance = mean;
+  Image mean{kBiasSize, kBiasSize, {"R", "G", "B"}}, variance = mean;
   Reference(const Synthetic& synthetic, unsigned seed) {
     std::mt19937 generator(seed);
     std::vector<double> sums(mean.data.size()), squares(sums);
@@ -119,7 +120,7 @@ TEST_CASE("planted defects are found") {
   for (int i = 0; i < kCount; ++i) {
     dark += reference.test(s.render(spp, generator, 0.99), spp).biased();
     Image image = s.render(spp, generator);
-    scale(image, 48, 24, kSize / 8, 0.9f);
+    scale(image, 48, 24, kBiasSize / 8, 0.9f);
     const BiasTest t = reference.test(image, spp);
     tile += t.biased();
     place += t.tile.x == 48 && t.tile.y == 24;
@@ -140,7 +141,7 @@ TEST_CASE("what the test says it notices, it notices four times in five") {
   for (int i = 0; i < 100; ++i) {
     mean += reference.test(s.render(64, generator, 1 - t.noticed_mean), 64).biased();
     Image image = s.render(64, generator);
-    scale(image, 24, 32, kSize / 8, float(1 - t.noticed_tile));
+    scale(image, 24, 32, kBiasSize / 8, float(1 - t.noticed_tile));
     tile += reference.test(image, 64).biased();
   }
   CHECK(mean >= 65);
@@ -223,7 +224,7 @@ TEST_CASE("pixels that cannot be judged are left out, and small images have fewe
   const NoiseModel noise{&variance, 16, 1e6};
   CHECK(test_bias(small, small, noise).p == 1);
   CHECK(test_bias(small, small, noise).tests == 9);
-  const Image black(kSize, kSize, {"R", "G", "B"});
+  const Image black(kBiasSize, kBiasSize, {"R", "G", "B"});
   CHECK(test_bias(black, black, {&black, 1, 1}).p == 1);
   CHECK_THROWS_AS(test_bias(small, black, noise), std::invalid_argument);
   CHECK_THROWS_AS(test_bias(black, black, noise), std::invalid_argument);

@@ -11,11 +11,12 @@ using namespace duet;
 
 namespace {
 
-constexpr int kSize = 32;
+constexpr int kNoisySize = 32;
 
 /// Colours of 1 with noise of this variance, which is known.
 ImageWithNoise noisy_one(double variance) {
-  ImageWithNoise image{kSize, kSize, {}, std::vector<float>(3 * kSize * kSize, float(variance))};
+  ImageWithNoise image{
+      kNoisySize, kNoisySize, {}, std::vector<float>(3 * kNoisySize * kNoisySize, float(variance))};
   for (size_t i = 0; i < image.variance.size(); ++i) {
     const double u = double(mix64(i) >> 11) * 0x1p-53;
     image.colour.push_back(float(1 + std::sqrt(12 * variance) * (u - 0.5)));

@@ -23,13 +23,13 @@ std::optional<Denoiser> installed_denoiser(int threads) {
   }
 }
 
-constexpr int kSize = 64;
+constexpr int kDenoisedSize = 64;
 
 /// Two areas of one colour each, with noise as large as the colours.
 NoisyImage noisy_image() {
-  NoisyImage image{kSize, kSize, {}, {}, {}};
-  for (int i = 0; i < kSize * kSize; ++i) {
-    const float albedo = i % kSize < kSize / 2 ? 0.25f : 0.75f;
+  NoisyImage image{kDenoisedSize, kDenoisedSize, {}, {}, {}};
+  for (int i = 0; i < kDenoisedSize * kDenoisedSize; ++i) {
+    const float albedo = i % kDenoisedSize < kDenoisedSize / 2 ? 0.25f : 0.75f;
     for (int c = 0; c < 3; ++c) {
       image.colour.push_back(albedo * 2 * float(mix64(uint64_t(3 * i + c)) % 1000) / 999);
       image.albedo.push_back(albedo);

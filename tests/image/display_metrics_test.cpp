@@ -28,7 +28,7 @@ Pair waves() {
   return p;
 }
 
-Image constant(int width, int height, float value) {
+Image grey_image(int width, int height, float value) {
   Image image(width, height, {"R", "G", "B"});
   for (float& v : image.data) v = value;
   return image;
@@ -53,15 +53,16 @@ TEST_CASE("PSNR and SSIM at their ends") {
   CHECK(std::isinf(equal.psnr));
   CHECK(*equal.ssim == doctest::Approx(1).epsilon(1e-12));
   // White against black is the largest difference that a display can show.
-  const DisplayMetrics most = display_metrics(constant(16, 16, 7), constant(16, 16, 0));
+  const DisplayMetrics most = display_metrics(grey_image(16, 16, 7), grey_image(16, 16, 0));
   CHECK(most.psnr == doctest::Approx(0));
   CHECK(*most.ssim == doctest::Approx(1e-4 / 1.0001));
   // What is brighter than white is white, and what is not a number is black.
-  CHECK(std::isinf(display_metrics(constant(16, 16, 7), constant(16, 16, INFINITY)).psnr));
-  CHECK(std::isinf(display_metrics(constant(16, 16, NAN), constant(16, 16, -1)).psnr));
-  CHECK_FALSE(display_metrics(constant(10, 30, 1), constant(10, 30, 0)).ssim);
-  CHECK(display_metrics(constant(11, 11, 1), constant(11, 11, 0)).ssim);
-  CHECK_THROWS_AS(display_metrics(constant(10, 30, 1), constant(30, 10, 1)), std::invalid_argument);
+  CHECK(std::isinf(display_metrics(grey_image(16, 16, 7), grey_image(16, 16, INFINITY)).psnr));
+  CHECK(std::isinf(display_metrics(grey_image(16, 16, NAN), grey_image(16, 16, -1)).psnr));
+  CHECK_FALSE(display_metrics(grey_image(10, 30, 1), grey_image(10, 30, 0)).ssim);
+  CHECK(display_metrics(grey_image(11, 11, 1), grey_image(11, 11, 0)).ssim);
+  CHECK_THROWS_AS(display_metrics(grey_image(10, 30, 1), grey_image(30, 10, 1)),
+                  std::invalid_argument);
 }
 
 TEST_CASE("errors relative to the values") {
@@ -69,13 +70,14 @@ TEST_CASE("errors relative to the values") {
   const PercentageErrors e = percentage_errors(p.a, p.b);
   CHECK(e.mape == doctest::Approx(0.312542891).epsilon(1e-5));
   CHECK(e.smape == doctest::Approx(0.274878673).epsilon(1e-5));
-  const PercentageErrors known = percentage_errors(constant(4, 4, 2), constant(4, 4, 1));
+  const PercentageErrors known = percentage_errors(grey_image(4, 4, 2), grey_image(4, 4, 1));
   CHECK(known.mape == doctest::Approx(1 / 1.01));
   CHECK(known.smape == doctest::Approx(2 / 3.01));
-  CHECK(percentage_errors(constant(4, 4, 0), constant(4, 4, 0)).smape == 0);
+  CHECK(percentage_errors(grey_image(4, 4, 0), grey_image(4, 4, 0)).smape == 0);
   // A pixel without a number is left out.
-  Image hole = constant(4, 4, 2);
+  Image hole = grey_image(4, 4, 2);
   hole.data[1] = NAN;
-  CHECK(percentage_errors(hole, constant(4, 4, 1)).mape == doctest::Approx(1 / 1.01));
-  CHECK_THROWS_AS(percentage_errors(constant(3, 4, 1), constant(4, 3, 1)), std::invalid_argument);
+  CHECK(percentage_errors(hole, grey_image(4, 4, 1)).mape == doctest::Approx(1 / 1.01));
+  CHECK_THROWS_AS(percentage_errors(grey_image(3, 4, 1), grey_image(4, 3, 1)),
+                  std::invalid_argument);
 }

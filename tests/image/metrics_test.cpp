@@ -12,7 +12,7 @@ using namespace duet;
 
 namespace {
 
-Image constant(int width, int height, float value) {
+Image constant_image(int width, int height, float value) {
   Image image(width, height, {"R", "G", "B"});
   for (float& v : image.data) v = value;
   return image;
@@ -36,7 +36,7 @@ Image with_noise(const Image& image, float sigma, uint64_t seed) {
 }  // namespace
 
 TEST_CASE("metrics of two images whose difference is known") {
-  const Image b = constant(10, 10, 0.5f);
+  const Image b = constant_image(10, 10, 0.5f);
   Image a = b;
   a.data[0] += 0.3f;  // one value of 300
   const ImageMetrics m = compare_images(a, b, std::nullopt);
@@ -51,7 +51,7 @@ TEST_CASE("metrics of two images whose difference is known") {
 }
 
 TEST_CASE("the trimmed error leaves out the worst thousandth of the pixels") {
-  const Image b = constant(100, 20, 1);
+  const Image b = constant_image(100, 20, 1);
   Image a = b;
   for (int i = 0; i < 3; ++i) a.data[i] = 100;  // one pixel
   for (int i = 3; i < 6; ++i) a.data[i] = 50;   // another
@@ -61,7 +61,7 @@ TEST_CASE("the trimmed error leaves out the worst thousandth of the pixels") {
 }
 
 TEST_CASE("fireflies and the worst pixels have a share") {
-  const Image b = constant(100, 20, 1);
+  const Image b = constant_image(100, 20, 1);
   Image a = b;
   for (int i = 0; i < 3; ++i) a.data[i] = 500;  // one firefly among 2000 pixels
   for (int i = 3; i < 600; i += 3) a.data[i] = 2;
@@ -91,7 +91,7 @@ TEST_CASE("false colours grow lighter and mark what is no number") {
   const size_t last = 3 * (values.size() - 1);
   CHECK(bytes[last] == 0);
   CHECK(bytes[last + 1] == 255);
-  Image dark = constant(2, 1, 1), bright = constant(2, 1, 1);
+  Image dark = constant_image(2, 1, 1), bright = constant_image(2, 1, 1);
   for (int c = 0; c < 3; ++c) dark.data[size_t(c)] = 0, bright.data[size_t(c)] = 0.01f;
   const std::vector<float> d = relative_differences(bright, dark);
   CHECK(d[0] == doctest::Approx(0.01 / 0.005));  // the mean is 0.5
@@ -99,7 +99,7 @@ TEST_CASE("false colours grow lighter and mark what is no number") {
 }
 
 TEST_CASE("noise of the stated variance passes the z-test, a shift does not") {
-  const Image b = constant(64, 64, 0.5f), variance = constant(64, 64, 0.04f);
+  const Image b = constant_image(64, 64, 0.5f), variance = constant_image(64, 64, 0.04f);
   const NoiseModel noise{&variance, 16, 1e9};  // standard error 0.05
   const Image a = with_noise(b, 0.05f, 1);
   ImageMetrics m = compare_images(a, b, noise);
@@ -121,7 +121,7 @@ TEST_CASE("noise of the stated variance passes the z-test, a shift does not") {
 }
 
 TEST_CASE("values that are not numbers are counted and left out") {
-  const Image b = constant(4, 4, 1);
+  const Image b = constant_image(4, 4, 1);
   Image a = b;
   a.data[0] = std::numeric_limits<float>::quiet_NaN();
   a.data[3] = std::numeric_limits<float>::infinity();
@@ -131,20 +131,20 @@ TEST_CASE("values that are not numbers are counted and left out") {
   CHECK(m.infinite_pixels == 1);
   CHECK(m.negative_pixels == 1);
   CHECK(std::isfinite(m.rmse));
-  const Image variance = constant(4, 4, 1);
+  const Image variance = constant_image(4, 4, 1);
   const ImageMetrics z = compare_images(a, b, NoiseModel{&variance, 1, 1});
   CHECK(*z.z_share < 1);  // never good
 }
 
 TEST_CASE("images that cannot be compared are refused") {
-  CHECK_THROWS_AS(compare_images(constant(2, 2, 1), constant(2, 3, 1), std::nullopt),
+  CHECK_THROWS_AS(compare_images(constant_image(2, 2, 1), constant_image(2, 3, 1), std::nullopt),
                   std::invalid_argument);
-  CHECK_THROWS_AS(compare_images(Image(2, 2, {"U", "V"}), constant(2, 2, 1), std::nullopt),
+  CHECK_THROWS_AS(compare_images(Image(2, 2, {"U", "V"}), constant_image(2, 2, 1), std::nullopt),
                   std::invalid_argument);
 }
 
 TEST_CASE("the difference image is red where brighter and blue where darker") {
-  const Image b = constant(3, 1, 0.5f);
+  const Image b = constant_image(3, 1, 0.5f);
   Image a = b;
   for (int c = 0; c < 3; ++c) a.pixel(0, 0)[c] = 1, a.pixel(1, 0)[c] = 0;
   const auto bytes = difference_image(a, b, 0.5);

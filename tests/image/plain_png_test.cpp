@@ -1,6 +1,7 @@
 #include "image/plain_png.h"
 
 #include <doctest/doctest.h>
+#include <zlib.h>
 
 #include <random>
 
@@ -35,11 +36,11 @@ std::string with_body(const std::string& file, const std::string& chunks) {
   return file.substr(0, kAfterHeader) + chunks;
 }
 
-struct Kind {
+struct PngKind {
   int colour;
   size_t channels;
 };
-constexpr Kind kKinds[] = {{0, 1}, {2, 3}, {4, 2}, {6, 4}};
+constexpr PngKind kPngKinds[] = {{0, 1}, {2, 3}, {4, 2}, {6, 4}};
 
 /// Rows of random bytes, which have the filters in turn.
 std::string random_rows(size_t width, size_t height, size_t channels, std::mt19937& random) {
@@ -72,7 +73,7 @@ bool is_left_to_the_module(const std::string& file) {
 
 TEST_CASE("plain PNG files have the pixels that OpenImageIO reads") {
   std::mt19937 random(1);
-  for (const Kind& kind : kKinds)
+  for (const PngKind& kind : kPngKinds)
     for (const auto& [width, height] : {std::pair{1u, 1u}, {7u, 23u}, {150u, 40u}}) {
       CAPTURE(kind.colour);
       CAPTURE(width);

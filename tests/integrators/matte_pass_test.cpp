@@ -19,7 +19,7 @@ constexpr uint32_t kSamples = 256;
 
 /// A camera of parallel rays that sees the square from (−1, −1) to (1, 1) from above, in so many
 /// pixels across and down.
-std::string view(int pixels) {
+std::string matte_view(int pixels) {
   const std::string size = std::to_string(pixels);
   return "<integrator type='path'/><sensor type='orthographic'><float name='shutterOpen' "
          "value='0'/>"
@@ -34,7 +34,7 @@ class MatteScene {
  public:
   /// Of 2 × 2 pixels each is a unit wide.
   explicit MatteScene(const std::string& content, int pixels = 2) {
-    ReadResult r = read_text("<scene version='0.6.0'>" + view(pixels) + content + "</scene>");
+    ReadResult r = read_text("<scene version='0.6.0'>" + matte_view(pixels) + content + "</scene>");
     REQUIRE_MESSAGE(r.scene, r.messages());
     SceneDescription description = std::move(r.scene->description);
     layout_ = film_layout(description.sensors[0].film, std::nullopt, std::nullopt);

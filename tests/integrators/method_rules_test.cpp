@@ -11,7 +11,7 @@ namespace {
 
 const char* const kFromLights[] = {"ptracer", "bdpt", "reuse", "ppm", "bpm", "vcm"};
 const std::string kHair = "<bsdf type='hair'/>";
-const std::string kFog =
+const std::string kFogCube =
     "<medium type='homogeneous' id='fog'><float name='sigma_t' value='0.3'/></medium>"
     "<shape type='cube'><transform name='to_world'><scale value='5'/></transform>"
     "<bsdf type='null'/><ref id='fog' name='interior'/></shape>";
@@ -49,7 +49,7 @@ TEST_CASE(
     "through") {
   const TemporaryDirectory folder;
   for (const bool fog : {false, true}) {
-    const SceneDescription scene = read(folder, strand(folder, kHair) + (fog ? kFog : ""));
+    const SceneDescription scene = read(folder, strand(folder, kHair) + (fog ? kFogCube : ""));
     for (const std::string method : kFromLights) {
       const std::string message = refusal(scene, method);
       CAPTURE(method);
@@ -76,9 +76,9 @@ TEST_CASE("auto takes no method that the command line refuses") {
     return c.reason.substr(0, c.reason.find_first_of(": "));
   };
   // Light that comes through the glass needs sub-paths from the light, which the strand forbids.
-  CHECK(chosen(strand(folder, kHair) + kFog) == "volpath");
+  CHECK(chosen(strand(folder, kHair) + kFogCube) == "volpath");
   CHECK(chosen(strand(folder, kHair)) == "path");
-  CHECK(chosen(strand(folder, grey("0.5")) + kFog) != "volpath");
+  CHECK(chosen(strand(folder, grey("0.5")) + kFogCube) != "volpath");
 }
 
 TEST_CASE("some methods need a sensor that can be connected with light sub-paths") {

@@ -16,7 +16,7 @@ using namespace duet::test;
 
 namespace {
 
-constexpr int kSize = 16;
+constexpr int kMovingSize = 16;
 
 std::string animation(const std::string& first, const std::string& last) {
   return "<animation name='toWorld'><transform time='1'>" + first +
@@ -25,7 +25,7 @@ std::string animation(const std::string& first, const std::string& last) {
 
 /// A camera whose shutter is open from 1.5 to 3, either moving or not.
 std::string camera(const std::string& place, const std::string& type = "perspective") {
-  const std::string size = std::to_string(kSize);
+  const std::string size = std::to_string(kMovingSize);
   return "<sensor type='" + type + "'><float name='shutterOpen' value='1.5'/>" +
          "<float name='shutterClose' value='3'/><float name='fov' value='50'/>" + place +
          "<film type='hdrfilm'><integer name='width' value='" + size +
@@ -325,8 +325,8 @@ TEST_CASE("neighbouring pixels see a sample at different times") {
                     "</shape>");
   const auto blocks = [](const Image& image) {
     std::vector<double> sums(4);
-    for (int y = 0; y < kSize; ++y)
-      for (int x = 0; x < kSize; ++x)
+    for (int y = 0; y < kMovingSize; ++y)
+      for (int x = 0; x < kMovingSize; ++x)
         sums[size_t(y / 8 * 2 + x / 8)] += double(image.pixel(x, y)[0]);
     return sums;
   };

@@ -30,7 +30,7 @@ std::string homogeneous(const std::string& sigma_t, const std::string& albedo,
 }
 
 const std::string kNull = "<bsdf type='null'/><ref id='m' name='interior'/>";
-const std::string kSky = "<emitter type='constant'><rgb name='radiance' value='1'/></emitter>";
+const std::string kWhiteSky = "<emitter type='constant'><rgb name='radiance' value='1'/></emitter>";
 /// From z = 0 to 1, wider than anybody looks.
 const std::string kSlab =
     "<shape type='cube'><transform name='to_world'><scale x='50' y='50' z='0.5'/><translate "
@@ -79,7 +79,7 @@ Mean render(const TransportScene& scene, int spp, TransportScene::Parameters par
 }  // namespace
 
 TEST_CASE("a slab that only absorbs lets through what Beer and Lambert say") {
-  const TransportScene scene(view(8) + homogeneous("0.5 1 2", "0") + kSlab + kSky);
+  const TransportScene scene(view(8) + homogeneous("0.5 1 2", "0") + kSlab + kWhiteSky);
   for (const char* method : {"volpath", "volpathmis"})
     render(scene, 512, {}, method).check(std::exp(-0.5), std::exp(-1), std::exp(-2));
   // What passes straight through does not count, so that one segment is enough.
@@ -89,7 +89,7 @@ TEST_CASE("a slab that only absorbs lets through what Beer and Lambert say") {
 namespace {
 
 /// Light along the line of sight, scattered once in a slab of thickness 2.
-const std::string kSun =
+const std::string kLowSun =
     "<emitter type='directional'><vector name='direction' x='0' y='0' z='1'/><rgb "
     "name='irradiance' value='3'/></emitter>";
 const std::string kPhase = "<phase type='hg'><float name='g' value='-0.3'/></phase>";
@@ -104,7 +104,7 @@ double once(double sigma_t, double albedo) {
 TEST_CASE("light that is scattered once in a slab") {
   // Light falls along the line of sight: it has passed as much of the slab as is before it.
   const TransportScene scene(view(8) + homogeneous("0.5 1 4", "0.9 0.5 0.2", kPhase) + kSlab +
-                             kSun);
+                             kLowSun);
   render(scene, 1024, {{"max_depth", "2"}}).check(once(0.5, 0.9), once(1, 0.5), once(4, 0.2));
   // The same from a grid.
   const TemporaryDirectory folder;
@@ -112,7 +112,7 @@ TEST_CASE("light that is scattered once in a slab") {
       folder, view(8) +
                   constant_grid(folder, {0.5f, 1, 4}, "0.9 0.5 0.2",
                                 "<translate x='-.5' y='-.5'/><scale x='99' y='99' z='1'/>") +
-                  kSlab + kSun);
+                  kSlab + kLowSun);
   const double turned = kBack * 4 * M_PI;  // isotropic here
   render(grid, 1024, {{"max_depth", "2"}})
       .check(once(0.5, 0.9) / turned, once(1, 0.5) / turned, once(4, 0.2) / turned);
@@ -124,7 +124,8 @@ TEST_CASE("sub-paths from both ends find the light that is scattered once in a s
       "<shape type='cube'><transform name='to_world'><scale x='1.5' y='1.5' z='0.5'/><translate "
       "z='0.5'/></transform>" +
       kNull + "</shape>";
-  const TransportScene scene(view(8) + homogeneous("0.5 1 4", "0.9 0.5 0.2", kPhase) + slab + kSun);
+  const TransportScene scene(view(8) + homogeneous("0.5 1 4", "0.9 0.5 0.2", kPhase) + slab +
+                             kLowSun);
   for (const auto& [method, effort] :
        {std::pair("bdpt", 1), {"reuse", 1}, {"vcm", 1}, {"ptracer", 4}}) {
     CAPTURE(method);
@@ -139,17 +140,17 @@ TEST_CASE("a medium that only scatters cannot be seen in a furnace") {
       "<shape type='sphere'><bsdf type='dielectric'/><ref id='m' name='interior'/></shape>";
   const std::string hg = "<phase type='hg'><float name='g' value='0.6'/></phase>";
   const TransportScene::Parameters patient{{"rr_depth", "1000000"}};
-  render(TransportScene(view(8) + homogeneous("3", "1", hg) + ball + kSky), 256, patient)
+  render(TransportScene(view(8) + homogeneous("3", "1", hg) + ball + kWhiteSky), 256, patient)
       .check(1, 1, 1);
-  render(TransportScene(view(8) + homogeneous("0.5 1 3", "1") + ball + kSky), 1024, patient)
+  render(TransportScene(view(8) + homogeneous("0.5 1 3", "1") + ball + kWhiteSky), 1024, patient)
       .check(1, 1, 1);
   // Radiance within glass is greater, and what comes out is not.
-  render(TransportScene(view(8) + homogeneous("1", "1") + glass + kSky), 512, patient)
+  render(TransportScene(view(8) + homogeneous("1", "1") + glass + kWhiteSky), 512, patient)
       .check(1, 1, 1);
   const TemporaryDirectory folder;
-  render(TransportScene(
-             folder,
-             view(8) + constant_grid(folder, {1, 2, 3}, "1", "<scale value='0.8'/>") + ball + kSky),
+  render(TransportScene(folder, view(8) +
+                                    constant_grid(folder, {1, 2, 3}, "1", "<scale value='0.8'/>") +
+                                    ball + kWhiteSky),
          1024, patient)
       .check(1, 1, 1);
 }
@@ -157,16 +158,16 @@ TEST_CASE("a medium that only scatters cannot be seen in a furnace") {
 TEST_CASE("sub-paths from both ends cannot see a medium that only scatters in a furnace either") {
   const std::string ball = "<shape type='sphere'>" + kNull + "</shape>";
   const std::string hg = "<phase type='hg'><float name='g' value='0.6'/></phase>";
-  const TransportScene grey(view(8) + homogeneous("3", "1", hg) + ball + kSky);
-  const TransportScene coloured(view(8) + homogeneous("0.5 1 3", "1") + ball + kSky);
+  const TransportScene grey(view(8) + homogeneous("3", "1", hg) + ball + kWhiteSky);
+  const TransportScene coloured(view(8) + homogeneous("0.5 1 3", "1") + ball + kWhiteSky);
   const TransportScene lens(view(8) + homogeneous("1", "1") +
                             "<shape type='sphere'><bsdf type='dielectric'/><ref id='m' "
                             "name='interior'/></shape>" +
-                            kSky);
+                            kWhiteSky);
   const TemporaryDirectory folder;
   const TransportScene grid(
       folder,
-      view(8) + constant_grid(folder, {1, 2, 3}, "1", "<scale value='0.8'/>") + ball + kSky);
+      view(8) + constant_grid(folder, {1, 2, 3}, "1", "<scale value='0.8'/>") + ball + kWhiteSky);
   for (const char* method : {"bdpt", "reuse", "vcm"})
     for (const TransportScene* scene : {&grey, &coloured, &lens, &grid}) {
       CAPTURE(method);
@@ -178,7 +179,7 @@ TEST_CASE("a homogeneous medium and a grid of the same values give the same imag
   const std::string lights =
       "<emitter type='point'><point name='position' value='0.5, 1.5, -2'/><rgb name='intensity' "
       "value='20 10 5'/></emitter>" +
-      kSky;
+      kWhiteSky;
   const std::string things =
       "<shape type='cube'><transform name='to_world'><scale value='0.8'/></transform>" + kNull +
       "</shape><shape type='sphere'><float name='radius' value='0.4'/></shape>" + lights;
@@ -260,13 +261,13 @@ TEST_CASE("hidden lights stay hidden behind surfaces that light passes straight"
       "<shape type='rectangle'><transform name='to_world'><scale value='9'/><translate "
       "z='-1'/></transform><bsdf type='null'/></shape>";
   const TransportScene::Parameters hidden{{"hide_emitters", "true"}};
-  for (const std::string& light : {lamp, kSky}) {
+  for (const std::string& light : {lamp, kWhiteSky}) {
     const TransportScene scene(view(2) + pane + light);
     render(scene, 4).check(1, 1, 1);
     render(scene, 4, hidden).check(0, 0, 0);
   }
   // Those methods that do not look for media see such a surface, but not the sky behind it.
-  const TransportScene scene(view(2) + pane + kSky);
+  const TransportScene scene(view(2) + pane + kWhiteSky);
   for (const char* method : {"path", "bdpt", "vcm"}) {
     CAPTURE(std::string(method));
     render(scene, 4, {}, method).check(1, 1, 1);
@@ -296,7 +297,7 @@ TEST_CASE("volpath without media has the means of path") {
 
 TEST_CASE("methods that cannot render media say so, and path does as in Mitsuba") {
   ReadResult read = read_text("<scene version='3.0.0'>" + view(4) + homogeneous("1", "0") + kSlab +
-                              kSky + "</scene>");
+                              kWhiteSky + "</scene>");
   REQUIRE(read.scene);
   SceneDescription& d = read.scene->description;
   const auto message = [&](const std::string& name, const std::string& weights = "") {
@@ -321,7 +322,7 @@ TEST_CASE("methods that cannot render media say so, and path does as in Mitsuba"
   check_support(d, d.integrator, none);
   CHECK(none.error_count() == 0);
 
-  const TransportScene scene(view(4) + homogeneous("1", "0") + kSlab + kSky);
+  const TransportScene scene(view(4) + homogeneous("1", "0") + kSlab + kWhiteSky);
   // Surfaces without BSDF are passed, and the medium is not seen.
   render(scene, 16, {}, "path").check(1, 1, 1);
 }

@@ -15,11 +15,11 @@ using namespace duet::test;
 namespace {
 
 constexpr int kMost = std::numeric_limits<int>::max();
-constexpr double kNoNumber = std::numeric_limits<double>::quiet_NaN();
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr double kNotANumber = std::numeric_limits<double>::quiet_NaN();
+constexpr double kEndless = std::numeric_limits<double>::infinity();
 
 /// A change of settings, and what the message has.
-struct Wrong {
+struct WrongSetting {
   std::function<void(RenderSettings&)> change;
   std::string text;
 };
@@ -41,17 +41,17 @@ TEST_SUITE("program") {
   TEST_CASE("the library's settings of renders: what makes no sense") {
     const Workplace place;
     const SceneFile scene = SceneFile::load(place.scene());
-    const std::vector<Wrong> all = {
+    const std::vector<WrongSetting> all = {
         {[](auto& s) { s.spp = 0; }, "0 samples per pixel"},
         {[](auto& s) { s.spp = -4; }, "-4 samples per pixel"},
         {[](auto& s) { s.spp = kMost; }, "from 1 to 1073741824"},
         {[](auto& s) { s.seconds = 0; }, "0 seconds"},
         {[](auto& s) { s.seconds = -1; }, "-1 seconds"},
-        {[](auto& s) { s.seconds = kNoNumber; }, "nan seconds"},
-        {[](auto& s) { s.seconds = kInfinity; }, "inf seconds"},
+        {[](auto& s) { s.seconds = kNotANumber; }, "nan seconds"},
+        {[](auto& s) { s.seconds = kEndless; }, "inf seconds"},
         {[](auto& s) { s.target_error = 0; }, "target_error: 0 is not"},
-        {[](auto& s) { s.target_error = kNoNumber; }, "target_error: nan is not"},
-        {[](auto& s) { s.target_error = kInfinity; }, "target_error: inf is not"},
+        {[](auto& s) { s.target_error = kNotANumber; }, "target_error: nan is not"},
+        {[](auto& s) { s.target_error = kEndless; }, "target_error: inf is not"},
         {[](auto& s) {
            s.size = {{0, 8}};
          },
@@ -78,7 +78,7 @@ TEST_SUITE("program") {
          "crop: a window of -2 × -2"},
         {[](auto& s) { s.threads = -5; }, "threads: -5 is not"},
         {[](auto& s) { s.threads = kMost; }, "threads: 2147483647 is not"}};
-    for (const Wrong& wrong : all) {
+    for (const WrongSetting& wrong : all) {
       CAPTURE(wrong.text);
       RenderSettings settings;
       wrong.change(settings);
@@ -86,7 +86,7 @@ TEST_SUITE("program") {
       CHECK_MESSAGE(contains(text, wrong.text), text);
     }
     RenderWatch watch;
-    watch.image_seconds = kNoNumber;
+    watch.image_seconds = kNotANumber;
     CHECK_THROWS_AS(render_file(scene, {}, watch), std::invalid_argument);
   }
 
@@ -146,11 +146,11 @@ TEST_SUITE("program") {
   TEST_CASE("the library's exposures and comparisons: what makes no sense") {
     const std::vector<float> values(4, 0.5f);
     const RenderedImage image = RenderedImage::from_rgba(values, 1, 1);
-    for (const double exposure : {kNoNumber, kInfinity, 1e9, -100.5})
+    for (const double exposure : {kNotANumber, kEndless, 1e9, -100.5})
       CHECK_THROWS_AS(image.png({exposure, false, "", 8}), std::invalid_argument);
     CHECK(!image.png({-100, false, "", 8}).empty());
     const ComparedImage compared = ComparedImage::from_image(image);
-    for (const double spp : {0.0, -1.0, kNoNumber, kInfinity}) {
+    for (const double spp : {0.0, -1.0, kNotANumber, kEndless}) {
       CHECK_THROWS_AS(compare_images(compared, compared, ReferenceVariance{compared, spp, 1}),
                       std::invalid_argument);
       CHECK_THROWS_AS(compare_images(compared, compared, ReferenceVariance{compared, 1, spp}),

@@ -13,12 +13,12 @@ using test::analytic, test::fan, test::Lamp, test::mesh, test::Probe;
 
 namespace {
 
-const ColorSlot kRadiance{{1, 2, 3}};
+const ColorSlot kAreaRadiance{{1, 2, 3}};
 const Matrix4 kTurn = Matrix4::rotate(35, 3, 1, 2);
 const Matrix4 kSkew = kTurn * Matrix4::scale(1.3, 0.6, 0.9) * Matrix4::rotate(25, 1, 1, 0);
 
 /// A dim image with a brighter spot in another colour.
-const Bitmap& picture() {
+const Bitmap& lamp_picture() {
   static const Bitmap image = [] {
     std::vector<float> pixels(size_t(16) * 16 * 3, 0.3f);
     for (int y = 4; y < 8; ++y)
@@ -113,28 +113,29 @@ TEST_CASE("area lights emit the light that points find") {
   const Probe above{{0.3f, -0.2f, 1.7f}, {0.1f, 0.3f, -1}, 0.8f};
   const Probe aside{{-1.6f, 1.1f, 0.9f}, {1, -0.4f, -0.6f}, 1};
   const Probe ahead{{0.8f, 1.2f, 1.8f}, {-0.4f, -0.6f, -1}, 1};
-  check_all(Lamp(mesh(fan(), kTurn), kRadiance), "triangles", {above, ahead});
-  check_all(Lamp(mesh(make_rectangle(), kSkew), kRadiance), "parallelogram", {above, ahead});
-  check_all(Lamp(mesh(make_cube(), kSkew), kRadiance), "box",
+  check_all(Lamp(mesh(fan(), kTurn), kAreaRadiance), "triangles", {above, ahead});
+  check_all(Lamp(mesh(make_rectangle(), kSkew), kAreaRadiance), "parallelogram", {above, ahead});
+  check_all(Lamp(mesh(make_cube(), kSkew), kAreaRadiance), "box",
             {{{1.9f, 1.2f, 1.6f}, {-1, -0.6f, -0.8f}, 1}, {{-2.5f, 0, 0}, {1, 0, 0}, 1}});
-  check_all(Lamp(analytic(ShapeKind::sphere, kTurn), kRadiance), "sphere", {above, aside});
-  check_all(Lamp(analytic(ShapeKind::sphere, kTurn * Matrix4::scale(-1, 1, 1), true), kRadiance),
-            "sphere turned and flipped", {above});
-  check_all(Lamp(analytic(ShapeKind::sphere, kSkew), kRadiance), "ellipsoid", {above, aside});
-  check_all(Lamp(analytic(ShapeKind::disk, kSkew), kRadiance), "disk", {above, ahead});
-  check_all(Lamp(analytic(ShapeKind::cylinder, kSkew), kRadiance), "cylinder", {above, aside});
+  check_all(Lamp(analytic(ShapeKind::sphere, kTurn), kAreaRadiance), "sphere", {above, aside});
+  check_all(
+      Lamp(analytic(ShapeKind::sphere, kTurn * Matrix4::scale(-1, 1, 1), true), kAreaRadiance),
+      "sphere turned and flipped", {above});
+  check_all(Lamp(analytic(ShapeKind::sphere, kSkew), kAreaRadiance), "ellipsoid", {above, aside});
+  check_all(Lamp(analytic(ShapeKind::disk, kSkew), kAreaRadiance), "disk", {above, ahead});
+  check_all(Lamp(analytic(ShapeKind::cylinder, kSkew), kAreaRadiance), "cylinder", {above, aside});
 }
 
 TEST_CASE("area lights emit inwards") {
   const Probe within{{0.2f, -0.1f, 0.1f}, {0.3f, 1, -0.4f}, 0.3f};
-  check_inside(Lamp(analytic(ShapeKind::sphere, kTurn, true), kRadiance), "sphere", within);
-  check_inside(Lamp(analytic(ShapeKind::sphere, kSkew, true), kRadiance), "ellipsoid", within);
-  check_inside(Lamp(analytic(ShapeKind::cylinder, kTurn, true), kRadiance), "cylinder",
+  check_inside(Lamp(analytic(ShapeKind::sphere, kTurn, true), kAreaRadiance), "sphere", within);
+  check_inside(Lamp(analytic(ShapeKind::sphere, kSkew, true), kAreaRadiance), "ellipsoid", within);
+  check_inside(Lamp(analytic(ShapeKind::cylinder, kTurn, true), kAreaRadiance), "cylinder",
                {{0.2f, 0.1f, 0.4f}, {1, 0.2f, 0.3f}, 0.3f});
 }
 
 TEST_CASE("textured area lights emit what they show") {
-  const ColorSlot slot{{}, &picture()};
+  const ColorSlot slot{{}, &lamp_picture()};
   const Probe above{{0.3f, 0.4f, 1.7f}, {0.1f, -0.3f, -1}, 0.9f};
   check_all(Lamp(mesh(make_rectangle(), kTurn), slot), "rectangle", {above});
   check_all(Lamp(mesh(make_cube(), kTurn), slot), "box",
@@ -146,12 +147,12 @@ TEST_CASE("textured area lights emit what they show") {
 TEST_CASE("emitted rays leave on the side of the shading normal") {
   TriangleMesh m = fan();
   m.normals.assign(5, {0, 0, -1});
-  const Lamp reversed(mesh(m, Matrix4{}), kRadiance);
+  const Lamp reversed(mesh(m, Matrix4{}), kAreaRadiance);
   check_answers(reversed, 0.8f);
   test::check_flux(*reversed.light, {{0.4f, 0.3f, -1.3f}, {0, 0, 1}, 0.8f}, "reversed normals");
   // Normals that lean over so far that grazing directions are on the wrong side.
   m.normals.assign(5, normalize(Normal3f(1, 0, 0.3f)));
-  const Lamp leaning(mesh(m, Matrix4{}), kRadiance);
+  const Lamp leaning(mesh(m, Matrix4{}), kAreaRadiance);
   check_answers(leaning, 0.8f);
   test::check_flux(*leaning.light, {{1.9f, 0.3f, 0.9f}, {-1, 0, -0.5f}, 0.8f}, "leaning normals");
   int empty = 0;
@@ -175,7 +176,7 @@ TEST_CASE("emitted rays leave on the side of the shading normal") {
 TEST_CASE("emitted rays leave on the side of the geometric normal, if that is asked for") {
   TriangleMesh m = fan();
   m.normals.assign(5, normalize(Normal3f(1, 0, 0.3f)));
-  const Lamp lamp(mesh(m, Matrix4{}), kRadiance, EmittingSide::geometric);
+  const Lamp lamp(mesh(m, Matrix4{}), kAreaRadiance, EmittingSide::geometric);
   check_answers(lamp, 0.8f);
   check_norm(lamp);
   for (const Probe& probe : {Probe{{1.9f, 0.3f, 0.9f}, {-1, 0, -0.5f}, 0.8f},
@@ -192,7 +193,7 @@ TEST_CASE("emitted rays leave on the side of the geometric normal, if that is as
 TEST_CASE("emitted directions follow the cosine with the geometric normal") {
   for (const ShapeKind kind : {ShapeKind::mesh, ShapeKind::disk}) {
     const Lamp lamp(kind == ShapeKind::mesh ? mesh(make_rectangle(), kSkew) : analytic(kind, kSkew),
-                    kRadiance);
+                    kAreaRadiance);
     const Normal3f n = lamp.light->sample_emission({0.5f, 0.5f}, {0.5f, 0.5f})->point.ng;
     const auto result = test::chi2_sphere(
         [&](float u, Point2f v, Vector3f& d) {
@@ -215,11 +216,11 @@ TEST_CASE("rays are emitted alike at all scales") {
   for (const double scale : {1e-3, 1.0, 1e6}) {
     const Matrix4 place = Matrix4::scale(scale, scale, scale);
     for (const ShapeKind kind : {ShapeKind::sphere, ShapeKind::disk, ShapeKind::cylinder}) {
-      const Lamp lamp(analytic(kind, place), kRadiance);
+      const Lamp lamp(analytic(kind, place), kAreaRadiance);
       check_answers(lamp, float(scale));
       check_norm(lamp);
     }
-    const Lamp lamp(mesh(make_rectangle(), place), kRadiance);
+    const Lamp lamp(mesh(make_rectangle(), place), kAreaRadiance);
     check_answers(lamp, float(scale));
     check_norm(lamp);
   }

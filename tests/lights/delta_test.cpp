@@ -13,7 +13,7 @@ using namespace duet;
 
 namespace {
 
-constexpr double kDegree = 3.14159265358979323846 / 180;
+constexpr double kRadiansPerDegree = 3.14159265358979323846 / 180;
 
 std::unique_ptr<Texture> to_image(const test::Json& t) {
   const int w = t["width"], h = t["height"];
@@ -37,8 +37,9 @@ std::unique_ptr<Light> to_light(const test::Json& c, const Texture* image) {
     return std::make_unique<DirectionalEmitter>(to_world, color(p, "irradiance"));
   if (kind == "spot") {
     const double cutoff = p.value("cutoff_angle", 20.0);
-    return std::make_unique<SpotEmitter>(to_world, color(p, "intensity"), cutoff * kDegree,
-                                         p.value("beam_width", 0.75 * cutoff) * kDegree, image);
+    return std::make_unique<SpotEmitter>(
+        to_world, color(p, "intensity"), cutoff * kRadiansPerDegree,
+        p.value("beam_width", 0.75 * cutoff) * kRadiansPerDegree, image);
   }
   const ColorSlot slot{color(p, "irradiance"), image};
   const Point2i size = image ? image->resolution() : Point2i{1, 1};
@@ -99,13 +100,13 @@ TEST_CASE("the power of a light at a point is the integral of what it sends") {
   const Spectrum rgb(1, 2, 3);
   std::vector<std::unique_ptr<Light>> lights;
   lights.push_back(std::make_unique<PointEmitter>(center, rgb));
-  lights.push_back(
-      std::make_unique<SpotEmitter>(to_world, rgb, 50 * kDegree, 20 * kDegree, nullptr));
-  lights.push_back(
-      std::make_unique<SpotEmitter>(to_world, rgb, 35 * kDegree, 35 * kDegree, nullptr));
+  lights.push_back(std::make_unique<SpotEmitter>(to_world, rgb, 50 * kRadiansPerDegree,
+                                                 20 * kRadiansPerDegree, nullptr));
+  lights.push_back(std::make_unique<SpotEmitter>(to_world, rgb, 35 * kRadiansPerDegree,
+                                                 35 * kRadiansPerDegree, nullptr));
   for (const SpotFalloff falloff : {SpotFalloff::smooth, SpotFalloff::quartic})
-    lights.push_back(
-        std::make_unique<SpotEmitter>(to_world, rgb, 50 * kDegree, 20 * kDegree, nullptr, falloff));
+    lights.push_back(std::make_unique<SpotEmitter>(to_world, rgb, 50 * kRadiansPerDegree,
+                                                   20 * kRadiansPerDegree, nullptr, falloff));
   lights.push_back(std::make_unique<ProjectorEmitter>(to_world, ColorSlot{rgb}, 2.0f, 60, 1.5));
   for (const auto& light : lights) {
     Sampler sampler(SampleSequence::sobol, 1, 0, 0);
@@ -123,9 +124,9 @@ TEST_CASE("the power of a light at a point is the integral of what it sends") {
 }
 
 TEST_CASE("a narrow spot fades evenly") {
-  const SpotEmitter light(Transform{}, Spectrum(1), 0.1 * kDegree, 0, nullptr);
+  const SpotEmitter light(Transform{}, Spectrum(1), 0.1 * kRadiansPerDegree, 0, nullptr);
   for (int i = 1; i < 10; ++i) {
-    const double angle = 0.01 * i * kDegree;
+    const double angle = 0.01 * i * kRadiansPerDegree;
     const auto s =
         light.sample_direct({float(100 * std::sin(angle)), 0, float(100 * std::cos(angle))}, {});
     REQUIRE(s);

@@ -12,9 +12,9 @@ using test::Probe;
 
 namespace {
 
-constexpr double kPiD = 3.14159265358979323846;
-const Point3f kCenter(2, -1, 5);
-constexpr float kRadius = 3;
+constexpr double kFullPi = 3.14159265358979323846;
+const Point3f kSkyCenter(2, -1, 5);
+constexpr float kSkyRadius = 3;
 
 /// A sky with a sun, turned and mirrored.
 EnvironmentMap make_map() {
@@ -29,14 +29,14 @@ EnvironmentMap make_map() {
 
 void check_environment(EnvironmentLight& light, double tolerance, const std::string& name) {
   INFO(name);
-  light.surround(kCenter, kRadius);
+  light.surround(kSkyCenter, kSkyRadius);
   const auto result = test::chi2_sphere(
       [&](float u, Point2f v, Vector3f& d) {
         const auto e = light.sample_emission({u, 0.3f}, v);
         if (e) d = -e->ray.direction;
         return e.has_value();
       },
-      [&](const Vector3f& d) { return double(light.pdf_direct(kCenter, d).value); },
+      [&](const Vector3f& d) { return double(light.pdf_direct(kSkyCenter, d).value); },
       {.nx = 36, .ny = 24, .sub = 16, .samples = 100000});
   CHECK_MESSAGE(result.pass, result.message);
   Sampler sampler(SampleSequence::independent, 3, 0, 0);
@@ -49,27 +49,28 @@ void check_environment(EnvironmentLight& light, double tolerance, const std::str
     const Vector3f wi = -e->ray.direction;
     CHECK(e->ray.tmax == INFINITY);
     CHECK(std::abs(length(wi) - 1) < 1e-5f);
-    const Vector3f start = e->ray.origin - kCenter;
-    CHECK(dot(start, wi) > kRadius);
+    const Vector3f start = e->ray.origin - kSkyCenter;
+    CHECK(dot(start, wi) > kSkyRadius);
     CHECK(e->density == doctest::Approx(light.emission_density(wi)).epsilon(tolerance));
-    CHECK(light.direct_density(*e, kCenter) == light.pdf_direct(kCenter, wi).value);
+    CHECK(light.direct_density(*e, kSkyCenter) == light.pdf_direct(kSkyCenter, wi).value);
     for (int k = 0; k < 3; ++k)
       CHECK(e->weight[k] * e->density ==
-            doctest::Approx(light.emitted(kCenter, wi)[k]).epsilon(2 * tolerance));
+            doctest::Approx(light.emitted(kSkyCenter, wi)[k]).epsilon(2 * tolerance));
     // A light sample from the same numbers is the same path.
-    const auto s = light.sample_direct(kCenter, direction);
+    const auto s = light.sample_direct(kSkyCenter, direction);
     REQUIRE(s);
     CHECK(s->wi == wi);
     CHECK(s->emission == e->density);
     measure.add(1 / double(e->density));
     square.add(double(length_squared(cross(start, wi))));
   }
-  const double disk = kPiD * sqr(kRadius);
-  CHECK(std::abs(measure.mean() - 4 * kPiD * disk) < 4 * measure.error() + 0.003 * measure.mean());
-  CHECK(square.mean() == doctest::Approx(0.5 * sqr(kRadius)).epsilon(0.02));
-  test::check_flux(light, {kCenter, {1, 2, 0.5f}, 1.5f}, name);
-  test::check_flux(light, {kCenter, {-1, 0.3f, 0.5f}, 1.5f}, name);
-  test::check_flux(light, {kCenter + Vector3f(1.5f, 1.2f, -1), {0, -1, 0.2f}, 0.8f}, name);
+  const double disk = kFullPi * sqr(kSkyRadius);
+  CHECK(std::abs(measure.mean() - 4 * kFullPi * disk) <
+        4 * measure.error() + 0.003 * measure.mean());
+  CHECK(square.mean() == doctest::Approx(0.5 * sqr(kSkyRadius)).epsilon(0.02));
+  test::check_flux(light, {kSkyCenter, {1, 2, 0.5f}, 1.5f}, name);
+  test::check_flux(light, {kSkyCenter, {-1, 0.3f, 0.5f}, 1.5f}, name);
+  test::check_flux(light, {kSkyCenter + Vector3f(1.5f, 1.2f, -1), {0, -1, 0.2f}, 0.8f}, name);
 }
 
 }  // namespace

@@ -11,7 +11,7 @@ using namespace duet;
 
 namespace {
 
-struct Lights {
+struct FewLights {
   std::vector<std::unique_ptr<Light>> lights;
   std::vector<double> factors;
   void point(float intensity, double factor = 1) {
@@ -34,7 +34,7 @@ struct Lights {
 }  // namespace
 
 TEST_CASE("lights are chosen by power, but none that shines is forgotten") {
-  Lights l;
+  FewLights l;
   for (const float i : {6.0f, 3.0f, 1.0f, 0.0f}) l.point(i);
   const auto w = l.shares(1);
   for (size_t i = 0; i < 3; ++i) {
@@ -55,7 +55,7 @@ TEST_CASE("lights are chosen by power, but none that shines is forgotten") {
 }
 
 TEST_CASE("a factor multiplies the share of a light") {
-  Lights a, b;
+  FewLights a, b;
   for (int i = 0; i < 3; ++i) a.point(2), b.point(2, i == 0 ? 4 : i);
   const auto w = b.shares(1);
   CHECK(w[0] == doctest::Approx(4.0 / 7));
@@ -65,7 +65,7 @@ TEST_CASE("a factor multiplies the share of a light") {
 }
 
 TEST_CASE("neither near nor infinitely far lights starve each other") {
-  Lights l;
+  FewLights l;
   l.point(1), l.point(1), l.sky(1);
   for (const double radius : {1e-3, 0.8, 1e3}) {
     const auto w = l.shares(radius);
@@ -76,11 +76,11 @@ TEST_CASE("neither near nor infinitely far lights starve each other") {
 }
 
 TEST_CASE("lights that are all dark, or alone, can still be picked") {
-  Lights dark;
+  FewLights dark;
   dark.point(0), dark.point(0);
   const LightPicker two(selection_weights(dark.lights, dark.factors, 1));
   CHECK(two.probability(0) == doctest::Approx(0.5));
-  Lights one;
+  FewLights one;
   one.point(0);
   const LightPicker alone(selection_weights(one.lights, one.factors, 1));
   CHECK(alone.probability(0) == 1);

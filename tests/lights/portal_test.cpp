@@ -14,8 +14,8 @@ using namespace duet;
 
 namespace {
 
-const Point3f kCenter(2, -1, 5);
-constexpr float kRadius = 6;
+const Point3f kPortalCenter(2, -1, 5);
+constexpr float kPortalRadius = 6;
 /// Two by three, at x = 0; rays leave along −x.
 const std::array<Point3f, 4> kCorners{Point3f(0, -2, 4), Point3f(0, 0, 4), Point3f(0, 0, 7),
                                       Point3f(0, -2, 7)};
@@ -39,7 +39,7 @@ void check_portal(std::unique_ptr<EnvironmentLight> environment, float share,
                   const std::string& name) {
   INFO(name);
   PortalEnvironment light(std::move(environment), kCorners, share);
-  light.surround(kCenter, kRadius);
+  light.surround(kPortalCenter, kPortalRadius);
   for (const Point3f& from : {Point3f(1, -1, 5), Point3f(4, 2, 3)}) {
     const auto result = test::chi2_sphere(
         [&](float, Point2f v, Vector3f& d) {
@@ -55,17 +55,18 @@ void check_portal(std::unique_ptr<EnvironmentLight> environment, float share,
   for (int i = 0; i < 2000; ++i) {
     sampler.start_sample(uint32_t(i));
     const Point2f position = sampler.next_2d(), direction = sampler.next_2d();
-    if (const auto s = light.sample_direct(kCenter, direction)) {
-      CHECK(s->pdf.value == doctest::Approx(light.pdf_direct(kCenter, s->wi).value).epsilon(1e-3));
+    if (const auto s = light.sample_direct(kPortalCenter, direction)) {
+      CHECK(s->pdf.value ==
+            doctest::Approx(light.pdf_direct(kPortalCenter, s->wi).value).epsilon(1e-3));
       CHECK(s->emission == light.emission_density(s->wi));
     }
     const auto e = light.sample_emission(position, direction);
     if (!e) continue;
     const Vector3f wi = -e->ray.direction;
-    CHECK(dot(e->ray.origin - kCenter, wi) > kRadius);
+    CHECK(dot(e->ray.origin - kPortalCenter, wi) > kPortalRadius);
     CHECK(e->density == light.emission_density(wi));
     // A point beyond the window, on the ray's way.
-    const Point3f at = e->ray.origin + e->ray.direction * (2 * kRadius);
+    const Point3f at = e->ray.origin + e->ray.direction * (2 * kPortalRadius);
     if (at.x > 0.01f) {
       CHECK(light.direct_density(*e, at) == light.pdf_direct(at, wi).value);
       for (int k = 0; k < 3; ++k)

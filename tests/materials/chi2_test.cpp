@@ -170,11 +170,11 @@ const Case kCases[] = {
          {"type": "roughplastic", "alpha": 0.3}]}]})"},
 };
 
-const Vector3f kViews[] = {{0.1f, 0.2f, 0.95f},
-                           {0.6f, -0.5f, 0.5f},
-                           {-0.9f, 0.3f, 0.15f},
-                           {0.4f, 0.3f, -0.8f},
-                           {-0.5f, 0.8f, -0.2f}};
+const Vector3f kChi2Views[] = {{0.1f, 0.2f, 0.95f},
+                               {0.6f, -0.5f, 0.5f},
+                               {-0.9f, 0.3f, 0.15f},
+                               {0.4f, 0.3f, -0.8f},
+                               {-0.5f, 0.8f, -0.2f}};
 
 /// A part of the sphere and how it is looked at.
 struct View {
@@ -230,13 +230,13 @@ TEST_CASE("materials sample the densities that they claim") {
   SquareTest options;
   options.nx = 32, options.ny = 16, options.sub = 16;
   options.samples = 100000;
-  options.level = sidak(0.01, int(std::size(kCases) * std::size(kViews) * 2));
+  options.level = sidak(0.01, int(std::size(kCases) * std::size(kChi2Views) * 2));
   for (const Case& c : kCases) {
     CAPTURE(std::string(c.name));
     const TestMaterial material(c.bsdf);
     Failures failures(c.name);
     int tested = 0;
-    for (const Vector3f& direction : kViews) {
+    for (const Vector3f& direction : kChi2Views) {
       const Vector3f wo = normalize(direction);
       const Bsdf bsdf = material->bind(surface, wo);
       for (const Transport transport : kTransports)

@@ -9,9 +9,9 @@ using nlohmann::json;
 
 namespace {
 
-const Vector3f kViews[] = {{0, 0, 1},          {0.4f, -0.3f, 0.8f}, {-0.7f, 0.5f, 0.25f},
-                           {1, 0.3f, 0.02f},   {0.3f, 0.3f, -0.9f}, {-0.7f, 0.1f, -0.5f},
-                           {0.9f, 0.9f, -0.2f}};
+const Vector3f kEnergyViews[] = {{0, 0, 1},          {0.4f, -0.3f, 0.8f}, {-0.7f, 0.5f, 0.25f},
+                                 {1, 0.3f, 0.02f},   {0.3f, 0.3f, -0.9f}, {-0.7f, 0.1f, -0.5f},
+                                 {0.9f, 0.9f, -0.2f}};
 
 /// The description with all that absorbs made white.
 json whitened(json bsdf) {
@@ -54,7 +54,7 @@ TEST_SUITE("white furnace") {
         continue;
       const TestMaterial material(whitened(c["bsdf"]));
       Failures failures(c["name"]);
-      for (const Vector3f& view : kViews) {
+      for (const Vector3f& view : kEnergyViews) {
         if (type == "conductor" && view.z < 0) continue;
         for (const Transport transport : kTransports) {
           const Moments m = albedo(material->bind(surface, normalize(view)), transport);
@@ -72,7 +72,7 @@ TEST_SUITE("white furnace") {
   TEST_CASE("a white diffuse surface keeps all light") {
     const Surface surface = flat_surface();
     const TestMaterial material(R"({"type": "diffuse", "reflectance": 1})");
-    for (const Vector3f& view : kViews) {
+    for (const Vector3f& view : kEnergyViews) {
       const Moments m = albedo(material->bind(surface, normalize(view)), Transport::radiance);
       CHECK(m.mean() == doctest::Approx(view.z > 0 ? 1 : 0).epsilon(1e-6));
     }
@@ -87,7 +87,7 @@ TEST_SUITE("white furnace") {
       if (type.starts_with("principled")) continue;
       const TestMaterial material(whitened(description));
       Failures failures(c["name"]);
-      for (const Vector3f& view : kViews)
+      for (const Vector3f& view : kEnergyViews)
         for (const Transport transport : kTransports) {
           // Importance under bump maps is scaled by the ratio of cosines, which has no bound.
           if (transport == Transport::importance &&
@@ -116,7 +116,7 @@ TEST_SUITE("white furnace") {
                                  {"roughness", roughness}};
           const TestMaterial material(description);
           Failures failures(description.dump());
-          for (const Vector3f& view : kViews)
+          for (const Vector3f& view : kEnergyViews)
             for (const Transport transport : kTransports) {
               const Moments m = albedo(material->bind(surface, normalize(view)), transport);
               if (!(m.mean() <= 1 + 4 * m.error() + 1e-4))

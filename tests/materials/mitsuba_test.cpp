@@ -13,7 +13,7 @@ using nlohmann::json;
 namespace {
 
 /// The table has six digits; what is left are rounding errors of narrow lobes.
-constexpr double kTolerance = 2e-4;
+constexpr double kTableTolerance = 2e-4;
 
 }  // namespace
 
@@ -29,7 +29,7 @@ TEST_SUITE("materials like Mitsuba's") {
         const Spectrum theirs = c.contains("value") ? to_spectrum(c["value"][row]) : Spectrum();
         const Spectrum ours = bsdf.eval(wi, Transport::radiance).value;
         ++compared;
-        if (!close(ours, theirs, kTolerance))
+        if (!close(ours, theirs, kTableTolerance))
           failures.add(fmt::format("row {}: {}, Mitsuba {}", row, text(ours), text(theirs)));
         // Here Mitsuba's importance is not the adjoint of its radiance; ours is.
         if (perturbs(c["bsdf"]) || c["bsdf"]["type"] == "principledthin" ||
@@ -38,7 +38,7 @@ TEST_SUITE("materials like Mitsuba's") {
         const Spectrum adjoint =
             c.contains("importance") ? to_spectrum(c["importance"][row]) : theirs;
         const Spectrum importance = bsdf.eval(wi, Transport::importance).value;
-        if (!close(importance, adjoint, kTolerance))
+        if (!close(importance, adjoint, kTableTolerance))
           failures.add(fmt::format("row {}, importance: {}, Mitsuba {}", row, text(importance),
                                    text(adjoint)));
       });
@@ -59,7 +59,9 @@ TEST_SUITE("materials like Mitsuba's") {
       const bool beckmann = mentions(description, "distribution", "beckmann") &&
                             !mentions(description, "sample_visible", false);
       // So is its density of hair, by the Bessel function.
-      const double tolerance = beckmann ? 4e-3 : description["type"] == "hair" ? 8e-3 : kTolerance;
+      const double tolerance = beckmann                        ? 4e-3
+                               : description["type"] == "hair" ? 8e-3
+                                                               : kTableTolerance;
       Failures failures(c["name"]);
       for_each_pair(c, [&](size_t row, const Vector3f& wo, const Vector3f& wi) {
         // Below an opaque principled material there is a density, but nothing is sampled.
@@ -99,7 +101,7 @@ TEST_SUITE("materials like Mitsuba's") {
           bool matched = false;
           for (const BsdfSample& s : found)
             matched |= length(s.wi - to_vector(lobe[0])) < 1e-4f &&
-                       close(s.weight * s.pdf.value, to_spectrum(lobe[1]), kTolerance);
+                       close(s.weight * s.pdf.value, to_spectrum(lobe[1]), kTableTolerance);
           CHECK(matched);
           ++compared;
         }
@@ -150,8 +152,8 @@ TEST_SUITE("materials like Mitsuba's") {
       const TestMaterial material(c["bsdf"]);
       const Spectrum ours = material->albedo(surface, to_vector(c["views"][0]));
       const Spectrum theirs = to_spectrum(c["diffuse"]);
-      CHECK_MESSAGE(close(ours, theirs, kTolerance), c["name"].get<std::string>(), ": ", text(ours),
-                    ", Mitsuba ", text(theirs));
+      CHECK_MESSAGE(close(ours, theirs, kTableTolerance), c["name"].get<std::string>(), ": ",
+                    text(ours), ", Mitsuba ", text(theirs));
     }
   }
 }

@@ -11,15 +11,15 @@ using nlohmann::json;
 
 namespace {
 
-const Vector3f kViews[] = {{0, 0, 1},           {0.4f, -0.3f, 0.8f},  {-0.9f, 0.4f, 0.1f},
-                           {0.2f, 0.3f, -0.9f}, {-0.7f, 0.5f, -0.3f}, {0.9f, 0.2f, -0.05f}};
+const Vector3f kSamplingViews[] = {{0, 0, 1},           {0.4f, -0.3f, 0.8f},  {-0.9f, 0.4f, 0.1f},
+                                   {0.2f, 0.3f, -0.9f}, {-0.7f, 0.5f, -0.3f}, {0.9f, 0.2f, -0.05f}};
 
 /// Calls f(bsdf, wo) for the views.
 template <class F>
 void for_each_view(const json& bsdf, const F& f) {
   const Surface surface = flat_surface();
   const TestMaterial material(bsdf);
-  for (const Vector3f& view : kViews) {
+  for (const Vector3f& view : kSamplingViews) {
     const Vector3f wo = normalize(view);
     f(material->bind(surface, wo), wo);
   }

@@ -11,7 +11,7 @@ using namespace duet::test;
 
 namespace {
 
-const Isotropic kIsotropic;
+const Isotropic kEvenPhase;
 constexpr int kSamples = 40000;
 
 /// Along x the grid falls from `first` to `last` linearly between the outermost nodes.
@@ -93,7 +93,7 @@ Spectrum exp_minus(const Spectrum& depth) {
 
 TEST_CASE("light gets as far in a homogeneous medium as its extinction allows") {
   const Spectrum sigma(0.5f, 1.5f, 0), albedo(0.9f, 0.3f, 0.5f);
-  const HomogeneousMedium medium(sigma, {albedo}, kIsotropic);
+  const HomogeneousMedium medium(sigma, {albedo}, kEvenPhase);
   const Ray ray{{1, 2, 3}, {0, 0, 1}, 1.2f};
   check_subpath(medium, ray, exp_minus(sigma * 1.2f), albedo);
   check_weights(medium, ray, exp_minus(sigma * 1.2f));
@@ -114,12 +114,12 @@ TEST_CASE("light gets as far in a grid as the integral over its values allows") 
     const GridVolume grey(ramp(Spectrum(0.4f), Spectrum(0.1f), 1), placed, VolumeFilter::trilinear,
                           VolumeWrap::clamp, nodes);
     const Ray ray{{-3, .5f, .5f}, {1, 0, 0}, 10};
-    const HeterogeneousMedium plain(grey, 2, {albedo}, kIsotropic);
+    const HeterogeneousMedium plain(grey, 2, {albedo}, kEvenPhase);
     check_subpath(plain, ray, exp_minus(Spectrum(4 * 2 * 0.25f)), albedo);
     check_weights(plain, ray, exp_minus(Spectrum(4 * 2 * 0.25f)));
     const GridVolume color(ramp({0.4f, 0, 0.2f}, {0, 0.2f, 0.2f}, 3), placed,
                            VolumeFilter::trilinear, VolumeWrap::clamp, nodes);
-    const HeterogeneousMedium coloured(color, 2, {albedo}, kIsotropic);
+    const HeterogeneousMedium coloured(color, 2, {albedo}, kEvenPhase);
     check_subpath(coloured, ray, exp_minus(Spectrum(0.2f, 0.1f, 0.2f) * 8), albedo);
     check_weights(coloured, ray, exp_minus(Spectrum(0.2f, 0.1f, 0.2f) * 8));
   }
@@ -128,7 +128,7 @@ TEST_CASE("light gets as far in a grid as the integral over its values allows") 
 TEST_CASE("a sub-path that begins and ends within a grid") {
   const GridVolume v(ramp(Spectrum(1), Spectrum(1), 1), Matrix4{}, VolumeFilter::trilinear,
                      VolumeWrap::clamp, VolumeNodes::within);
-  const HeterogeneousMedium medium(v, 3, {Spectrum(1)}, kIsotropic);
+  const HeterogeneousMedium medium(v, 3, {Spectrum(1)}, kEvenPhase);
   check_subpath(medium, {{.25f, .5f, .5f}, {1, 0, 0}, .5f}, exp_minus(Spectrum(1.5f)), Spectrum(1));
   check_subpath(medium, {{.25f, .5f, .5f}, {0, 1, 0}, INFINITY}, exp_minus(Spectrum(1.5f)),
                 Spectrum(1));

@@ -12,7 +12,7 @@ namespace {
 
 /// Written and read again.
 template <class T>
-T again(const T& bsdf) {
+T bsdf_again(const T& bsdf) {
   SceneDescription d =
       read_scene("3.0.0", "<emitter type='constant'/><shape type='sphere'/>").description();
   d.materials.at(0).model = bsdf;
@@ -45,14 +45,14 @@ TEST_CASE("bsdf: coateddiffuse and coatedconductor") {
   CHECK(d.g == FloatInput(0.4));
   CHECK(d.max_depth == 20);
   CHECK(d.samples == 3);
-  CHECK(again(d) == d);
+  CHECK(bsdf_again(d) == d);
   CoatedConductorMaterial c;
   c.reflectance = Spectrum(0.5f);
   c.conductor_alpha_u = 0.2, c.alpha_u = 0.1;
-  CHECK(again(c) == c);
+  CHECK(bsdf_again(c) == c);
   c.reflectance.reset();
   c.conductor_eta = Spectrum(0.25f, 0.5f, 1), c.conductor_k = Spectrum(4, 3, 2);
-  CHECK(again(c) == c);
+  CHECK(bsdf_again(c) == c);
   CHECK(read_scene("3.0.0", "<bsdf type='coateddiffuse'><float name='eta' value='-1'/></bsdf>")
             .has("\"eta\""));
   CHECK(read_scene("3.0.0", "<bsdf type='coateddiffuse'><float name='max_depth' value='0'/></bsdf>")
@@ -82,14 +82,14 @@ TEST_CASE("bsdf: substrate and uber") {
   SubstrateMaterial s;
   s.diffuse_reflectance = Spectrum(0.25f);
   s.roughness = {MicrofacetDistribution::ggx_correlated, 0.25, 0.5, true};
-  CHECK(again(s) == s);
+  CHECK(bsdf_again(s) == s);
   CHECK(bsdf<SubstrateMaterial>("3.0.0", "substrate") == SubstrateMaterial{});
   CHECK(bsdf<UberMaterial>("3.0.0", "uber") == UberMaterial{});
   UberMaterial u;
   u.diffuse_transmittance = u.glossy_transmittance = Spectrum(0.25f);
   u.specular_reflectance = u.specular_transmittance = u.opacity = Spectrum(0.5f);
   u.eta = 1.25;
-  CHECK(again(u) == u);
+  CHECK(bsdf_again(u) == u);
   CHECK(u.scattering().see_through);
   CHECK(u.scattering().smooth_glass);
   CHECK(u.scattering().translucent);

@@ -26,14 +26,14 @@ std::string error_of(const F& f) {
   return "";
 }
 
-const char* const kTwo =
+const char* const kTwoCurves =
     "-1 0.1 0.1 0.5\n 1.0\t1.4 +1.2 5e-1 ignored\r\n\n\n-1 5 2.2 1\n-2.3 4 2.3 2\n4 1 2 5";
 
 }  // namespace
 
 TEST_SUITE("curve files") {
   TEST_CASE("points, radii and where curves end") {
-    const CurveSet c = parse(kTwo, CurveKind::linear);
+    const CurveSet c = parse(kTwoCurves, CurveKind::linear);
     REQUIRE(c.points.size() == 5);
     CHECK(c.points[1] == TubePoint{{1.0f, 1.4f, 1.2f}, 0.5f});
     CHECK(c.points[4] == TubePoint{{4, 1, 2}, 5});
@@ -59,7 +59,7 @@ TEST_SUITE("curve files") {
     CHECK(linear("0 0 0 1\n\n0 0 0 1\n0 1 0 1\n") ==
           "c.txt:2: a curve ends here that has 1 point: it needs at least 2");
     CHECK(linear("\n \n") == "c.txt: has no points");
-    CHECK(error_of([] { parse(kTwo, CurveKind::bspline); }) ==
+    CHECK(error_of([] { parse(kTwoCurves, CurveKind::bspline); }) ==
           "c.txt:3: a curve ends here that has 2 points: it needs at least 4");
   }
 

@@ -38,7 +38,7 @@ MediumDescription homogeneous(const std::string& version, const std::string& con
   return scene_of(version, "homogeneous", content).media.at(0);
 }
 
-void check_color(const ColorVolume& volume, double r, double g, double b) {
+void check_constant(const ColorVolume& volume, double r, double g, double b) {
   const Spectrum s = std::get<Spectrum>(volume);
   CHECK(s.r == doctest::Approx(r).epsilon(1e-5));
   CHECK(s.g == doctest::Approx(g).epsilon(1e-5));
@@ -49,28 +49,29 @@ void check_color(const ColorVolume& volume, double r, double g, double b) {
 
 TEST_CASE("homogeneous media of Mitsuba 3") {
   const MediumDescription preset = homogeneous("3.0.0", "");
-  check_color(preset.sigma_t, 1, 1, 1);
-  check_color(preset.albedo, 0.75, 0.75, 0.75);
+  check_constant(preset.sigma_t, 1, 1, 1);
+  check_constant(preset.albedo, 0.75, 0.75, 0.75);
   CHECK(preset.scale == 1);
   const MediumDescription m = homogeneous(
       "3.0.0",
       "<rgb name='sigma_t' value='1 2 3'/><float name='albedo' value='0.5'/><float name='scale' "
       "value='4'/><boolean name='sample_emitters' value='false'/>");
-  check_color(m.sigma_t, 1, 2, 3);
-  check_color(m.albedo, 0.5, 0.5, 0.5);
+  check_constant(m.sigma_t, 1, 2, 3);
+  check_constant(m.albedo, 0.5, 0.5, 0.5);
   CHECK(m.scale == 4);
-  check_color(homogeneous("3.0.0",
-                          "<volume name='sigma_t' type='constvolume'><rgb name='value' value='5 6 "
-                          "7'/></volume>")
-                  .sigma_t,
-              5, 6, 7);
+  check_constant(
+      homogeneous("3.0.0",
+                  "<volume name='sigma_t' type='constvolume'><rgb name='value' value='5 6 "
+                  "7'/></volume>")
+          .sigma_t,
+      5, 6, 7);
   CHECK(read("3.0.0", "<medium type='homogeneous'><rgb name='albedo' value='1.5 0 0'/></medium>")
             .has("the reflectance 1.5 0 0 is greater than 1"));
 }
 
 TEST_CASE("homogeneous media of 0.x: pairs of coefficients, materials, three-valued spectra") {
   // Skin1, of which Mitsuba multiplies the published numbers by 100.
-  check_color(homogeneous("0.6.0", "").sigma_t, 77.2, 105, 149);
+  check_constant(homogeneous("0.6.0", "").sigma_t, 77.2, 105, 149);
   const MediumDescription milk =
       homogeneous("0.6.0", "<string name='material' value='Lowfat MILK'/>");
   // Anisotropic materials have their reduced scattering coefficient.
@@ -81,15 +82,15 @@ TEST_CASE("homogeneous media of 0.x: pairs of coefficients, materials, three-val
       "0.5.0",
       "<rgb name='sigmaS' value='1 2 0'/><spectrum name='sigmaA' value='1, 0, 0'/><float "
       "name='scale' value='10'/>");
-  check_color(pair.sigma_t, 2, 2, 0);
-  check_color(pair.albedo, 0.5, 1, 0);
+  check_constant(pair.sigma_t, 2, 2, 0);
+  check_constant(pair.albedo, 0.5, 1, 0);
   CHECK(pair.scale == 10);
   const MediumDescription other =
       homogeneous("0.5.0",
                   "<spectrum name='sigmaT' value='2'/><spectrum name='albedo' value='.5'/><float "
                   "name='densityMultiplier' value='3'/><spectrum name='g' value='.5'/>");
-  check_color(other.sigma_t, 1.5, 1.5, 1.5);
-  check_color(other.albedo, 1.0 / 3, 1.0 / 3, 1.0 / 3);
+  check_constant(other.sigma_t, 1.5, 1.5, 1.5);
+  check_constant(other.albedo, 1.0 / 3, 1.0 / 3, 1.0 / 3);
   CHECK(other.scale == 3);
   const auto fails = [](const std::string& content, const std::string& message) {
     const ReadResult r = read("0.6.0", "<medium type='homogeneous'>" + content + "</medium>");
@@ -115,17 +116,17 @@ TEST_CASE("a monochromatic medium of 0.x has one channel's coefficients in all")
   for (const char* version : {"0.6.0", "3.0.0"}) {
     // The channel of the least extinction, or the one named.
     const MediumDescription least = read_as(version, single + grey);
-    check_color(least.sigma_t, 3, 3, 3);
-    check_color(least.albedo, 2 / 3.0, 2 / 3.0, 2 / 3.0);
-    check_color(read_as(version, single + grey + "<integer name='channel' value='2'/>").sigma_t, 5,
-                5, 5);
+    check_constant(least.sigma_t, 3, 3, 3);
+    check_constant(least.albedo, 2 / 3.0, 2 / 3.0, 2 / 3.0);
+    check_constant(read_as(version, single + grey + "<integer name='channel' value='2'/>").sigma_t,
+                   5, 5, 5);
   }
   // As in Mitsuba, other strategies know nothing of it.
   for (const std::string& other : {grey, grey + "<string name='strategy' value='maximum'/>", single,
                                    single + "<boolean name='monochromatic' value='false'/>"})
-    check_color(read_as("0.6.0", other).sigma_t, 6, 3, 5);
+    check_constant(read_as("0.6.0", other).sigma_t, 6, 3, 5);
   const MediumDescription preset = homogeneous("0.6.0", single + grey);
-  check_color(preset.sigma_t, 77.2, 77.2, 77.2);
+  check_constant(preset.sigma_t, 77.2, 77.2, 77.2);
   const auto fails = [](const std::string& content, const std::string& message) {
     const ReadResult r = read("0.6.0", "<medium type='homogeneous'>" + content + "</medium>");
     CHECK_MESSAGE(r.has(message), r.messages());
@@ -142,7 +143,7 @@ TEST_CASE("grids: where they lie and what they are called in both Mitsubas") {
       "name='value' value='.9'/></volume>");
   const VolumeDescription& v = old.volumes.at(0);
   CHECK(std::get<VolumeId>(old.media.at(0).sigma_t) == VolumeId{0});
-  check_color(old.media[0].albedo, .9, .9, .9);
+  check_constant(old.media[0].albedo, .9, .9, .9);
   CHECK(v.nodes == VolumeNodes::on_faces);
   CHECK(v.to_world == Matrix4::translate(-1, 0, 0) * Matrix4::scale(2, 2, 4));
   CHECK(v.grid->values == std::vector<float>{1, 2});

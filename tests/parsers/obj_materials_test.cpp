@@ -11,15 +11,16 @@ namespace {
 
 const std::string kVertices = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\n";
 /// Two parts, in turns.
-const std::string kTwo = kVertices +
-                         "mtllib materials/x.mtl\nusemtl Red\nf 1 2 3\nusemtl Blue\nf 1 3 4\n"
-                         "g more\nusemtl Red\nf 1 2 4\n";
+const std::string kTwoMaterials =
+    kVertices +
+    "mtllib materials/x.mtl\nusemtl Red\nf 1 2 3\nusemtl Blue\nf 1 3 4\n"
+    "g more\nusemtl Red\nf 1 2 4\n";
 const std::string kLibrary =
     "newmtl Red\nKd 1 0 0\nnewmtl Blue\nKd 0 0 0.5\nnewmtl Unused\nmap_Kd missing.png\n";
 
-MemoryFiles files() {
+MemoryFiles material_files() {
   MemoryFiles f;
-  f.texts = {{"/scene/meshes/two.obj", kTwo}, {"/scene/meshes/materials/x.mtl", kLibrary}};
+  f.texts = {{"/scene/meshes/two.obj", kTwoMaterials}, {"/scene/meshes/materials/x.mtl", kLibrary}};
   return f;
 }
 
@@ -28,7 +29,7 @@ std::string shape(const std::string& content = "") {
          "</shape>";
 }
 
-ReadResult read(const std::string& content, const MemoryFiles& f = files(),
+ReadResult read(const std::string& content, const MemoryFiles& f = material_files(),
                 const char* version = "0.6.0") {
   return read_scene(version, shape(content) + "<emitter type='constant'/>", f);
 }
@@ -56,7 +57,7 @@ std::string diffuse(const std::string& name, const std::string& grey) {
 
 /// A scene with one part of a material that the library describes so.
 ReadResult described(const std::string& lines) {
-  MemoryFiles f = files();
+  MemoryFiles f = material_files();
   f.texts["/scene/meshes/two.obj"] = kVertices + "mtllib x.mtl\nusemtl a\nf 1 2 3\n";
   f.texts["/scene/meshes/x.mtl"] = "newmtl a\n" + lines;
   for (const char* name : {"/scene/meshes/wood.png", "/scene/bark.png"}) f.texts[name] = "image";
@@ -90,15 +91,15 @@ TEST_CASE("OBJ materials: a shape for each material of the library") {
                                       shape() +
                                           "<shape type='obj'><string name='filename' "
                                           "value='meshes/two.obj'/></shape>",
-                                      files());
+                                      material_files());
   REQUIRE(twice.scene);
   CHECK(twice.description().materials.size() == 2);
   CHECK(twice.description().shapes.size() == 4);
 }
 
 TEST_CASE("OBJ materials: Mitsuba 3 does not read libraries, nor 0.x when told so") {
-  for (const ReadResult& r :
-       {read("", files(), "3.0.0"), read("<boolean name='loadMaterials' value='false'/>")}) {
+  for (const ReadResult& r : {read("", material_files(), "3.0.0"),
+                              read("<boolean name='loadMaterials' value='false'/>")}) {
     CHECK(r.messages() == "");
     REQUIRE(r.scene);
     REQUIRE(r.description().shapes.size() == 1);
@@ -129,21 +130,21 @@ TEST_CASE("OBJ materials: BSDFs of the scene replace them in the order of the sc
       "0.6.0",
       "<bsdf type='diffuse' id='m'/>" + shape("<ref name='Red' id='m'/><ref name='Blue' id='m'/>") +
           "<emitter type='constant'/>",
-      files());
+      material_files());
   CHECK(same.messages() == "");
   REQUIRE(same.description().shapes.size() == 1);
   CHECK(triangles(same, 0) == 3);
 
   CHECK(read(diffuse("red", "0.5")).has("uses a material called \"red\""));
   // The library is not looked for if nobody needs it.
-  MemoryFiles without = files();
+  MemoryFiles without = material_files();
   without.texts.erase("/scene/meshes/materials/x.mtl");
   CHECK(read(diffuse("", "0.5"), without).messages() == "");
   CHECK(read(diffuse("Red", "0.5") + diffuse("Blue", "0.5"), without).messages() == "");
 }
 
 TEST_CASE("OBJ materials: what is missing is said and stands for something") {
-  MemoryFiles without = files();
+  MemoryFiles without = material_files();
   without.texts.erase("/scene/meshes/materials/x.mtl");
   const ReadResult r = read("", without);
   CHECK(
@@ -153,7 +154,7 @@ TEST_CASE("OBJ materials: what is missing is said and stands for something") {
   CHECK(r.description().shapes.size() == 1);
   CHECK(r.diagnostics.all().size() == 1);
 
-  MemoryFiles other = files();
+  MemoryFiles other = material_files();
   other.texts["/scene/meshes/materials/x.mtl"] = "newmtl Red\nKd 1 0 0\n";
   const ReadResult half = read("", other);
   CHECK(half.has("the library \"materials/x.mtl\" has no material \"Blue\""));
@@ -213,7 +214,7 @@ TEST_CASE("OBJ materials: images, from beside the OBJ file or the scene's folder
   CHECK_FALSE(wood.raw);
 
   // Or beside the library.
-  MemoryFiles f = files();
+  MemoryFiles f = material_files();
   f.texts["/scene/meshes/materials/x.mtl"] = "newmtl Red\nmap_Kd red.png\nnewmtl Blue\n";
   f.texts["/scene/meshes/materials/red.png"] = "image";
   const ReadResult beside = read("", f);
@@ -268,7 +269,7 @@ TEST_CASE("OBJ materials: parts by number, all as one, in their own place") {
     CHECK(s.label.text == "thing");
   }
   CHECK(read("<sensor type='irradiancemeter'/>").has("cannot stand in a shape of this place"));
-  MemoryFiles single = files();
+  MemoryFiles single = material_files();
   single.texts["/scene/meshes/two.obj"] =
       kVertices + "mtllib materials/x.mtl\nusemtl Red\nf 1 2 3\n";
   const ReadResult meter = read("<sensor type='irradiancemeter'/>", single);
@@ -278,7 +279,7 @@ TEST_CASE("OBJ materials: parts by number, all as one, in their own place") {
 }
 
 TEST_CASE("OBJ materials: written for Mitsuba 3") {
-  MemoryFiles f = files();
+  MemoryFiles f = material_files();
   f.texts["/scene/meshes/two.obj"] = kVertices + "mtllib materials/x.mtl\nusemtl Red\nf 1 2 3\n";
   const MitsubaXml one = write_mitsuba_xml(read("", f).description());
   CHECK(one.losses.empty());

@@ -11,7 +11,7 @@ using namespace duet::test;
 
 namespace {
 
-const std::string kSquare = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\n";
+const std::string kFourVertices = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\n";
 
 std::vector<ObjPart> parse(const std::string& text, const MeshOptions& options = {},
                            bool divide = false) {
@@ -29,7 +29,7 @@ using Normals = std::vector<Normal3f>;
 }  // namespace
 
 TEST_CASE("OBJ: vertices are numbered in order of use and split where indices differ") {
-  const TriangleMesh mesh = obj("v 9 9 9\n" + kSquare +
+  const TriangleMesh mesh = obj("v 9 9 9\n" + kFourVertices +
                                 "vt 0 0\nvt .5 .25\nvn 0 0 2\nvn 0 1 0\n"
                                 "f 3/1/1 4/1/1 5/2/1\nf 3/1/1 5/2/1 2/1/2\nf 3/1/1 4/1/1 2/2/2\n");
   CHECK(mesh.triangles == Triangles{{0, 1, 2}, {0, 2, 3}, {0, 1, 4}});
@@ -42,58 +42,58 @@ TEST_CASE("OBJ: vertices are numbered in order of use and split where indices di
 TEST_CASE("OBJ: v is turned upside down on request, but not where a face has no coordinates") {
   MeshOptions flip;
   flip.flip_tex_coords = true;
-  const std::string text = kSquare + "vt .25 .25\nf 1/1 2/1 3/1\nf 1 3 4\n";
+  const std::string text = kFourVertices + "vt .25 .25\nf 1/1 2/1 3/1\nf 1 3 4\n";
   CHECK(obj(text).uvs[0] == Point2f{.25f, .25f});
   CHECK(obj(text, flip).uvs[0] == Point2f{.25f, .75f});
   CHECK(obj(text).uvs[3] == Point2f{0, 0});
   CHECK(obj(text, flip).uvs[3] == Point2f{0, 0});
-  CHECK(obj(kSquare + "vt .5\nf 1/1 2/1 3/1\n").uvs[0] == Point2f{.5f, 0});
+  CHECK(obj(kFourVertices + "vt .5\nf 1/1 2/1 3/1\n").uvs[0] == Point2f{.5f, 0});
 }
 
 TEST_CASE("OBJ: polygons are fans around their first vertex") {
-  CHECK(obj("v -1 .5 0\n" + kSquare + "f 2 3 4 5 1\n").triangles ==
+  CHECK(obj("v -1 .5 0\n" + kFourVertices + "f 2 3 4 5 1\n").triangles ==
         Triangles{{0, 1, 2}, {0, 2, 3}, {0, 3, 4}});
   // Faces of fewer than three corners have no surface, but their vertices have numbers.
-  CHECK(obj(kSquare + "f 4 3\nf 1 2 3\n").triangles == Triangles{{2, 3, 1}});
+  CHECK(obj(kFourVertices + "f 4 3\nf 1 2 3\n").triangles == Triangles{{2, 3, 1}});
 }
 
 TEST_CASE("OBJ: negative indices count back from where they stand, positive ones may look ahead") {
-  const TriangleMesh plain = obj(kSquare + "vt 0 0\nvn 0 0 1\nf 1/1/1 2/1/1 3/1/1\n");
+  const TriangleMesh plain = obj(kFourVertices + "vt 0 0\nvn 0 0 1\nf 1/1/1 2/1/1 3/1/1\n");
   CHECK(obj("v 0 0 0\nv 1 0 0\nv 1 1 0\nvt 0 0\nvn 0 0 1\n"
             "f -3/-1/-1 -2/-1/-1 -1/-1/-1\nv 0 1 0\n") == plain);
-  CHECK(obj("f 1/1/1 2/1/1 3/1/1\n" + kSquare + "vt 0 0\nvn 0 0 1\n") == plain);
+  CHECK(obj("f 1/1/1 2/1/1 3/1/1\n" + kFourVertices + "vt 0 0\nvn 0 0 1\n") == plain);
 }
 
 TEST_CASE("OBJ: line ends, continued lines, comments, a byte order mark, colours and weights") {
-  const TriangleMesh plain = obj(kSquare + "f 1 2 3\n");
+  const TriangleMesh plain = obj(kFourVertices + "f 1 2 3\n");
   CHECK(obj("\xef\xbb\xbfv 0 0 0\r\nv 1 0 0\r\nv 1 1 0\r\nf 1 2 3") == plain);
   CHECK(obj("v 0 0 0\rv 1 0 0\rv 1 1 0\rf 1 2 3\r") == plain);
   CHECK(obj("v 0 \\\n 0 0\nv 1 0\\\r\n0\n v\t1 1 0 \nf 1 2 \\  \n3 # four\n") == plain);
-  CHECK(obj(kSquare + "f 1 2 3 \\") == plain);
+  CHECK(obj(kFourVertices + "f 1 2 3 \\") == plain);
   CHECK(obj("# made by C:\\tools\\\nv +0 0.0 0e0 1 0 0\nv 1. .0 -0 0 1 0\nv 10e-1 1 0 0.5\n"
             "mtllib a\\b.mtl\nusemtl x\\\ns off\no thing\ng a b\nl 1 2\nf 1 2 3\n") == plain);
-  CHECK(obj(kSquare + "f 1/ 2/ 3/\n") == plain);
-  CHECK(obj(kSquare + "f 1/0/0 2// 3\n") == plain);
-  CHECK(obj(kSquare + "f 1/0/0/ 2/// 3\n") == plain);
+  CHECK(obj(kFourVertices + "f 1/ 2/ 3/\n") == plain);
+  CHECK(obj(kFourVertices + "f 1/0/0 2// 3\n") == plain);
+  CHECK(obj(kFourVertices + "f 1/0/0/ 2/// 3\n") == plain);
 }
 
 TEST_CASE("OBJ: missing normals are computed, zero ones stay for the renderer to replace") {
-  const TriangleMesh computed = obj(kSquare + "vn 1 0 0\nf 1 2 3\n");
+  const TriangleMesh computed = obj(kFourVertices + "vn 1 0 0\nf 1 2 3\n");
   CHECK(computed.computed_normals);
   CHECK(computed.normals == Normals(3, {0, 0, 1}));
-  const TriangleMesh zero = obj(kSquare + "vn 0 0 0\nvn 0 0 2\nf 1//1 2//2 3//2\nf 1 3 4\n");
+  const TriangleMesh zero = obj(kFourVertices + "vn 0 0 0\nvn 0 0 2\nf 1//1 2//2 3//2\nf 1 3 4\n");
   CHECK_FALSE(zero.computed_normals);
   CHECK(zero.normals == Normals{{0, 0, 0}, {0, 0, 1}, {0, 0, 1}, {0, 0, 0}, {0, 0, 0}, {0, 0, 0}});
   const TriangleMesh extreme =
-      obj(kSquare + "vn 3e30 0 4e30\nvn 3e-30 4e-30 0\nf 1//1 2//2 3//2\n");
+      obj(kFourVertices + "vn 3e30 0 4e30\nvn 3e-30 4e-30 0\nf 1//1 2//2 3//2\n");
   CHECK(extreme.normals[0].x == doctest::Approx(0.6));
   CHECK(extreme.normals[1].y == doctest::Approx(0.8));
   MeshOptions faceted;
   faceted.face_normals = true;
-  CHECK(obj(kSquare + "f 1 2 3\n", faceted).normals.empty());
+  CHECK(obj(kFourVertices + "f 1 2 3\n", faceted).normals.empty());
   // Mitsuba splits vertices by their normals' indices all the same.
   const TriangleMesh split =
-      obj(kSquare + "vn 0 0 1\nvn 1 0 0\nf 1//1 2//1 3//1\nf 1//2 3//2 4//2\n", faceted);
+      obj(kFourVertices + "vn 0 0 1\nvn 1 0 0\nf 1//1 2//1 3//1\nf 1//2 3//2 4//2\n", faceted);
   CHECK(split.normals.empty());
   CHECK(split.positions.size() == 6);
 }
@@ -118,7 +118,7 @@ TEST_CASE("OBJ: creases, and Mitsuba 0.x's merging of equal vertices") {
 }
 
 TEST_CASE("OBJ: parts by group and material, as Mitsuba 0.x divides a file") {
-  const std::string text = kSquare +
+  const std::string text = kFourVertices +
                            "g first\nusemtl red \nf 1 2 3\nusemtl blue\nf 1 3 4\n"
                            "g second\nf 1 2 4\nusemtl unused\n";
   const std::vector<ObjPart> parts = parse(text, {}, true);
@@ -145,7 +145,7 @@ TEST_CASE("OBJ: numbers are what strtof makes of them") {
 
 TEST_CASE("OBJ: reading a file gives what reading its text gives") {
   TemporaryDirectory directory;
-  const std::string text = kSquare + "f 1 2 3\nusemtl a\nf 1 3 4\n";
+  const std::string text = kFourVertices + "f 1 2 3\nusemtl a\nf 1 3 4\n";
   const std::string path = directory.write("square.obj", text);
   CHECK(read_obj(path, {}) == obj(text));
   CHECK(read_obj_parts(path, {}).parts.size() == 2);

@@ -18,7 +18,7 @@ SceneDescription read(const test::TemporaryDirectory& folder, const std::string&
       "scene.pbrt", "Camera \"perspective\"\nFilm \"rgb\"\nWorldBegin\n" + world + "\n")));
 }
 
-std::unique_ptr<Scene> built(SceneDescription d) {
+std::unique_ptr<Scene> built_scene(SceneDescription d) {
   Diagnostics diagnostics;
   auto scene = build_scene(std::move(d), {}, diagnostics);
   REQUIRE(scene);
@@ -27,7 +27,7 @@ std::unique_ptr<Scene> built(SceneDescription d) {
 
 /// Of the light of the only shape, at its first triangle or anywhere.
 double radiance(const SceneDescription& d, uint32_t triangle = 0) {
-  const auto scene = built(d);
+  const auto scene = built_scene(d);
   Surface s{};
   s.shape = &scene->shapes.at(0);
   s.primitive = triangle;
@@ -99,9 +99,10 @@ TEST_CASE("pbrt: a map of a given illuminance is twice as bright, as in pbrt") {
   Image image(64, 64, {"R", "G", "B"});
   for (float& x : image.data) x = 2;
   write_exr(folder.path("even.exr"), image, {});
-  const auto scene = built(read(folder,
-                                "LightSource \"infinite\" \"string filename\" \"even.exr\" \"float "
-                                "illuminance\" 4\nShape \"disk\""));
+  const auto scene =
+      built_scene(read(folder,
+                       "LightSource \"infinite\" \"string filename\" \"even.exr\" \"float "
+                       "illuminance\" 4\nShape \"disk\""));
   CHECK(double(scene->environment->emitted(Point3f(0), {0, 0, 1}).g) ==
         doctest::Approx(2 * 4 / kPiD).epsilon(2e-3));
 }

@@ -66,7 +66,7 @@ class Images {
   test::TemporaryDirectory folder;
 };
 
-void check_color(const Spectrum& c, double r, double g, double b) {
+void check_texel(const Spectrum& c, double r, double g, double b) {
   CHECK(double(c.r) == doctest::Approx(r).epsilon(1e-3).scale(1));
   CHECK(double(c.g) == doctest::Approx(g).epsilon(1e-3).scale(1));
   CHECK(double(c.b) == doctest::Approx(b).epsilon(1e-3).scale(1));
@@ -79,25 +79,25 @@ TEST_CASE("pbrt: textures are taken from the image's colour space to the film's"
   for (const char* file : {"srgb.exr", "srgb.png"}) {
     const std::vector<Spectrum> same = images.texels("srgb", file);
     for (size_t i = 0; i < 4; ++i)
-      check_color(same[i], double(kColors[i][0]), double(kColors[i][1]), double(kColors[i][2]));
+      check_texel(same[i], double(kColors[i][0]), double(kColors[i][1]), double(kColors[i][2]));
     const std::vector<Spectrum> wide = images.texels("rec2020", file);
     for (size_t i = 0; i < 3; ++i)
-      check_color(wide[i], kTo2020[i][0], kTo2020[i][1], kTo2020[i][2]);
-    check_color(wide[3], 1, 1, 1);
+      check_texel(wide[i], kTo2020[i][0], kTo2020[i][1], kTo2020[i][2]);
+    check_texel(wide[3], 1, 1, 1);
     // Another white: surfaces that reflect all stay white.
-    check_color(images.texels("aces2065-1", file)[3], 1, 1, 1);
+    check_texel(images.texels("aces2065-1", file)[3], 1, 1, 1);
   }
   // Green of the wider space is outside of sRGB: it is moved to its edge.
   const std::vector<Spectrum> narrow = images.texels("srgb", "rec2020.exr");
-  check_color(narrow[1], 0, 1.1329, 0);
-  check_color(narrow[3], 1, 1, 1);
-  check_color(images.texels("rec2020", "rec2020.exr")[1], 0, 1, 0);
+  check_texel(narrow[1], 0, 1.1329, 0);
+  check_texel(narrow[3], 1, 1, 1);
+  check_texel(images.texels("rec2020", "rec2020.exr")[1], 0, 1, 0);
 }
 
 TEST_CASE("pbrt: an image in a colour space that pbrt does not know is taken for sRGB, said so") {
   const Images images;
   std::string messages;
-  check_color(images.texels("srgb", "own.exr", &messages)[0], 1, 0, 0);
+  check_texel(images.texels("srgb", "own.exr", &messages)[0], 1, 0, 0);
   CHECK(messages.find("scene.pbrt:5:1: warning: ") != std::string::npos);
   CHECK(messages.find("own.exr: the colours are taken for sRGB") != std::string::npos);
 }
@@ -120,9 +120,9 @@ TEST_CASE("pbrt: light of images keeps its chromaticity where the film has anoth
   write_exr(images.folder.path("white.exr"), white, {});
   write_exr(images.folder.path("grey.exr"), grey, {});
   for (const char* light : {"white.exr\"\n", "grey.exr\"\n"}) {
-    check_color(emitted("srgb", light), 1, 1, 1);
-    check_color(emitted("rec2020", light), 1, 1, 1);
-    check_color(emitted("aces2065-1", light), 0.9977, 1.0090, 1.0795);
+    check_texel(emitted("srgb", light), 1, 1, 1);
+    check_texel(emitted("rec2020", light), 1, 1, 1);
+    check_texel(emitted("aces2065-1", light), 0.9977, 1.0090, 1.0795);
   }
 }
 

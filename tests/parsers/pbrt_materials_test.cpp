@@ -56,12 +56,12 @@ TEST_CASE("pbrt lights with an image have the power that they are given") {
   const auto& gonio = std::get<GoniometricLight>(d.lights.at(0).model);
   CHECK(gonio.scale.g == doctest::Approx(10 / (4 * 3.14159265 * (1.5 + 3 + 1.5) / 12)));
   // Of the four pixels each has its centre as far from the axis: the cosines are the same.
-  const double half = std::tan(3.14159265 / 6), cos3 = std::pow(1 + half * half / 2, -1.5);
+  const double halved = std::tan(3.14159265 / 6), cos3 = std::pow(1 + halved * halved / 2, -1.5);
   const auto& thrown = std::get<ProjectorLight>(d.lights.at(1).model);
   const auto& scaled = std::get<ScaledTextureDescription>(
       d.textures.at(size_t(std::get<TextureId>(thrown.irradiance))).model);
   CHECK(scaled.scale.g ==
-        doctest::Approx(10 / (4 * half * half * cos3 * luminance_of_image())).epsilon(1e-4));
+        doctest::Approx(10 / (4 * halved * halved * cos3 * luminance_of_image())).epsilon(1e-4));
   const auto& lamp = std::get<ScaledTextureDescription>(
       d.textures.at(size_t(std::get<TextureId>(d.shapes.at(0).emission->radiance))).model);
   CHECK(
@@ -267,7 +267,7 @@ TEST_CASE("pbrt-v3 matte and translucent take textures of all their parameters")
   const auto& uber = material_of(d, 1).model.get<UberMaterial>();
   const TextureId product = std::get<TextureId>(uber.diffuse_reflectance);
   CHECK(std::holds_alternative<ProductDescription>(d.textures.at(size_t(product)).model));
-  const TextureId half = std::get<TextureId>(uber.diffuse_transmittance);
-  CHECK(std::get<ScaledTextureDescription>(d.textures.at(size_t(half)).model).scale ==
+  const TextureId halved = std::get<TextureId>(uber.diffuse_transmittance);
+  CHECK(std::get<ScaledTextureDescription>(d.textures.at(size_t(halved)).model).scale ==
         Spectrum(0.5f));
 }

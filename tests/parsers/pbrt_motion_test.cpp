@@ -11,7 +11,7 @@ using namespace duet::test;
 
 namespace {
 
-SceneDescription v4_world(const std::string& world) {
+SceneDescription moving_world(const std::string& world) {
   const TemporaryDirectory folder;
   return scene_of(read_pbrt_file(folder.write("scene.pbrt", "Film \"rgb\"\nWorldBegin\n" + world)));
 }
@@ -20,7 +20,7 @@ SceneDescription v4_world(const std::string& world) {
 
 TEST_CASE("pbrt instances: what moves in an object moves wherever the object is used") {
   const auto both = [](const std::string& place) {
-    return v4_world(
+    return moving_world(
         "ObjectBegin \"a\"\nAttributeBegin\nActiveTransform EndTime\nTranslate 4 0 0\n"
         "Rotate 60 0 0 1\nActiveTransform All\nShape \"sphere\"\nAttributeEnd\n"
         "Shape \"cylinder\"\nObjectEnd\n" +
@@ -44,11 +44,11 @@ TEST_CASE("pbrt instances: what moves in an object moves wherever the object is 
   const SceneDescription uneven = both("Rotate 90 0 0 1\nScale 2 1 1\n");
   for (const float t : {0.0f, 0.25f, 0.5f, 1.0f})
     CHECK(length(origin(uneven, double(t)) - Vector3f(0, 8 * t, 0)) < 1e-5f);
-  const Matrix4 half = uneven.shapes.at(0).motion.at(0.5),
+  const Matrix4 halved = uneven.shapes.at(0).motion.at(0.5),
                 expected = Matrix4::rotate(90, 0, 0, 1) * Matrix4::scale(2, 1, 1) *
                            Matrix4::translate(2, 0, 0) * Matrix4::rotate(30, 0, 0, 1);
   for (int i = 0; i < 3; ++i)
-    for (size_t j = 0; j < 3; ++j) CHECK(half[i][j] == doctest::Approx(expected[i][j]).scale(1));
+    for (size_t j = 0; j < 3; ++j) CHECK(halved[i][j] == doctest::Approx(expected[i][j]).scale(1));
   const SceneDescription moving =
       both("ActiveTransform EndTime\nTranslate 0 0 8\nActiveTransform All\n");
   REQUIRE(moving.shapes.size() == 2);

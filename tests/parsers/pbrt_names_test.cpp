@@ -69,8 +69,8 @@ TEST_CASE("pbrt-v4: textures are used before they are defined, constants and oth
       read_pbrt_file(folder.write("scene.pbrt", "Film \"rgb\"\nWorldBegin\n" + shapes + scaled +
                                                     "Texture \"later\" \"spectrum\" \"imagemap\""
                                                     " \"string filename\" \"image.exr\"\n")));
-  const TextureId half = clamped_from(image, reflectance_of(image, 0));
-  const auto& product = std::get<ScaledTextureDescription>(image.textures.at(size_t(half)).model);
+  const TextureId halved = clamped_from(image, reflectance_of(image, 0));
+  const auto& product = std::get<ScaledTextureDescription>(image.textures.at(size_t(halved)).model);
   CHECK(std::holds_alternative<BitmapTexture>(image.textures.at(size_t(product.inner)).model));
   const PbrtFile never = read_pbrt_file_of("Film \"rgb\"\nWorldBegin\n" + scaled);
   CHECK(never.messages.find("there is no texture \"later\" of colours") != std::string::npos);

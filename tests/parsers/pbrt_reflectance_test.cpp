@@ -45,7 +45,7 @@ class Folder {
   test::TemporaryDirectory files_;
 };
 
-void check_color(const Spectrum& c, double r, double g, double b, double epsilon = 1e-4) {
+void check_reflectance(const Spectrum& c, double r, double g, double b, double epsilon = 1e-4) {
   CHECK(double(c.r) == doctest::Approx(r).epsilon(epsilon));
   CHECK(double(c.g) == doctest::Approx(g).epsilon(epsilon));
   CHECK(double(c.b) == doctest::Approx(b).epsilon(epsilon));
@@ -66,21 +66,21 @@ double straight(double eta, double k) {
 TEST_CASE("pbrt-v4: diffuse surfaces reflect neither more than all light nor less than none") {
   const Folder folder;
   const auto reflectance = [&](const std::string& world) { return folder.reflectance(world); };
-  check_color(reflectance("Material \"diffuse\" \"spectrum reflectance\" [300 1.5 900 1.5]"), 1, 1,
-              1);
+  check_reflectance(reflectance("Material \"diffuse\" \"spectrum reflectance\" [300 1.5 900 1.5]"),
+                    1, 1, 1);
   const std::string image = "\"imagemap\" \"string filename\" \"bright.exr\"";
-  check_color(reflectance(diffuse_of(image)), 1, 0.5, 0);
-  check_color(reflectance(diffuse_of(image + " \"float scale\" 3")), 1, 1, 0);
-  check_color(reflectance(diffuse_of(image + " \"float scale\" 0.4")), 0.8, 0.2, 0);
-  check_color(reflectance(diffuse_of(image + " \"bool invert\" true")), 0, 0.5, 1);
+  check_reflectance(reflectance(diffuse_of(image)), 1, 0.5, 0);
+  check_reflectance(reflectance(diffuse_of(image + " \"float scale\" 3")), 1, 1, 0);
+  check_reflectance(reflectance(diffuse_of(image + " \"float scale\" 0.4")), 0.8, 0.2, 0);
+  check_reflectance(reflectance(diffuse_of(image + " \"bool invert\" true")), 0, 0.5, 1);
   const std::string six = "\"constant\" \"rgb value\" [.6 .6 .6]\nTexture \"t2\" \"spectrum\" ";
   const auto of_t2 = [&](const std::string& texture) {
     return reflectance("Texture \"t\" \"spectrum\" " + six + texture +
                        "\nMaterial \"diffuse\" \"texture reflectance\" \"t2\"\n");
   };
-  check_color(of_t2("\"scale\" \"texture tex\" \"t\" \"float scale\" 3"), 1, 1, 1);
-  check_color(of_t2("\"mix\" \"rgb tex1\" [.9 .9 .9] \"texture tex2\" \"t\" \"float amount\" 4"), 0,
-              0, 0);
+  check_reflectance(of_t2("\"scale\" \"texture tex\" \"t\" \"float scale\" 3"), 1, 1, 1);
+  check_reflectance(
+      of_t2("\"mix\" \"rgb tex1\" [.9 .9 .9] \"texture tex2\" \"t\" \"float amount\" 4"), 0, 0, 0);
   // What cannot leave the range costs nothing: it is the texture itself.
   const SceneDescription plain =
       test::scene_of(folder.read(diffuse_of("\"imagemap\" \"string filename\" \"plain.png\"")));
@@ -90,10 +90,11 @@ TEST_CASE("pbrt-v4: diffuse surfaces reflect neither more than all light nor les
 
 TEST_CASE("pbrt-v4: a texture that is defined later is clamped, too") {
   const Folder folder;
-  check_color(folder.reflectance("Material \"diffuse\" \"texture reflectance\" \"t\"\n"
-                                 "Texture \"t\" \"spectrum\" \"imagemap\" \"string filename\" "
-                                 "\"bright.exr\"\n"),
-              1, 0.5, 0);
+  check_reflectance(
+      folder.reflectance("Material \"diffuse\" \"texture reflectance\" \"t\"\n"
+                         "Texture \"t\" \"spectrum\" \"imagemap\" \"string filename\" "
+                         "\"bright.exr\"\n"),
+      1, 0.5, 0);
 }
 
 TEST_CASE("pbrt-v4: diffuse transmission scales before it clamps") {

@@ -23,7 +23,7 @@ SceneDescription diffuse_ball(std::vector<TextureDescription> textures) {
 
 /// Written and read again: the texture that the last one of the list becomes.
 template <class T>
-T again(const T& texture, std::vector<TextureDescription> before = {}) {
+T written_and_read(const T& texture, std::vector<TextureDescription> before = {}) {
   before.push_back({{}, {}, texture});
   const SceneDescription d = diffuse_ball(std::move(before));
   const MitsubaXml xml = write_mitsuba_xml(d);
@@ -58,38 +58,38 @@ TEST_CASE("texture: those of pbrt are written and read") {
        {NoiseKind::fbm, NoiseKind::wrinkled, NoiseKind::windy, NoiseKind::marble}) {
     NoiseTextureDescription noise{kind, 5, 0.25, 1, 0.2, placed()};
     if (kind == NoiseKind::marble) noise.scale = 3, noise.variation = 0.5;
-    CHECK(again(noise) == noise);
+    CHECK(written_and_read(noise) == noise);
   }
   const SolidCheckerboardDescription solid{Spectrum(0.25f), Spectrum(0.5f), placed()};
-  CHECK(again(solid) == solid);
+  CHECK(written_and_read(solid) == solid);
   for (const SpaceMapKind kind :
        {SpaceMapKind::spherical, SpaceMapKind::cylindrical, SpaceMapKind::planar}) {
     const MappedTextureDescription mapped{TextureId{0}, kind, placed()};
-    CHECK(again(mapped, {kTwoSquares}) == mapped);
+    CHECK(written_and_read(mapped, {kTwoSquares}) == mapped);
   }
   const MixDescription mix{Spectrum(0.25f), TextureId{0}, TextureId{1}};
-  CHECK(again(mix, {kTwoSquares, {{}, {}, NoiseTextureDescription{}}}) == mix);
+  CHECK(written_and_read(mix, {kTwoSquares, {{}, {}, NoiseTextureDescription{}}}) == mix);
   const ProductDescription product{TextureId{0}, Spectrum(0.5f, 0.25f, 1)};
-  CHECK(again(product, {kTwoSquares}) == product);
+  CHECK(written_and_read(product, {kTwoSquares}) == product);
   const DirectionMixDescription direction{Spectrum(0.5f), TextureId{0}, 1, 0, -2};
-  CHECK(again(direction, {kTwoSquares}) == direction);
+  CHECK(written_and_read(direction, {kTwoSquares}) == direction);
   for (const TextureFunction function :
        {TextureFunction::inverse, TextureFunction::root, TextureFunction::v3_roughness,
         TextureFunction::metal_k, TextureFunction::positive}) {
     const FunctionDescription f{TextureId{0}, function};
-    CHECK(again(f, {kTwoSquares}) == f);
+    CHECK(written_and_read(f, {kTwoSquares}) == f);
   }
   const BilerpDescription bilerp{Spectrum(0.5f),
                                  Spectrum(0.25f),
                                  Spectrum(1),
                                  Spectrum(0.75f),
                                  {{{{2, 0, 0.5}, {0, 4, 0.25}}}}};
-  CHECK(again(bilerp) == bilerp);
+  CHECK(written_and_read(bilerp) == bilerp);
   BilerpDescription repeats = bilerp;
   repeats.repeats = true;
-  CHECK(again(repeats) == repeats);
+  CHECK(written_and_read(repeats) == repeats);
   const DotsDescription dots{Spectrum(0.5f), TextureId{0}, {{{{9, 0, 0}, {0, 9, 0}}}}};
-  CHECK(again(dots, {kTwoSquares}) == dots);
+  CHECK(written_and_read(dots, {kTwoSquares}) == dots);
 }
 
 TEST_CASE("texture: a share is asked for as a number, what it mixes as colours") {

@@ -10,7 +10,7 @@ using namespace duet::test;
 
 namespace {
 
-const std::string kImage = "\"string filename\" \"image.exr\" ";
+const std::string kImageFile = "\"string filename\" \"image.exr\" ";
 
 /// A material that is written in the place where it is read: the state's own is not.
 const std::string kPlain = "Material \"diffuse\"\n";
@@ -18,9 +18,9 @@ const std::string kPlain = "Material \"diffuse\"\n";
 std::string with_material(const std::string& material) {
   std::string textures;
   if (material.find("\"grey\"") != material.npos)
-    textures += "Texture \"grey\" \"float\" \"imagemap\" " + kImage;
+    textures += "Texture \"grey\" \"float\" \"imagemap\" " + kImageFile;
   if (material.find("\"colour\"") != material.npos)
-    textures += "Texture \"colour\" \"spectrum\" \"imagemap\" " + kImage;
+    textures += "Texture \"colour\" \"spectrum\" \"imagemap\" " + kImageFile;
   return textures + material + "\nShape \"sphere\" \"float radius\" 2\n";
 }
 std::string with_color(const std::string& texture) {
@@ -64,7 +64,7 @@ TEST_CASE("pbrt writer: lights survive") {
   check_pbrt_round_trip(triangle + "\"float alpha\" .5");
   check_pbrt_round_trip("Texture \"a\" \"float\" \"bilerp\" " + triangle +
                         "\"texture alpha\" \"a\"");
-  check_pbrt_round_trip(kPlain + "AreaLightSource \"diffuse\" \"float scale\" 2 " + kImage +
+  check_pbrt_round_trip(kPlain + "AreaLightSource \"diffuse\" \"float scale\" 2 " + kImageFile +
                         "Shape \"sphere\"");
   check_pbrt_round_trip(
       "MakeNamedMedium \"fog\" \"string type\" \"homogeneous\"\n"
@@ -168,18 +168,18 @@ TEST_CASE("pbrt writer: images survive with all that is done to them") {
         "\"string wrap\" \"black\"", "\"string mapping\" \"spherical\" \"float scale\" 0.5",
         "\"string mapping\" \"cylindrical\""}) {
     CAPTURE(image);
-    check_pbrt_round_trip("Scale 2 2 4 " + with_color("\"imagemap\" " + kImage + image));
-    check_pbrt_round_trip("Scale 2 2 4 " + with_number("\"imagemap\" " + kImage + image));
+    check_pbrt_round_trip("Scale 2 2 4 " + with_color("\"imagemap\" " + kImageFile + image));
+    check_pbrt_round_trip("Scale 2 2 4 " + with_number("\"imagemap\" " + kImageFile + image));
   }
   // The third coordinate of a plane is not looked at.
   const std::string planar =
       "\"string mapping\" \"planar\" \"vector3 v1\" [2 0 1] \"vector3 v2\" [0 1 4] "
       "\"float udelta\" 0.5 ";
-  check_pbrt_round_trip(with_color("\"imagemap\" " + kImage + planar));
+  check_pbrt_round_trip(with_color("\"imagemap\" " + kImageFile + planar));
   check_pbrt_round_trip(with_color("\"checkerboard\" \"rgb tex1\" [1 0 0] " + planar));
   check_pbrt_round_trip(with_color("\"dots\" \"rgb inside\" [1 0 0] " + planar));
   const SceneDescription d = read_pbrt_text("Translate 1 2 3 Scale 2 2 4 " +
-                                            with_color("\"imagemap\" " + kImage + planar));
+                                            with_color("\"imagemap\" " + kImageFile + planar));
   const SceneDescription again = read_pbrt_text(pbrt::write_pbrt(d).text, false);
   const auto mapped = [](const SceneDescription& scene) {
     for (const TextureDescription& t : scene.textures)
@@ -216,9 +216,9 @@ TEST_CASE("pbrt writer: patterns survive") {
     CAPTURE(pattern);
     check_pbrt_round_trip(with_number(pattern));
   }
-  const std::string grey = "Texture \"g\" \"float\" \"imagemap\" " + kImage;
+  const std::string grey = "Texture \"g\" \"float\" \"imagemap\" " + kImageFile;
   check_pbrt_round_trip(grey + with_color("\"mix\" \"texture amount\" \"g\" " + both));
-  check_pbrt_round_trip("Texture \"c\" \"spectrum\" \"imagemap\" " + kImage + grey +
+  check_pbrt_round_trip("Texture \"c\" \"spectrum\" \"imagemap\" " + kImageFile + grey +
                         with_color("\"scale\" \"texture tex\" \"c\" \"texture scale\" \"g\""));
 }
 

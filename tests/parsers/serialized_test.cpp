@@ -8,7 +8,7 @@ using namespace duet::test;
 
 namespace {
 
-TriangleMesh read(const std::string& file, const MeshOptions& options = {}) {
+TriangleMesh mesh_of(const std::string& file, const MeshOptions& options = {}) {
   ByteReader in("test.serialized", bytes_of(file));
   return parse_serialized(in, options);
 }
@@ -31,7 +31,7 @@ SerializedMesh triangle(uint32_t flags, int version = 4, uint32_t third = 2) {
 }  // namespace
 
 TEST_CASE("serialized: versions 3 and 4, single and double precision, all that a mesh may have") {
-  const TriangleMesh all = read(serialized_file({serialize(triangle<float>(0x100b))}));
+  const TriangleMesh all = mesh_of(serialized_file({serialize(triangle<float>(0x100b))}));
   CHECK(all.positions == std::vector<Point3f>{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}});
   CHECK(all.normals == std::vector<Normal3f>{{0, 0, 1}, {0, 0, 1}, {0, 1, 0}});
   CHECK(all.uvs == std::vector<Point2f>{{.25f, .5f}, {.75f, 1}, {0, .125f}});
@@ -39,25 +39,25 @@ TEST_CASE("serialized: versions 3 and 4, single and double precision, all that a
   REQUIRE(all.attributes.size() == 1);
   CHECK(all.attributes[0] == MeshAttribute{"vertex_color", 3, false, {1, 2, 3, 4, 5, 6, 7, 8, 9}});
   CHECK_FALSE(all.computed_normals);
-  CHECK(read(serialized_file({serialize(triangle<double>(0x200b))})) == all);
-  CHECK(read(serialized_file({serialize(triangle<float>(0x000b))})) == all);
-  CHECK(read(serialized_file({serialize(triangle<float>(0x100b, 3))}, 3)) == all);
-  CHECK(read(serialize(triangle<float>(0x100b))) == all);  // without a table
+  CHECK(mesh_of(serialized_file({serialize(triangle<double>(0x200b))})) == all);
+  CHECK(mesh_of(serialized_file({serialize(triangle<float>(0x000b))})) == all);
+  CHECK(mesh_of(serialized_file({serialize(triangle<float>(0x100b, 3))}, 3)) == all);
+  CHECK(mesh_of(serialize(triangle<float>(0x100b))) == all);  // without a table
 }
 
 TEST_CASE("serialized: normals are computed, dropped, or as the file's own flag says") {
   const std::string plain = serialize(triangle<float>(0x1000));
-  CHECK(read(plain).normals == std::vector<Normal3f>(3, {0, 0, 1}));
+  CHECK(mesh_of(plain).normals == std::vector<Normal3f>(3, {0, 0, 1}));
   MeshOptions options;
   options.face_normals = true;
-  CHECK(read(serialize(triangle<float>(0x1001)), options).normals.empty());
+  CHECK(mesh_of(serialize(triangle<float>(0x1001)), options).normals.empty());
   const std::string faceted = serialize(triangle<float>(0x1011));
-  CHECK(read(faceted).normals.size() == 3);  // Mitsuba 3 ignores the flag
+  CHECK(mesh_of(faceted).normals.size() == 3);  // Mitsuba 3 ignores the flag
   MeshOptions old;
   old.dialect = MeshDialect::mitsuba0;
-  CHECK(read(faceted, old).normals.empty());
+  CHECK(mesh_of(faceted, old).normals.empty());
   old.max_smooth_angle = 10;
-  CHECK(read(serialize(triangle<float>(0x1001)), old).normals ==
+  CHECK(mesh_of(serialize(triangle<float>(0x1001)), old).normals ==
         std::vector<Normal3f>(3, {0, 0, 1}));
 }
 
@@ -68,14 +68,15 @@ TEST_CASE("serialized: the mesh is chosen by its index") {
                                               serialize(triangle<double>(0x2002, version))},
                                              version);
     MeshOptions options;
-    CHECK(read(file, options).triangles[0][2] == 2);
+    CHECK(mesh_of(file, options).triangles[0][2] == 2);
     options.shape_index = 1;
-    CHECK(read(file, options).triangles[0][2] == 1);
+    CHECK(mesh_of(file, options).triangles[0][2] == 1);
     options.shape_index = 2;
-    CHECK(read(file, options).uvs.size() == 3);
+    CHECK(mesh_of(file, options).uvs.size() == 3);
     for (const int missing : {3, -1}) {
       options.shape_index = missing;
-      CHECK_THROWS_WITH_AS(read(file, options), doctest::Contains("there is no mesh"), ReadError);
+      CHECK_THROWS_WITH_AS(mesh_of(file, options), doctest::Contains("there is no mesh"),
+                           ReadError);
     }
   }
 }

@@ -20,7 +20,7 @@ using namespace duet::test;
 
 namespace {
 
-const std::string kFolder = std::string(DUET_SOURCE_DIR) + "/reference/slots/";
+const std::string kSlotsFolder = std::string(DUET_SOURCE_DIR) + "/reference/slots/";
 
 void replace(std::string& text, const std::string& what, const std::string& by) {
   const size_t at = text.find(what);
@@ -48,7 +48,7 @@ std::string messages(const Diagnostics& diagnostics) {
 /// the reason in `refusal`.
 std::optional<std::array<Moments, 3>> render_means(const std::string& text, std::string& refusal) {
   constexpr int kImages = 4, kSamples = 8;
-  const std::string path = kFolder + "scene.xml";
+  const std::string path = kSlotsFolder + "scene.xml";
   MitsubaOptions options;
   options.files.read = [&](const std::string& file) -> std::optional<std::string> {
     return file == path ? text : read_file(file);
@@ -87,7 +87,7 @@ std::optional<std::array<Moments, 3>> render_means(const std::string& text, std:
 }  // namespace
 
 TEST_CASE("what Mitsuba takes as a texture is taken and means the same") {
-  const Json table = Json::parse(read_file(kFolder + "slots.json"));
+  const Json table = Json::parse(read_file(kSlotsFolder + "slots.json"));
   int count = 0;
   for (const auto& answers : table["results"].items())
     for (const auto& asked : answers.value().items()) {

@@ -6,13 +6,13 @@ using namespace duet::test;
 
 namespace {
 
-const char* const kScenes[] = {"bsdf-wrappers", "depth-of-field", "environment-map",
-                               "filters",       "instances",      "textures"};
+const char* const kTracedScenes[] = {"bsdf-wrappers", "depth-of-field", "environment-map",
+                                     "filters",       "instances",      "textures"};
 
 }  // namespace
 
 TEST_CASE("scenes look the same with 1, 2 and 7 threads") {
-  for (const char* name : kScenes) {
+  for (const char* name : kTracedScenes) {
     CAPTURE(name);
     const PreparedScene scene(name);
     const Image one = scene.render(8, 1);
@@ -22,7 +22,7 @@ TEST_CASE("scenes look the same with 1, 2 and 7 threads") {
 }
 
 TEST_CASE("a crop of a scene has the very pixels of the whole image") {
-  for (const char* name : kScenes) {
+  for (const char* name : kTracedScenes) {
     CAPTURE(name);
     const PreparedScene scene(name);
     const PixelBounds crop{13, 20, 50, 41};

@@ -15,7 +15,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr int kBatches = 12;
+constexpr int kPbrtBatches = 12;
 /// What merging does to the mean of an image, relative to it.
 constexpr double kMostBlur = 0.002;
 constexpr int kTileCount = TileBatches::kTiles * TileBatches::kTiles;
@@ -47,7 +47,7 @@ std::vector<PbrtReference> pbrt_references() {
 
 std::vector<Image> render_batches(const PreparedScene& scene, int spp) {
   std::vector<Image> images;
-  for (int b = 0; b < kBatches; ++b)
+  for (int b = 0; b < kPbrtBatches; ++b)
     images.push_back(scene.render(spp, 2, scene.layout.crop, uint64_t(b)));
   return images;
 }

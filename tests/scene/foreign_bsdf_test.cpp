@@ -84,7 +84,7 @@ ReadResult read_chalk(const std::string& version, const std::string& bsdf) {
   return chalk_reader().read(ball(version, bsdf));
 }
 
-SceneDescription good(const std::string& version, const std::string& bsdf) {
+SceneDescription good_bsdf(const std::string& version, const std::string& bsdf) {
   return chalk_reader().good(ball(version, bsdf));
 }
 
@@ -95,15 +95,15 @@ const std::string kDusty =
 }  // namespace
 
 TEST_CASE("a foreign BSDF is read by its fields, with their defaults, ranges and spellings") {
-  CHECK(good("3.0.0", "<bsdf type='chalk'/>").materials.at(0).model ==
+  CHECK(good_bsdf("3.0.0", "<bsdf type='chalk'/>").materials.at(0).model ==
         MaterialModel(ChalkMaterial{}));
-  const SceneDescription d = good("3.0.0", kDusty);
+  const SceneDescription d = good_bsdf("3.0.0", kDusty);
   const auto& chalk = d.materials.at(0).model.get<ChalkMaterial>();
   CHECK(chalk.color == ColorInput(Spectrum(0.5f, 0.25f, 0.125f)));
   CHECK(chalk.dust == 0.5);
-  CHECK(good("0.6.0",
-             "<bsdf type='chalk'><rgb name='chalkColor' value='0.5 0.25 0.125'/>"
-             "<float name='dust' value='0.5'/></bsdf>") == d);
+  CHECK(good_bsdf("0.6.0",
+                  "<bsdf type='chalk'><rgb name='chalkColor' value='0.5 0.25 0.125'/>"
+                  "<float name='dust' value='0.5'/></bsdf>") == d);
   CHECK(read_chalk("3.0.0", "<bsdf type='chalk'><float name='dust' value='2'/></bsdf>")
             .has("the parameter \"dust\" of <bsdf type=\"chalk\"> must be from 0 to 1, not 2"));
   CHECK(read_chalk("3.0.0", "<bsdf type='chalk'><float name='dost' value='0.5'/></bsdf>")
@@ -119,7 +119,7 @@ TEST_CASE("a foreign BSDF is listed, written, printed and counted") {
   CHECK(table.find("| `chalk` | 0.x, 3.x | done | made up |") != table.npos);
   CHECK(table.find("| `dust` | float | `0` | 0.x, 3.x | done | share that is absorbed |") !=
         table.npos);
-  const SceneDescription d = good("3.0.0", kDusty);
+  const SceneDescription d = good_bsdf("3.0.0", kDusty);
   CHECK(DescriptionText(d).material(MaterialId{0}) == "chalk 0.5 0.25 0.125, dust 0.5");
   CHECK(scene_features(d).diffuse == 1);
   CHECK(!transmits(d, MaterialId{0}));
@@ -128,17 +128,17 @@ TEST_CASE("a foreign BSDF is listed, written, printed and counted") {
   CHECK(xml.find("<bsdf type=\"chalk\"") != xml.npos);
   CHECK(xml.find("name=\"dust\" value=\"0.5\"") != xml.npos);
   // A terse field is written only where it says something.
-  const MitsubaXml clean = write_mitsuba_xml(good("3.0.0", "<bsdf type='chalk'/>"));
+  const MitsubaXml clean = write_mitsuba_xml(good_bsdf("3.0.0", "<bsdf type='chalk'/>"));
   CHECK(clean.text.find("chalk_color") != clean.text.npos);
   CHECK(clean.text.find("dust") == clean.text.npos);
-  CHECK(content_hash(good("3.0.0", "<bsdf type='chalk'/>")) != content_hash(d));
+  CHECK(content_hash(good_bsdf("3.0.0", "<bsdf type='chalk'/>")) != content_hash(d));
 }
 
 TEST_CASE("the textures of a foreign BSDF are found, and it can be nested in others") {
-  const SceneDescription d =
-      good("3.0.0",
-           "<bsdf type='mask'><bsdf type='chalk'><texture type='checkerboard' name='chalk_color'/>"
-           "</bsdf></bsdf>");
+  const SceneDescription d = good_bsdf(
+      "3.0.0",
+      "<bsdf type='mask'><bsdf type='chalk'><texture type='checkerboard' name='chalk_color'/>"
+      "</bsdf></bsdf>");
   CHECK(DescriptionText(d).material(MaterialId{1}) ==
         "mask, opacity 0.5 [chalk texture #0, dust 0]");
   REQUIRE(texture_uses(d).size() == 1);

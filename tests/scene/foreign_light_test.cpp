@@ -88,7 +88,7 @@ const ForeignPlugin& glow_reader() {
   return p;
 }
 
-SceneDescription good(const std::string& version, const std::string& light) {
+SceneDescription good_light(const std::string& version, const std::string& light) {
   return glow_reader().good(scene_text(version, light));
 }
 
@@ -98,19 +98,20 @@ std::string lamp(const std::string& parameters) {
          parameters + "</emitter>";
 }
 
-const std::string kRed = "<rgb name='intensity' value='8 4 2'/><float name='dimming' value='0.5'/>";
+const std::string kDimmedRed =
+    "<rgb name='intensity' value='8 4 2'/><float name='dimming' value='0.5'/>";
 
 }  // namespace
 
 TEST_CASE("a foreign light is read by its fields, with their defaults, ranges and spellings") {
-  CHECK(good("3.0.0", "<emitter type='glow'/>").lights.at(0).model ==
+  CHECK(good_light("3.0.0", "<emitter type='glow'/>").lights.at(0).model ==
         decltype(LightDescription::model)(ForeignLight(GlowLight{})));
-  const SceneDescription d = good("3.0.0", lamp(kRed));
+  const SceneDescription d = good_light("3.0.0", lamp(kDimmedRed));
   const auto& glow = std::get<ForeignLight>(d.lights.at(0).model).get<GlowLight>();
   CHECK(glow.intensity == Spectrum(8, 4, 2));
   CHECK(glow.dimming == 0.5);
-  CHECK(good("0.6.0", lamp(kRed)) == d);
-  CHECK(!(good("3.0.0", lamp("")) == d));
+  CHECK(good_light("0.6.0", lamp(kDimmedRed)) == d);
+  CHECK(!(good_light("3.0.0", lamp("")) == d));
   CHECK(
       glow_reader()
           .read(scene_text("3.0.0", lamp("<float name='dimming' value='2'/>")))
@@ -119,8 +120,8 @@ TEST_CASE("a foreign light is read by its fields, with their defaults, ranges an
 }
 
 TEST_CASE("a foreign light has what all lights have") {
-  const SceneDescription d =
-      good("3.0.0", lamp("<float name='sampling_weight' value='3'/><medium type='homogeneous'/>"));
+  const SceneDescription d = good_light(
+      "3.0.0", lamp("<float name='sampling_weight' value='3'/><medium type='homogeneous'/>"));
   CHECK(d.lights.at(0).sampling_weight == 3);
   CHECK(d.lights[0].medium.has_value());
   CHECK(d.lights[0].to_world.turned({0, 0, 1})[1] == doctest::Approx(1));
@@ -132,14 +133,14 @@ TEST_CASE("a foreign light is listed, written, printed, counted and hashed") {
   CHECK(table.find("| `glow` | 0.x, 3.x | done | made up |") != table.npos);
   CHECK(table.find("| `dimming` | float | `0` | 0.x, 3.x | done | share that is lost |") !=
         table.npos);
-  const SceneDescription d = good("3.0.0", lamp(kRed));
+  const SceneDescription d = good_light("3.0.0", lamp(kDimmedRed));
   CHECK(DescriptionText(d).light(d.lights[0]) ==
         "glow at (0, 0, 0) towards (0, 1, 0): 8 4 2, dimming 0.5");
   CHECK(scene_features(d).point_lights == 1);
   CHECK(!is_environment(d.lights[0]));
 
   glow_reader().round_trip(d);
-  CHECK(content_hash(good("3.0.0", lamp(""))) != content_hash(d));
+  CHECK(content_hash(good_light("3.0.0", lamp(""))) != content_hash(d));
   SceneDescription other = d;
   other.lights[0].model =
       ForeignLight(GleamLight{std::get<ForeignLight>(d.lights[0].model).get<GlowLight>()});
@@ -153,7 +154,7 @@ TEST_CASE("a foreign light is rendered by all methods") {
   // Camera and light look along y from the middle of a ball, whose inside is seen in the light that
   // meets it across.
   ReadResult r = glow_reader().read(
-      "<scene version='3.0.0'>" + lamp(kRed) + camera_xml("0,0,0", "0,1,0", 4) +
+      "<scene version='3.0.0'>" + lamp(kDimmedRed) + camera_xml("0,0,0", "0,1,0", 4) +
       "<shape type='sphere'><float name='radius' value='2'/><boolean name='flip_normals' "
       "value='true'/><bsdf type='diffuse'><rgb name='reflectance' value='0.5 0.5 0.5'/></bsdf>"
       "</shape></scene>");

@@ -42,7 +42,7 @@ const ForeignPlugin& pyramid_reader() {
   return p;
 }
 
-SceneDescription good(const std::string& version, const std::string& content) {
+SceneDescription good_shape(const std::string& version, const std::string& content) {
   return pyramid_reader().good(scene_text(version, "<emitter type='constant'/>" + content));
 }
 
@@ -53,11 +53,12 @@ const std::string kSteep =
 }  // namespace
 
 TEST_CASE("a foreign shape is read by its fields, with their defaults, ranges and spellings") {
-  const SceneDescription d = good("3.0.0", kSteep);
+  const SceneDescription d = good_shape("3.0.0", kSteep);
   CHECK(std::get<ForeignShape>(d.shapes.at(0).geometry).get<PyramidShape>().height == 2);
-  CHECK(good("0.6.0", kSteep) == d);
-  CHECK(!(good("3.0.0", "<shape type='pyramid'><bsdf type='diffuse'/></shape>") == d));
-  CHECK(good("3.0.0", "<shape type='pyramid'><boolean name='flip_normals' value='true'/></shape>")
+  CHECK(good_shape("0.6.0", kSteep) == d);
+  CHECK(!(good_shape("3.0.0", "<shape type='pyramid'><bsdf type='diffuse'/></shape>") == d));
+  CHECK(good_shape("3.0.0",
+                   "<shape type='pyramid'><boolean name='flip_normals' value='true'/></shape>")
             .shapes[0]
             .flip_normals);
   CHECK(pyramid_reader()
@@ -68,10 +69,11 @@ TEST_CASE("a foreign shape is read by its fields, with their defaults, ranges an
 }
 
 TEST_CASE("a foreign shape has what all surfaces have") {
-  const SceneDescription d = good("3.0.0",
-                                  "<shape type='pyramid'><transform name='to_world'><translate "
-                                  "x='100'/></transform><boolean name='flip_normals' value='true'/>"
-                                  "<medium name='interior' type='homogeneous'/></shape>");
+  const SceneDescription d =
+      good_shape("3.0.0",
+                 "<shape type='pyramid'><transform name='to_world'><translate "
+                 "x='100'/></transform><boolean name='flip_normals' value='true'/>"
+                 "<medium name='interior' type='homogeneous'/></shape>");
   CHECK(d.shapes.at(0).to_world[0][3] == 100);
   CHECK(d.shapes[0].interior.has_value());
   pyramid_reader().round_trip(d);
@@ -81,7 +83,7 @@ TEST_CASE("a foreign shape is listed, written, printed, counted and hashed") {
   const std::string table = compatibility_section(PluginKind::shape, pyramid_reader().vocabulary());
   CHECK(table.find("| `pyramid` | 0.x, 3.x | done |") != table.npos);
   CHECK(table.find("| `height` | float | `1` | 0.x, 3.x | done | of the tip |") != table.npos);
-  const SceneDescription d = good("3.0.0", kSteep);
+  const SceneDescription d = good_shape("3.0.0", kSteep);
   CHECK(DescriptionText(d).shape(d.shapes[0]) == "pyramid, height 2 steep, bsdf #0");
   const SceneFeatures features = scene_features(d);
   CHECK(features.meshes == 1);
@@ -89,7 +91,7 @@ TEST_CASE("a foreign shape is listed, written, printed, counted and hashed") {
   CHECK(features.bounds.upper.z == 2);
 
   pyramid_reader().round_trip(d);
-  CHECK(content_hash(good("3.0.0", "<shape type='pyramid'><bsdf type='diffuse'/></shape>")) !=
+  CHECK(content_hash(good_shape("3.0.0", "<shape type='pyramid'><bsdf type='diffuse'/></shape>")) !=
         content_hash(d));
   const auto lost = pbrt::write_pbrt(d).losses;
   CHECK(std::find(lost.begin(), lost.end(), "a shape is missing: pbrt-v4 has no \"pyramid\"") !=

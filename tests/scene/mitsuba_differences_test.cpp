@@ -34,7 +34,7 @@ std::string met(const std::string& content, const std::string& version = "3.0.0"
 
 const std::string kPath = "<integrator type='path'/>";
 
-std::string ball(const std::string& inside, double radius = 1, double x = 0) {
+std::string ball_at(const std::string& inside, double radius = 1, double x = 0) {
   return kPath + fmt::format(
                      "<shape type='sphere'><float name='radius' value='{}'/><point "
                      "name='center' x='{}' y='0' z='0'/>{}</shape>",
@@ -70,16 +70,16 @@ TEST_CASE("differences from Mitsuba have names and texts of their own") {
 }
 
 TEST_CASE("blends are met if one side has a delta lobe and the other does not") {
-  CHECK(met(ball(blend("diffuse", "conductor"))) == "blend-delta ");
-  CHECK(met(ball(blend("plastic", "roughconductor"))) == "blend-delta ");
-  CHECK(met(ball("<bsdf type='twosided'>" + blend("conductor", "diffuse") + "</bsdf>")) ==
+  CHECK(met(ball_at(blend("diffuse", "conductor"))) == "blend-delta ");
+  CHECK(met(ball_at(blend("plastic", "roughconductor"))) == "blend-delta ");
+  CHECK(met(ball_at("<bsdf type='twosided'>" + blend("conductor", "diffuse") + "</bsdf>")) ==
         "blend-delta ");
-  CHECK(met(ball(blend("diffuse", "roughplastic"))).empty());
-  CHECK(met(ball(blend("conductor", "dielectric"))).empty());
-  CHECK(met(ball(blend("diffuse", "null"))).empty());
-  CHECK(met(ball(blend("diffuse", "conductor", 1))).empty());
+  CHECK(met(ball_at(blend("diffuse", "roughplastic"))).empty());
+  CHECK(met(ball_at(blend("conductor", "dielectric"))).empty());
+  CHECK(met(ball_at(blend("diffuse", "null"))).empty());
+  CHECK(met(ball_at(blend("diffuse", "conductor", 1))).empty());
   // What no shape has is not rendered.
-  CHECK(met(blend("diffuse", "conductor") + ball("")).empty());
+  CHECK(met(blend("diffuse", "conductor") + ball_at("")).empty());
 }
 
 TEST_CASE("direct light is met with several samples of lights that no ray hits") {
@@ -97,19 +97,19 @@ TEST_CASE("direct light is met with several samples of lights that no ray hits")
 
 TEST_CASE("ray offsets are met in dense media and in small scenes") {
   // The offset is 0.00009 · (1 + 1) here.
-  CHECK(met(ball(medium(100))).empty());
-  CHECK(met(ball(medium(120))) == "ray-offset-media ");
-  CHECK(met(ball("", 0.01)).empty());
-  CHECK(met(ball("", 0.004)) == "ray-offset-surfaces ");
-  CHECK(met(ball("", 1, 100)).empty());
-  CHECK(met(ball("", 1, 250)) == "ray-offset-surfaces ");
+  CHECK(met(ball_at(medium(100))).empty());
+  CHECK(met(ball_at(medium(120))) == "ray-offset-media ");
+  CHECK(met(ball_at("", 0.01)).empty());
+  CHECK(met(ball_at("", 0.004)) == "ray-offset-surfaces ");
+  CHECK(met(ball_at("", 1, 100)).empty());
+  CHECK(met(ball_at("", 1, 250)) == "ray-offset-surfaces ");
 }
 
 TEST_CASE("flakes are met unless they are balls") {
-  SceneDescription scene = read(ball(medium(1,
-                                            "<phase type='blendphase'><float name='weight' "
-                                            "value='0.5'/><phase type='hg'/><phase "
-                                            "type='rayleigh'/></phase>")));
+  SceneDescription scene = read(ball_at(medium(1,
+                                               "<phase type='blendphase'><float name='weight' "
+                                               "value='0.5'/><phase type='hg'/><phase "
+                                               "type='rayleigh'/></phase>")));
   const auto flakes = [&](const SggxPhase& phase) {
     for (PhaseDescription& p : scene.phases)
       if (std::holds_alternative<RayleighPhase>(p.model) ||

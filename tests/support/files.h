@@ -11,45 +11,27 @@
 #include <string_view>
 #include <vector>
 
-#include <unistd.h>
-
 namespace duet::test {
 
 /// A directory that goes away with everything in it.
 class TemporaryDirectory {
  public:
-  TemporaryDirectory() {
-    std::string pattern = (std::filesystem::temp_directory_path() / "duet-test-XXXXXX").string();
-    path_ = mkdtemp(pattern.data());
-  }
-  ~TemporaryDirectory() {
-    std::error_code ignored;
-    std::filesystem::remove_all(path_, ignored);
-  }
+  TemporaryDirectory();
+  ~TemporaryDirectory();
   TemporaryDirectory(const TemporaryDirectory&) = delete;
   TemporaryDirectory& operator=(const TemporaryDirectory&) = delete;
 
-  std::string path(const std::string& name) const { return (path_ / name).string(); }
+  std::string path(const std::string& name) const;
   /// Writes a file and returns its path.
-  std::string write(const std::string& name, std::string_view contents) const {
-    // Some file systems wait for the disk when an old file is emptied.
-    std::filesystem::remove(path(name));
-    std::ofstream(path(name), std::ios::binary) << contents;
-    return path(name);
-  }
+  std::string write(const std::string& name, std::string_view contents) const;
   /// The number of files and directories within.
-  size_t count() const {
-    return size_t(std::distance(std::filesystem::directory_iterator(path_), {}));
-  }
+  size_t count() const;
 
  private:
   std::filesystem::path path_;
 };
 
-inline std::string read_file(const std::string& path) {
-  std::ifstream in(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(in), {}};
-}
+std::string read_file(const std::string& path);
 
 /// The bytes of a text, which must outlive them.
 inline std::span<const uint8_t> bytes_of(std::string_view text) {

@@ -1,8 +1,6 @@
 // Writes .serialized mesh files.
 #pragma once
 
-#include <zlib.h>
-
 #include <string>
 #include <vector>
 
@@ -19,30 +17,12 @@ struct SerializedMesh {
   std::string data;  ///< positions, normals, texture coordinates, colours, indices
 };
 
-inline std::string deflate(const std::string& data) {
-  uLongf size = compressBound(uLong(data.size()));
-  std::string result(size, '\0');
-  compress(reinterpret_cast<Bytef*>(result.data()), &size,
-           reinterpret_cast<const Bytef*>(data.data()), uLong(data.size()));
-  result.resize(size);
-  return result;
-}
+std::string deflate(const std::string& data);
 
 /// Header and compressed contents.
-inline std::string serialize(const SerializedMesh& mesh) {
-  const std::string name = mesh.version == 4 ? mesh.name + '\0' : "";
-  return pack(uint16_t(0x041c), uint16_t(mesh.version)) +
-         deflate(pack(mesh.flags) + name + pack(mesh.vertices, mesh.triangles) + mesh.data);
-}
+std::string serialize(const SerializedMesh& mesh);
 
 /// A file of several meshes with the table at its end.
-inline std::string serialized_file(const std::vector<std::string>& meshes, int version = 4) {
-  std::string result, table;
-  for (const std::string& mesh : meshes) {
-    table += version == 4 ? pack(uint64_t(result.size())) : pack(uint32_t(result.size()));
-    result += mesh;
-  }
-  return result + table + pack(uint32_t(meshes.size()));
-}
+std::string serialized_file(const std::vector<std::string>& meshes, int version = 4);
 
 }  // namespace duet::test

@@ -15,7 +15,7 @@ namespace {
 
 constexpr int kDepth = 6;
 
-std::vector<std::string> scenes() {
+std::vector<std::string> family_scenes() {
   const std::string camera = camera_xml("0, -3, 1", "0, 0, 1", 32);
   const std::string walls = room_xml(grey("0.7, 0.5, 0.3"));
   const std::string glass = sphere_xml("-0.4, 0, 0.4", "0.4", "<bsdf type='dielectric'/>");
@@ -38,7 +38,7 @@ std::vector<std::string> scenes() {
 }
 
 /// Fog, with a pane that light partly passes straight in it, and photons on the walls.
-std::vector<std::string> foggy_scenes() {
+std::vector<std::string> foggy_family_scenes() {
   const std::string pane =
       "<shape type='rectangle'><transform name='to_world'><rotate x='1' angle='80'/>"
       "<scale value='0.5'/><translate y='-0.4' z='0.8'/></transform><bsdf type='mask'><float "
@@ -51,7 +51,7 @@ std::vector<std::string> foggy_scenes() {
                             "'/><rgb name='albedo' value='0.9'/></medium><shape type='cube'>"
                             "<transform name='to_world'><scale value='4'/></transform>"
                             "<bsdf type='null'/><ref id='fog' name='interior'/></shape>";
-    for (const std::string& content : scenes()) foggy.push_back(content + fog + pane);
+    for (const std::string& content : family_scenes()) foggy.push_back(content + fog + pane);
   }
   return foggy;
 }
@@ -329,9 +329,9 @@ void compare_weights(const std::vector<std::string>& contents) {
 }  // namespace
 
 TEST_CASE("weights by families of techniques are those of VCM, and so are the shares") {
-  compare_weights<PathVertex>(scenes());
+  compare_weights<PathVertex>(family_scenes());
 }
 
 TEST_CASE("weights by families of techniques are those of VCM where there are media") {
-  compare_weights<MediaVertex>(foggy_scenes());
+  compare_weights<MediaVertex>(foggy_family_scenes());
 }

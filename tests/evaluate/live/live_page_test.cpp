@@ -11,7 +11,7 @@ using namespace duet::test;
 
 namespace {
 
-Image grey(float value) {
+Image grey_page_image(float value) {
   Image image(2, 1, {"R", "G", "B", "depth.T"});
   for (float& v : image.data) v = value;
   return image;
@@ -31,9 +31,9 @@ TEST_CASE("a live page has the newest image, and wants the next once it is fetch
   CHECK(http_get(port, "/").body.find("There is no image yet") != std::string::npos);
   CHECK(http_get(port, "/image?after=0").status == 204);
   CHECK(page.wants_image());
-  page.show("a.exr", grey(1), "first");
+  page.show("a.exr", grey_page_image(1), "first");
   CHECK(!page.wants_image());
-  page.show("a.exr", grey(2), "second");
+  page.show("a.exr", grey_page_image(2), "second");
   const HttpReply reply = http_get(port, "/image?after=0");
   CHECK(page.wants_image());
   const auto data = nlohmann::json::parse(reply.body);
@@ -63,7 +63,7 @@ TEST_CASE("the end waits for whoever looks, and for nobody else") {
     page.finish();
     return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   };
-  page.show("a.exr", grey(1), "last");
+  page.show("a.exr", grey_page_image(1), "last");
   CHECK(seconds_of_finish() < 1);
   CHECK(http_get(port_of(page), "/image?after=1").status == 204);  // looks, and fetches nothing
   CHECK(seconds_of_finish() > 1.9);

@@ -1,0 +1,8 @@
+#include "scene/scene.h"
+
+namespace duet {
+
+Scene::Scene() = default;
+Scene::~Scene() = default;
+
+}  // namespace duet
