@@ -134,7 +134,8 @@ TEST_SUITE("program") {
     c.catalogue(json::array({row}));
     const Outcome enough = c.stability({"--methods", "path,bdpt", "--json", "a.json"});
     CHECK(enough.code == 0);
-    for (const json& cell : json::parse(read_file(c.path("a.json")))[0]["cells"]) {
+    const json rows = json::parse(read_file(c.path("a.json")));
+    for (const json& cell : rows[0]["cells"]) {
       CHECK(cell["resolved"] == true);
       CHECK(cell["notices"].get<double>() > 0.003);
       CHECK(cell["notices"].get<double>() <= 0.01);
