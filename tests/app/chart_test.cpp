@@ -34,12 +34,6 @@ Rows csv(const std::string& text) {
   return rows;
 }
 
-size_t count(const std::string& text, const std::string& part) {
-  size_t n = 0;
-  for (size_t at = text.find(part); at != std::string::npos; at = text.find(part, at + 1)) ++n;
-  return n;
-}
-
 /// A scene with noise: a lamp with area.
 TinyScene lamp_scene() {
   TinyScene s;
@@ -78,7 +72,7 @@ std::vector<std::pair<double, double>> polyline(const std::string& svg, const st
 /// How many labels of ticks have this attribute.
 size_t labels(const std::string& svg, const std::string& attribute) {
   const size_t from = svg.find("<g class=\"ticks\">");
-  return count(svg.substr(from, svg.find("</g>", from) - from), attribute);
+  return occurrences(svg.substr(from, svg.find("</g>", from) - from), attribute);
 }
 
 /// No colour of a chart is fixed where a dark page needs another one.
@@ -94,8 +88,8 @@ void check_dark_mode(const std::string& text) {
   // Lines, bands and markers take the colour of their group.
   const size_t line = text.find("<g class=\"line series-", from);
   const std::string group = text.substr(line, text.find("</g>", line) - line);
-  CHECK(count(group, "=\"#") == 0);
-  CHECK(count(group, "currentColor") >= 4);
+  CHECK(occurrences(group, "=\"#") == 0);
+  CHECK(occurrences(group, "currentColor") >= 4);
 }
 
 struct Efficiency {
@@ -163,15 +157,15 @@ TEST_SUITE("program") {
       CAPTURE(name);
       const std::string svg = s.file(name);
       CHECK(svg.starts_with("<svg xmlns="));
-      CHECK(count(svg, "<g class=\"line series-") == 2);
-      CHECK(count(svg, "<polyline") == 2);
-      CHECK(count(svg, "class=\"band\"") == 2);
-      CHECK(count(svg, "class=\"guide\"") == 2);
-      CHECK(count(svg, "class=\"entry\"") == 2);
+      CHECK(occurrences(svg, "<g class=\"line series-") == 2);
+      CHECK(occurrences(svg, "<polyline") == 2);
+      CHECK(occurrences(svg, "class=\"band\"") == 2);
+      CHECK(occurrences(svg, "class=\"guide\"") == 2);
+      CHECK(occurrences(svg, "class=\"entry\"") == 2);
       CHECK(contains(svg, "data-slope=\"-0.5000\""));
       CHECK(contains(svg, "data-slope=\"-0.3333\""));
       CHECK(contains(svg, "slope −0."));
-      CHECK(count(svg, "<g") == count(svg, "</g>"));
+      CHECK(occurrences(svg, "<g") == occurrences(svg, "</g>"));
       CHECK_FALSE(contains(svg, "nan"));
       CHECK_FALSE(contains(svg, "inf"));
       CHECK(contains(svg, "√trimmed (root of the trimmed relMSE)"));
@@ -192,10 +186,10 @@ TEST_SUITE("program") {
     const std::string page = s.file("out/index.html");
     CHECK(page.starts_with("<!doctype html>"));
     // Nothing is fetched: the only addresses are the names of SVG.
-    CHECK(count(page, "http") == count(page, "http://www.w3.org/2000/svg"));
+    CHECK(occurrences(page, "http") == occurrences(page, "http://www.w3.org/2000/svg"));
     CHECK_FALSE(contains(page, " src="));
     CHECK_FALSE(contains(page, "@import"));
-    CHECK(count(page, "<svg") == 2);
+    CHECK(occurrences(page, "<svg") == 2);
     CHECK(contains(page, "duet chart tiny.xml -i path,bdpt:rr_depth=9,max_depth=3"));
     check_marks(page);
     check_dark_mode(page);
@@ -243,8 +237,8 @@ TEST_SUITE("program") {
     const std::string page = s.file("all/index.html");
     CHECK(contains(page, "href=\"tiny/index.html\""));
     CHECK(contains(page, "href=\"box/index.html\""));
-    CHECK(count(page, "<svg") == 2);
-    CHECK(count(page, ">made by Duet itself with path in ") == 2);
+    CHECK(occurrences(page, "<svg") == 2);
+    CHECK(occurrences(page, ">made by Duet itself with path in ") == 2);
     const std::string box = s.file("all/box/index.html");
     CHECK(contains(box, "made by Duet itself with path"));
     CHECK(contains(box, "what this method cannot see or gets wrong is missing in it"));
@@ -291,7 +285,7 @@ TEST_SUITE("program") {
     CHECK(contains(page, "tiny-b.exr (made by Mitsuba version 3.5, 77 samples per pixel)"));
     CHECK(contains(page, "tiny-c.exr (its header does not say how it was made)"));
     // One method alone is the best of none.
-    CHECK(count(page, "<td class=\"best\"") == 0);
+    CHECK(occurrences(page, "<td class=\"best\"") == 0);
   }
 
   TEST_CASE("the size is that of the reference") {

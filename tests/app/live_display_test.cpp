@@ -86,12 +86,6 @@ std::string viewer(uint16_t port) {
   return "tev://127.0.0.1:" + std::to_string(port);
 }
 
-int occurrences(const std::string& text, const std::string& part) {
-  int n = 0;
-  for (size_t at = text.find(part); at != text.npos; at = text.find(part, at + 1)) ++n;
-  return n;
-}
-
 /// More values than systems keep of what nobody reads.
 TinyScene large_scene() {
   TinyScene s = exact_scene();

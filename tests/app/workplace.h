@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "support/process.h"
+#include "support/texts.h"
 
 namespace duet::test {
 
@@ -37,10 +38,5 @@ class Workplace : public TemporaryDirectory {
   Outcome run(const Arguments& arguments) const;
   bool has(const std::string& name) const;
 };
-
-/// Whether `text` contains `part`.
-inline bool contains(const std::string& text, const std::string& part) {
-  return text.find(part) != std::string::npos;
-}
 
 }  // namespace duet::test

@@ -6,8 +6,10 @@
 #include <stdexcept>
 
 #include "image/percentage_errors.h"
+#include "support/constant_image.h"
 
 using namespace duet;
+using namespace duet::test;
 
 namespace {
 
@@ -26,12 +28,6 @@ Pair waves() {
         p.a.data[i] = float(double(p.b.data[i]) + 0.1 * std::cos(1.7 * x * (c + 1) + 2.3 * y));
       }
   return p;
-}
-
-Image grey_image(int width, int height, float value) {
-  Image image(width, height, {"R", "G", "B"});
-  for (float& v : image.data) v = value;
-  return image;
 }
 
 }  // namespace
@@ -53,15 +49,16 @@ TEST_CASE("PSNR and SSIM at their ends") {
   CHECK(std::isinf(equal.psnr));
   CHECK(*equal.ssim == doctest::Approx(1).epsilon(1e-12));
   // White against black is the largest difference that a display can show.
-  const DisplayMetrics most = display_metrics(grey_image(16, 16, 7), grey_image(16, 16, 0));
+  const DisplayMetrics most = display_metrics(constant_image(16, 16, 7), constant_image(16, 16, 0));
   CHECK(most.psnr == doctest::Approx(0));
   CHECK(*most.ssim == doctest::Approx(1e-4 / 1.0001));
   // What is brighter than white is white, and what is not a number is black.
-  CHECK(std::isinf(display_metrics(grey_image(16, 16, 7), grey_image(16, 16, INFINITY)).psnr));
-  CHECK(std::isinf(display_metrics(grey_image(16, 16, NAN), grey_image(16, 16, -1)).psnr));
-  CHECK_FALSE(display_metrics(grey_image(10, 30, 1), grey_image(10, 30, 0)).ssim);
-  CHECK(display_metrics(grey_image(11, 11, 1), grey_image(11, 11, 0)).ssim);
-  CHECK_THROWS_AS(display_metrics(grey_image(10, 30, 1), grey_image(30, 10, 1)),
+  CHECK(std::isinf(
+      display_metrics(constant_image(16, 16, 7), constant_image(16, 16, INFINITY)).psnr));
+  CHECK(std::isinf(display_metrics(constant_image(16, 16, NAN), constant_image(16, 16, -1)).psnr));
+  CHECK_FALSE(display_metrics(constant_image(10, 30, 1), constant_image(10, 30, 0)).ssim);
+  CHECK(display_metrics(constant_image(11, 11, 1), constant_image(11, 11, 0)).ssim);
+  CHECK_THROWS_AS(display_metrics(constant_image(10, 30, 1), constant_image(30, 10, 1)),
                   std::invalid_argument);
 }
 
@@ -70,14 +67,15 @@ TEST_CASE("errors relative to the values") {
   const PercentageErrors e = percentage_errors(p.a, p.b);
   CHECK(e.mape == doctest::Approx(0.312542891).epsilon(1e-5));
   CHECK(e.smape == doctest::Approx(0.274878673).epsilon(1e-5));
-  const PercentageErrors known = percentage_errors(grey_image(4, 4, 2), grey_image(4, 4, 1));
+  const PercentageErrors known =
+      percentage_errors(constant_image(4, 4, 2), constant_image(4, 4, 1));
   CHECK(known.mape == doctest::Approx(1 / 1.01));
   CHECK(known.smape == doctest::Approx(2 / 3.01));
-  CHECK(percentage_errors(grey_image(4, 4, 0), grey_image(4, 4, 0)).smape == 0);
+  CHECK(percentage_errors(constant_image(4, 4, 0), constant_image(4, 4, 0)).smape == 0);
   // A pixel without a number is left out.
-  Image hole = grey_image(4, 4, 2);
+  Image hole = constant_image(4, 4, 2);
   hole.data[1] = NAN;
-  CHECK(percentage_errors(hole, grey_image(4, 4, 1)).mape == doctest::Approx(1 / 1.01));
-  CHECK_THROWS_AS(percentage_errors(grey_image(3, 4, 1), grey_image(4, 3, 1)),
+  CHECK(percentage_errors(hole, constant_image(4, 4, 1)).mape == doctest::Approx(1 / 1.01));
+  CHECK_THROWS_AS(percentage_errors(constant_image(3, 4, 1), constant_image(4, 3, 1)),
                   std::invalid_argument);
 }

@@ -7,16 +7,12 @@
 #include <stdexcept>
 
 #include "math/sampler.h"
+#include "support/constant_image.h"
 
 using namespace duet;
+using namespace duet::test;
 
 namespace {
-
-Image constant_image(int width, int height, float value) {
-  Image image(width, height, {"R", "G", "B"});
-  for (float& v : image.data) v = value;
-  return image;
-}
 
 /// Sum of twelve uniform numbers minus six: normal enough.
 float normal(Sampler& s) {

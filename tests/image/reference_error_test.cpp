@@ -11,8 +11,10 @@
 #include <stdexcept>
 
 #include "image/metrics.h"
+#include "support/constant_image.h"
 
 using namespace duet;
+using namespace duet::test;
 
 namespace {
 
@@ -27,12 +29,6 @@ Image noisy(const Image& truth, double deviation, unsigned seed) {
 Image ramp(int width, int height) {
   Image image(width, height, {"R", "G", "B"});
   for (size_t i = 0; i < image.data.size(); ++i) image.data[i] = 0.2f + float(i % 97) / 50;
-  return image;
-}
-
-Image constant(int width, int height, float v) {
-  Image image(width, height, {"R", "G", "B"});
-  for (float& x : image.data) x = v;
   return image;
 }
 
@@ -52,9 +48,9 @@ TEST_CASE("without noise the errors are those of compare") {
 }
 
 TEST_CASE("the noise of the reference is subtracted") {
-  const Image truth = constant(96, 96, 1);
+  const Image truth = constant_image(96, 96, 1);
   const Image reference = noisy(truth, 0.1, 1), image = noisy(truth, 0.05, 2);
-  const Image variance = constant(96, 96, 0.01f);
+  const Image variance = constant_image(96, 96, 0.01f);
   const ReferenceErrors with = NoisyReference(reference, &variance).errors(image);
   const ReferenceErrors without = NoisyReference(reference, nullptr).errors(image);
   CHECK(without.mse == doctest::Approx(0.0125).epsilon(0.03));
@@ -68,7 +64,7 @@ TEST_CASE("the noise of the reference is subtracted") {
 }
 
 TEST_CASE("errors stay in their tiles") {
-  const Image b = constant(64, 64, 1);
+  const Image b = constant_image(64, 64, 1);
   Image a = b;
   for (int y = 8; y < 16; ++y)
     for (int x = 16; x < 24; ++x) a.pixel(x, y)[1] = 1.5f;
@@ -83,13 +79,13 @@ TEST_CASE("errors stay in their tiles") {
 }
 
 TEST_CASE("what is not finite counts as black, and is no reference") {
-  const Image b = constant(32, 32, 1);
+  const Image b = constant_image(32, 32, 1);
   Image a = b;
   a.data[3] = NAN;
   CHECK(NoisyReference(b, nullptr).errors(a).mse == doctest::Approx(1.0 / 1024));
   CHECK_THROWS_AS(NoisyReference(a, nullptr), std::invalid_argument);
   CHECK_THROWS_AS(NoisyReference(b, &a), std::invalid_argument);
-  const Image small = constant(16, 16, 1);
+  const Image small = constant_image(16, 16, 1);
   CHECK_THROWS_AS(NoisyReference(b, &small), std::invalid_argument);
   CHECK_THROWS_AS(NoisyReference(b, nullptr).errors(small), std::invalid_argument);
 }

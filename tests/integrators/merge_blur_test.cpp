@@ -12,7 +12,7 @@ namespace {
 
 const std::string kFloor =
     "<shape type='rectangle'><transform name='to_world'><scale value='4'/></transform>";
-const std::string kFewPixels = camera_xml("0, -3, 1", "0, 0, 1", 8);
+const std::string kSmallCamera = camera_xml("0, -3, 1", "0, 0, 1", 8);
 const Point3f kLight{0, 0, 1};
 
 /// The floor seen from above at a place.
@@ -38,7 +38,7 @@ double irradiance(double x) {
 }  // namespace
 
 TEST_CASE("a photon is too bright by the ratio of the irradiances") {
-  const TransportScene s(kFewPixels + kFloor + grey("0.5, 0.5, 0.5") + "</shape>" +
+  const TransportScene s(kSmallCamera + kFloor + grey("0.5, 0.5, 0.5") + "</shape>" +
                          lamp_xml("0.1", "1"));
   for (const float x : {0.0f, 0.4f, 1.5f})
     for (const float beside : {-0.2f, -0.01f, 0.0f, 0.05f, 0.2f}) {
@@ -55,7 +55,7 @@ TEST_CASE("a vertex in the photon's shadow gets all of it too much") {
       "<shape type='rectangle'><transform name='to_world'><scale value='0.1'/>"
       "<translate x='0.5' z='0.5'/></transform>" +
       grey("0.5, 0.5, 0.5") + "</shape>";
-  const TransportScene s(kFewPixels + kFloor + grey("0.5, 0.5, 0.5") + "</shape>" + blocker +
+  const TransportScene s(kSmallCamera + kFloor + grey("0.5, 0.5, 0.5") + "</shape>" + blocker +
                          lamp_xml("0.1", "1"));
   const PathVertex dark = floor_at(*s.scene, 1), lit = floor_at(*s.scene, 1.3f);
   CHECK(blur(s, dark, 1.3f) == 1);
@@ -68,7 +68,7 @@ TEST_CASE("a vertex in the photon's shadow gets all of it too much") {
 // Seen from where the mirror direction of the light is, the floor is bright in one place only.
 TEST_CASE("a narrow lobe makes photons beside the highlight too bright or too dark") {
   const auto floor = [](const std::string& alpha) {
-    return TransportScene(kFewPixels + kFloor +
+    return TransportScene(kSmallCamera + kFloor +
                           "<bsdf type='roughconductor'><float name='alpha' value='" + alpha +
                           "'/></bsdf></shape>" + lamp_xml("0.1", "1"));
   };
@@ -94,7 +94,7 @@ TEST_CASE("photons are missing in corners and beyond edges, by the share of the 
       "<shape type='rectangle'><transform name='to_world'><rotate y='1' angle='90'/>"
       "<translate x='2'/></transform>" +
       grey("0.5, 0.5, 0.5") + "</shape>";
-  const TransportScene s(kFewPixels + kFloor + grey("0.5, 0.5, 0.5") + "</shape>" + wall +
+  const TransportScene s(kSmallCamera + kFloor + grey("0.5, 0.5, 0.5") + "</shape>" + wall +
                          lamp_xml("0.1", "1"));
   const auto missing = [&](float x) {
     const PathVertex eye = floor_at(*s.scene, x);

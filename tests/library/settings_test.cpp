@@ -16,7 +16,7 @@ namespace {
 
 constexpr int kMost = std::numeric_limits<int>::max();
 constexpr double kNotANumber = std::numeric_limits<double>::quiet_NaN();
-constexpr double kEndless = std::numeric_limits<double>::infinity();
+constexpr double kInfinite = std::numeric_limits<double>::infinity();
 
 /// A change of settings, and what the message has.
 struct WrongSetting {
@@ -48,10 +48,10 @@ TEST_SUITE("program") {
         {[](auto& s) { s.seconds = 0; }, "0 seconds"},
         {[](auto& s) { s.seconds = -1; }, "-1 seconds"},
         {[](auto& s) { s.seconds = kNotANumber; }, "nan seconds"},
-        {[](auto& s) { s.seconds = kEndless; }, "inf seconds"},
+        {[](auto& s) { s.seconds = kInfinite; }, "inf seconds"},
         {[](auto& s) { s.target_error = 0; }, "target_error: 0 is not"},
         {[](auto& s) { s.target_error = kNotANumber; }, "target_error: nan is not"},
-        {[](auto& s) { s.target_error = kEndless; }, "target_error: inf is not"},
+        {[](auto& s) { s.target_error = kInfinite; }, "target_error: inf is not"},
         {[](auto& s) {
            s.size = {{0, 8}};
          },
@@ -146,11 +146,11 @@ TEST_SUITE("program") {
   TEST_CASE("the library's exposures and comparisons: what makes no sense") {
     const std::vector<float> values(4, 0.5f);
     const RenderedImage image = RenderedImage::from_rgba(values, 1, 1);
-    for (const double exposure : {kNotANumber, kEndless, 1e9, -100.5})
+    for (const double exposure : {kNotANumber, kInfinite, 1e9, -100.5})
       CHECK_THROWS_AS(image.png({exposure, false, "", 8}), std::invalid_argument);
     CHECK(!image.png({-100, false, "", 8}).empty());
     const ComparedImage compared = ComparedImage::from_image(image);
-    for (const double spp : {0.0, -1.0, kNotANumber, kEndless}) {
+    for (const double spp : {0.0, -1.0, kNotANumber, kInfinite}) {
       CHECK_THROWS_AS(compare_images(compared, compared, ReferenceVariance{compared, spp, 1}),
                       std::invalid_argument);
       CHECK_THROWS_AS(compare_images(compared, compared, ReferenceVariance{compared, 1, spp}),

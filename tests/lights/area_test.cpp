@@ -3,6 +3,8 @@
 
 #include <doctest/doctest.h>
 
+#include <numbers>
+
 #include "math/sampler.h"
 #include "math/warp.h"
 #include "support/lamp.h"
@@ -13,8 +15,6 @@ using namespace duet;
 using test::analytic, test::fan, test::Lamp, test::mesh;
 
 namespace {
-
-constexpr double kPiDouble = 3.14159265358979323846;
 
 /// Whether the density can be integrated over cells: at the silhouette of a curved surface that is
 /// sampled by area it is infinite, and at the edges of a picture it jumps.
@@ -51,7 +51,7 @@ void check_lamp(const Lamp& lamp, const Point3f& from, const std::string& name,
     const Vector3f w = square_to_sphere(sampler.next_2d());
     float d2 = 0;
     const auto found = lamp.look(from, w, d2);
-    by_direction.add(found ? 4 * kPiDouble * double(light.emitted(*found, -w).g) : 0.0);
+    by_direction.add(found ? 4 * std::numbers::pi * double(light.emitted(*found, -w).g) : 0.0);
     const auto s = light.sample_direct(from, sampler.next_2d());
     by_light.add(s ? double(s->weight.g) : 0.0);
     if (!s || i % 50) continue;
@@ -133,7 +133,7 @@ TEST_CASE("textured area lights are sampled where they shine") {
   CHECK(std::sqrt(m.variance()) < 0.5 * m.mean());
   // Mean radiance, times area, times π.
   CHECK(screen.light->power(1) ==
-        doctest::Approx(4 * kPiDouble * double(image.average().luminance())).epsilon(0.02));
+        doctest::Approx(4 * std::numbers::pi * double(image.average().luminance())).epsilon(0.02));
 }
 
 TEST_CASE("pictures of soft contrast are sampled as their densities say") {
@@ -236,7 +236,8 @@ TEST_CASE("small, distant spheres keep their solid angle") {
   const Lamp lamp(analytic(ShapeKind::sphere, Matrix4{}), kRadiance);
   for (const float d : {1.001f, 2.0f, 100.0f, 1e4f, 1e6f}) {
     const double sine = 1 / double(d);
-    const double solid_angle = 2 * kPiDouble * sine * sine / (1 + std::sqrt(1 - sine * sine));
+    const double solid_angle =
+        2 * std::numbers::pi * sine * sine / (1 + std::sqrt(1 - sine * sine));
     for (int i = 0; i < 16; ++i) {
       const auto s = lamp.light->sample_direct({0, 0, d}, {float(i % 4) / 4, float(i) / 16});
       REQUIRE(s);

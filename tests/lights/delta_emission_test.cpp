@@ -1,7 +1,10 @@
 // Rays that start at lights without extent.
 #include <doctest/doctest.h>
 
+#include <numbers>
+
 #include "lights/delta.h"
+#include "math/angles.h"
 #include "math/sampler.h"
 #include "math/warp.h"
 #include "support/flux.h"
@@ -13,8 +16,6 @@ using test::Probe;
 
 namespace {
 
-constexpr double kPiD = 3.14159265358979323846;
-constexpr double kDegree = kPiD / 180;
 const Spectrum kRgb(1, 2, 3);
 
 /// Has no black, which would leave gaps in what light samples say about densities.
@@ -61,7 +62,7 @@ void check_position(const Light& light, const Point3f& position, const Vector3f&
   for (int i = 0; i < 20000; ++i) {
     sampler.start_sample(uint32_t(i));
     const Point2f u = sampler.next_2d(), v = sampler.next_2d();
-    reached.add(pdf(square_to_sphere(u)) > 0 ? 4 * kPiD : 0);
+    reached.add(pdf(square_to_sphere(u)) > 0 ? 4 * std::numbers::pi : 0);
     const auto e = light.sample_emission(u, v);
     solid_angle.add(e ? 1 / double(e->density) : 0);
     if (!e) {
@@ -98,7 +99,7 @@ void check_position(const Light& light, const Point3f& position, const Vector3f&
 void check_spot(const Matrix4& to_world, double cutoff, double beam_width, const Texture* texture,
                 const std::string& name) {
   const Transform t(to_world);
-  check_position(SpotEmitter(t, kRgb, cutoff * kDegree, beam_width * kDegree, texture),
+  check_position(SpotEmitter(t, kRgb, cutoff * kRadians, beam_width * kRadians, texture),
                  t(Point3f(0, 0, 0)), t(Vector3f(0, 0, 1)), name);
 }
 
@@ -148,8 +149,8 @@ TEST_CASE("a projector never sends negative light") {
 
 TEST_CASE("narrow spots keep their density") {
   for (const double degrees : {1.0, 0.01, 1e-4}) {
-    const SpotEmitter light(Transform{}, kRgb, degrees * kDegree, 0, nullptr);
-    const double solid_angle = kPiD * std::pow(degrees * kDegree, 2);
+    const SpotEmitter light(Transform{}, kRgb, degrees * kRadians, 0, nullptr);
+    const double solid_angle = std::numbers::pi * std::pow(degrees * kRadians, 2);
     for (int i = 0; i < 16; ++i) {
       const auto e = light.sample_emission({}, {(float(i / 4) + 0.5f) / 4, float(i % 4) / 4});
       REQUIRE(e);
@@ -175,7 +176,8 @@ TEST_CASE("parallel light is emitted through the whole scene") {
     CHECK(distance(e->ray.origin, center) > radius);
     CHECK(dot(center - e->ray.origin, e->ray.direction) > radius);
     CHECK(e->density == s->emission);
-    CHECK(1 / double(e->density) == doctest::Approx(kPiD * radius * radius).epsilon(0.01));
+    CHECK(1 / double(e->density) ==
+          doctest::Approx(std::numbers::pi * radius * radius).epsilon(0.01));
     CHECK(e->weight.g * e->density == doctest::Approx(s->weight.g));
     CHECK(light.direct_density(*e, center) == 1);
     furthest = std::max(furthest, double(length(cross(e->ray.origin - center, s->wi))));
@@ -191,12 +193,12 @@ TEST_CASE("spot lights that fade by the cosine emit the light that points find")
   for (const SpotFalloff falloff : {SpotFalloff::smooth, SpotFalloff::quartic}) {
     for (const Matrix4& m : {place(), sheared()}) {
       const Transform t(m);
-      check_position(SpotEmitter(t, kRgb, 40 * kDegree, 20 * kDegree, nullptr, falloff),
+      check_position(SpotEmitter(t, kRgb, 40 * kRadians, 20 * kRadians, nullptr, falloff),
                      t(Point3f(0, 0, 0)), t(Vector3f(0, 0, 1)),
                      std::string(kSpotFalloffs[size_t(falloff)]));
     }
     // Halfway between the cosines.
-    const SpotEmitter spot(Transform(), Spectrum(1.0f), 60 * kDegree, 0, nullptr, falloff);
+    const SpotEmitter spot(Transform(), Spectrum(1.0f), 60 * kRadians, 0, nullptr, falloff);
     const float cosine = 0.75f;
     const auto s = spot.sample_direct(Point3f(std::sqrt(1 - cosine * cosine), 0, cosine), {});
     REQUIRE(s.has_value());

@@ -3,6 +3,7 @@
 
 #include <doctest/doctest.h>
 
+#include "math/angles.h"
 #include "math/fov.h"
 #include "math/sampler.h"
 #include "math/warp.h"
@@ -12,8 +13,6 @@
 using namespace duet;
 
 namespace {
-
-constexpr double kRadiansPerDegree = 3.14159265358979323846 / 180;
 
 std::unique_ptr<Texture> to_image(const test::Json& t) {
   const int w = t["width"], h = t["height"];
@@ -37,9 +36,8 @@ std::unique_ptr<Light> to_light(const test::Json& c, const Texture* image) {
     return std::make_unique<DirectionalEmitter>(to_world, color(p, "irradiance"));
   if (kind == "spot") {
     const double cutoff = p.value("cutoff_angle", 20.0);
-    return std::make_unique<SpotEmitter>(
-        to_world, color(p, "intensity"), cutoff * kRadiansPerDegree,
-        p.value("beam_width", 0.75 * cutoff) * kRadiansPerDegree, image);
+    return std::make_unique<SpotEmitter>(to_world, color(p, "intensity"), cutoff * kRadians,
+                                         p.value("beam_width", 0.75 * cutoff) * kRadians, image);
   }
   const ColorSlot slot{color(p, "irradiance"), image};
   const Point2i size = image ? image->resolution() : Point2i{1, 1};
@@ -100,13 +98,13 @@ TEST_CASE("the power of a light at a point is the integral of what it sends") {
   const Spectrum rgb(1, 2, 3);
   std::vector<std::unique_ptr<Light>> lights;
   lights.push_back(std::make_unique<PointEmitter>(center, rgb));
-  lights.push_back(std::make_unique<SpotEmitter>(to_world, rgb, 50 * kRadiansPerDegree,
-                                                 20 * kRadiansPerDegree, nullptr));
-  lights.push_back(std::make_unique<SpotEmitter>(to_world, rgb, 35 * kRadiansPerDegree,
-                                                 35 * kRadiansPerDegree, nullptr));
+  lights.push_back(
+      std::make_unique<SpotEmitter>(to_world, rgb, 50 * kRadians, 20 * kRadians, nullptr));
+  lights.push_back(
+      std::make_unique<SpotEmitter>(to_world, rgb, 35 * kRadians, 35 * kRadians, nullptr));
   for (const SpotFalloff falloff : {SpotFalloff::smooth, SpotFalloff::quartic})
-    lights.push_back(std::make_unique<SpotEmitter>(to_world, rgb, 50 * kRadiansPerDegree,
-                                                   20 * kRadiansPerDegree, nullptr, falloff));
+    lights.push_back(std::make_unique<SpotEmitter>(to_world, rgb, 50 * kRadians, 20 * kRadians,
+                                                   nullptr, falloff));
   lights.push_back(std::make_unique<ProjectorEmitter>(to_world, ColorSlot{rgb}, 2.0f, 60, 1.5));
   for (const auto& light : lights) {
     Sampler sampler(SampleSequence::sobol, 1, 0, 0);
@@ -124,9 +122,9 @@ TEST_CASE("the power of a light at a point is the integral of what it sends") {
 }
 
 TEST_CASE("a narrow spot fades evenly") {
-  const SpotEmitter light(Transform{}, Spectrum(1), 0.1 * kRadiansPerDegree, 0, nullptr);
+  const SpotEmitter light(Transform{}, Spectrum(1), 0.1 * kRadians, 0, nullptr);
   for (int i = 1; i < 10; ++i) {
-    const double angle = 0.01 * i * kRadiansPerDegree;
+    const double angle = 0.01 * i * kRadians;
     const auto s =
         light.sample_direct({float(100 * std::sin(angle)), 0, float(100 * std::cos(angle))}, {});
     REQUIRE(s);

@@ -1,6 +1,8 @@
 // Rays that start at lights around the scene.
 #include <doctest/doctest.h>
 
+#include <numbers>
+
 #include "lights/environment.h"
 #include "math/sampler.h"
 #include "math/warp.h"
@@ -12,7 +14,6 @@ using test::Probe;
 
 namespace {
 
-constexpr double kFullPi = 3.14159265358979323846;
 const Point3f kSkyCenter(2, -1, 5);
 constexpr float kSkyRadius = 3;
 
@@ -64,8 +65,8 @@ void check_environment(EnvironmentLight& light, double tolerance, const std::str
     measure.add(1 / double(e->density));
     square.add(double(length_squared(cross(start, wi))));
   }
-  const double disk = kFullPi * sqr(kSkyRadius);
-  CHECK(std::abs(measure.mean() - 4 * kFullPi * disk) <
+  const double disk = std::numbers::pi * sqr(kSkyRadius);
+  CHECK(std::abs(measure.mean() - 4 * std::numbers::pi * disk) <
         4 * measure.error() + 0.003 * measure.mean());
   CHECK(square.mean() == doctest::Approx(0.5 * sqr(kSkyRadius)).epsilon(0.02));
   test::check_flux(light, {kSkyCenter, {1, 2, 0.5f}, 1.5f}, name);

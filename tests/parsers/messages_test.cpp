@@ -2,6 +2,7 @@
 #include <doctest/doctest.h>
 
 #include "support/memory_scene.h"
+#include "support/texts.h"
 
 using namespace duet;
 using namespace duet::test;
@@ -12,12 +13,6 @@ std::string summary(const Diagnostics& diagnostics) {
   std::string all;
   for (const Diagnostic& d : diagnostics.summary()) all += d.to_string() + "\n";
   return all;
-}
-
-size_t count(const std::string& text, const std::string& part) {
-  size_t n = 0;
-  for (size_t at = text.find(part); at != text.npos; at = text.find(part, at + 1)) ++n;
-  return n;
 }
 
 }  // namespace
@@ -50,7 +45,7 @@ TEST_CASE("a scene with thousands of warnings of one kind says how many, and oth
   const std::string text = summary(r.diagnostics);
   CHECK(text.find("\"odd\" of <shape type=\"sphere\"> (3000 times)\n") != text.npos);
   CHECK(text.find("\"even\"") != text.npos);
-  CHECK(count(text, "\n") == 2);
+  CHECK(occurrences(text, "\n") == 2);
 }
 
 TEST_CASE("of a hundred kinds of warnings and more the rest is counted") {
@@ -59,7 +54,7 @@ TEST_CASE("of a hundred kinds of warnings and more the rest is counted") {
     content +=
         "<shape type='sphere'><float name='odd" + std::to_string(i) + "' value='1'/></shape>\n";
   const std::string text = summary(read_scene("3.0.0", content).diagnostics);
-  CHECK(count(text, "unused parameter") == 100);
+  CHECK(occurrences(text, "unused parameter") == 100);
   CHECK(text.find("and 50 more warnings") != text.npos);
 }
 

@@ -8,16 +8,13 @@
 
 #include "scene/mitsuba_differences.h"
 #include "support/files.h"
+#include "support/texts.h"
 #include "values/text.h"
 
 using namespace duet;
 using namespace duet::test;
 
 namespace {
-
-bool contains(const std::string& text, const std::string& part) {
-  return text.find(part) != text.npos;
-}
 
 /// The cells of a row of a table; "\|" is no border.
 size_t cells(const std::string& row) {
