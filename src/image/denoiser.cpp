@@ -47,27 +47,33 @@ void Denoiser::run(const Filter& filter) const {
   check();
 }
 
-std::vector<float> Denoiser::denoise(NoisyImage image) const {
-  const auto set = [&](const Filter& filter, const char* name, std::vector<float>& pixels) {
-    oidn_.set_filter_image(filter.get(), name, pixels.data(), kThreeFloats, size_t(image.width),
-                           size_t(image.height), 0, 0, 0);
-  };
+void Denoiser::set(const Filter& filter, const char* name, const DenoiserGuides& size,
+                   std::vector<float>& pixels) const {
+  oidn_.set_filter_image(filter.get(), name, pixels.data(), kThreeFloats, size_t(size.width),
+                         size_t(size.height), 0, 0, 0);
+}
+
+DenoiserGuides Denoiser::clean(DenoiserGuides noisy) const {
   for (const auto& [name, pixels] :
-       {std::pair{"albedo", &image.albedo}, std::pair{"normal", &image.normal}}) {
+       {std::pair{"albedo", &noisy.albedo}, std::pair{"normal", &noisy.normal}}) {
     const Filter filter = new_filter();
-    set(filter, name, *pixels);
-    set(filter, "output", *pixels);
+    set(filter, name, noisy, *pixels);
+    set(filter, "output", noisy, *pixels);
     run(filter);
   }
+  return noisy;
+}
+
+std::vector<float> Denoiser::denoise(DenoiserGuides& clean, std::vector<float> colours) const {
   const Filter filter = new_filter();
-  set(filter, "color", image.colour);
-  set(filter, "albedo", image.albedo);
-  set(filter, "normal", image.normal);
-  set(filter, "output", image.colour);
+  set(filter, "color", clean, colours);
+  set(filter, "albedo", clean, clean.albedo);
+  set(filter, "normal", clean, clean.normal);
+  set(filter, "output", clean, colours);
   oidn_.set_filter_bool(filter.get(), "hdr", true);
   oidn_.set_filter_bool(filter.get(), "cleanAux", true);
   run(filter);
-  return std::move(image.colour);
+  return colours;
 }
 
 }  // namespace duet

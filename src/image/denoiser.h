@@ -9,10 +9,9 @@
 
 namespace duet {
 
-/// A noisy image. Three values per pixel each, in rows from the top.
-struct NoisyImage {
+/// What guides the denoiser of an image. Three values per pixel each, in rows from the top.
+struct DenoiserGuides {
   int width = 0, height = 0;
-  std::vector<float> colour;  ///< linear, of any scale
   std::vector<float> albedo;  ///< from 0 to 1
   std::vector<float> normal;  ///< from −1 to 1, zero where nothing is seen
 };
@@ -26,9 +25,11 @@ class Denoiser {
 
   /// "Open Image Denoise 2.5.1".
   const std::string& name() const { return name_; }
-  /// The colours, without most of their noise and with a bias of unknown size. Negative ones become
-  /// zero. Throws std::runtime_error if the library fails, for want of memory perhaps.
-  std::vector<float> denoise(NoisyImage image) const;
+  /// Denoises guides. Throws std::runtime_error if the library fails, for want of memory perhaps.
+  DenoiserGuides clean(DenoiserGuides noisy) const;
+  /// Colours, linear and of any scale, without most of their noise and with a bias of unknown size.
+  /// Negative ones become zero. `clean` are their guides without noise. Throws as clean().
+  std::vector<float> denoise(DenoiserGuides& clean, std::vector<float> colours) const;
 
  private:
   struct Release {
@@ -42,6 +43,8 @@ class Denoiser {
   using Filter = std::unique_ptr<OidnFilterHandle, Release>;
 
   Filter new_filter() const;
+  void set(const Filter& filter, const char* name, const DenoiserGuides& size,
+           std::vector<float>& pixels) const;
   /// Lets it do its work.
   void run(const Filter& filter) const;
   /// Throws if something has failed since it was asked last.

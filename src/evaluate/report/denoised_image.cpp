@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <optional>
 #include <stdexcept>
@@ -37,9 +38,9 @@ std::vector<float> triples(const Image& image, const std::string& first) {
   return out;
 }
 
-/// The variance of each colour: the means of two independent halves of the samples, of which one
-/// has the share p of all, differ by a and p (1 - p) a^2 is an estimate of that of the whole. Empty
-/// where there are no two halves.
+/// The noise of each colour: the means of two independent halves of the samples, of which one has
+/// the share p of all, differ by a and p (1 - p) a^2 is an estimate of the variance of the whole.
+/// Empty where there are no two halves.
 std::optional<ImageWithNoise> noise_of(const Image& image) {
   ImageWithNoise known{image.width, image.height, triples(image, "R"),
                        triples(image, std::string(kSplit) + ".R")};
@@ -48,9 +49,9 @@ std::optional<ImageWithNoise> noise_of(const Image& image) {
     const float sign = image.data[i / 3 * image.channels.size() + size_t(signs)];
     const float p = 0.5f * (1 + sign), mean = known.colour[i];
     if (!(std::min(p, 1 - p) >= kLeastShare)) return std::nullopt;
-    float& split = known.variance[i];
+    float& split = known.noise[i];
     const float a = 0.5f * (mean + split) / p - 0.5f * (mean - split) / (1 - p);
-    split = p * (1 - p) * a * a;
+    split = std::sqrt(p * (1 - p)) * a;
   }
   return known;
 }
@@ -91,14 +92,17 @@ Image without_channels(const Image& image, const std::vector<std::string>& names
 }
 
 Image denoised_image(const Denoiser& denoiser, const Image& image, bool tells_noise) {
-  NoisyImage noisy{image.width, image.height, triples(image, "R"),
-                   triples(image, std::string(kAlbedo) + ".R"),
-                   triples(image, std::string(kNormal) + ".X")};
+  DenoiserGuides guides{image.width, image.height, triples(image, std::string(kAlbedo) + ".R"),
+                        triples(image, std::string(kNormal) + ".X")};
   // Estimates are above 1 here and there.
-  for (float& v : noisy.albedo) v = std::clamp(v, 0.0f, 1.0f);
-  std::vector<float> colours = denoiser.denoise(std::move(noisy));
+  for (float& v : guides.albedo) v = std::clamp(v, 0.0f, 1.0f);
+  guides = denoiser.clean(std::move(guides));
+  const auto denoise = [&](std::vector<float> colours) {
+    return denoiser.denoise(guides, std::move(colours));
+  };
+  std::vector<float> colours = denoise(triples(image, "R"));
   if (tells_noise)
-    if (const auto known = noise_of(image)) limit_bias(*known, colours);
+    if (const auto known = noise_of(image)) limit_bias(*known, denoise, colours);
   const int alpha = image.find_channel("A");
   Image out(image.width, image.height, {"R", "G", "B"});
   if (alpha >= 0) out = Image(image.width, image.height, {"R", "G", "B", "A"});
