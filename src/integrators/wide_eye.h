@@ -114,7 +114,8 @@ class WideEye final : public WideWalk, private WideSubpathStages {
             ends_,
             plan_.set.connection_share,
             plan_.roulette_threshold,
-            ConnectionRoulette::event(0, depth)};
+            ConnectionRoulette::event(0, depth),
+            depth == 1};
   }
   /// As the code for one sub-path has it, on its way to the next vertex.
   Subpath subpath(int i) const;

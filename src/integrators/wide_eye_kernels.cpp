@@ -40,9 +40,11 @@ DUET_WIDEST void weigh_light_samples(int n, const WideConnections& c,
     const float hit = delta ? 0.0f : samples.bsdf_pdf[i];
     const float arrival = samples.emission[i] * std::abs(dot(ng, wi)) / direct;
     const float merge_term = all.eye.merges[i] != 0 ? all.eye.merge_term[i] : 0.0f;
+    const float gain = light_sample_gain(other_choices(probability));
     const float weight = 1 / (1 + hit / direct +
-                              all.share * beyond(arrival, merge_term, all.subpaths.vcm[i],
-                                                 all.eye.reverse[i], all.eye.sum[i]));
+                              all.share / (all.first && delta ? gain : 1.0f) *
+                                  beyond(arrival, merge_term, all.subpaths.vcm[i],
+                                         all.eye.reverse[i], all.eye.sum[i]));
     const float inverse = 1 / probability;
     const Spectrum value(
         all.paths.throughput.x[i] * samples.value.x[i] * samples.weight.x[i] * inverse,

@@ -16,6 +16,7 @@ struct WideConnections {
   float share;          ///< TechniqueSet::connection_share
   float threshold;      ///< of ConnectionRoulette
   uint32_t connection;  ///< ConnectionRoulette::event() of the connection with the light itself
+  bool first;           ///< they are what the camera sees
 };
 
 /// Pairs of an eye vertex with a light vertex.

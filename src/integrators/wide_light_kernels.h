@@ -9,6 +9,7 @@ namespace duet {
 /// How the lens sees the vertices of a batch; directions and targets are light samples.
 struct WideSeen {
   BatchArray<float> film_x, film_y, importance;  ///< see CameraSample
+  BatchArray<float> light_sample_gain;           ///< see ConnectionEnd
   BatchArray<float> weight;                      ///< of the connections
 };
 

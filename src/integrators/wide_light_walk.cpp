@@ -102,8 +102,14 @@ void WideLightWalk::arrive_at_points(int n, int depth) {
       subpaths_.vcm[i] = p.vcm, subpaths_.vc[i] = p.vc, subpaths_.vm[i] = p.vm;
     }
   }
-  for (int i = 0; i < n; ++i)
-    if (carries(i)) lengths_[size_t(paths_.id[i])] = depth;
+  for (int i = 0; i < n; ++i) {
+    other_choices_[i] = kOtherChoiceSteps;
+    if (!carries(i)) continue;
+    const auto id = size_t(paths_.id[i]);
+    lengths_[id] = depth;
+    if (depth == 1 && plan_->set.light_samples)
+      other_choices_[i] = starts_[id]->other_choices(points_.position.point(i));
+  }
 }
 
 void WideLightWalk::look_at_lens(int n, const BatchSampler& sampler, uint32_t dimension) {
@@ -124,6 +130,7 @@ void WideLightWalk::look_at_lens(int n, const BatchSampler& sampler, uint32_t di
     lights_.target.set(i, seen->target);
     seen_.film_x[i] = seen->film.x, seen_.film_y[i] = seen->film.y;
     seen_.importance[i] = seen->importance;
+    seen_.light_sample_gain[i] = light_sample_gain(other_choices_[i]);
     const bool merges = set.merges && (!set.partly_merged || plan_->mask->merges(seen->film));
     ends_.merge_term[i] = merges ? set.merge_term() : 0.0f;
     ends_.unmerged[i] = set.partly_merged && !merges;
@@ -169,6 +176,7 @@ void WideLightWalk::keep_vertices(int n, int depth) {
       kept_.emplace_back(*special, hit(i));
     else
       kept_.push_back(light_vertex(i, depth));
+    kept_.back().other_choices = uint8_t(other_choices_[i]);
     if (!plan_->keep_connection_vertices) continue;
     if (special)
       kept_connection_vertices_.emplace_back(*special);

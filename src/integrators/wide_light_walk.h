@@ -42,6 +42,7 @@ class WideLightWalk final : private WideSubpathStages {
   std::vector<std::optional<LightStart>> starts_;  ///< by id, the number in the batch
   std::vector<uint32_t> roulette_;                 ///< seeds of ConnectionRoulette, by id
   std::vector<int> lengths_;                       ///< vertices, by id
+  BatchArray<int32_t> other_choices_{};            ///< PathVertex::other_choices of the points
   WideSeen seen_{};
   /// Vertices of the batch in the order in which they were found, and their ids.
   std::vector<LightVertex> kept_;

@@ -11,14 +11,16 @@ namespace duet {
 struct WidePhotons {
   BatchArray<int32_t> point;  ///< number in the batch
   BatchTriples throughput;
-  BatchArray<float> vcm, vc, vm;  ///< Partials
+  BatchArray<float> vcm, vc, vm;  ///< LightVertex::partials_below()
   BatchArray<uint32_t> u, v;      ///< LightVertex::wo
   BatchArray<int32_t> depth;
 
-  void set(int k, int number, const LightVertex& photon) {
+  /// The photon near point `number`, whose vertex is behind so many segments.
+  void set(int k, int number, const LightVertex& photon, int eye_depth) {
     point[k] = number;
     throughput.set(k, photon.throughput.r, photon.throughput.g, photon.throughput.b);
-    vcm[k] = photon.partials.vcm, vc[k] = photon.partials.vc, vm[k] = photon.partials.vm;
+    const Partials p = photon.partials_below(eye_depth);
+    vcm[k] = p.vcm, vc[k] = p.vc, vm[k] = p.vm;
     u[k] = photon.wo[0], v[k] = photon.wo[1];
     depth[k] = photon.depth;
   }

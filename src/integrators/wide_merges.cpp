@@ -56,7 +56,7 @@ void WideEye::merge_listed(int count, int depth, RenderCounters& counters) {
     }
     const bool glossy = model == WideModel::glossy;
     auto& [list, listed] = near_[glossy];
-    list.set(listed++, i, photon);
+    list.set(listed++, i, photon, depth);
     if (listed == kBatch) merge_near(glossy, depth, counters);
   }
   for (const bool glossy : {false, true}) merge_near(glossy, depth, counters);

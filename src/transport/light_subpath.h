@@ -32,6 +32,11 @@ struct LightStart {
   float direct(const Point3f& at) const {
     return light->direct_density(emission, at) * direct_picker->probability(index, at);
   }
+  /// PathVertex::other_choices of a first vertex at `at`.
+  int other_choices(const Point3f& at) const {
+    return is_delta(light->kind()) ? duet::other_choices(direct_picker->probability(index, at))
+                                   : kOtherChoiceSteps;
+  }
   /// Whether light samples at a first vertex find nothing, because the light has not entered yet.
   bool is_before_entry(const Point3f& p) const {
     return emission.entry > 0 &&
@@ -184,7 +189,8 @@ class LightSubpath {
       return pass(v, hit, c_.scene.materials[s.shape->material]->passes_straight());
     } else {
       const Partials partials = arrive_at({s.position, hit.t * hit.t, cosine});
-      const Vertex v(c_.scene, s, -subpath_.ray.direction, subpath_.throughput, partials, depth_);
+      Vertex v(c_.scene, s, -subpath_.ray.direction, subpath_.throughput, partials, depth_);
+      if (depth_ == 1 && c_.set.light_samples) v.other_choices = start_.other_choices(v.position());
       return pass(v, hit, false);
     }
   }

@@ -31,14 +31,17 @@ LightVertex::LightVertex(const SurfaceArrival& a, const Hit& hit)
       instance(hit.instance),
       barycentric{quantize_unit(a.barycentric.x), quantize_unit(a.barycentric.y)},
       depth(uint16_t(a.depth)),
-      merges(a.merges) {
+      merges(a.merges),
+      other_choices(kOtherChoiceSteps) {
   set_direction_to_previous(a.wo);
 }
 
 LightVertex::LightVertex(const PathVertex& v, const Hit& hit)
     : LightVertex({v.surface.position, v.wo, v.throughput, v.partials, v.depth, v.merges(),
                    barycentric_of(v.surface)},
-                  hit) {}
+                  hit) {
+  other_choices = uint8_t(v.other_choices);
+}
 
 LightVertex::LightVertex(const MediaVertex& v, const Hit& hit) {
   if (!v.in_medium) {
@@ -55,6 +58,7 @@ LightVertex::LightVertex(const MediaVertex& v, const Hit& hit) {
   barycentric[0] = barycentric[1] = 0;
   depth = uint16_t(v.depth);
   merges = false;
+  other_choices = kOtherChoiceSteps;
   set_direction_to_previous(v.wo);
 }
 

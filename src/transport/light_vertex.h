@@ -43,7 +43,8 @@ struct LightVertex {
   uint32_t wo[2];           ///< octahedral, 32 bits per coordinate
   uint16_t barycentric[2];  ///< for what is interpolated; the position is exact
   uint16_t depth;
-  bool merges;  ///< whether photons are merged there
+  bool merges;            ///< whether photons are merged there
+  uint8_t other_choices;  ///< PathVertex::other_choices
 
   LightVertex() = default;
   LightVertex(const SurfaceArrival& a, const Hit& hit);
@@ -52,6 +53,12 @@ struct LightVertex {
 
   Vector3f direction_to_previous() const { return decode_direction(wo[0], wo[1]); }
   bool in_medium() const { return shape == kNone; }
+  /// As a merge with the eye vertex behind so many segments sees them.
+  Partials partials_below(int eye_depth) const {
+    Partials p = partials;
+    if (eye_depth == 1) p.vcm *= light_sample_gain(other_choices);
+    return p;
+  }
   /// `Vertex` is the kind of vertex that was packed. What the segment towards the light went
   /// through is not kept on surfaces.
   template <class Vertex = PathVertex>

@@ -48,11 +48,11 @@ class BalanceWeights {
   float light_sample(const Vertex& eye, float direct, float bsdf,
                      const ConnectionEnd& eye_end) const {
     if (photons_) return PhotonWeights().light_sample(eye, direct, bsdf, eye_end);
-    return 1 / (1 + bsdf / direct + share_ * beyond(eye, eye_end));
+    return 1 / (1 + bsdf / direct + share_ / eye_end.light_sample_gain * beyond(eye, eye_end));
   }
   template <class Vertex>
   float camera(const Vertex& light, const ConnectionEnd& light_end) const {
-    return 1 / (1 + camera_scale_ * beyond(light, light_end));
+    return 1 / (1 + camera_scale_ * beyond(light, light_end, light_end.light_sample_gain));
   }
   template <class Vertex>
   float connection(const Vertex& light, const ConnectionEnd& light_end, const Vertex& eye,
@@ -61,7 +61,7 @@ class BalanceWeights {
   }
   float merge(const LightVertex& light, float light_reverse, const PathVertex& eye,
               float eye_reverse) const {
-    return merge(light.partials, light_reverse, eye.partials, eye_reverse);
+    return merge(light.partials_below(eye.depth), light_reverse, eye.partials, eye_reverse);
   }
   float merge(const Partials& light, float light_reverse, const Partials& eye,
               float eye_reverse) const {
@@ -70,8 +70,8 @@ class BalanceWeights {
 
  private:
   template <class Vertex>
-  float beyond(const Vertex& v, const ConnectionEnd& end) const {
-    return beyond_end({v.partials.vcm, connections(v.partials), 0}, end,
+  float beyond(const Vertex& v, const ConnectionEnd& end, float gain = 1) const {
+    return beyond_end({gain * v.partials.vcm, connections(v.partials), 0}, end,
                       end.merges ? merge_term_ : 0.0f);
   }
   float connections(const Partials& p) const { return unmerged_ ? p.vm : p.vc; }

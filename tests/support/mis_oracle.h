@@ -21,6 +21,7 @@ struct OraclePath {
   Vector3f to_light, to_lens;  ///< unit, from x_1 and from x_{k-1}
   bool light_can_be_hit = true;
   double direct = 0;      ///< density of light samples at x_1, per solid angle
+  double gain = 1;        ///< for how many such light samples one counts, of two segments
   double emission = 0;    ///< EmissionSample::density with the probability of the light
   double importance = 0;  ///< Camera::importance at x_{k-1}
   int segments() const { return int(surfaces.size()) + 1; }

@@ -74,6 +74,7 @@ std::vector<std::string> scenes() {
           ball("0.5, 0, 0.5", rough_metal),
       lens + grey_walls + sun + sky + bulb + ball("0, 0, 0.7", glass),
       camera + room_xml(plastic) + lamp + point + ball("0, 0, 0.7", rough_glass),
+      camera + room_xml(plastic) + point + ball("0, 0, 0.5", rough_metal),
       // A path from within glass refracts once more often one way than the other.
       camera + grey_walls + lamp + bulb + sphere_xml("0.4, -0.3, 1.4", "0.35", glass) +
           ball("-0.5, 0.2, 0.5", glass) + sphere_xml("-0.5, 0.1, 0.5", "0.2", grey("0.8")),
@@ -298,8 +299,9 @@ class Checker {
                     const LightStart& start) const {
     const Vertex& first = light.vertices[0];
     path.to_light = first.wo;
-    path.direct = double(start.light->direct_density(start.emission, first.position())) *
-                  direct_probability(scene_, start.index, first.position());
+    const double pick = direct_probability(scene_, start.index, first.position());
+    path.direct = double(start.light->direct_density(start.emission, first.position())) * pick;
+    path.gain = light_sample_gain(pick, is_delta(start.light->kind()));
     path.emission = double(start.density());
     path.light_can_be_hit = !is_delta(start.light->kind());
     for (int j = 0; j < count; ++j) {
@@ -311,6 +313,13 @@ class Checker {
       path.specular.push_back(specular);
       path.eta.push_back(specular ? eta_towards_eye(scene_, v.surface, v.wo, to_eye) : 1.0);
     }
+  }
+
+  /// By the probability with which the light sample at the first vertex chooses the light.
+  double light_sample_gain(double probability, bool is_delta) const {
+    if (windows_ || Vertex::kMedia || !is_delta) return 1;
+    const double others = std::floor(255 * (1 - probability) + 0.5) / 255;
+    return others > 0 ? 1 / others : 1e6;
   }
 
   double guided(uint32_t light, const Vector3f& from, const Point3f& through) const {
@@ -332,6 +341,7 @@ class Checker {
     path.to_light = sample.wi;
     path.light_can_be_hit = !sample.delta;
     path.direct = (sample.delta ? none : double(sample.pdf.value)) * pick;
+    path.gain = light_sample_gain(pick, sample.delta);
     path.emission = double(sample.emission * scene_.emission_picker.probability(chosen.light)) *
                     guided(chosen.light, sample.wi, v.position());
     append_eye(path, eye, v.depth, camera_ray);
