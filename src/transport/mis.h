@@ -47,7 +47,7 @@ struct TechniqueSet {
 /// its density, if it has chosen a light without extent: by 1 / (1 − p), with p the probability of
 /// the choice. That is the second moment of its estimate over its variance, which is all that its
 /// choice of the light leaves. Source: Grittmann et al., "Variance-Aware Multiple Importance
-/// Sampling", ACM Transactions on Graphics 38(6), 2019, equation 15 (docs/mis.md).
+/// Sampling", ACM Transactions on Graphics 38(6), 2019; docs/mis.md.
 ///
 /// 1 − p is kept in steps, so that light vertices have room for it.
 inline constexpr int kOtherChoiceSteps = 255;
