@@ -28,14 +28,13 @@ struct LightStart {
 
   /// Density of the ray as in EmissionSample::density.
   float density() const { return emission.density * pick_probability; }
+  /// Probability with which a light sample at `at` chooses the light.
+  float choice(const Point3f& at) const { return direct_picker->probability(index, at); }
   /// Density per solid angle with which a light sample at `at` finds the start of the ray.
-  float direct(const Point3f& at) const {
-    return light->direct_density(emission, at) * direct_picker->probability(index, at);
-  }
+  float direct(const Point3f& at) const { return light->direct_density(emission, at) * choice(at); }
   /// PathVertex::other_choices of a first vertex at `at`.
   int other_choices(const Point3f& at) const {
-    return is_delta(light->kind()) ? duet::other_choices(direct_picker->probability(index, at))
-                                   : kOtherChoiceSteps;
+    return is_delta(light->kind()) ? duet::other_choices(choice(at)) : kOtherChoiceSteps;
   }
   /// Whether light samples at a first vertex find nothing, because the light has not entered yet.
   bool is_before_entry(const Point3f& p) const {
