@@ -107,12 +107,14 @@ class WideEye final : public WideWalk, private WideSubpathStages {
                                             RenderCounters& counters) const {
     return {wide_.scene, starts_, weights_[merging_[size_t(id)]], roulette, counters};
   }
+  float camera_scale() const { return plan_.set.connection_share / plan_.set.light_paths; }
   WideConnections connections(int depth) const {
     return {paths_,
             subpaths_,
             points_,
             ends_,
             plan_.set.connection_share,
+            camera_scale(),
             plan_.roulette_threshold,
             ConnectionRoulette::event(0, depth),
             depth == 1};

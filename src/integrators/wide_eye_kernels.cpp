@@ -35,12 +35,15 @@ DUET_WIDEST void weigh_light_samples(int n, const WideConnections& c,
                    away = target - position;
     const bool finite = samples.finite[i] != 0, delta = samples.delta[i] != 0;
     const float pdf = samples.pdf[i], probability = samples.probability[i];
-    const float delta_density = (finite ? length_squared(away) : 1.0f) * probability;
+    const float d2 = length_squared(away), delta_density = (finite ? d2 : 1.0f) * probability;
     const float direct = delta ? delta_density : pdf;
     const float hit = delta ? 0.0f : samples.bsdf_pdf[i];
     const float arrival = samples.emission[i] * std::abs(dot(ng, wi)) / direct;
     const float merge_term = all.eye.merges[i] != 0 ? all.eye.merge_term[i] : 0.0f;
-    const float gain = light_sample_gain(other_choices(probability));
+    const float gain =
+        LightSampleVariance::gain(LightSampleVariance::others_of(probability),
+                                  LightSampleVariance::distance_of(finite ? d2 : INFINITY),
+                                  all.camera_scale * all.subpaths.vcm[i]);
     const float weight = 1 / (1 + hit / direct +
                               all.share / (all.first && delta ? gain : 1.0f) *
                                   beyond(arrival, merge_term, all.subpaths.vcm[i],

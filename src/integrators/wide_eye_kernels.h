@@ -14,6 +14,7 @@ struct WideConnections {
   const WidePoints& points;
   const WideEnds& eye;
   float share;          ///< TechniqueSet::connection_share
+  float camera_scale;   ///< the same over the number of light sub-paths
   float threshold;      ///< of ConnectionRoulette
   uint32_t connection;  ///< ConnectionRoulette::event() of the connection with the light itself
   bool first;           ///< they are what the camera sees

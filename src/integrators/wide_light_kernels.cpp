@@ -19,8 +19,10 @@ DUET_WIDEST void weigh_camera(int n, const WideCameraConnections& c,
         adjoint_factor(all.points.ns.normal(i), ng, -all.paths.ray.direction.vector(i), to_lens);
     const float importance = seen.importance[i];
     const float merge_term = all.ends.merges[i] != 0 ? all.ends.merge_term[i] : 0.0f;
-    const float others = all.scale * beyond(importance * std::abs(dot(ng, to_lens)), merge_term,
-                                            seen.light_sample_gain[i] * all.subpaths.vcm[i],
+    const float arrival = importance * std::abs(dot(ng, to_lens));
+    const float gain =
+        LightSampleVariance::gain(seen.other_lights[i], seen.light_distance[i], 1 / arrival);
+    const float others = all.scale * beyond(arrival, merge_term, gain * all.subpaths.vcm[i],
                                             all.ends.reverse[i], all.ends.sum[i]);
     const float weight = 1 / (1 + (weighs != 0 ? others : 0.0f));
     const float scale = adjoint * importance;

@@ -8,9 +8,9 @@ namespace duet {
 
 /// How the lens sees the vertices of a batch; directions and targets are light samples.
 struct WideSeen {
-  BatchArray<float> film_x, film_y, importance;  ///< see CameraSample
-  BatchArray<float> light_sample_gain;           ///< see ConnectionEnd
-  BatchArray<float> weight;                      ///< of the connections
+  BatchArray<float> film_x, film_y, importance;      ///< see CameraSample
+  BatchArray<int32_t> other_lights, light_distance;  ///< LightSampleVariance of the vertices
+  BatchArray<float> weight;                          ///< of the connections
 };
 
 /// What connections of the vertices of a batch with the lens have in common.

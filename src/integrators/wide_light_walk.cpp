@@ -103,12 +103,12 @@ void WideLightWalk::arrive_at_points(int n, int depth) {
     }
   }
   for (int i = 0; i < n; ++i) {
-    other_choices_[i] = kOtherChoiceSteps;
+    light_samples_[i] = {};
     if (!carries(i)) continue;
     const auto id = size_t(paths_.id[i]);
     lengths_[id] = depth;
     if (depth == 1 && plan_->set.light_samples)
-      other_choices_[i] = starts_[id]->other_choices(points_.position.point(i));
+      light_samples_[i] = starts_[id]->light_sample(points_.position.point(i));
   }
 }
 
@@ -130,7 +130,8 @@ void WideLightWalk::look_at_lens(int n, const BatchSampler& sampler, uint32_t di
     lights_.target.set(i, seen->target);
     seen_.film_x[i] = seen->film.x, seen_.film_y[i] = seen->film.y;
     seen_.importance[i] = seen->importance;
-    seen_.light_sample_gain[i] = light_sample_gain(other_choices_[i]);
+    seen_.other_lights[i] = light_samples_[i].others;
+    seen_.light_distance[i] = light_samples_[i].distance;
     const bool merges = set.merges && (!set.partly_merged || plan_->mask->merges(seen->film));
     ends_.merge_term[i] = merges ? set.merge_term() : 0.0f;
     ends_.unmerged[i] = set.partly_merged && !merges;
@@ -176,7 +177,7 @@ void WideLightWalk::keep_vertices(int n, int depth) {
       kept_.emplace_back(*special, hit(i));
     else
       kept_.push_back(light_vertex(i, depth));
-    kept_.back().other_choices = uint8_t(other_choices_[i]);
+    kept_.back().set_light_sample(light_samples_[i]);
     if (!plan_->keep_connection_vertices) continue;
     if (special)
       kept_connection_vertices_.emplace_back(*special);

@@ -39,10 +39,10 @@ class WideLightWalk final : private WideSubpathStages {
   const LightPassPlan* plan_ = nullptr;  ///< of the trace() under way
   BatchKeys keys_{};
   BatchArray<uint64_t> pixel_keys_{};
-  std::vector<std::optional<LightStart>> starts_;  ///< by id, the number in the batch
-  std::vector<uint32_t> roulette_;                 ///< seeds of ConnectionRoulette, by id
-  std::vector<int> lengths_;                       ///< vertices, by id
-  BatchArray<int32_t> other_choices_{};            ///< PathVertex::other_choices of the points
+  std::vector<std::optional<LightStart>> starts_;    ///< by id, the number in the batch
+  std::vector<uint32_t> roulette_;                   ///< seeds of ConnectionRoulette, by id
+  std::vector<int> lengths_;                         ///< vertices, by id
+  BatchArray<LightSampleVariance> light_samples_{};  ///< PathVertex::light_sample of the points
   WideSeen seen_{};
   /// Vertices of the batch in the order in which they were found, and their ids.
   std::vector<LightVertex> kept_;

@@ -15,11 +15,10 @@ struct WidePhotons {
   BatchArray<uint32_t> u, v;      ///< LightVertex::wo
   BatchArray<int32_t> depth;
 
-  /// The photon near point `number`, whose vertex is behind so many segments.
-  void set(int k, int number, const LightVertex& photon, int eye_depth) {
+  /// The photon near point `number`, whose sums it has met with.
+  void set(int k, int number, const LightVertex& photon, const Partials& p) {
     point[k] = number;
     throughput.set(k, photon.throughput.r, photon.throughput.g, photon.throughput.b);
-    const Partials p = photon.partials_below(eye_depth);
     vcm[k] = p.vcm, vc[k] = p.vc, vm[k] = p.vm;
     u[k] = photon.wo[0], v[k] = photon.wo[1];
     depth[k] = photon.depth;

@@ -56,7 +56,8 @@ void WideEye::merge_listed(int count, int depth, RenderCounters& counters) {
     }
     const bool glossy = model == WideModel::glossy;
     auto& [list, listed] = near_[glossy];
-    list.set(listed++, i, photon, depth);
+    const float pixel_area = camera_scale() * subpaths_.vcm[i];
+    list.set(listed++, i, photon, photon.partials_below(depth, pixel_area));
     if (listed == kBatch) merge_near(glossy, depth, counters);
   }
   for (const bool glossy : {false, true}) merge_near(glossy, depth, counters);

@@ -137,7 +137,8 @@ inline Connection connect_light(const ConnectionContext<Weights>& c, const Verte
                         eye.reverse_pdf(sample->wi, Transport::radiance)};
   eye_end.merges = eye.merges(f.pdf.value, eye_end.beyond);
   if (!Vertex::kMedia && eye.depth == 1 && sample->delta)
-    eye_end.light_sample_gain = light_sample_gain(other_choices(probability));
+    eye_end.light_sample = {
+        probability, sample->finite ? length_squared(sample->target - eye.position()) : INFINITY};
   Connection connection{eye.throughput * f.value * sample->weight * (1 / probability),
                         c.weights.light_sample(eye, direct, hit, eye_end)};
   const float kept = c.roulette.keep(connection.value * connection.weight,
@@ -211,8 +212,7 @@ inline std::optional<CameraConnection> connect_camera(const ConnectionContext<We
   const float adjoint = light.adjoint(seen->direction);
   if (!(adjoint > 0)) return std::nullopt;
   ConnectionEnd light_end{seen->importance * light.cosine(seen->direction), f.reverse.value,
-                          light.merges(f.pdf.value, f.reverse.value),
-                          light_sample_gain(light.other_choices)};
+                          light.merges(f.pdf.value, f.reverse.value), light.light_sample};
   Connection connection{light.throughput * f.value * (adjoint * seen->importance),
                         camera_weight(c.weights, light, light_end, seen->film)};
   const float kept = c.roulette.keep(connection.value * connection.weight,

@@ -132,14 +132,14 @@ float FamilyWeights::light_sample(const PathVertex& eye, float direct, float bsd
   path.found = double(bsdf);
   path.direct = double(direct);
   path.emitted = double(eye_end.arrival) * double(direct);
-  path.direct *= double(eye_end.light_sample_gain);
+  if (eye.depth == 1) path.direct *= double(eye_end.light_sample.gain(1 / eye_[1].forward));
   return weigh(path, 1, false);
 }
 
 float FamilyWeights::camera(const PathVertex& light, const ConnectionEnd& light_end) const {
   Path& path = start(light.depth);
   take_light(path, light.depth, light_end);
-  path.direct *= double(light_end.light_sample_gain);
+  if (light.depth == 1) path.direct *= double(light_end.light_sample.gain(1 / light_end.arrival));
   return weigh(path, light.depth + 1, false);
 }
 
@@ -159,7 +159,7 @@ float FamilyWeights::merge(const LightVertex& light, float light_reverse, const 
   Path& path = start(m + n - 1);
   const VertexPdfs& common = eye_[size_t(n)];
   take_light(path, m, {common.forward, light_reverse, true});
-  if (n == 1) path.direct *= double(light_sample_gain(light.other_choices));
+  if (m == 1 && n == 1) path.direct *= double(light.light_sample_gain(1 / common.forward));
   take_eye(path, n - 1, {eye_reverse * common.back, 0, eye_[size_t(n - 1)].merges});
   // Seen from the merge, the last vertex and the one before are as recorded.
   if (n > 1) path.specular[size_t(path.count + 2 - n)] = eye_[size_t(n - 1)].specular;

@@ -32,9 +32,11 @@ struct LightStart {
   float choice(const Point3f& at) const { return direct_picker->probability(index, at); }
   /// Density per solid angle with which a light sample at `at` finds the start of the ray.
   float direct(const Point3f& at) const { return light->direct_density(emission, at) * choice(at); }
-  /// PathVertex::other_choices of a first vertex at `at`.
-  int other_choices(const Point3f& at) const {
-    return is_delta(light->kind()) ? duet::other_choices(choice(at)) : kOtherChoiceSteps;
+  /// PathVertex::light_sample of a first vertex at `at`.
+  LightSampleVariance light_sample(const Point3f& at) const {
+    if (!is_delta(light->kind())) return {};
+    const bool finite = !is_infinite(light->kind());
+    return {choice(at), finite ? length_squared(at - emission.ray.origin) : INFINITY};
   }
   /// Whether light samples at a first vertex find nothing, because the light has not entered yet.
   bool is_before_entry(const Point3f& p) const {
@@ -189,7 +191,7 @@ class LightSubpath {
     } else {
       const Partials partials = arrive_at({s.position, hit.t * hit.t, cosine});
       Vertex v(c_.scene, s, -subpath_.ray.direction, subpath_.throughput, partials, depth_);
-      if (depth_ == 1 && c_.set.light_samples) v.other_choices = start_.other_choices(v.position());
+      if (depth_ == 1 && c_.set.light_samples) v.light_sample = start_.light_sample(v.position());
       return pass(v, hit, false);
     }
   }

@@ -31,8 +31,8 @@ LightVertex::LightVertex(const SurfaceArrival& a, const Hit& hit)
       instance(hit.instance),
       barycentric{quantize_unit(a.barycentric.x), quantize_unit(a.barycentric.y)},
       depth(uint16_t(a.depth)),
-      merges(a.merges),
-      other_choices(kOtherChoiceSteps) {
+      merges(a.merges) {
+  set_light_sample({});
   set_direction_to_previous(a.wo);
 }
 
@@ -40,7 +40,7 @@ LightVertex::LightVertex(const PathVertex& v, const Hit& hit)
     : LightVertex({v.surface.position, v.wo, v.throughput, v.partials, v.depth, v.merges(),
                    barycentric_of(v.surface)},
                   hit) {
-  other_choices = uint8_t(v.other_choices);
+  set_light_sample(v.light_sample);
 }
 
 LightVertex::LightVertex(const MediaVertex& v, const Hit& hit) {
@@ -58,7 +58,7 @@ LightVertex::LightVertex(const MediaVertex& v, const Hit& hit) {
   barycentric[0] = barycentric[1] = 0;
   depth = uint16_t(v.depth);
   merges = false;
-  other_choices = kOtherChoiceSteps;
+  set_light_sample({});
   set_direction_to_previous(v.wo);
 }
 

@@ -43,8 +43,10 @@ struct LightVertex {
   uint32_t wo[2];           ///< octahedral, 32 bits per coordinate
   uint16_t barycentric[2];  ///< for what is interpolated; the position is exact
   uint16_t depth;
-  bool merges;            ///< whether photons are merged there
-  uint8_t other_choices;  ///< PathVertex::other_choices
+  uint8_t merges : 1;  ///< whether photons are merged there
+  // PathVertex::light_sample.
+  uint8_t light_distance : LightSampleVariance::kDistanceBits;
+  uint8_t other_lights;
 
   LightVertex() = default;
   LightVertex(const SurfaceArrival& a, const Hit& hit);
@@ -53,10 +55,18 @@ struct LightVertex {
 
   Vector3f direction_to_previous() const { return decode_direction(wo[0], wo[1]); }
   bool in_medium() const { return shape == kNone; }
-  /// As a merge with the eye vertex behind so many segments sees them.
-  Partials partials_below(int eye_depth) const {
+  void set_light_sample(const LightSampleVariance& v) {
+    light_distance = v.distance & ((1 << LightSampleVariance::kDistanceBits) - 1);
+    other_lights = v.others;
+  }
+  /// For how many a light sample in its place counts; see LightSampleVariance::gain().
+  float light_sample_gain(float pixel_area) const {
+    return LightSampleVariance::gain(other_lights, light_distance, pixel_area);
+  }
+  /// As a merge with an eye vertex sees them that lies behind so many segments.
+  Partials partials_below(int eye_depth, float pixel_area) const {
     Partials p = partials;
-    if (eye_depth == 1) p.vcm *= light_sample_gain(other_choices);
+    if (eye_depth == 1) p.vcm *= light_sample_gain(pixel_area);
     return p;
   }
   /// `Vertex` is the kind of vertex that was packed. What the segment towards the light went

@@ -10,6 +10,8 @@
 
 #include <cmath>
 
+#include "transport/light_sample_variance.h"
+
 namespace duet {
 
 /// The techniques of a method, and how many samples each of them takes for a path.
@@ -42,24 +44,6 @@ struct TechniqueSet {
   /// What arrive() is told about connections.
   float subpath_connections() const { return connections ? 1.0f : 0.0f; }
 };
-
-/// Weights count the light sample at the first surface that the camera sees for more than one of
-/// its density, if it has chosen a light without extent: by 1 / (1 − p), with p the probability of
-/// the choice. That is the second moment of its estimate over its variance, which is all that its
-/// choice of the light leaves. Source: Grittmann et al., "Variance-Aware Multiple Importance
-/// Sampling", ACM Transactions on Graphics 38(6), 2019; docs/mis.md.
-///
-/// 1 − p is kept in steps, so that light vertices have room for it.
-inline constexpr int kOtherChoiceSteps = 255;
-[[gnu::always_inline]] inline int other_choices(float p) {
-  return int((1 - p) * float(kOtherChoiceSteps) + 0.5f);
-}
-/// Finite, so that the weights of techniques that are left with nothing are numbers.
-[[gnu::always_inline]] inline float light_sample_gain(int other_choices) {
-  constexpr float kMost = 1e6f;
-  const float gain = float(kOtherChoiceSteps) / float(other_choices);
-  return other_choices > 0 ? gain : kMost;
-}
 
 /// What a sub-path knows at a vertex about the techniques that would have made its part of the path
 /// from the other end: d^VCM, d^VC and d^VM of the source.
@@ -112,8 +96,8 @@ inline Partials arrive(const Partials& p, float d2, float cosine, float connecti
 struct ConnectionEnd {
   float arrival;  ///< area density with which the other end's sub-path would have made this vertex
   float beyond;   ///< density per solid angle with which it would have gone on to the one before
-  bool merges = false;          ///< whether photons may be merged at this vertex of the path
-  float light_sample_gain = 1;  ///< light_sample_gain() of the path
+  bool merges = false;               ///< whether photons may be merged at this vertex of the path
+  LightSampleVariance light_sample{};  ///< of the path that has this end alone between lens and light
 };
 
 /// Relative density of all techniques that take vertices away from this end.

@@ -19,9 +19,9 @@ struct PathVertex {
   Spectrum throughput;
   Partials partials;
   int depth;  ///< segments from the light or the lens to here
-  /// Of the first vertex of a sub-path from a light without extent: other_choices() of the light
-  /// sample here that chooses the light. Elsewhere a light sample counts for one.
-  int other_choices = kOtherChoiceSteps;
+  /// Of the first vertex of a sub-path from a light without extent: of a light sample here that
+  /// chooses the light.
+  LightSampleVariance light_sample{};
 
   PathVertex(const Scene& scene, const Surface& s, const Vector3f& towards_previous,
              const Spectrum& carried, const Partials& p, int segments)

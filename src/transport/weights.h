@@ -48,11 +48,13 @@ class BalanceWeights {
   float light_sample(const Vertex& eye, float direct, float bsdf,
                      const ConnectionEnd& eye_end) const {
     if (photons_) return PhotonWeights().light_sample(eye, direct, bsdf, eye_end);
-    return 1 / (1 + bsdf / direct + share_ / eye_end.light_sample_gain * beyond(eye, eye_end));
+    const float gain = eye_end.light_sample.gain(pixel_area(eye.partials));
+    return 1 / (1 + bsdf / direct + share_ / gain * beyond(eye, eye_end));
   }
   template <class Vertex>
   float camera(const Vertex& light, const ConnectionEnd& light_end) const {
-    return 1 / (1 + camera_scale_ * beyond(light, light_end, light_end.light_sample_gain));
+    const float gain = light_end.light_sample.gain(1 / light_end.arrival);
+    return 1 / (1 + camera_scale_ * beyond(light, light_end, gain));
   }
   template <class Vertex>
   float connection(const Vertex& light, const ConnectionEnd& light_end, const Vertex& eye,
@@ -61,7 +63,8 @@ class BalanceWeights {
   }
   float merge(const LightVertex& light, float light_reverse, const PathVertex& eye,
               float eye_reverse) const {
-    return merge(light.partials_below(eye.depth), light_reverse, eye.partials, eye_reverse);
+    return merge(light.partials_below(eye.depth, pixel_area(eye.partials)), light_reverse,
+                 eye.partials, eye_reverse);
   }
   float merge(const Partials& light, float light_reverse, const Partials& eye,
               float eye_reverse) const {
@@ -75,6 +78,8 @@ class BalanceWeights {
                       end.merges ? merge_term_ : 0.0f);
   }
   float connections(const Partials& p) const { return unmerged_ ? p.vm : p.vc; }
+  /// At the first eye vertex, of whose area the pixel has as much; 0 if no splats compete there.
+  float pixel_area(const Partials& eye) const { return camera_scale_ * eye.vcm; }
   Partials merges(const Partials& p) const {
     return {p.vcm, p.vc, partly_merged_ ? p.vc * connection_term_ : p.vm};
   }

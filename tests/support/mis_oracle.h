@@ -20,10 +20,12 @@ struct OraclePath {
   std::vector<double> eta;     ///< index on the eye's side over that on the light's
   Vector3f to_light, to_lens;  ///< unit, from x_1 and from x_{k-1}
   bool light_can_be_hit = true;
-  double direct = 0;      ///< density of light samples at x_1, per solid angle
-  double gain = 1;        ///< for how many such light samples one counts, of two segments
-  double emission = 0;    ///< EmissionSample::density with the probability of the light
-  double importance = 0;  ///< Camera::importance at x_{k-1}
+  double direct = 0;          ///< density of light samples at x_1, per solid angle
+  double choice = 0;          ///< probability with which a light sample at x_1 chooses the light
+  bool is_light_near = true;  ///< or infinitely far away
+  double gain = 1;            ///< for how many light samples one counts if there are two segments
+  double emission = 0;        ///< EmissionSample::density with the probability of the light
+  double importance = 0;      ///< Camera::importance at x_{k-1}
   int segments() const { return int(surfaces.size()) + 1; }
 };
 

@@ -21,7 +21,7 @@ struct RandomPath {
   std::vector<bool> merges;  ///< whether photons are merged at x_i, if anywhere
   float direct, emission, importance;
   bool light_can_be_hit;
-  int other_choices = kOtherChoiceSteps;  ///< PathVertex::other_choices of x_1
+  LightSampleVariance light_sample{};  ///< PathVertex::light_sample of x_1
 
   explicit RandomPath(Sampler& r) : k(2 + int(r.next_1d() * 9)) {
     const auto log_uniform = [&](float low, float high) {
@@ -41,7 +41,8 @@ struct RandomPath {
     emission = log_uniform(0.01f, 10);
     importance = log_uniform(10, 1e5f);
     light_can_be_hit = r.next_1d() < 0.8f;
-    if (!light_can_be_hit && k == 2) other_choices = int(r.next_1d() * (kOtherChoiceSteps + 1));
+    if (!light_can_be_hit && k == 2)
+      light_sample = {r.next_1d(), log_uniform(0.1f, 10) / (importance * cos_eye[1])};
   }
 
   double p(int i) const {  // of x_i from the light's side; x_0 and x_1 together
@@ -54,7 +55,7 @@ struct RandomPath {
     if (i == k - 1) return double(importance) * double(cos_eye[size_t(i)]);
     return double(sigma_eye[size_t(i + 1)]) * double(cos_eye[size_t(i)]) / double(d2[size_t(i)]);
   }
-  float gain() const { return light_sample_gain(other_choices); }
+  float gain() const { return light_sample.gain(1 / (importance * cos_eye[1])); }
   bool connectible(int i) const { return !specular[size_t(i)]; }
 };
 
@@ -147,7 +148,7 @@ double check_path(const RandomPath& x, const TechniqueSet& set, bool merging,
   if (expected.connections[1] > 0) {
     // Reverse density at x_1 of going on to x_2.
     const ConnectionEnd end{x.emission * x.cos_light[1] / x.direct, x.sigma_light[1], x.merges[1],
-                            x.gain()};
+                            x.light_sample};
     compare(double(weights.light_sample(at(sums.eye[1]), x.direct,
                                         x.light_can_be_hit ? x.sigma_eye[1] : 0.0f, end)),
             expected.connections[1]);
@@ -155,7 +156,7 @@ double check_path(const RandomPath& x, const TechniqueSet& set, bool merging,
   for (int s = 2; s <= x.k; ++s) {
     if (!(expected.connections[size_t(s)] > 0)) continue;
     const size_t y = size_t(s - 1), z = size_t(s);
-    const ConnectionEnd light_end{float(x.q(s - 1)), x.sigma_eye[y], x.merges[y], x.gain()};
+    const ConnectionEnd light_end{float(x.q(s - 1)), x.sigma_eye[y], x.merges[y], x.light_sample};
     if (s == x.k) {
       compare(double(weights.camera(at(sums.light[y]), light_end)),
               expected.connections[size_t(s)]);
@@ -169,7 +170,7 @@ double check_path(const RandomPath& x, const TechniqueSet& set, bool merging,
     if (!(expected.merges[size_t(i - 1)] > 0)) continue;
     LightVertex photon;
     photon.partials = sums.light[size_t(i)];
-    photon.other_choices = uint8_t(x.other_choices);
+    photon.set_light_sample(x.light_sample);
     compare(double(weights.merge(photon, x.sigma_eye[size_t(i)], at(sums.eye[size_t(i)]),
                                  x.sigma_light[size_t(i)])),
             expected.merges[size_t(i - 1)]);

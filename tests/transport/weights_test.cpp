@@ -262,6 +262,7 @@ class Checker {
           break;
         }
     }
+    if (path.segments() == 2) path.gain = light_sample_gain(path, on_light);
     const auto densities = technique_densities(
         scene_, path, [&](int a, int b) { return share(a, b); }, double(set_.merge_area),
         [&](int i) { return merge_share(path, i); });
@@ -301,7 +302,7 @@ class Checker {
     path.to_light = first.wo;
     const double pick = direct_probability(scene_, start.index, first.position());
     path.direct = double(start.light->direct_density(start.emission, first.position())) * pick;
-    path.gain = light_sample_gain(pick, is_delta(start.light->kind()));
+    path.choice = pick, path.is_light_near = !is_infinite(start.light->kind());
     path.emission = double(start.density());
     path.light_can_be_hit = !is_delta(start.light->kind());
     for (int j = 0; j < count; ++j) {
@@ -315,11 +316,17 @@ class Checker {
     }
   }
 
-  /// By the probability with which the light sample at the first vertex chooses the light.
-  double light_sample_gain(double probability, bool is_delta) const {
-    if (windows_ || Vertex::kMedia || !is_delta) return 1;
-    const double others = std::floor(255 * (1 - probability) + 0.5) / 255;
-    return others > 0 ? 1 / others : 1e6;
+  /// Of paths of two segments, from a light at `on_light` without extent.
+  double light_sample_gain(const OraclePath& path, const Point3f& on_light) const {
+    if (windows_ || Vertex::kMedia || path.light_can_be_hit) return 1;
+    const Surface& s = path.surfaces[0];
+    const double others = std::floor(255 * (1 - path.choice) + 0.5) / 255;
+    const double d2 =
+        path.is_light_near
+            ? 1.5 * std::exp2(std::floor(std::log2(double(length_squared(on_light - s.position)))))
+            : INFINITY;
+    const double pixel = 1 / (path.importance * double(std::abs(dot(s.ng, path.to_lens))));
+    return (1 + pixel / d2) / std::max(others + pixel / d2, 1e-6);
   }
 
   double guided(uint32_t light, const Vector3f& from, const Point3f& through) const {
@@ -341,7 +348,7 @@ class Checker {
     path.to_light = sample.wi;
     path.light_can_be_hit = !sample.delta;
     path.direct = (sample.delta ? none : double(sample.pdf.value)) * pick;
-    path.gain = light_sample_gain(pick, sample.delta);
+    path.choice = pick, path.is_light_near = sample.finite;
     path.emission = double(sample.emission * scene_.emission_picker.probability(chosen.light)) *
                     guided(chosen.light, sample.wi, v.position());
     append_eye(path, eye, v.depth, camera_ray);
