@@ -143,13 +143,10 @@ def tube(path, radii, sides=10, closed=False):
     return joined(mesh, *caps)
 
 
-def ball(radius, centre=(0, 0, 0), segments=32, wall=None):
-    """A ball, solid, or hollow with a wall so thick: then its inner surface faces its centre."""
-    def curve(r):
-        theta = np.linspace(-np.pi / 2, np.pi / 2, segments // 2 + 1)
-        return lathe([np.stack([abs(r) * np.cos(theta), r * np.sin(theta)], axis=-1)], segments, 1)
-    solid = placed(curve(radius), centre)
-    return solid if wall is None else joined(solid, placed(curve(wall - radius), centre))
+def ball(radius, centre=(0, 0, 0), segments=32):
+    theta = np.linspace(-np.pi / 2, np.pi / 2, segments // 2 + 1)
+    curve = np.stack([radius * np.cos(theta), radius * np.sin(theta)], axis=-1)
+    return placed(lathe([curve], segments, 1), centre)
 
 
 def leaf(length, width, rise, droop, steps=12):

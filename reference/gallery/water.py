@@ -3,7 +3,7 @@ import numpy as np
 
 from . import textures
 from .objects import plate, wall, carafe, plant, pot
-from .shapes import ball, box, grid_mesh, joined, placed, turn
+from .shapes import box, grid_mesh, joined, placed, turn
 
 
 def waves(x, y):
@@ -50,8 +50,6 @@ def water():
                             box((3.4, 0.18, 0.05), (0, 2.345, 0.745), 0), box((0.18, 2.9, 0.05), (1.685, 0.90, 0.745), 0))
     parts['dado'] = joined(wall(3.3, 0.36, (0, 2.28, 0.18), 0, (5.5, 0.6)), wall(2.9, 0.36, (1.62, 0.90, 0.18), -90, (4.833, 0.6)))
     parts['carafe'] = placed(carafe(), (0.26, -0.13, 0.0003))
-    parts['ball'] = ball(0.075, (-0.52, -0.14, 0.0753), 48, 0.004)
-    parts['small-ball'] = ball(0.045, (-0.38, -0.22, 0.0453), 48, 0.003)
     parts['pots'] = joined(placed(pot(0.17, 0.30), (-1.02, 2.03, 0)), placed(pot(0.12, 0.20), (-0.62, 2.10, 0)))
     parts['plants'] = joined(placed(plant(24, 8, 0.46), (-1.02, 2.03, 0.27)), placed(plant(16, 9, 0.26), (-0.62, 2.10, 0.18)))
     parts['towels'] = joined(*[box((0.42 - 0.01 * k, 0.30, 0.06), (0.95 + 0.006 * (-1) ** k, 2.06, 0.031 + 0.0605 * k), 0.028, 8)

@@ -11,6 +11,9 @@ namespace {
 constexpr int kRadius = 2;
 /// Of the mean square of all colours: what is darker does not count for more.
 constexpr double kDark = 0.01;
+/// Noise of so small a share of the colour is not worth a bias: a third of a step of an sRGB image
+/// of 8 bits at white, where the steps are the least.
+constexpr double kUnseen = 0.003;
 /// How much of the known noise is added to see what of it stays.
 constexpr float kStep = 0.5f;
 
@@ -42,7 +45,7 @@ void limit_bias(const ImageWithNoise& noisy, const DenoiseColours& denoise,
     difference[i / 3] += scale * d * d;
     const double noise = noisy.noise[i];
     const double kept = (double(moved[i]) - double(denoised[i])) / double(kStep);
-    taken[i / 3] += scale * noise * (noise - kept);
+    taken[i / 3] += scale * noise * (noise - kept) - kUnseen * kUnseen;
   }
   for (int y = 0; y < h; ++y)
     for (int x = 0; x < w; ++x) {

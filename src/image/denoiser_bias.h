@@ -22,11 +22,12 @@ using DenoiseColours = std::function<std::vector<float>(std::vector<float>)>;
 /// 5 x 5 pixels around, divided by the square of the denoised colour: D of the squared difference,
 /// V of the noise's variance, and C of the covariance of the denoised and the noisy colours, which
 /// is the noise that the denoiser has kept. C comes from what `denoise`, which has made `denoised`
-/// of the noisy colours, makes of them with half the known noise added.
+/// of the noisy colours, makes of them with half the known noise added. V − C is lessened by the
+/// square of what is not seen, 0.003.
 ///
 /// The share is that whose mean square error is least by Stein's estimate of it ("Estimation of the
 /// mean of a multivariate normal distribution", 1981); C as in Ramani, Blu and Unser ("Monte-Carlo
-/// SURE", 2008, equation 14), with the noise itself in place of a random direction.
+/// SURE", 2008), with the noise itself in place of a random direction.
 void limit_bias(const ImageWithNoise& noisy, const DenoiseColours& denoise,
                 std::vector<float>& denoised);
 

@@ -21,8 +21,9 @@ struct FamilyShares {
   float first_merge = 0;
 };
 
-/// The balance heuristic for connections (connection.h) by the densities of all vertices of the
-/// path, in time proportional to their number. The method has all techniques, each connection once.
+/// The weights of BalanceWeights for connections (connection.h) by the densities of all vertices of
+/// the path, in time proportional to their number. The method has all techniques, each connection
+/// once.
 class FamilyWeights {
  public:
   /// More vertices between light and lens than a path may have.

@@ -38,7 +38,7 @@ struct LightSampleVariance {
     return std::clamp(exponent + 64, 0, (1 << kDistanceBits) - 1);
   }
   [[gnu::always_inline]] static float gain(int others, int distance, float pixel_area) {
-    // From what is left the square of the distance is taken for the middle of its octave.
+    // What is kept of the square of the distance stands for the middle of its octave.
     const float d2 = 1.5f * std::bit_cast<float>(uint32_t(distance - 64 + 127) << 23);
     const float across_pixel = std::min(pixel_area / d2, kMostVariance);
     const float rest = float(others) * (1.0f / float(kSteps));

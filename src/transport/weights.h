@@ -26,7 +26,8 @@ struct PhotonWeights : PathWeights {
   }
 };
 
-/// The balance heuristic over all techniques of a set, by running sums. With `merging` false they
+/// The balance heuristic over all techniques of a set, by running sums; light samples count for as
+/// many as LightSampleVariance says. With `merging` false they
 /// are those of a pixel in which a partly merged method does not merge.
 class BalanceWeights {
  public:

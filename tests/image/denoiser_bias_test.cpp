@@ -60,6 +60,11 @@ TEST_CASE("whatever the bias, the error is hardly above that of the noise") {
   }
 }
 
+TEST_CASE("noise that is not seen is not taken") {
+  const ImageWithNoise noisy = noisy_one(0.002 * 0.002);
+  CHECK(limited_constant(noisy, 1.001) == noisy.colour);
+}
+
 TEST_CASE("noise that the denoiser has kept explains no difference") {
   const ImageWithNoise noisy = noisy_one(0.01);
   // Keeps all of the noise and adds less than it. What it has added goes.
