@@ -96,8 +96,9 @@ inline Partials arrive(const Partials& p, float d2, float cosine, float connecti
 struct ConnectionEnd {
   float arrival;  ///< area density with which the other end's sub-path would have made this vertex
   float beyond;   ///< density per solid angle with which it would have gone on to the one before
-  bool merges = false;               ///< whether photons may be merged at this vertex of the path
-  LightSampleVariance light_sample{};  ///< of the path that has this end alone between lens and light
+  bool merges = false;  ///< whether photons may be merged at this vertex of the path
+  LightSampleVariance
+      light_sample{};  ///< of the path that has this end alone between lens and light
 };
 
 /// Relative density of all techniques that take vertices away from this end.
