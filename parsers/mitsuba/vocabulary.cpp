@@ -53,6 +53,13 @@ std::optional<PluginKind> kind_of_tag(std::string_view tag) {
   return std::nullopt;
 }
 
+std::vector<std::string> tags_within_scenes() {
+  std::vector<std::string> tags;
+  for (const auto& element : kElements)
+    if (element.tag != tag_of(PluginKind::scene)) tags.emplace_back(element.tag);
+  return tags;
+}
+
 bool may_contain(PluginKind outer, PluginKind inner) {
   return has_word(kElements[size_t(outer)].contents, tag_of(inner));
 }

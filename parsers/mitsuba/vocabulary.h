@@ -40,6 +40,8 @@ inline constexpr int kPluginKinds = 14;
 
 std::string_view tag_of(PluginKind kind);
 std::optional<PluginKind> kind_of_tag(std::string_view tag);
+/// Of all kinds but `scene`.
+std::vector<std::string> tags_within_scenes();
 /// Which plugins may stand inside others.
 bool may_contain(PluginKind outer, PluginKind inner);
 

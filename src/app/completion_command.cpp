@@ -7,11 +7,29 @@
 #include "app/environment.h"
 #include "app/program.h"
 #include "evaluate/shell/command_table.h"
+#include "integrators/layers.h"
 #include "integrators/make_integrator.h"
+#include "mitsuba/vocabulary.h"
 
 namespace duet {
 
 namespace {
+
+/// What an option or an operand may be, if little else may.
+std::vector<std::string> choices_of(const CLI::Option& option, const std::string& name) {
+  if (name == "--integrator") {
+    std::vector<std::string> names;
+    for (const IntegratorName& n : integrator_names()) names.emplace_back(n.name);
+    return names;
+  }
+  if (name == "--aov") return layer_names();
+  if (name == "kind") return tags_within_scenes();
+  // "TEXT:{auto,bar}"
+  const std::string type = option.get_type_name();
+  const size_t open = type.find('{'), close = type.find('}', open);
+  if (close == type.npos) return {};
+  return CLI::detail::split(type.substr(open + 1, close - open - 1), ',');
+}
 
 ShellOption shell_option(const CLI::Option& option) {
   ShellOption o;
@@ -19,23 +37,20 @@ ShellOption shell_option(const CLI::Option& option) {
   for (const std::string& name : option.get_lnames()) o.names.push_back("--" + name);
   o.text = option.get_description();
   if (option.get_type_size_max() == 0) return o;
-  // "TEXT:{auto,bar}"
   const std::string type = option.get_type_name();
   o.value = type.substr(0, type.find(':'));
-  const size_t open = type.find('{'), close = type.find('}', open);
-  if (close != type.npos)
-    o.choices = CLI::detail::split(type.substr(open + 1, close - open - 1), ',');
-  if (o.names.back() == "--integrator" && !option.get_allow_extra_args())
-    for (const IntegratorName& n : integrator_names()) o.choices.emplace_back(n.name);
+  o.choices = choices_of(option, o.names.back());
+  o.list = option.get_delimiter() != 0;
   return o;
 }
 
 ShellCommand shell_command(const CLI::App& app) {
-  ShellCommand c{app.get_name(), app.get_description(), "", {}, app.get_footer()};
+  ShellCommand c{app.get_name(), app.get_description(), "", {}, {}, app.get_footer()};
   for (const CLI::Option* option : app.get_options()) {
     if (option->get_positional()) {
       c.operands += (c.operands.empty() ? "" : " ") + option->get_name();
       if (option->get_expected_max() > 1) c.operands += "...";
+      c.operand_choices = choices_of(*option, option->get_name());
       continue;
     }
     if (option->get_group().empty()) continue;

@@ -21,9 +21,7 @@ int list_plugins(const std::string& kind_name, bool markdown) {
     fmt::print("{}\n{}", compatibility_markdown(), mitsuba_differences_markdown());
     return kSuccess;
   }
-  std::vector<std::string> tags;
-  for (int k = 0; k < kPluginKinds; ++k)
-    if (PluginKind(k) != PluginKind::scene) tags.emplace_back(tag_of(PluginKind(k)));
+  std::vector<std::string> tags = tags_within_scenes();
   if (!kind_name.empty()) {
     if (std::find(tags.begin(), tags.end(), kind_name) == tags.end())
       throw UsageError(fmt::format("there is no kind \"{}\"{}; there are {}", kind_name,

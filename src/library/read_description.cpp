@@ -96,9 +96,8 @@ class DescriptionWriter {
   bool is_kind(const std::string& kind, const Place& place) {
     // Spectra are textures of one colour.
     if ((kind_of_tag(kind) && kind != "scene") || kind == "spectrum") return true;
-    std::vector<std::string> kinds{"spectrum"};
-    for (int i = int(PluginKind::scene) + 1; i < kPluginKinds; ++i)
-      kinds.emplace_back(tag_of(PluginKind(i)));
+    std::vector<std::string> kinds = tags_within_scenes();
+    kinds.emplace_back("spectrum");
     report_.error({place}, "no object within a scene is of the kind {}{}", in_quotes(kind),
                   did_you_mean(kind, kinds));
     return false;

@@ -76,6 +76,12 @@ TEST_SUITE("program") {
     CHECK(offered(place, "duet a.xml --light-selection b", 4) == "bvh\n");
     CHECK(offered(place, "duet a.xml -i bd", 4) == "bdpt\n");
     CHECK(offered(place, "duet help ch", 3) == "chart\n");
+    CHECK(offered(place, "duet completion f", 3) == "fish\n");
+    CHECK(offered(place, "duet plugins rf", 3) == "rfilter\n");
+    CHECK(offered(place, "duet a.xml --aov dep", 4) == "depth\n");
+    CHECK(offered(place, "duet a.xml --aov albedo,dep", 4) == "albedo,depth\n");
+    CHECK(offered(place, "duet a.xml --cryptomatte object,m", 4) == "object,material\n");
+    CHECK(offered(place, "duet a.xml --tonemap srgb,a", 4) == "\n");
     // Files, by bash itself.
     CHECK(offered(place, "duet render -o a", 4) == "\n");
   }

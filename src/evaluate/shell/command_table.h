@@ -11,6 +11,7 @@ struct ShellOption {
   std::vector<std::string> names;    ///< "-t", "--threads"
   std::string value;                 ///< what follows, such as "TEXT"; empty for flags
   std::vector<std::string> choices;  ///< what may follow, if little else may
+  bool list = false;                 ///< whether several may, between commas
   std::string text;                  ///< what it is for
 };
 
@@ -22,7 +23,8 @@ struct ShellOptionGroup {
 struct ShellCommand {
   std::string name;
   std::string text;
-  std::string operands;  ///< "scene..."
+  std::string operands;                      ///< "scene..."
+  std::vector<std::string> operand_choices;  ///< what they may be; empty for files
   std::vector<ShellOptionGroup> groups;
   std::string footer;  ///< further text and examples, in lines
 };

@@ -57,24 +57,28 @@ std::string bash_cases(const ShellCommand& command) {
     if (o.choices.empty())
       with_value.insert(with_value.end(), o.names.begin(), o.names.end());
     else
-      choices += fmt::format("        {}) words='{}' ;;\n", fmt::join(o.names, "|"),
-                             fmt::join(o.choices, " "));
+      choices += fmt::format("        {}) words='{}'{} ;;\n", fmt::join(o.names, "|"),
+                             fmt::join(o.choices, " "), o.list ? " before=$list" : "");
   });
   // After an option with any value: files, by bash itself.
   if (!with_value.empty())
     choices += fmt::format("        {}) return ;;\n", fmt::join(with_value, "|"));
   return fmt::format(
-      "    {})\n      case $previous in\n{}        *) [[ $current == -* ]] && words='{}' ;;\n"
+      "    {})\n      case $previous in\n{}"
+      "        *) if [[ $current == -* ]]; then words='{}'; else words='{}'; fi ;;\n"
       "      esac ;;\n",
-      command.name, choices, fmt::join(all, " "));
+      command.name, choices, fmt::join(all, " "), fmt::join(command.operand_choices, " "));
 }
 
 std::string zsh_option(const ShellOption& o) {
   const std::string text = escaped(short_text(o.text), "[]:\\");
   std::string value;
-  if (!o.value.empty())
-    value =
-        o.choices.empty() ? ":value:_files" : fmt::format(":value:({})", fmt::join(o.choices, " "));
+  if (!o.value.empty()) {
+    const std::string choices = fmt::format("{}", fmt::join(o.choices, " "));
+    value = choices.empty() ? ":value:_files"
+            : o.list        ? ":value:_values -s , value " + choices
+                            : ":value:(" + choices + ")";
+  }
   std::string lines;
   for (const std::string& name : o.names)
     lines += fmt::format("        {}\n",
@@ -84,20 +88,26 @@ std::string zsh_option(const ShellOption& o) {
   return lines;
 }
 
-std::string fish_option(const CommandTable& table, const ShellCommand& command,
-                        const ShellOption& o) {
+/// The beginning of a line of fish for what a command may have.
+std::string fish_line(const CommandTable& table, const ShellCommand& command) {
   std::vector<std::string> where = {command.name};
   if (command.name == table.implied) {
     where = names_of(table);
     std::erase(where, table.implied);
   }
-  std::string line =
-      fmt::format("complete -c {} -n '{}__fish_seen_subcommand_from {}'", table.program,
-                  command.name == table.implied ? "not " : "", fmt::join(where, " "));
+  return fmt::format("complete -c {} -n '{}__fish_seen_subcommand_from {}'", table.program,
+                     command.name == table.implied ? "not " : "", fmt::join(where, " "));
+}
+
+std::string fish_option(const CommandTable& table, const ShellCommand& command,
+                        const ShellOption& o) {
+  std::string line = fish_line(table, command);
   for (const std::string& name : o.names)
     line += name.starts_with("--") ? " -l " + name.substr(2) : " -s " + name.substr(1);
   if (!o.value.empty()) line += " -r";
-  if (!o.choices.empty()) line += fmt::format(" -f -a '{}'", fmt::join(o.choices, " "));
+  const std::string choices = fmt::format("{}", fmt::join(o.choices, " "));
+  if (!choices.empty())
+    line += " -f -a '" + (o.list ? "(__fish_append , " + choices + ")" : choices) + "'";
   return line + fmt::format(" -d '{}'\n", escaped(short_text(o.text), "'\\"));
 }
 
@@ -111,7 +121,9 @@ std::string bash_completion(const CommandTable& t) {
       "# Completion of {0} for bash; made by `{0} completion bash`.\n"
       "_{0}() {{\n"
       "  local current=${{COMP_WORDS[COMP_CWORD]}} previous=${{COMP_WORDS[COMP_CWORD-1]}} "
-      "words=''\n"
+      "words='' before=''\n"
+      "  # Of a list what is before its last element; what is completed is that element.\n"
+      "  local list=${{current%\"${{current##*,}}\"}}\n"
       "  local command={1}\n"
       "  case ${{COMP_WORDS[1]}} in\n    {2}|help) command=${{COMP_WORDS[1]}} ;;\n  esac\n"
       "  ((COMP_CWORD == 1)) && command=\n"
@@ -121,7 +133,7 @@ std::string bash_completion(const CommandTable& t) {
       "help'; fi ;;\n"
       "    help) words='{3}' ;;\n{4}"
       "  esac\n"
-      "  COMPREPLY=($(compgen -W \"$words\" -- \"$current\"))\n"
+      "  COMPREPLY=($(compgen -P \"$before\" -W \"$words\" -- \"${{current#\"$before\"}}\"))\n"
       "}}\n"
       "complete -o bashdefault -o default -F _{0} {0}\n",
       t.program, t.implied, fmt::join(names, "|"), fmt::join(names, " "), cases);
@@ -140,7 +152,9 @@ std::string zsh_completion(const CommandTable& t) {
       cases += options.substr(at, end - at) + " \\\n";
       at = end + 1;
     }
-    cases += "        '*:file:_files' ;;\n";
+    cases += c.operand_choices.empty()
+                 ? "        '*:file:_files' ;;\n"
+                 : fmt::format("        '*:name:({})' ;;\n", fmt::join(c.operand_choices, " "));
   }
   return fmt::format(
       "#compdef {0}\n"
@@ -164,8 +178,11 @@ std::string fish_completion(const CommandTable& t) {
   for (const ShellCommand& c : t.commands)
     text += fmt::format("complete -c {} -n __fish_use_subcommand -a {} -d '{}'\n", t.program,
                         c.name, escaped(short_text(c.text), "'\\"));
-  for (const ShellCommand& c : t.commands)
+  for (const ShellCommand& c : t.commands) {
+    if (!c.operand_choices.empty())
+      text += fmt::format("{} -f -a '{}'\n", fish_line(t, c), fmt::join(c.operand_choices, " "));
     for_options(c, [&](const ShellOption& o) { text += fish_option(t, c, o); });
+  }
   return text;
 }
 

@@ -26,7 +26,7 @@ std::string option_text(const ShellOption& o) {
   std::string names;
   for (const std::string& name : o.names) names += (names.empty() ? "" : ", ") + roff(name);
   std::string value = o.value;
-  if (!o.choices.empty()) value = fmt::format("{}", fmt::join(o.choices, "|"));
+  if (!o.choices.empty() && !o.list) value = fmt::format("{}", fmt::join(o.choices, "|"));
   if (!value.empty()) value = " \\fI" + roff(value) + "\\fR";
   return fmt::format(".TP\n\\fB{}\\fR{}\n{}\n", names, value, roff(o.text));
 }

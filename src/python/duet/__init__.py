@@ -13,6 +13,7 @@ import os as _os
 
 from . import util
 from ._compare import Welch, compare, welch
+from ._cornell_box import cornell_box
 from ._duet import end_calls as _end_calls, forget_calls as _forget_calls, version as _version
 from ._image import DenoiserError, Image
 from ._render import merge, render
@@ -31,5 +32,5 @@ if hasattr(_os, "register_at_fork"):
 ScalarTransform4f = Transform4f
 
 __all__ = ["DenoiserError", "Image", "ScalarTransform4f", "Scene", "SceneError", "SceneWarning", "Transform4f", "Welch", "__version__",
-           "compare", "load_dict", "load_file", "load_string", "merge", "render", "set_variant", "util", "variant",
+           "compare", "cornell_box", "load_dict", "load_file", "load_string", "merge", "render", "set_variant", "util", "variant",
            "variants", "welch"]
