@@ -113,7 +113,9 @@ class BidirectionalIntegrator::EyeSubpath {
     if constexpr (Vertex::kMedia) d2 = length_squared(s.position - subpath_.from);
     const float cosine = std::abs(dot(s.ng, subpath_.ray.direction));
     if (hits() && s.shape->light != kNone && !(Vertex::kMedia && hides_lights()))
-      m_.add(eye_, 0, depth_ + 1, connect_hit(connections(), subpath_, s, d2, transmittance));
+      m_.add(
+          eye_, 0, depth_ + 1,
+          connect_hit(connections(), subpath_, s, d2, Vertex::kMedia ? 0 : depth_, transmittance));
     if ((depth_ == m_.max_depth_ && !(Vertex::kMedia && may_be_passed(scene_, s))) ||
         !(cosine > 0)) {
       alpha_ = 1;

@@ -35,7 +35,7 @@ void BidirectionalIntegrator::thesis_tail(const PathVertex& limit, Subpath& subp
     if (s.shape->light != kNone)
       add(eye, 0, depth + 1,
           connect_hit(eye.connections(PathWeights(), options_.strict_normals), subpath, s,
-                      hit.t * hit.t));
+                      hit.t * hit.t, depth));
     if (depth == max_depth_) return;
     reached.emplace(scene, s, -subpath.ray.direction, subpath.throughput, Partials{}, depth);
     v = &*reached;

@@ -18,13 +18,26 @@ constexpr double kDarkShare = 0.1;
 /// Of the squares of contributions: a pilot cannot tell a smaller variance from none at all.
 constexpr double kLeastVariance = 0.05;
 
-/// The density of a candidate's techniques for a path over that of the pilot's.
-double relative_density(const FamilyShares& s, const MethodCandidate& c) {
-  if (c.photons_only)
-    return s.merges > 0 ? c.merges * double(s.first_merge) : double(s.unidirectional);
-  return double(s.unidirectional) +
-         c.light_paths / PricingRecord::kLightPaths * double(s.light_image) +
-         (c.connections ? double(s.connections) : 0.0) + c.merges * double(s.merges);
+/// A candidate's techniques for a path over the pilot's.
+struct PathRatios {
+  /// Of Σ γ n p, which contributions are divided by.
+  double density;
+  double samples;  ///< of Σ n p, how many contributions there are
+  double squares;  ///< of the sum of the squares of the contributions, Σ γ² n p / (Σ γ n p)²
+};
+
+PathRatios ratios(const FamilyShares& s, const MethodCandidate& c) {
+  double direct = double(s.unidirectional), others = 0;
+  if (c.photons_only) {
+    if (s.merges > 0) direct = 0, others = c.merges * double(s.first_merge);
+  } else {
+    others = c.light_paths / PricingRecord::kLightPaths * double(s.light_image) +
+             (c.connections ? double(s.connections) : 0.0) + c.merges * double(s.merges);
+  }
+  const double gain = double(s.gain), mine = double(s.unidirectional), rest = 1 - mine;
+  const double density = direct + others;
+  return {density, (direct / gain + others) / (mine / gain + rest),
+          (direct * gain + others) / (density * density * (mine * gain + rest))};
 }
 
 bool is_merge(const PilotSample& v) {
@@ -117,9 +130,9 @@ class Prediction {
  private:
   void find_limit() {
     SquareHistogram spectrum;
-    for_each([&](const PilotSample& v, double density) {
-      const double square = double(v.square) * norms_[v.cell] / (density * density);
-      spectrum.add(square, copies(v) * density);
+    for_each([&](const PilotSample& v, const PathRatios& r) {
+      const double square = double(v.square) * norms_[v.cell] / (r.density * r.density);
+      spectrum.add(square, copies(v) * r.samples);
     });
     limit_ = spectrum.limit(kTrimmedPixels / spp_ * double(record_.subpaths()));
   }
@@ -128,8 +141,7 @@ class Prediction {
   void for_each(Visit visit) const {
     for (const auto* list : {&record_.eye, &record_.light})
       for (const PilotSample& v : *list)
-        if (const double density = relative_density(v.shares, candidate_); density > kLeast)
-          visit(v, density);
+        if (const PathRatios r = ratios(v.shares, candidate_); r.density > kLeast) visit(v, r);
   }
 
   void add_squares() {
@@ -139,7 +151,7 @@ class Prediction {
         const double value = copies(v) * double(v.value);
         all_ += value;
         Tile& tile = tiles_[tile_of(v.cell, record_.side)];
-        const double density = relative_density(v.shares, candidate_);
+        const auto [density, samples, squares] = ratios(v.shares, candidate_);
         if (!(density > kLeast)) {
           tile.missing += value;
           continue;
@@ -151,19 +163,21 @@ class Prediction {
         if (square / (density * density) > limit_)
           tile.trimmed += value * std::sqrt(norms_[v.cell]), tile.rare += value;
         else
-          tile.squares += copies(v) * square / density * (1 + 2 * seen_twice(v.shares, density));
+          tile.squares += copies(v) * square * (squares + seen_twice(v.shares, density));
       }
   }
 
   /// Where a light vertex both is seen from the camera and merged with what the same pixel sees,
-  /// the two come together: share of the first, times the probability of the second. That is for an
-  /// eye vertex anywhere in a square pixel (1 − exp(−K) is within 0.02 of it), with K the merging
-  /// area over the pixel's.
+  /// the two come together: twice the square of the first, times the probability of the second,
+  /// over what the pilot's contributions add up to. That probability is for an eye vertex anywhere
+  /// in a square pixel (1 − exp(−K) is within 0.02 of it), with K the merging area over the
+  /// pixel's.
   double seen_twice(const FamilyShares& s, double density) const {
     if (candidate_.photons_only || !(candidate_.merges > 0) || !(s.light_image > 0)) return 0;
     const double seen = candidate_.light_paths / PricingRecord::kLightPaths * double(s.light_image);
     const double merged = candidate_.merges * double(s.first_merge);
-    return seen / density * -std::expm1(-merged / seen);
+    const double direct = double(s.unidirectional), all = direct * double(s.gain) + 1 - direct;
+    return 2 * seen / (density * density * all) * -std::expm1(-merged / seen);
   }
 
   /// Contributions of one sub-path come together: their mean products, less the squared means of
@@ -191,7 +205,7 @@ class Prediction {
     SubpathSums s;
     for (uint32_t i = w == 0 ? 0 : record_.ends[w - 1]; i < record_.ends[w]; ++i) {
       const PilotSample& v = record_.eye[i];
-      const double density = relative_density(v.shares, candidate_);
+      const double density = ratios(v.shares, candidate_).density;
       if (!(density > kLeast) || !takes(v)) continue;
       const double scaled = double(v.value) * std::sqrt(norms_[v.cell]) / density;
       const double square = scaled * scaled;

@@ -120,7 +120,9 @@ class PilotEyeSubpath {
     const float d2 = Vertex::kMedia ? length_squared(s.position - subpath_.from) : hit.t * hit.t;
     const float cosine = std::abs(dot(s.ng, subpath_.ray.direction));
     if (s.shape->light != kNone && (!Vertex::kMedia || sees_lights_))
-      add_found(connect_hit(found_light(), subpath_, s, d2, transmittance), transmittance);
+      add_found(
+          connect_hit(found_light(), subpath_, s, d2, Vertex::kMedia ? 0 : depth_, transmittance),
+          transmittance);
     const bool is_last =
         depth_ == pilot_.max_depth &&
         !(Vertex::kMedia && scene_.materials[s.shape->material]->passes_straight());

@@ -72,7 +72,7 @@ void WideEye::trace(int n, const BatchSampler& sampler, WideSamples& samples,
     counters.path_vertices += uint64_t(n);
     find_points(n);
     if (plan_.set.merges) plan_.photons->locate(n, points_.position, around_);
-    add_emission(samples, counters);
+    add_emission(depth, samples, counters);
     if (depth == limits_.max_depth) {
       for (int i = 0; i < n; ++i) samples.alpha[paths_.id[i]] = 1;
       break;
@@ -116,13 +116,13 @@ int WideEye::end_outside(int n, WideSamples& samples, RenderCounters& counters) 
   return found;
 }
 
-void WideEye::add_emission(WideSamples& samples, RenderCounters& counters) {
+void WideEye::add_emission(int depth, WideSamples& samples, RenderCounters& counters) {
   for (const int i : emitting_) {
     const Surface s = wide_.scene.surface(paths_.ray[i], hit(i));
     const int id = paths_.id[i];
     const ConnectionRoulette own = roulette(id);
     const Connection c =
-        connect_hit(context(id, own, counters), subpath(i), s, hits_.t[i] * hits_.t[i]);
+        connect_hit(context(id, own, counters), subpath(i), s, sqr(hits_.t[i]), depth);
     samples.add(id, c.value * c.weight);
   }
 }

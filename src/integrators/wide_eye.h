@@ -62,7 +62,7 @@ class WideEye final : public WideWalk, private WideSubpathStages {
 
   void begin(int n);
   int end_outside(int n, WideSamples& samples, RenderCounters& counters);
-  void add_emission(WideSamples& samples, RenderCounters& counters);
+  void add_emission(int depth, WideSamples& samples, RenderCounters& counters);
   /// Makes Partials of the points; at the first, where light tracing competes, of their own.
   void arrive_at_points(int n, int depth);
   void sample_lights(int n, int depth, WideSamples& samples, RenderCounters& counters);

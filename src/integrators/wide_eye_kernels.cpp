@@ -37,15 +37,15 @@ DUET_WIDEST void weigh_light_samples(int n, const WideConnections& c,
     const float pdf = samples.pdf[i], probability = samples.probability[i];
     const float d2 = length_squared(away), delta_density = (finite ? d2 : 1.0f) * probability;
     const float direct = delta ? delta_density : pdf;
+    const float delta_d2 = delta && finite ? d2 : INFINITY;
     const float hit = delta ? 0.0f : samples.bsdf_pdf[i];
     const float arrival = samples.emission[i] * std::abs(dot(ng, wi)) / direct;
     const float merge_term = all.eye.merges[i] != 0 ? all.eye.merge_term[i] : 0.0f;
-    const float gain =
-        LightSampleVariance::gain(LightSampleVariance::others_of(probability),
-                                  LightSampleVariance::distance_of(finite ? d2 : INFINITY),
-                                  all.camera_scale * all.subpaths.vcm[i]);
+    const float gain = LightSampleVariance::gain(
+        LightSampleVariance::others_of(LightSampleVariance::certain(delta, finite) * probability),
+        LightSampleVariance::distance_of(delta_d2), all.camera_scale * all.subpaths.vcm[i]);
     const float weight = 1 / (1 + hit / direct +
-                              all.share / (all.first && delta ? gain : 1.0f) *
+                              all.share / (all.first ? gain : 1.0f) *
                                   beyond(arrival, merge_term, all.subpaths.vcm[i],
                                          all.eye.reverse[i], all.eye.sum[i]));
     const float inverse = 1 / probability;

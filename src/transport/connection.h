@@ -6,7 +6,8 @@
 // transmittance.
 //
 // `Weights` decides how a connection is weighed against the other techniques:
-//   hit(subpath, direct, emission)      s = 0; densities of the light's two other techniques
+//   hit(subpath, direct, emission, light_sample)
+//                                    s = 0; densities of the light's two other techniques
 //   light_sample(eye, direct, bsdf, eye_end)
 //                                    s = 1; densities of sampling and of hitting the light
 //   camera(light, light_end)         t = 1
@@ -89,19 +90,24 @@ struct ConnectionContext {
 };
 
 /// The light at the end of an eye sub-path that has hit the surface point `s` at squared distance
-/// `d2` from its last vertex. `transmittance` is the nominal one on the way from there.
+/// `d2` from its last vertex. `transmittance` is the nominal one on the way from there. `depth`
+/// counts the segments, or is 0 where light samples count for one.
 template <class Weights>
 inline Connection connect_hit(const ConnectionContext<Weights>& c, const Subpath& subpath,
-                              const Surface& s, float d2, float transmittance = 1) {
+                              const Surface& s, float d2, int depth, float transmittance = 1) {
   const SurfaceLight* light = c.scene.light_on(*s.shape);
   if (!light) return {};
   const Spectrum emitted = light->emitted(s, -subpath.ray.direction);
   if (emitted.is_black()) return {};
   const Vector3f& w = subpath.ray.direction;
-  const float direct = choice_density(c.scene, *light, subpath.from, s, w, d2);
+  const float choice = c.scene.direct_picker.probability(s.shape->light, subpath.from);
+  const float direct = light->pdf_direct(subpath.from, s, w, d2).value * choice;
   const float emission =
       c.starts.density(s.shape->light, light->emission_density(s, -w), w, s.position);
-  return {subpath.throughput * emitted, c.weights.hit(subpath, direct / transmittance, emission)};
+  LightSampleVariance light_sample;
+  if (depth == 2) light_sample = LightSampleVariance::of(false, true, choice, d2);
+  return {subpath.throughput * emitted,
+          c.weights.hit(subpath, direct / transmittance, emission, light_sample)};
 }
 
 /// The environment at the end of an eye sub-path that has left the scene.
@@ -115,7 +121,8 @@ inline Connection connect_escape(const ConnectionContext<Weights>& c, const Subp
   const float direct = choice_density(scene, subpath.from, w);
   const float emission = c.starts.density(scene.environment_index,
                                           scene.environment->emission_density(w), w, subpath.from);
-  return {subpath.throughput * emitted, c.weights.hit(subpath, direct / transmittance, emission)};
+  return {subpath.throughput * emitted,
+          c.weights.hit(subpath, direct / transmittance, emission, {})};
 }
 
 /// A light sample from an eye vertex. Uses up to three dimensions of the sampler.
@@ -136,9 +143,9 @@ inline Connection connect_light(const ConnectionContext<Weights>& c, const Verte
   ConnectionEnd eye_end{emission * eye.cosine(sample->wi) / direct,
                         eye.reverse_pdf(sample->wi, Transport::radiance)};
   eye_end.merges = eye.merges(f.pdf.value, eye_end.beyond);
-  if (!Vertex::kMedia && eye.depth == 1 && sample->delta)
-    eye_end.light_sample = {
-        probability, sample->finite ? length_squared(sample->target - eye.position()) : INFINITY};
+  if (!Vertex::kMedia && eye.depth == 1)
+    eye_end.light_sample = LightSampleVariance::of(sample->delta, sample->finite, probability,
+                                                   length_squared(sample->target - eye.position()));
   Connection connection{eye.throughput * f.value * sample->weight * (1 / probability),
                         c.weights.light_sample(eye, direct, hit, eye_end)};
   const float kept = c.roulette.keep(connection.value * connection.weight,

@@ -16,6 +16,7 @@ struct Sums {
 FamilyWeights::Path& FamilyWeights::start(int count) const {
   path_.count = count;
   path_.found = 0;
+  path_.gain = 1;
   return path_;
 }
 
@@ -100,12 +101,13 @@ float FamilyWeights::weigh(const Path& path, int s, bool merges) const {
   }
   const double inverse = 1 / sums.all();
   shares_ = {float(sums.unidirectional * inverse), float(sums.light_image * inverse),
-             float(sums.connections * inverse), float(sums.merges * inverse),
-             float(sums.first_merge * inverse)};
+             float(sums.connections * inverse),    float(sums.merges * inverse),
+             float(sums.first_merge * inverse),    float(path.gain)};
   return float(own * inverse);
 }
 
-float FamilyWeights::hit(const Subpath& subpath, float direct, float emission) const {
+float FamilyWeights::hit(const Subpath& subpath, float direct, float emission,
+                         const LightSampleVariance& light_sample) const {
   const int n = int(eye_.size()) - 1;  // the last vertex before the light
   if (n == 0) {
     shares_ = {1, 0, 0, 0, 0};
@@ -122,6 +124,7 @@ float FamilyWeights::hit(const Subpath& subpath, float direct, float emission) c
   path.found = double(subpath.forward);
   path.direct = double(direct);
   path.emitted = double(emission) * double(subpath.cosine_out);
+  path.count_direct(light_sample.gain(0));
   return weigh(path, 0, false);
 }
 
@@ -132,14 +135,14 @@ float FamilyWeights::light_sample(const PathVertex& eye, float direct, float bsd
   path.found = double(bsdf);
   path.direct = double(direct);
   path.emitted = double(eye_end.arrival) * double(direct);
-  if (eye.depth == 1) path.direct *= double(eye_end.light_sample.gain(1 / eye_[1].forward));
+  if (eye.depth == 1) path.count_direct(eye_end.light_sample.gain(1 / eye_[1].forward));
   return weigh(path, 1, false);
 }
 
 float FamilyWeights::camera(const PathVertex& light, const ConnectionEnd& light_end) const {
   Path& path = start(light.depth);
   take_light(path, light.depth, light_end);
-  if (light.depth == 1) path.direct *= double(light_end.light_sample.gain(1 / light_end.arrival));
+  if (light.depth == 1) path.count_direct(light_end.light_sample.gain(1 / light_end.arrival));
   return weigh(path, light.depth + 1, false);
 }
 
@@ -159,7 +162,7 @@ float FamilyWeights::merge(const LightVertex& light, float light_reverse, const 
   Path& path = start(m + n - 1);
   const VertexPdfs& common = eye_[size_t(n)];
   take_light(path, m, {common.forward, light_reverse, true});
-  if (m == 1 && n == 1) path.direct *= double(light.light_sample_gain(1 / common.forward));
+  if (m == 1 && n == 1) path.count_direct(light.light_sample_gain(1 / common.forward));
   take_eye(path, n - 1, {eye_reverse * common.back, 0, eye_[size_t(n - 1)].merges});
   // Seen from the merge, the last vertex and the one before are as recorded.
   if (n > 1) path.specular[size_t(path.count + 2 - n)] = eye_[size_t(n - 1)].specular;

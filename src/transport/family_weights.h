@@ -19,6 +19,8 @@ struct FamilyShares {
   /// Of these the one at the first vertex from the eye at which photons are merged and that does
   /// not scatter by a delta lobe.
   float first_merge = 0;
+  /// For how many each of the unidirectional ones counts in the density: γ of docs/mis.md.
+  float gain = 1;
 };
 
 /// The weights of BalanceWeights for connections (connection.h) by the densities of all vertices of
@@ -40,7 +42,8 @@ class FamilyWeights {
   }
   void set_eye(const SubpathPdfs& pdfs) { eye_ = pdfs; }
 
-  float hit(const Subpath& subpath, float direct, float emission) const;
+  float hit(const Subpath& subpath, float direct, float emission,
+            const LightSampleVariance& light_sample) const;
   float light_sample(const PathVertex& eye, float direct, float bsdf,
                      const ConnectionEnd& eye_end) const;
   float camera(const PathVertex& light, const ConnectionEnd& light_end) const;
@@ -62,6 +65,13 @@ class FamilyWeights {
     double found = 0, direct = 0, emitted = 0;
     std::array<double, kMostVertices> light{}, eye{};  ///< area densities; light[1] has no meaning
     std::array<bool, kMostVertices> specular{}, merges{};
+
+    double gain = 1;  ///< how often hits and light samples count, which have it in their densities
+
+    void count_direct(float times) {
+      gain = double(times);
+      found *= gain, direct *= gain;
+    }
   };
   Path& start(int count) const;
   /// Vertices 1 … m of the light sub-path, seen from the vertex beyond by `end`.

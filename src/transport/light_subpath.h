@@ -34,9 +34,8 @@ struct LightStart {
   float direct(const Point3f& at) const { return light->direct_density(emission, at) * choice(at); }
   /// PathVertex::light_sample of a first vertex at `at`.
   LightSampleVariance light_sample(const Point3f& at) const {
-    if (!is_delta(light->kind())) return {};
-    const bool finite = !is_infinite(light->kind());
-    return {choice(at), finite ? length_squared(at - emission.ray.origin) : INFINITY};
+    return LightSampleVariance::of(is_delta(light->kind()), !is_infinite(light->kind()), choice(at),
+                                   length_squared(at - emission.ray.origin));
   }
   /// Whether light samples at a first vertex find nothing, because the light has not entered yet.
   bool is_before_entry(const Point3f& p) const {

@@ -65,9 +65,8 @@ struct LightVertex {
   }
   /// As a merge with an eye vertex sees them that lies behind so many segments.
   Partials partials_below(int eye_depth, float pixel_area) const {
-    Partials p = partials;
-    if (eye_depth == 1) p.vcm *= light_sample_gain(pixel_area);
-    return p;
+    const float gain = eye_depth == 1 ? light_sample_gain(pixel_area) : 1.0f;
+    return {gain * partials.vcm, gain * partials.vc, gain * partials.vm};
   }
   /// `Vertex` is the kind of vertex that was packed. What the segment towards the light went
   /// through is not kept on surfaces.

@@ -19,8 +19,7 @@ struct PathVertex {
   Spectrum throughput;
   Partials partials;
   int depth;  ///< segments from the light or the lens to here
-  /// Of the first vertex of a sub-path from a light without extent: of a light sample here that
-  /// chooses the light.
+  /// Of the first vertex of a light sub-path: of direct light here that an eye sub-path would find.
   LightSampleVariance light_sample{};
 
   PathVertex(const Scene& scene, const Surface& s, const Vector3f& towards_previous,

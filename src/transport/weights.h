@@ -8,7 +8,7 @@ namespace duet {
 
 /// Path tracing: light is found by rays and by light samples.
 struct PathWeights {
-  float hit(const Subpath& subpath, float direct, float) const {
+  float hit(const Subpath& subpath, float direct, float, const LightSampleVariance&) const {
     return subpath.from_specular ? 1.0f : subpath.forward / (subpath.forward + direct);
   }
   template <class Vertex>
@@ -26,9 +26,9 @@ struct PhotonWeights : PathWeights {
   }
 };
 
-/// The balance heuristic over all techniques of a set, by running sums; light samples count for as
-/// many as LightSampleVariance says. With `merging` false they
-/// are those of a pixel in which a partly merged method does not merge.
+/// The balance heuristic over all techniques of a set, by running sums; light samples and hits count
+/// for as many as LightSampleVariance says. With `merging` false they are those of a pixel in which
+/// a partly merged method does not merge.
 class BalanceWeights {
  public:
   explicit BalanceWeights(const TechniqueSet& set, bool merging = true)
@@ -40,10 +40,11 @@ class BalanceWeights {
         share_(set.connection_share),
         camera_scale_(set.connection_share / set.light_paths) {}
 
-  float hit(const Subpath& subpath, float direct, float emission) const {
-    if (photons_) return PhotonWeights().hit(subpath, direct, emission);
-    return 1 /
-           (1 + direct * subpath.partials.vcm + share_ * emission * connections(subpath.partials));
+  float hit(const Subpath& subpath, float direct, float emission,
+            const LightSampleVariance& light_sample) const {
+    if (photons_) return PhotonWeights().hit(subpath, direct, emission, light_sample);
+    return 1 / (1 + direct * subpath.partials.vcm +
+                share_ / light_sample.gain(0) * emission * connections(subpath.partials));
   }
   template <class Vertex>
   float light_sample(const Vertex& eye, float direct, float bsdf,
@@ -75,7 +76,7 @@ class BalanceWeights {
  private:
   template <class Vertex>
   float beyond(const Vertex& v, const ConnectionEnd& end, float gain = 1) const {
-    return beyond_end({gain * v.partials.vcm, connections(v.partials), 0}, end,
+    return beyond_end({gain * v.partials.vcm, gain * connections(v.partials), 0}, end,
                       end.merges ? merge_term_ : 0.0f);
   }
   float connections(const Partials& p) const { return unmerged_ ? p.vm : p.vc; }

@@ -48,7 +48,8 @@ double WindowWeights::more(int n, int s, const ConnectionEnd& end) const {
   return sum;
 }
 
-float WindowWeights::hit(const Subpath& subpath, float direct, float emission) const {
+float WindowWeights::hit(const Subpath& subpath, float direct, float emission,
+                         const LightSampleVariance&) const {
   const SubpathPdfs& eye = *eye_;
   const int n = int(eye.size()) - 1;  // the last vertex before the light
   if (n == 0) return 1;

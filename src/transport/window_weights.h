@@ -35,7 +35,8 @@ class WindowWeights {
     light_subpath_ = pdfs, ends_ = ends;
   }
 
-  float hit(const Subpath& subpath, float direct, float emission) const;
+  float hit(const Subpath& subpath, float direct, float emission,
+            const LightSampleVariance& light_sample) const;
   float light_sample(const PathVertex& eye, float direct, float bsdf,
                      const ConnectionEnd& eye_end) const;
   float camera(const PathVertex& light, const ConnectionEnd& light_end) const;

@@ -78,6 +78,34 @@ TEST_CASE("the variance of merging is foreseen, alone and beside light that the 
   CHECK(photons.cost < 0.6 * vcm.cost);
 }
 
+// The lamp's light samples and hits count for up to five in weights, not in the number of samples:
+// taken for so many, path would seem to have a tenth of its variance. What is measured is relative
+// to pixels, and so half as much again as what is relative to tiles.
+TEST_CASE("the variance of direct light is foreseen") {
+  const TransportScene s(camera_xml("0, -0.8, 1.4", "0, 0, 0", kSize) +
+                         room_xml(grey("0.5, 0.5, 0.5")) + lamp_xml("0.3", "10") +
+                         sphere_xml("-0.3, 0, 0.5", "0.3", grey("0.5, 0.5, 0.5")));
+  PricingPlan plan;
+  plan.film = {kSize, kSize};
+  plan.pixels_per_side = 64;
+  plan.max_depth = 2;
+  const PricingRecord record = run_pricing_pilot(*s.scene, plan);
+  for (const double light_paths : {0.0, 1.0}) {
+    MethodCandidate candidate = merging(false);
+    candidate.light_paths = light_paths, candidate.merges = 0;
+    const double foreseen = predict(record, candidate, 1).variance;
+    const double measured =
+        light_paths > 0
+            ? measured_variance(s, "bdpt",
+                                {{"max_depth", "2"}, {"light_paths", "1"}, {"connections", "0"}})
+            : measured_variance(s, "path", {{"max_depth", "2"}});
+    CAPTURE(light_paths);
+    CAPTURE(foreseen);
+    CAPTURE(measured);
+    CHECK(std::abs(std::log(foreseen / measured)) < std::log(1.8));
+  }
+}
+
 // A small lamp makes edges of shadows that photons blur.
 TEST_CASE("the blur of merging is foreseen") {
   const TransportScene s(camera_xml("0, -3, 1", "0, 0, 1", kSize) +

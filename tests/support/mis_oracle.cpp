@@ -96,7 +96,7 @@ std::vector<double> technique_densities(const Scene& scene, const OraclePath& pa
     const bool connections = s == 0 ? path.light_can_be_hit
                                     : !(s == 1 && k == 1) && connectible(s - 1) && connectible(s);
     double share = connections ? shares(s, k + 1 - s) : 0;
-    if (s == 1 && k == 2) share *= path.gain;
+    if (s <= 1 && k == 2) share *= path.gain;
     result.push_back(share > 0 ? share * std::exp(product(s) - reference) : 0.0);
   }
   for (int i = 1; i < k; ++i) {

@@ -23,7 +23,7 @@ struct OraclePath {
   double direct = 0;          ///< density of light samples at x_1, per solid angle
   double choice = 0;          ///< probability with which a light sample at x_1 chooses the light
   bool is_light_near = true;  ///< or infinitely far away
-  double gain = 1;            ///< for how many light samples one counts if there are two segments
+  double gain = 1;            ///< how often hits and light samples count if there are two segments
   double emission = 0;        ///< EmissionSample::density with the probability of the light
   double importance = 0;      ///< Camera::importance at x_{k-1}
   int segments() const { return int(surfaces.size()) + 1; }

@@ -78,8 +78,8 @@ struct Growing {
     weights.set_eye(*eye);
     return weights;
   }
-  float hit(const Subpath& w, float direct, float emission) const {
-    return update().hit(w, direct, emission);
+  float hit(const Subpath& w, float direct, float emission, const LightSampleVariance& v) const {
+    return update().hit(w, direct, emission, v);
   }
   float light_sample(const PathVertex& v, float direct, float bsdf,
                      const ConnectionEnd& end) const {
@@ -226,7 +226,8 @@ class Observer {
       const float d2 = length_squared(s.position - subpath.from);
       const float cosine = std::abs(dot(s.ng, subpath.ray.direction));
       if (s.shape->light != kNone)
-        note('u', connect_hit(connections(), subpath, s, d2, transmittance));
+        note('u',
+             connect_hit(connections(), subpath, s, d2, Vertex::kMedia ? 0 : depth, transmittance));
       if (!(cosine > 0)) return;
       const Partials partials = arrive_at({s.position, d2, cosine, transmittance});
       if constexpr (Vertex::kMedia) {

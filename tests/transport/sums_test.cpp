@@ -41,8 +41,10 @@ struct RandomPath {
     emission = log_uniform(0.01f, 10);
     importance = log_uniform(10, 1e5f);
     light_can_be_hit = r.next_1d() < 0.8f;
-    if (!light_can_be_hit && k == 2)
-      light_sample = {r.next_1d(), log_uniform(0.1f, 10) / (importance * cos_eye[1])};
+    if (k == 2)
+      light_sample = {r.next_1d(), light_can_be_hit
+                                       ? INFINITY
+                                       : log_uniform(0.1f, 10) / (importance * cos_eye[1])};
   }
 
   double p(int i) const {  // of x_i from the light's side; x_0 and x_1 together
@@ -67,7 +69,7 @@ struct Densities {
   Densities(const RandomPath& x, const TechniqueSet& set) {
     for (int s = 0; s <= x.k; ++s) {
       const double connection = set.connections ? double(set.connection_share) : 0.0;
-      const double one = s == 1 ? double(x.gain()) : 1.0;
+      const double one = s <= 1 ? double(x.gain()) : 1.0;
       double d = s == x.k ? double(set.light_paths) : s >= 2 ? connection : one;
       if (s == 0 ? !x.light_can_be_hit : !(x.connectible(s - 1) && x.connectible(s))) d = 0;
       for (int i = 0; i < x.k; ++i)
@@ -143,7 +145,8 @@ double check_path(const RandomPath& x, const TechniqueSet& set, bool merging,
   if (expected.connections[0] > 0) {
     Subpath subpath;
     subpath.partials = sums.leaving_for_light;
-    compare(double(weights.hit(subpath, x.direct, x.emission)), expected.connections[0]);
+    compare(double(weights.hit(subpath, x.direct, x.emission, x.light_sample)),
+            expected.connections[0]);
   }
   if (expected.connections[1] > 0) {
     // Reverse density at x_1 of going on to x_2.

@@ -316,13 +316,14 @@ class Checker {
     }
   }
 
-  /// Of paths of two segments, from a light at `on_light` without extent.
+  /// Of paths of two segments, from `on_light`.
   double light_sample_gain(const OraclePath& path, const Point3f& on_light) const {
-    if (windows_ || Vertex::kMedia || path.light_can_be_hit) return 1;
+    if (windows_ || Vertex::kMedia || (path.light_can_be_hit && !path.is_light_near)) return 1;
     const Surface& s = path.surfaces[0];
-    const double others = std::floor(255 * (1 - path.choice) + 0.5) / 255;
+    const double trusted = path.light_can_be_hit ? 0.8 * path.choice : path.choice;
+    const double others = std::floor(255 * (1 - trusted) + 0.5) / 255;
     const double d2 =
-        path.is_light_near
+        path.is_light_near && !path.light_can_be_hit
             ? 1.5 * std::exp2(std::floor(std::log2(double(length_squared(on_light - s.position)))))
             : INFINITY;
     const double pixel = 1 / (path.importance * double(std::abs(dot(s.ng, path.to_lens))));
@@ -469,7 +470,7 @@ void Checker<Vertex>::eye_subpath(Weights weights, const Ray& camera_ray, int ma
     }
     if (depth > 1) {  // s = 0
       Connection connection{};
-      double direct = 0, emission = 0;
+      double direct = 0, emission = 0, choice = 0;
       if (!found && scene_.environment) {
         connection = connect_escape(connections, subpath, transmittance);
         const float pick = scene_.emission_picker.probability(scene_.environment_index);
@@ -478,17 +479,19 @@ void Checker<Vertex>::eye_subpath(Weights weights, const Ray& camera_ray, int ma
         emission = double(scene_.environment->emission_density(subpath.ray.direction) * pick) *
                    guided(scene_.environment_index, subpath.ray.direction, subpath.from);
       } else if (found && scene_.light_on(*s.shape)) {
-        connection = connect_hit(connections, subpath, s, d2, transmittance);
+        connection =
+            connect_hit(connections, subpath, s, d2, Vertex::kMedia ? 0 : depth, transmittance);
         const SurfaceLight& l = *scene_.light_on(*s.shape);
         const float pick = scene_.emission_picker.probability(s.shape->light);
-        direct = double(l.pdf_direct(subpath.from, s, subpath.ray.direction, d2).value) *
-                 direct_probability(scene_, s.shape->light, subpath.from);
+        choice = direct_probability(scene_, s.shape->light, subpath.from);
+        direct = double(l.pdf_direct(subpath.from, s, subpath.ray.direction, d2).value) * choice;
         emission = double(l.emission_density(s, -subpath.ray.direction) * pick);
       }
       if (!connection.value.is_black()) {
         OraclePath path;
         path.to_light = subpath.ray.direction;
         path.direct = direct, path.emission = emission;
+        path.choice = choice, path.is_light_near = found;
         append_eye(path, eye, depth - 1, camera_ray);
         // The last vertex was left by a lobe of its own.
         path.specular[0] = subpath.from_specular;
