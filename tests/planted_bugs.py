@@ -303,6 +303,8 @@ MUTATIONS = [
      "std::min(pixel_area / d2, kMostVariance)", "std::min(0 * pixel_area / d2, kMostVariance)", WEIGHTS),
     ("batches weigh light samples so", "src/integrators/wide_eye_kernels.cpp",
      "all.first ? gain : 1.0f", "1.0f", "eye sub-paths of a batch are*"),
+    ("auto takes direct light to have as many samples as it counts for", "src/integrators/method_prediction.cpp",
+     "const double gain = double(s.gain)", "const double gain = 1 + 0 * double(s.gain)", "the variance of direct*"),
     ("rays that find a lamp count as if they were noisy", "src/transport/connection.h",
      "if (depth == 2) light_sample =", "if (depth == 0) light_sample =", WEIGHTS),
     ("splats count rays that find their lamp so", "src/transport/weights.h",

@@ -21,10 +21,8 @@ double bidirectional_cost(const WorkPerSample& w) {
          0.05 * w.medium_steps;
 }
 
-// Within a quarter, too, mostly, but measured before light sub-paths were traced in batches: what
-// they cost is half of that now, here and for `ppm`. Relative errors alone do not tell factors
-// apart whose counts grow together: these are the least that such errors and relative changes of
-// rough guesses add up to.
+// Within a quarter, too, mostly. Relative errors alone do not tell factors apart whose counts grow
+// together: these are the least that such errors and relative changes of rough guesses add up to.
 double batched_cost(const WorkPerSample& w) {
   return 0.14 + 0.16 * w.eye_rays + 0.10 * w.light_samples + 0.26 * w.light_rays +
          0.07 * w.camera_rays + 0.013 * w.connections + 0.04 * w.connection_rays +
