@@ -8,9 +8,9 @@
 Each scene of scenes/gallery-* is rendered by `auto` on one thread until its relative standard error (docs/figures.md) is
 that of --error, and by path tracing (`volpath` in fog) in the same CPU time, user + system seconds of the process. The
 samples of the second come from the time that one more sample takes, by two short renders. Where `auto` chose path
-tracing itself there is no second image. Scenes whose figures are in DIR are not rendered again, and those that have none
-are not published. The error of the second
-image is its difference from the first, noise of both and what its method never finds included (`relrmse`).
+tracing itself there is no second image. The error of the second image is its difference from the first, noise of both
+and what its method never finds included (`relrmse`). Scenes whose figures are in DIR are not rendered again; those that
+have none there stay as they were published.
 """
 import argparse
 import json
@@ -72,9 +72,12 @@ def render_all(o):
 
 
 def publish(o):
+    published = json.loads(FIGURES.read_text()) if FIGURES.exists() else {}
     figures = {}
     for name, method in SCENES.items():
         if not (o.work / f'{name}.figures.json').exists():
+            if name in published:
+                figures[name] = published[name]
             continue
         figures[name] = json.loads((o.work / f'{name}.figures.json').read_text())
         images = [name] + ([f'{name}-{method}'] if 'path' in figures[name] else [])

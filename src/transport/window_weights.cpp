@@ -49,7 +49,7 @@ double WindowWeights::more(int n, int s, const ConnectionEnd& end) const {
 }
 
 float WindowWeights::hit(const Subpath& subpath, float direct, float emission,
-                         const LightSampleVariance&) const {
+                         const LightSampleVariance& light_sample) const {
   const SubpathPdfs& eye = *eye_;
   const int n = int(eye.size()) - 1;  // the last vertex before the light
   if (n == 0) return 1;
@@ -60,7 +60,8 @@ float WindowWeights::hit(const Subpath& subpath, float direct, float emission,
   const double found = double(subpath.forward);
   if (!last.specular) sum += windows_.share(1, n + 1) * double(direct) / found;
   // From two light vertices on the last eye vertex is among them.
-  double ratio = double(emission) * double(subpath.cosine_out) / (found * double(last.forward));
+  double ratio = double(emission) * double(subpath.cosine_out) /
+                 (found * double(last.forward) * double(light_sample.gain(0)));
   for (int j = n, s = 2; j >= 1; --j, ++s) {
     const bool connections = !eye[size_t(j)].specular && (j == 1 || !eye[size_t(j - 1)].specular);
     if (connections) sum += windows_.share(s, j) * ratio;
@@ -75,7 +76,8 @@ float WindowWeights::light_sample(const PathVertex& eye, float direct, float bsd
   const double own = windows_.share(1, n + 1);
   if (own == 0) return 0;
   const double found = windows_.share(0, n + 2) * double(bsdf) / double(direct);
-  return float(own / (own + found + more(n, 1, eye_end)));
+  const double gain = double(eye_end.light_sample.gain(1 / (*eye_)[1].forward));
+  return float(own / (own + found + more(n, 1, eye_end) / gain));
 }
 
 float WindowWeights::camera(const PathVertex& light, const ConnectionEnd& light_end) const {
@@ -83,7 +85,8 @@ float WindowWeights::camera(const PathVertex& light, const ConnectionEnd& light_
   const double own = windows_.share(m + 1, 1);
   if (own == 0) return 0;
   const EndPdfs ends{light_->front(), light_->back()};
-  return float(own / (own + fewer(*light_, ends, m, 1, light_end)));
+  const double gain = double(light_end.light_sample.gain(1 / light_end.arrival));
+  return float(own / (own + gain * fewer(*light_, ends, m, 1, light_end)));
 }
 
 float WindowWeights::connection(const PathVertex& light, const ConnectionEnd& light_end,

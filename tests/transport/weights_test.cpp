@@ -318,7 +318,7 @@ class Checker {
 
   /// Of paths of two segments, from `on_light`.
   double light_sample_gain(const OraclePath& path, const Point3f& on_light) const {
-    if (windows_ || Vertex::kMedia || (path.light_can_be_hit && !path.is_light_near)) return 1;
+    if (Vertex::kMedia || (path.light_can_be_hit && !path.is_light_near)) return 1;
     const Surface& s = path.surfaces[0];
     const double trusted = path.light_can_be_hit ? 0.8 * path.choice : path.choice;
     const double others = std::floor(255 * (1 - trusted) + 0.5) / 255;
