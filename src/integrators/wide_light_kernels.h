@@ -11,6 +11,15 @@ struct WideSeen {
   BatchArray<float> film_x, film_y, importance;      ///< see CameraSample
   BatchArray<int32_t> other_lights, light_distance;  ///< LightSampleVariance of the vertices
   BatchArray<float> weight;                          ///< of the connections
+
+  void set_light_sample(int i, const LightSampleVariance& v) {
+    other_lights[i] = v.others, light_distance[i] = v.distance;
+  }
+  LightSampleVariance light_sample(int i) const {
+    LightSampleVariance v;
+    v.others = uint8_t(other_lights[i]), v.distance = uint8_t(light_distance[i]);
+    return v;
+  }
 };
 
 /// What connections of the vertices of a batch with the lens have in common.

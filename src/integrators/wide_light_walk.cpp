@@ -87,29 +87,29 @@ int WideLightWalk::end_outside(int n) {
 }
 
 void WideLightWalk::arrive_at_points(int n, int depth) {
-  if (depth > 1) {
-    arrive(n, hits_, points_, plan_->set.connections, paths_, subpaths_);
-  } else {
-    for (int i = 0; i < n; ++i) {
-      const LightStart& start = *starts_[size_t(paths_.id[i])];
-      const Point3f position = points_.position.point(i);
-      const float cosine = std::abs(dot(points_.ng.vector(i), start.subpath.ray.direction));
-      Partials p;
-      if (cosine > 0 && !start.is_before_entry(position))
-        p = first_light_partials(start, position, cosine, plan_->set);
-      else
-        paths_.throughput.set(i, 0, 0, 0);
-      subpaths_.vcm[i] = p.vcm, subpaths_.vc[i] = p.vc, subpaths_.vm[i] = p.vm;
-    }
-  }
+  if (depth > 1) arrive(n, hits_, points_, plan_->set.connections, paths_, subpaths_);
   for (int i = 0; i < n; ++i) {
-    light_samples_[i] = {};
-    if (!carries(i)) continue;
-    const auto id = size_t(paths_.id[i]);
-    lengths_[id] = depth;
-    if (depth == 1 && plan_->set.light_samples)
-      light_samples_[i] = starts_[id]->light_sample(points_.position.point(i));
+    LightSampleVariance light_sample;
+    if (depth == 1) light_sample = arrive_first(i);
+    seen_.set_light_sample(i, light_sample);
+    if (carries(i)) lengths_[size_t(paths_.id[i])] = depth;
   }
+}
+
+LightSampleVariance WideLightWalk::arrive_first(int i) {
+  const LightStart& start = *starts_[size_t(paths_.id[i])];
+  const Point3f position = points_.position.point(i);
+  const float cosine = std::abs(dot(points_.ng.vector(i), start.subpath.ray.direction));
+  Partials p;
+  StartByLightSample direct;
+  if (cosine > 0 && !start.is_before_entry(position)) {
+    direct = start.direct(position);
+    p = first_light_partials(start, direct.density, cosine, plan_->set);
+  } else {
+    paths_.throughput.set(i, 0, 0, 0);
+  }
+  subpaths_.vcm[i] = p.vcm, subpaths_.vc[i] = p.vc, subpaths_.vm[i] = p.vm;
+  return plan_->set.light_samples ? direct.variance : LightSampleVariance{};
 }
 
 void WideLightWalk::look_at_lens(int n, const BatchSampler& sampler, uint32_t dimension) {
@@ -130,8 +130,6 @@ void WideLightWalk::look_at_lens(int n, const BatchSampler& sampler, uint32_t di
     lights_.target.set(i, seen->target);
     seen_.film_x[i] = seen->film.x, seen_.film_y[i] = seen->film.y;
     seen_.importance[i] = seen->importance;
-    seen_.other_lights[i] = light_samples_[i].others;
-    seen_.light_distance[i] = light_samples_[i].distance;
     const bool merges = set.merges && (!set.partly_merged || plan_->mask->merges(seen->film));
     ends_.merge_term[i] = merges ? set.merge_term() : 0.0f;
     ends_.unmerged[i] = set.partly_merged && !merges;
@@ -177,7 +175,7 @@ void WideLightWalk::keep_vertices(int n, int depth) {
       kept_.emplace_back(*special, hit(i));
     else
       kept_.push_back(light_vertex(i, depth));
-    kept_.back().set_light_sample(light_samples_[i]);
+    kept_.back().set_light_sample(seen_.light_sample(i));
     if (!plan_->keep_connection_vertices) continue;
     if (special)
       kept_connection_vertices_.emplace_back(*special);

@@ -24,8 +24,9 @@ class WideLightWalk final : private WideSubpathStages {
   int start(LightRange range, BatchSampler& sampler);
   void trace_batch(int n, const BatchSampler& sampler, LightBlock& block);
   int end_outside(int n);
-  /// Makes Partials of the points.
+  /// Makes Partials of the points, and PathVertex::light_sample.
   void arrive_at_points(int n, int depth);
+  LightSampleVariance arrive_first(int i);
   /// Finds out how the lens sees the points.
   void look_at_lens(int n, const BatchSampler& sampler, uint32_t dimension);
   void connect_lens(int n, int depth, LightBlock& block);
@@ -39,10 +40,9 @@ class WideLightWalk final : private WideSubpathStages {
   const LightPassPlan* plan_ = nullptr;  ///< of the trace() under way
   BatchKeys keys_{};
   BatchArray<uint64_t> pixel_keys_{};
-  std::vector<std::optional<LightStart>> starts_;    ///< by id, the number in the batch
-  std::vector<uint32_t> roulette_;                   ///< seeds of ConnectionRoulette, by id
-  std::vector<int> lengths_;                         ///< vertices, by id
-  BatchArray<LightSampleVariance> light_samples_{};  ///< PathVertex::light_sample of the points
+  std::vector<std::optional<LightStart>> starts_;  ///< by id, the number in the batch
+  std::vector<uint32_t> roulette_;                 ///< seeds of ConnectionRoulette, by id
+  std::vector<int> lengths_;                       ///< vertices, by id
   WideSeen seen_{};
   /// Vertices of the batch in the order in which they were found, and their ids.
   std::vector<LightVertex> kept_;

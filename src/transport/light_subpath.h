@@ -17,6 +17,12 @@ inline constexpr uint32_t kLensOffset = 4;
 template <class Vertex>
 inline constexpr uint32_t kLightVertexStride = kLightVertexDimensions + (Vertex::kMedia ? 1 : 0);
 
+/// How a light sample at the first vertex of a light sub-path finds the start of its ray.
+struct StartByLightSample {
+  float density = 0;  ///< per solid angle
+  LightSampleVariance variance{};
+};
+
 /// A sub-path that has left its light.
 struct LightStart {
   Subpath subpath;
@@ -28,14 +34,11 @@ struct LightStart {
 
   /// Density of the ray as in EmissionSample::density.
   float density() const { return emission.density * pick_probability; }
-  /// Probability with which a light sample at `at` chooses the light.
-  float choice(const Point3f& at) const { return direct_picker->probability(index, at); }
-  /// Density per solid angle with which a light sample at `at` finds the start of the ray.
-  float direct(const Point3f& at) const { return light->direct_density(emission, at) * choice(at); }
-  /// PathVertex::light_sample of a first vertex at `at`.
-  LightSampleVariance light_sample(const Point3f& at) const {
-    return LightSampleVariance::of(is_delta(light->kind()), !is_infinite(light->kind()), choice(at),
-                                   length_squared(at - emission.ray.origin));
+  StartByLightSample direct(const Point3f& at) const {
+    const float choice = direct_picker->probability(index, at);
+    return {light->direct_density(emission, at) * choice,
+            LightSampleVariance::of(is_delta(light->kind()), !is_infinite(light->kind()), choice,
+                                    length_squared(at - emission.ray.origin))};
   }
   /// Whether light samples at a first vertex find nothing, because the light has not entered yet.
   bool is_before_entry(const Point3f& p) const {
@@ -77,12 +80,13 @@ inline std::optional<LightStart> start_light_subpath(const Scene& scene, const L
 }
 
 /// The sums at the first vertex of a light sub-path, at which light samples and rays that find the
-/// light compete. `transmittance` is the nominal one from the light.
-inline Partials first_light_partials(const LightStart& start, const Point3f& at, float cosine,
+/// light compete. `direct` is the density of the first, `transmittance` the nominal one from the
+/// light.
+inline Partials first_light_partials(const LightStart& start, float direct, float cosine,
                                      const TechniqueSet& set, float transmittance = 1) {
   const float scale = 1 / (start.density() * cosine * set.connection_share);
   Partials p;
-  p.vcm = start.direct(at) * scale / transmittance;
+  p.vcm = direct * scale / transmittance;
   p.vc = is_delta(start.light->kind()) ? 0.0f : scale;
   p.vm = p.vc * set.subpath_connection_term();
   return p;
@@ -91,11 +95,11 @@ inline Partials first_light_partials(const LightStart& start, const Point3f& at,
 /// The beginning of a light sub-path's vertex pdfs. What would be densities per area of the light
 /// are per solid angle at the first vertex instead, which spares distances and cosines that cancel:
 /// `back` of vertex 0 is that of light samples, and `forward` of vertex 1 that of both vertices.
-inline void record_first_arrival(const LightStart& start, const Point3f& at, float cosine,
+inline void record_first_arrival(const LightStart& start, float direct, float cosine,
                                  SubpathPdfs* pdfs, float transmittance = 1) {
   if (!pdfs) return;
   pdfs->clear();
-  pdfs->push_back({1, 0, start.direct(at), is_delta(start.light->kind())});
+  pdfs->push_back({1, 0, direct, is_delta(start.light->kind())});
   pdfs->push_back({start.density() * cosine * transmittance, 0, transmittance, false});
 }
 
@@ -190,7 +194,7 @@ class LightSubpath {
     } else {
       const Partials partials = arrive_at({s.position, hit.t * hit.t, cosine});
       Vertex v(c_.scene, s, -subpath_.ray.direction, subpath_.throughput, partials, depth_);
-      if (depth_ == 1 && c_.set.light_samples) v.light_sample = start_.light_sample(v.position());
+      if (depth_ == 1 && c_.set.light_samples) v.light_sample = direct_.variance;
       return pass(v, hit, false);
     }
   }
@@ -208,8 +212,9 @@ class LightSubpath {
 
   Partials arrive_at(const Arrival& a) {
     if (depth_ == 1) {
-      record_first_arrival(start_, a.at, a.cosine, c_.pdfs, a.transmittance);
-      return first_light_partials(start_, a.at, a.cosine, c_.set, a.transmittance);
+      direct_ = start_.direct(a.at);
+      record_first_arrival(start_, direct_.density, a.cosine, c_.pdfs, a.transmittance);
+      return first_light_partials(start_, direct_.density, a.cosine, c_.set, a.transmittance);
     }
     record_arrival(subpath_, a.d2 / a.transmittance, a.cosine);
     return arrive(subpath_.partials, a.d2 / a.transmittance, a.cosine,
@@ -236,6 +241,7 @@ class LightSubpath {
   const LightStart& start_;
   Visit& visit_;
   SubpathOf<Vertex> subpath_;
+  StartByLightSample direct_;  ///< at the first vertex
   int depth_ = 1, missed_ = 0;
   uint32_t dimension_ = kLightStartDimensions;
 };
