@@ -26,9 +26,9 @@ struct PhotonWeights : PathWeights {
   }
 };
 
-/// The balance heuristic over all techniques of a set, by running sums; light samples and hits count
-/// for as many as LightSampleVariance says. With `merging` false they are those of a pixel in which
-/// a partly merged method does not merge.
+/// The balance heuristic over all techniques of a set, by running sums; light samples and hits
+/// count for as many as LightSampleVariance says. With `merging` false they are those of a pixel in
+/// which a partly merged method does not merge.
 class BalanceWeights {
  public:
   explicit BalanceWeights(const TechniqueSet& set, bool merging = true)
