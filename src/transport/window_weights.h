@@ -1,5 +1,6 @@
-// Weights for sub-paths of limited length: the exact balance heuristic over the techniques that are
-// left and the unidirectional tail, by a product over all vertices of the path (docs/mis.md).
+// Weights for sub-paths of limited length: the balance heuristic over the techniques that are left
+// and the unidirectional tail, exactly, by a product over all vertices of the path (docs/mis.md).
+// Direct light counts as LightSampleVariance says.
 #pragma once
 
 #include <span>
