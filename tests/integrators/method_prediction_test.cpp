@@ -39,6 +39,15 @@ double measured_variance(const TransportScene& s, const std::string& method,
   return sum / double(pixels);
 }
 
+/// A look at every pixel, and at paths of so many segments.
+PricingPlan plan_for(int max_depth) {
+  PricingPlan plan;
+  plan.film = {kSize, kSize};
+  plan.pixels_per_side = kSize;
+  plan.max_depth = max_depth;
+  return plan;
+}
+
 MethodCandidate merging(bool photons_only) {
   return {.method = {},
           .name = "",
@@ -54,10 +63,7 @@ MethodCandidate merging(bool photons_only) {
 // taken for independent, vcm would seem to have three quarters of the variance of ppm.
 TEST_CASE("the variance of merging is foreseen, alone and beside light that the camera sees") {
   const TransportScene s("lamp-in-glass", kSize);
-  PricingPlan plan;
-  plan.film = {kSize, kSize};
-  plan.pixels_per_side = 64;
-  plan.max_depth = 8;
+  PricingPlan plan = plan_for(8);
   const PricingRecord record = run_pricing_pilot(*s.scene, plan);
   const PredictedMethod photons = predict(record, merging(true), 1);
   const PredictedMethod vcm = predict(record, merging(false), 1);
@@ -85,10 +91,7 @@ TEST_CASE("the variance of direct light is foreseen") {
   const TransportScene s(camera_xml("0, -0.8, 1.4", "0, 0, 0", kSize) +
                          room_xml(grey("0.5, 0.5, 0.5")) + lamp_xml("0.3", "10") +
                          sphere_xml("-0.3, 0, 0.5", "0.3", grey("0.5, 0.5, 0.5")));
-  PricingPlan plan;
-  plan.film = {kSize, kSize};
-  plan.pixels_per_side = 64;
-  plan.max_depth = 2;
+  PricingPlan plan = plan_for(2);
   const PricingRecord record = run_pricing_pilot(*s.scene, plan);
   for (const double light_paths : {0.0, 1.0}) {
     MethodCandidate candidate = merging(false);
@@ -111,10 +114,7 @@ TEST_CASE("the blur of merging is foreseen") {
   const TransportScene s(camera_xml("0, -3, 1", "0, 0, 1", kSize) +
                          room_xml(grey("0.5, 0.5, 0.5")) + lamp_xml("0.05", "300") +
                          sphere_xml("-0.3, 0, 0.5", "0.3", grey("0.5, 0.5, 0.5")));
-  PricingPlan plan;
-  plan.film = {kSize, kSize};
-  plan.pixels_per_side = 64;
-  plan.max_depth = 3;
+  PricingPlan plan = plan_for(3);
   // Of one pilot it is uncertain by half the value here.
   double foreseen = 0;
   constexpr int kPilots = 24;
@@ -153,10 +153,7 @@ TEST_CASE("the blur of merging is foreseen") {
 
 TEST_CASE("noise goes with the number of samples, blur stays") {
   const TransportScene s("thesis-modified", kSize);
-  PricingPlan plan;
-  plan.film = {kSize, kSize};
-  plan.pixels_per_side = 64;
-  plan.max_depth = 8;
+  PricingPlan plan = plan_for(8);
   const PricingRecord record = run_pricing_pilot(*s.scene, plan);
   const PredictedMethod few = predict(record, merging(true), 64);
   const PredictedMethod many = predict(record, merging(true), 1 << 24);
@@ -179,10 +176,7 @@ TEST_CASE("the variance of methods in fog is foreseen") {
       "<shape type='rectangle'><transform name='to_world'><scale value='0.8'/>"
       "<translate z='1.7'/></transform>" +
       grey("0.5, 0.5, 0.5") + "</shape>" + lamp_xml("0.2", "60"));
-  PricingPlan plan;
-  plan.film = {kSize, kSize};
-  plan.pixels_per_side = 64;
-  plan.max_depth = 8;
+  PricingPlan plan = plan_for(8);
   const PricingRecord record = run_pricing_pilot(*s.scene, plan);
   const MethodCandidate volpath{.method = {}, .name = ""};
   MethodCandidate bdpt = volpath;
