@@ -319,4 +319,8 @@ MUTATIONS = [
      "    add(model.name());\n", "", "a foreign light is listed*"),
     ("meshes are not placed", "src/scene/build_shapes.cpp",
      "transform_mesh(*mesh, d.to_world);", "", "a foreign shape is rendered*"),
+    ("numbers of images are rounded to halves", "src/textures/bitmap_pixels.cpp",
+     "if (half_value(bits) != values[i]) return false;", "", "texels stay as small*"),
+    ("what reading an image takes is not announced", "src/evaluate/report/scene_memory.cpp",
+     "return kept_ + most_beside_;", "return kept_;", "a render takes the memory*"),
 ]

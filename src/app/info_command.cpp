@@ -83,7 +83,9 @@ void add_info_command(CLI::App& app, Program& program) {
               "Print all of it as JSON: an object, or an array of them for several scenes")
       ->excludes(xml);
   c->footer(
-      "Nothing is rendered; images are not read. What a scene asks for and Duet renders in another "
+      "Nothing is rendered; of images only the sizes are read. \"memory\" is what a render takes "
+      "at "
+      "most, estimated. What a scene asks for and Duet renders in another "
       "way is listed under \"approximated\"; what Mitsuba is known to render wrongly, under "
       "\"differs from Mitsuba\".\n"
       "Examples:\n"

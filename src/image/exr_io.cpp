@@ -191,9 +191,18 @@ ImageFacts exr_facts(const std::string& path) {
     Imf::StdIFStream stream(path.c_str());
     check_sizes(stream);
     Imf::MultiPartInputFile input(stream, 0);
+    const Imath::Box2i& window = input.header(0).dataWindow();
+    facts.width = window.max.x - window.min.x + 1;
+    facts.height = window.max.y - window.min.y + 1;
     facts.fields = read_attributes(input.header(0));
+    facts.numbers = StoredNumbers::halves;
     facts.is_complete = true;
-    for (int p = 0; p < input.parts(); ++p) facts.is_complete &= is_complete(input, p);
+    for (int p = 0; p < input.parts(); ++p) {
+      const Imf::ChannelList& channels = input.header(p).channels();
+      for (auto c = channels.begin(); c != channels.end(); ++c, ++facts.channels)
+        if (c.channel().type != Imf::HALF) facts.numbers = StoredNumbers::others;
+      facts.is_complete &= is_complete(input, p);
+    }
   } catch (const std::exception& e) {
     throw ReadError(fmt::format("{}: {}", path, e.what()));
   }

@@ -7,7 +7,13 @@
 
 namespace duet {
 
+/// How a file stores its numbers.
+enum class StoredNumbers { bytes, halves, others };
+
 struct ImageFacts {
+  int width = 0, height = 0;  ///< of the pixels that there are
+  int channels = 0;           ///< of all layers
+  StoredNumbers numbers = StoredNumbers::others;
   /// Of EXR files the attributes that are text, numbers or chromaticities, of PNG files the text
   /// chunks, of JPEG files the lines `name: value` of the comment.
   std::vector<std::pair<std::string, std::string>> fields;

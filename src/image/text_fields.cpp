@@ -5,6 +5,8 @@
 #include <cstddef>
 #include <string_view>
 
+#include "image/jpeg_segments.h"
+
 namespace duet {
 
 namespace {
@@ -60,7 +62,7 @@ std::pair<std::string, std::string> png_field(std::string_view type, const std::
 
 // ---- JPEG -------------------------------------------------------------------------------------
 
-constexpr uint8_t kComment = 0xfe, kScan = 0xda, kEnd = 0xd9;
+constexpr uint8_t kComment = 0xfe, kEnd = 0xd9;
 constexpr size_t kLongestComment = 65533;
 
 bool is_application_marker(uint8_t marker) {
@@ -134,17 +136,13 @@ void add_jpeg_comment(std::vector<uint8_t>& jpeg, const TextFields& fields) {
 TextFieldsFound find_jpeg_comment(std::FILE* file) {
   TextFieldsFound found;
   std::string text;
-  std::array<uint8_t, 4> head;
-  for (long at = 2; std::fseek(file, at, SEEK_SET) == 0 && read(file, head) && head[0] == 0xff;) {
-    const size_t length = size_t(head[2]) << 8 | head[3];
-    if (head[1] == kScan || length < 2) break;
-    if (head[1] == kComment) {
-      std::string part(length - 2, '\0');
-      if (!read(file, part)) break;
-      text += part;
-    }
-    at += long(2 + length);
-  }
+  visit_jpeg_segments(file, [&](uint8_t marker, size_t length) {
+    if (marker != kComment) return true;
+    std::string part(length, '\0');
+    if (!read(file, part)) return false;
+    text += part;
+    return true;
+  });
   for (size_t at = 0; at < text.size();) {
     const size_t end = std::min(text.find('\n', at), text.size());
     const std::string line = text.substr(at, end - at);

@@ -91,6 +91,10 @@ std::shared_ptr<const BitmapPixels> SceneBuilder::pixels(const std::string& file
     try {
       entry->second =
           std::make_shared<BitmapPixels>(BitmapPixels::from_file(read_image(file), decoding));
+      if (const size_t replaced = entry->second->replaced())
+        diagnostics_.warning(
+            where, "{}: {} numbers are not finite; NaN is taken for 0, infinity for 65504", file,
+            replaced);
     } catch (const ReadError& e) {
       diagnostics_.error(where, "{}", e.what());
     }

@@ -18,35 +18,34 @@ double transfer_curve(const ImageFile& file, const std::optional<double>& gamma)
   return gamma ? *gamma : file.display_encoded ? -1.0 : 1.0;
 }
 
-size_t remove_nonfinite(std::vector<float>& values) {
-  constexpr float kLargestHalf = 65504;
-  size_t count = 0;
-  for (float& v : values)
-    if (!std::isfinite(v)) {
-      v = std::isnan(v) ? 0.0f : std::copysign(kLargestHalf, v);
-      ++count;
-    }
-  return count;
-}
-
 BitmapPixels::BitmapPixels(int width, int height, int channels, std::vector<float> values)
-    : width_(width), height_(height), channels_(channels), floats_(std::move(values)) {
+    : BitmapPixels(width, height, channels) {
   assert(width > 0 && height > 0 && (channels == 1 || channels == 3));
-  assert(floats_.size() == size_t(width) * size_t(height) * size_t(channels));
-  measure();
+  assert(values.size() == size_t(width) * size_t(height) * size_t(channels));
+  keep(std::move(values));
 }
 
-BitmapPixels::BitmapPixels(int width, int height, int channels, const std::vector<uint8_t>& bytes,
-                           const std::array<float, 256>& table)
-    : width_(width), height_(height), channels_(channels), table_(table) {
-  assert(width > 0 && height > 0 && (channels == 1 || channels == 3));
-  assert(bytes.size() == size_t(width) * size_t(height) * size_t(channels));
-  if (channels == 1) {
-    bytes_ = bytes;
-  } else {
-    bytes_.resize(size_t(width) * size_t(height) * kColorStride);
-    for (size_t i = 0; i < bytes.size(); ++i) bytes_[i / 3 * kColorStride + i % 3] = bytes[i];
+bool BitmapPixels::keep_halves(const std::vector<float>& values) {
+  const size_t n = size_t(channels_), stride = is_grey() ? 1 : kColorStride;
+  // Most images that are no halves show it soon.
+  std::vector<uint16_t> halves;
+  halves.reserve(values.size() / n * stride);
+  for (size_t i = 0; i < values.size(); ++i) {
+    const uint16_t bits = half_bits(values[i]);
+    if (half_value(bits) != values[i]) return false;
+    halves.push_back(bits);
+    if (i % n + 1 == n) halves.resize(halves.size() + stride - n);
   }
+  halves_ = std::move(halves);
+  return true;
+}
+
+void BitmapPixels::keep(std::vector<float> values) {
+  if (keep_halves(values)) {
+    type_ = TexelType::half;
+    values = {};
+  }
+  floats_ = std::move(values);
   measure();
 }
 
@@ -103,6 +102,30 @@ std::vector<int> choose_channels(const ImageFile& file, TextureChannel channel) 
   }
 }
 
+/// The chosen channels of pixels of `stride` numbers, `room` numbers for each texel.
+template <class T>
+std::vector<T> gather(const std::vector<T>& pixels, size_t stride, const std::vector<int>& chosen,
+                      size_t room) {
+  const size_t texels = pixels.size() / stride;
+  std::vector<T> out(texels * room);
+  for (size_t i = 0; i < texels; ++i)
+    for (size_t c = 0; c < chosen.size(); ++c)
+      out[i * room + c] = pixels[i * stride + size_t(chosen[c])];
+  return out;
+}
+
+/// Returns how many numbers it has replaced.
+size_t remove_nonfinite(std::vector<float>& values) {
+  constexpr float kLargestHalf = 65504;
+  size_t count = 0;
+  for (float& v : values)
+    if (!std::isfinite(v)) {
+      v = std::isnan(v) ? 0.0f : std::copysign(kLargestHalf, v);
+      ++count;
+    }
+  return count;
+}
+
 bool keeps_grey(const ColorMatrix& m) {
   return std::all_of(m.begin(), m.end(),
                      [](const auto& row) { return std::abs(row[0] + row[1] + row[2] - 1) < 1e-6; });
@@ -117,11 +140,11 @@ void convert(std::vector<float>& colors, const ColorMatrix& matrix) {
 
 }  // namespace
 
-BitmapPixels BitmapPixels::from_file(const ImageFile& file, const BitmapDecoding& decoding) {
-  const Image& image = file.image;
+BitmapPixels BitmapPixels::from_file(ImageFile file, const BitmapDecoding& decoding) {
   std::vector<int> chosen = choose_channels(file, decoding.channel);
   // Opacity is a share, not a colour.
-  const bool data = decoding.raw || (chosen.size() == 1 && chosen[0] == image.find_channel("A"));
+  const bool data =
+      decoding.raw || (chosen.size() == 1 && chosen[0] == file.image.find_channel("A"));
   const double gamma = data ? 1.0 : transfer_curve(file, decoding.gamma);
   // Light that is white in one space may have a colour in another.
   if (decoding.channel == TextureChannel::all && chosen.size() == 1 && decoding.colors &&
@@ -129,34 +152,37 @@ BitmapPixels BitmapPixels::from_file(const ImageFile& file, const BitmapDecoding
     chosen.resize(3, chosen[0]);
   const bool converts = decoding.colors && chosen.size() == 3;
   const bool mean = decoding.channel == TextureChannel::number && chosen.size() == 3;
-  const size_t texels = size_t(image.width) * size_t(image.height), n = chosen.size(),
-               stride = image.channels.size();
-  const auto gather = [&](const auto& from, auto& to) {
-    to.resize(texels * n);
-    for (size_t i = 0; i < texels; ++i)
-      for (size_t c = 0; c < n; ++c) to[i * n + c] = from[i * stride + size_t(chosen[c])];
-  };
+  const size_t n = chosen.size(), stride = file.image.channels.size();
+  BitmapPixels pixels(file.image.width, file.image.height, mean ? 1 : int(n));
   std::vector<float> values;
   if (!file.bytes.empty()) {
-    std::array<float, 256> table;
-    for (int i = 0; i < 256; ++i) table[size_t(i)] = decode_gamma(float(i) / 255.0f, gamma);
-    std::vector<uint8_t> bytes;
-    gather(file.bytes, bytes);
-    if (!mean && !converts) return {image.width, image.height, int(n), bytes, table};
-    for (const uint8_t byte : bytes) values.push_back(table[byte]);
+    for (int i = 0; i < 256; ++i) pixels.table_[size_t(i)] = decode_gamma(float(i) / 255.0f, gamma);
+    if (!mean && !converts) {
+      pixels.type_ = TexelType::byte;
+      pixels.bytes_ = gather(file.bytes, stride, chosen, n == 1 ? 1 : kColorStride);
+      pixels.measure();
+      return pixels;
+    }
+    const std::vector<uint8_t> bytes = gather(file.bytes, stride, chosen, n);
+    values.reserve(bytes.size());
+    for (const uint8_t byte : bytes) values.push_back(pixels.table_[byte]);
   } else {
-    gather(image.data, values);
+    values = gather(file.image.data, stride, chosen, n);
+    file = {};  // large images are not kept twice
+    pixels.replaced_ = remove_nonfinite(values);
     if (gamma != 1)
       for (float& v : values) v = decode_gamma(v, gamma);
   }
   if (converts) convert(values, *decoding.colors);
   if (decoding.clamped)
     for (float& v : values) v = std::clamp(v, 0.0f, 1.0f);
-  if (!mean) return {image.width, image.height, int(n), std::move(values)};
-  for (size_t i = 0; i < texels; ++i)
-    values[i] = (values[3 * i] + values[3 * i + 1] + values[3 * i + 2]) / 3;
-  values.resize(texels);
-  return {image.width, image.height, 1, std::move(values)};
+  if (mean) {
+    for (size_t i = 0; i < values.size() / 3; ++i)
+      values[i] = (values[3 * i] + values[3 * i + 1] + values[3 * i + 2]) / 3;
+    values.resize(values.size() / 3);
+  }
+  pixels.keep(std::move(values));
+  return pixels;
 }
 
 }  // namespace duet

@@ -9,6 +9,8 @@
 
 #include "app/workplace.h"
 #include "base/memory_limit.h"
+#include "image/image_io.h"
+#include "mesh/ply_writer.h"
 
 using namespace duet::test;
 
@@ -42,6 +44,28 @@ Memory render(const Workplace& place, int size, std::vector<std::string> argumen
                   o.err);
   const auto stats = nlohmann::json::parse(read_file(place.path("stats.json")));
   return {std::stod(text[1]) * (text[2] == "MB" ? 1e6 : 1e9), stats["memory_peak_bytes"]};
+}
+
+/// A square of `size` × `size` cells, two triangles each.
+std::string grid(uint32_t size) {
+  duet::TriangleMesh mesh;
+  for (uint32_t y = 0; y <= size; ++y)
+    for (uint32_t x = 0; x <= size; ++x)
+      mesh.positions.push_back({float(x) / float(size), float(y) / float(size), 2});
+  for (uint32_t y = 0; y < size; ++y)
+    for (uint32_t x = 0; x < size; ++x) {
+      const uint32_t a = y * (size + 1) + x, b = a + size + 1;
+      mesh.triangles.push_back({a, a + 1, b + 1});
+      mesh.triangles.push_back({a, b + 1, b});
+    }
+  return duet::ply_bytes(mesh);
+}
+
+std::string textured_sphere(const std::string& file) {
+  return fmt::format(
+      "<shape type='sphere'><bsdf type='diffuse'><texture name='reflectance' type='bitmap'>"
+      "<string name='filename' value='{}'/></texture></bsdf></shape>",
+      file);
 }
 
 /// A scene of pbrt with so many instances of one triangle.
@@ -108,6 +132,52 @@ TEST_SUITE("program") {
       CHECK(taken <= m.estimate);
       CHECK(m.estimate <= 2 * taken);
     }
+  }
+
+  TEST_CASE("a render takes the memory that info announces") {
+    using namespace duet;
+    const Workplace place;
+    place.write("grid.ply", grid(600));
+    // Noise, which no codec makes small.
+    uint32_t state = 1;
+    const auto random = [&] { return (state = state * 1664525 + 1013904223) >> 24; };
+    constexpr int kSize = 2500;
+    std::vector<uint8_t> bytes(size_t(kSize) * kSize * 3);
+    for (uint8_t& byte : bytes) byte = uint8_t(random());
+    write_display_image(place.path("bytes.png"), kSize, kSize, 3, bytes);
+    Image image(kSize, kSize, {"R", "G", "B", "A"});
+    for (float& v : image.data) v = float(random()) / 256;
+    write_exr(place.path("halves.exr"), image, {});
+    const std::string mesh =
+        "<shape type='ply'><string name='filename' value='grid.ply'/><transform name='to_world'>"
+        "<scale value='3'/></transform>";
+    const std::vector<std::string> parts{
+        mesh + "</shape>",
+        mesh + "<emitter type='area'/></shape>",
+        textured_sphere("bytes.png"),
+        textured_sphere("halves.exr"),
+        textured_sphere("halves.exr") + textured_sphere("bytes.png"),
+        "<emitter type='envmap'><string name='filename' value='halves.exr'/></emitter>",
+    };
+    const std::vector<std::string> threads{"--spp", "1", "-q", "--stats", "stats.json"};
+    for (const std::string& part : parts)
+      for (const char* method : {"path", "bdpt"}) {
+        CAPTURE(part);
+        CAPTURE(method);
+        TinyScene scene;
+        scene.extra = part;
+        place.scene("scene.xml", scene);
+        const Outcome info = place.run({"info", "--json", "scene.xml", "-i", method});
+        REQUIRE_MESSAGE(info.code == 0, info.err);
+        const double announced = nlohmann::json::parse(info.out)["memory"]["total"];
+        const Outcome o = place.run(Arguments{"scene.xml", "-i", method} + threads);
+        REQUIRE_MESSAGE(o.code == 0, o.err);
+        const double peak =
+            nlohmann::json::parse(read_file(place.path("stats.json")))["memory_peak_bytes"];
+        MESSAGE(fmt::format("{:.0f} MB of {:.0f} MB announced", peak * 1e-6, announced * 1e-6));
+        CHECK(peak <= announced);
+        CHECK(announced <= 2 * peak);
+      }
   }
 
   TEST_CASE("an image for which there is no room is refused with all the numbers") {

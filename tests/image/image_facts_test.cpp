@@ -39,6 +39,39 @@ TEST_CASE("text fields of PNG and JPEG files come back, and pixels stay") {
   }
 }
 
+TEST_CASE("files tell the size of their images, and how they store numbers") {
+  const TemporaryDirectory directory;
+  const auto facts = [&](const char* name) { return read_image_facts(directory.path(name)); };
+  const auto check = [](const ImageFacts& f, int channels, StoredNumbers numbers) {
+    CHECK(f.width == 300);
+    CHECK(f.height == 170);
+    CHECK(f.channels == channels);
+    CHECK(f.numbers == numbers);
+  };
+  constexpr size_t kPixels = 300 * 170;
+  write_display_image(directory.path("a.png"), 300, 170, 3, std::vector<uint8_t>(3 * kPixels, 9));
+  check(facts("a.png"), 3, StoredNumbers::bytes);
+  write_display_image(directory.path("grey.png"), 300, 170, 2,
+                      std::vector<uint8_t>(2 * kPixels, 9));
+  check(facts("grey.png"), 2, StoredNumbers::bytes);
+  directory.write("deep.png", [] {
+    const auto bytes = display_image_bytes("deep.png", 300, 170, 1, std::vector<uint16_t>(kPixels));
+    return std::string(bytes.begin(), bytes.end());
+  }());
+  check(facts("deep.png"), 1, StoredNumbers::others);
+  write_display_image(directory.path("a.jpg"), 300, 170, 3, std::vector<uint8_t>(3 * kPixels, 9),
+                      {{"program", "Duet"}});
+  check(facts("a.jpg"), 3, StoredNumbers::bytes);
+  const Image image(300, 170, {"R", "G", "B", "depth.T"});
+  write_exr(directory.path("half.exr"), image, {});
+  check(facts("half.exr"), 4, StoredNumbers::halves);
+  ExrOptions options;
+  options.full_precision = {"depth.T"};
+  options.parts = true;
+  write_exr(directory.path("depth.exr"), image, options);
+  check(facts("depth.exr"), 4, StoredNumbers::others);
+}
+
 TEST_CASE("a file that has been cut off anywhere is not complete") {
   const TemporaryDirectory directory;
   Image image(40, 50, {"R", "G", "B"});

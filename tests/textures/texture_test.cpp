@@ -213,7 +213,39 @@ TEST_CASE("no texture coordinate leads out of the image") {
 }
 
 TEST_CASE("numbers that are not finite are taken out of images") {
-  std::vector<float> values{1, NAN, INFINITY, -INFINITY, 0};
-  CHECK(remove_nonfinite(values) == 3);
-  CHECK(values == std::vector<float>{1, 0, 65504, -65504, 0});
+  ImageFile file;
+  file.image = Image(5, 1, {"Y"});
+  file.image.data = {1, NAN, INFINITY, -INFINITY, 0};
+  const BitmapPixels pixels = BitmapPixels::from_file(file, {});
+  CHECK(pixels.replaced() == 3);
+  const float expected[] = {1, 0, 65504, -65504, 0};
+  for (int x = 0; x < 5; ++x) CHECK(pixels.value(x, 0) == expected[x]);
+}
+
+TEST_CASE("texels stay as small as they are in their file") {
+  ImageFile file;
+  file.image = Image(3, 2, {"R", "G", "B", "A"});
+  for (size_t i = 0; i < file.image.data.size(); ++i) file.image.data[i] = 0.25f * float(i) - 1;
+  const auto texels = [&](const BitmapDecoding& decoding) {
+    return BitmapPixels::from_file(file, decoding);
+  };
+  const BitmapPixels halves = texels({});
+  CHECK(halves.type() == TexelType::half);
+  CHECK(texels({.channel = TextureChannel::green}).type() == TexelType::half);
+  CHECK(texels({.gamma = 2.2}).type() == TexelType::single);
+  // One number that a half does not hold.
+  file.image.data[0] = 0.1f;
+  const BitmapPixels floats = texels({});
+  CHECK(floats.type() == TexelType::single);
+  CHECK(floats.color(0, 0).r == 0.1f);
+  for (int y = 0; y < 2; ++y)
+    for (int x = 0; x < 3; ++x) {
+      const size_t at = size_t(4 * (3 * y + x));
+      CHECK(halves.color(x, y).b == file.image.data[at + 2]);
+      CHECK(floats.color(x, y).g == file.image.data[at + 1]);
+      CHECK(texels({.channel = TextureChannel::green}).value(x, y) == file.image.data[at + 1]);
+    }
+  file.bytes.assign(file.image.data.size(), 51);
+  CHECK(texels({}).type() == TexelType::byte);
+  CHECK(texels({.raw = true}).color(2, 1).g == 0.2f);
 }

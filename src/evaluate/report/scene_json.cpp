@@ -3,6 +3,7 @@
 #include <nlohmann/json.hpp>
 
 #include "evaluate/report/description_text.h"
+#include "evaluate/report/scene_memory.h"
 #include "evaluate/report/scene_parts.h"
 #include "integrators/make_integrator.h"
 #include "integrators/method_rules.h"
@@ -81,24 +82,20 @@ Json shapes(const SceneDescription& scene, const SceneFeatures& f, const ScenePa
           {"list", list_of(scene.shapes, [&](const auto& s) { return text.shape(s); })}};
 }
 
-/// Whether a method can render the scene through its first sensor.
 Json method(const SceneDescription& scene, const std::string& name) {
-  std::string obstacle;
-  try {
-    IntegratorDescription i = scene.integrator;
-    apply_override(i, {name, {}, {}});
-    make_integrator(i);
-    Diagnostics diagnostics;
-    check_support(scene, i, diagnostics);
-    if (!scene.sensors.empty()) check_support(scene.sensors[0], i, diagnostics);
-    for (const Diagnostic& d : diagnostics.all())
-      if (d.severity == Severity::error && obstacle.empty()) obstacle = d.message;
-  } catch (const std::invalid_argument& e) {
-    obstacle = e.what();
-  }
+  const std::string obstacle = method_obstacle(scene, name);
   return {{"name", name},
           {"renders", obstacle.empty()},
           {"obstacle", obstacle.empty() ? Json() : Json(obstacle)}};
+}
+
+/// Bytes.
+Json memory(const SceneMemory& m) {
+  return {{"total", uint64_t(m.total())},
+          {"description", uint64_t(m.description)},
+          {"geometry", uint64_t(m.geometry)},
+          {"images", uint64_t(m.images)},
+          {"film", uint64_t(m.film)}};
 }
 
 Json rules(const MethodRules& r) {
@@ -139,6 +136,7 @@ nlohmann::ordered_json scene_json(const std::string& file, const std::string& na
   j["rules"] = rules(method_rules(features));
   j["methods"] =
       list_of(integrator_names(), [&](const IntegratorName& n) { return method(scene, n.name); });
+  j["memory"] = memory(estimate_scene_memory(scene));
   j["approximated"] = remarks(scene.approximations);
   j["differs_from_mitsuba"] =
       list_of(mitsuba_differences(scene, features), [](const MitsubaDifference* d) {

@@ -3,6 +3,7 @@
 #include <set>
 
 #include "evaluate/report/description_text.h"
+#include "integrators/make_integrator.h"
 
 namespace duet {
 
@@ -26,6 +27,22 @@ SceneParts scene_parts(const SceneDescription& scene) {
   for (const MediumId id : media)
     parts.media.push_back({text.name(id), text.medium(scene.media[size_t(id)])});
   return parts;
+}
+
+std::string method_obstacle(const SceneDescription& scene, const std::string& method) {
+  try {
+    IntegratorDescription i = scene.integrator;
+    apply_override(i, {method, {}, {}});
+    make_integrator(i);
+    Diagnostics diagnostics;
+    check_support(scene, i, diagnostics);
+    if (!scene.sensors.empty()) check_support(scene.sensors[0], i, diagnostics);
+    for (const Diagnostic& d : diagnostics.all())
+      if (d.severity == Severity::error) return d.message;
+  } catch (const std::invalid_argument& e) {
+    return e.what();
+  }
+  return "";
 }
 
 }  // namespace duet

@@ -22,4 +22,8 @@ struct SceneParts {
 
 SceneParts scene_parts(const SceneDescription& scene);
 
+/// Why a method of integrator_names() cannot render the scene through its first sensor; empty if it
+/// can.
+std::string method_obstacle(const SceneDescription& scene, const std::string& method);
+
 }  // namespace duet

@@ -1,6 +1,7 @@
 #include "evaluate/report/scene_summary.h"
 
 #include "evaluate/report/description_text.h"
+#include "evaluate/report/scene_memory.h"
 #include "evaluate/report/scene_parts.h"
 #include "integrators/make_integrator.h"
 #include "integrators/method_rules.h"
@@ -36,6 +37,7 @@ class Summary {
     lights();
     line("modelled", describe(features_));
     line("methods", describe(method_rules(features_)));
+    line("memory", describe(estimate_scene_memory(scene_)));
     if (scene_.approximations.empty()) line("approximated", "nothing");
     list("approximated", scene_.approximations,
          [](const Diagnostic& a) { return fmt::format("{}: {}", a.where.to_string(), a.message); });
