@@ -4,7 +4,7 @@ set -euo pipefail
 
 duet_packages=(cmake ninja-build g++ libembree-dev libopenexr-dev libopenimageio-dev libpugixml-dev
   libtinyobjloader-dev libtbb-dev libcli11-dev libfmt-dev nlohmann-json3-dev
-  libpng-dev zlib1g-dev libnanovdb-dev doctest-dev)
+  libpng-dev libjpeg62-turbo-dev zlib1g-dev libnanovdb-dev doctest-dev)
 
 # Prints the packages that are not installed.
 duet_missing_packages() {
@@ -20,7 +20,7 @@ duet_install() {
     # Not Debian or Ubuntu: cmake will say what it misses, in terms of these.
     if [ ! -d build ]; then
       echo "This system has no apt-get. Duet needs: a C++20 compiler, CMake 3.25, Ninja, Embree 3.13 or 4," >&2
-      echo "OpenEXR 3, OpenImageIO 2.4, libpng, pugixml, tinyobjloader 2, oneTBB, CLI11, fmt," >&2
+      echo "OpenEXR 3, OpenImageIO 2.4, libpng, libjpeg, pugixml, tinyobjloader 2, oneTBB, CLI11, fmt," >&2
       echo "nlohmann-json, zlib, NanoVDB and doctest." >&2
     fi
     return 0

@@ -12,6 +12,7 @@
 #include "base/system/files.h"
 #include "image/codecs.h"
 #include "image/exr_io.h"
+#include "image/plain_jpeg.h"
 #include "image/plain_png.h"
 
 namespace duet {
@@ -113,6 +114,8 @@ ImageFile read_image(const std::string& path) {
   try {
     if (kind == std::string_view("png"))
       if (std::optional<ImageFile> file = read_plain_png(bytes)) return std::move(*file);
+    if (kind == std::string_view("jpeg"))
+      if (std::optional<ImageFile> file = read_plain_jpeg(bytes)) return std::move(*file);
     return decode_with_module(kind, bytes);
   } catch (const std::bad_alloc&) {
     throw ReadError(path + ": is too large for the memory");
