@@ -12,8 +12,11 @@ uint16_t half_bits(float value);
 
 /// The number with these bits, which must be finite.
 inline float half_value(uint16_t bits) {
-  // The product moves the exponent from a bias of 15 to one of 127, that of denormal numbers, too.
-  const float magnitude = std::bit_cast<float>(uint32_t(bits & 0x7fff) << 13) * 0x1p112f;
+  // What is denormal as a half is none as a float. While rendering, denormal floats are zero.
+  constexpr uint32_t kSmallestNormal = 0x400, kBiases = (127 - 15) << 23;
+  const uint32_t b = bits & 0x7fff;
+  const float magnitude =
+      b < kSmallestNormal ? float(int(b)) * 0x1p-24f : std::bit_cast<float>((b << 13) + kBiases);
   return std::bit_cast<float>(std::bit_cast<uint32_t>(magnitude) | uint32_t(bits & 0x8000) << 16);
 }
 

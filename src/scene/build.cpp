@@ -35,6 +35,7 @@ SceneBuilder::SceneBuilder(SceneDescription description, const BuildOptions& opt
       media_(description_.media.size()) {}
 
 std::unique_ptr<Scene> SceneBuilder::build() {
+  read_images();
   height_fields();
   displace_meshes();
   scene_->features = scene_features(description_);

@@ -11,6 +11,9 @@ namespace duet {
 
 struct SceneNames;
 
+/// The most images that are read at the same time: each takes memory besides its texels.
+inline constexpr int kImagesAtOnce = 4;
+
 struct BuildOptions {
   /// Which of the description's sensors to look through.
   size_t sensor = 0;

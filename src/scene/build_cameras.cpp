@@ -68,7 +68,7 @@ std::optional<LensStop> SceneBuilder::lens_stop(const SensorDescription& d) {
       values.push_back(std::max(0.0f, c.mean()));
       largest = std::max(largest, values.back());
     }
-  drop_pixels();
+  drop_pixels(d.lenses.stop_image, {});
   if (largest > 0) return LensStop(image->width(), image->height(), std::move(values));
   diagnostics_.error(d.where, "the image of the lens's stop is black");
   return std::nullopt;

@@ -77,7 +77,8 @@ void EnvironmentMapLight::count(SceneFeatures& f) const {
 }
 
 LightPointer EnvironmentMapLight::build(SceneBuilder& b, const LightDescription& d) const {
-  const auto image = b.pixels(file, {.gamma = gamma, .colors = colors}, d.where);
+  const BitmapDecoding decoding{.gamma = gamma, .colors = colors};
+  const auto image = b.pixels(file, decoding, d.where);
   if (!image) return nullptr;
   if (layout == EnvironmentLayout::equal_area) return equal_area_map(b, *this, d, *image);
   const int width = image->width(), height = image->height();
@@ -105,7 +106,7 @@ LightPointer EnvironmentMapLight::build(SceneBuilder& b, const LightDescription&
         texel = (color(x, (y + 1) / 2 - 1) + color(x, y / 2)) * 0.5f;
     }
   // Room for the light's own copy.
-  b.drop_pixels();
+  b.drop_pixels(file, decoding);
   return std::make_unique<EnvironmentMap>(width, rows, std::move(texels), d.to_world);
 }
 

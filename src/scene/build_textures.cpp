@@ -1,6 +1,11 @@
 // Builds textures from their descriptions.
+#include <algorithm>
+#include <utility>
+
+#include "base/parallel.h"
 #include "media/volume_texture.h"
 #include "scene/builder.h"
+#include "scene/texture_uses.h"
 #include "textures/checkerboard.h"
 #include "textures/curvature_texture.h"
 #include "textures/grid_texture.h"
@@ -83,23 +88,47 @@ std::unique_ptr<Texture> VolumeTextureDescription::build(SceneBuilder& b,
   return std::make_unique<VolumeTexture>(b.slot(ColorVolume(volume)));
 }
 
+namespace {
+
+/// Throws nothing.
+ReadImage read_pixels(const std::string& file, const BitmapDecoding& decoding) {
+  try {
+    return {std::make_shared<BitmapPixels>(BitmapPixels::from_file(read_image(file), decoding)),
+            ""};
+  } catch (const ReadError& e) {
+    return {nullptr, e.what()};
+  }
+}
+
+}  // namespace
+
+void SceneBuilder::read_images() {
+  const std::vector<TextureUse> uses = texture_uses_of_shapes(description_);
+  std::vector<std::pair<const ImageKey, ReadImage>*> images;
+  for (size_t i = 0; i < uses.size(); ++i) {
+    const auto* bitmap = std::get_if<BitmapTexture>(&description_.textures[i].model);
+    if (!bitmap || !(uses[i].as_color || uses[i].as_number)) continue;
+    const auto [entry, is_new] = images_.try_emplace({bitmap->file, bitmap->decoding()});
+    if (is_new) images.push_back(&*entry);
+  }
+  parallel_for(images.size(), std::min(options_.threads, kImagesAtOnce), [&](size_t i) {
+    images[i]->second = read_pixels(images[i]->first.first, images[i]->first.second);
+  });
+}
+
 std::shared_ptr<const BitmapPixels> SceneBuilder::pixels(const std::string& file,
                                                          const BitmapDecoding& decoding,
                                                          const SourceLocation& where) {
-  const auto [entry, is_new] = pixels_.try_emplace({file, decoding});
-  if (is_new) {
-    try {
-      entry->second =
-          std::make_shared<BitmapPixels>(BitmapPixels::from_file(read_image(file), decoding));
-      if (const size_t replaced = entry->second->replaced())
-        diagnostics_.warning(
-            where, "{}: {} numbers are not finite; NaN is taken for 0, infinity for 65504", file,
-            replaced);
-    } catch (const ReadError& e) {
-      diagnostics_.error(where, "{}", e.what());
-    }
-  }
-  return entry->second;
+  ReadImage& image = images_[{file, decoding}];
+  if (!image.pixels && image.error.empty()) image = read_pixels(file, decoding);
+  if (std::exchange(image.is_told, true)) return image.pixels;
+  if (!image.error.empty())
+    diagnostics_.error(where, "{}", image.error);
+  else if (const size_t replaced = image.pixels->replaced())
+    diagnostics_.warning(where,
+                         "{}: {} numbers are not finite; NaN is taken for 0, infinity for 65504",
+                         file, replaced);
+  return image.pixels;
 }
 
 }  // namespace duet

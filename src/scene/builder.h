@@ -18,6 +18,14 @@ namespace duet {
 
 struct HeightField;
 
+/// A file and how it is decoded.
+using ImageKey = std::pair<std::string, BitmapDecoding>;
+struct ReadImage {
+  std::shared_ptr<const BitmapPixels> pixels;  ///< null after an error
+  std::string error;
+  bool is_told = false;  ///< the error, if there was one
+};
+
 /// Instantiates lazily what shapes and lights ask for, each thing once. After an error a function
 /// returns null or something harmless, so that the remaining errors are found too.
 class SceneBuilder {
@@ -49,8 +57,10 @@ class SceneBuilder {
   std::shared_ptr<const BitmapPixels> pixels(const std::string& file,
                                              const BitmapDecoding& decoding,
                                              const SourceLocation& where);
-  /// Forgets the images that it has read: nobody else reads this one in this form.
-  void drop_pixels() { pixels_.clear(); }
+  /// Forgets an image that nobody else reads in this form.
+  void drop_pixels(const std::string& file, const BitmapDecoding& decoding) {
+    images_.erase({file, decoding});
+  }
   /// The texture must be told on which shapes it is used.
   template <class T>
   std::unique_ptr<T> on_shapes(std::unique_ptr<T> texture) {
@@ -97,6 +107,10 @@ class SceneBuilder {
     Light* light;    ///< null after an error; a part of the environment if there are several
     uint32_t index;  ///< among the lights of the scene
   };
+
+  // build_textures.cpp
+  /// Reads those of the textures of shapes, several at once.
+  void read_images();
 
   // build_media.cpp
   /// The index of the medium in the scene; kNone for none or after an error.
@@ -167,8 +181,7 @@ class SceneBuilder {
   std::vector<Made<Medium>> media_;
   /// Of what is being made.
   ShapeTextureSet shape_textures_;
-  /// Images by file and by how they are decoded; null after an error.
-  std::map<std::pair<std::string, BitmapDecoding>, std::shared_ptr<const BitmapPixels>> pixels_;
+  std::map<ImageKey, ReadImage> images_;
   std::vector<Emission> emissions_;
   std::vector<DescribedLight> described_lights_;
   /// Per light of the scene.

@@ -1,5 +1,6 @@
 #include "scene/texture_uses.h"
 
+#include <set>
 #include <utility>
 
 namespace duet {
@@ -61,12 +62,19 @@ class Marker {
   std::vector<TextureUse> uses_;
 };
 
-}  // namespace
+void add_material(const SceneDescription& scene, MaterialId id, std::set<MaterialId>& used) {
+  if (!used.insert(id).second) return;
+  for (const MaterialId nested : scene.materials[size_t(id)].model.nested())
+    add_material(scene, nested, used);
+}
 
-std::vector<TextureUse> texture_uses(const SceneDescription& scene) {
+/// With those of its materials for which `counts` is true.
+template <class Counts>
+std::vector<TextureUse> uses(const SceneDescription& scene, const Counts& counts) {
   Marker marker(scene);
   const auto model = [&](const auto& m) { marker.model(m); };
-  for (const MaterialDescription& m : scene.materials) marker.model(m.model);
+  for (size_t i = 0; i < scene.materials.size(); ++i)
+    if (counts(MaterialId(i))) marker.model(scene.materials[i].model);
   for (const LightDescription& l : scene.lights) std::visit(model, l.model);
   const auto shape = [&](const ShapeDescription& s) {
     if (s.emission) marker.mark(s.emission->radiance);
@@ -76,6 +84,20 @@ std::vector<TextureUse> texture_uses(const SceneDescription& scene) {
   for (const SensorDescription& s : scene.sensors)
     for (const ShapeDescription& target : s.target_shape) shape(target);
   return marker.take();
+}
+
+}  // namespace
+
+std::vector<TextureUse> texture_uses(const SceneDescription& scene) {
+  return uses(scene, [](MaterialId) { return true; });
+}
+
+std::vector<TextureUse> texture_uses_of_shapes(const SceneDescription& scene) {
+  std::set<MaterialId> used;
+  for_each_shape(scene, [&](const ShapeDescription& s) {
+    if (!std::holds_alternative<InstanceShape>(s.geometry)) add_material(scene, s.material, used);
+  });
+  return uses(scene, [&](MaterialId id) { return used.contains(id); });
 }
 
 void settle_checkerboards(SceneDescription& scene) {

@@ -4,16 +4,19 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <functional>
 #include <set>
-#include <thread>
 #include <utility>
 #include <variant>
+#include <vector>
 
 #include "base/diagnostics.h"
+#include "base/parallel.h"
 #include "evaluate/report/memory_estimate.h"
 #include "evaluate/report/scene_parts.h"
 #include "image/image_facts.h"
 #include "integrators/make_integrator.h"
+#include "scene/build.h"
 #include "scene/film_layout.h"
 #include "textures/bitmap_pixels.h"
 
@@ -42,7 +45,7 @@ double geometry_bytes(const SceneDescription& scene) {
   return bytes;
 }
 
-/// What images take: texels that stay, and the most that there is beside them while one is read.
+/// What images take: texels that stay, and the most that there is beside them while they are read.
 class ImageBytes {
  public:
   void texture(const std::string& file, const BitmapDecoding& decoding) {
@@ -67,7 +70,14 @@ class ImageBytes {
     constexpr double kTexelBytes = 24, kToBuild = 16;
     add(s, s.texels * kTexelBytes, s.texels * kToBuild);
   }
-  double total() const { return kept_ + most_beside_; }
+  double total() {
+    // The largest may be read at the same time.
+    std::sort(beside_.begin(), beside_.end(), std::greater<>());
+    const size_t at_once = size_t(std::min(HardwareThreads().count(), kImagesAtOnce));
+    double sum = kept_;
+    for (size_t i = 0; i < std::min(at_once, beside_.size()); ++i) sum += beside_[i];
+    return sum;
+  }
 
  private:
   struct Source {
@@ -96,11 +106,12 @@ class ImageBytes {
   /// `beside`: what there is beside what is kept once the file itself is gone.
   void add(const Source& s, double kept, double beside) {
     kept_ += kept;
-    most_beside_ = std::max({most_beside_, s.file + s.decoded - kept, beside});
+    beside_.push_back(std::max({0.0, s.file + s.decoded - kept, beside}));
   }
 
   std::set<std::pair<std::string, BitmapDecoding>> seen_;
-  double kept_ = 0, most_beside_ = 0;
+  double kept_ = 0;
+  std::vector<double> beside_;
 };
 
 double image_bytes(const SceneDescription& scene) {
@@ -143,7 +154,7 @@ SceneMemory estimate_scene_memory(const SceneDescription& scene) {
   m.description = memory_in_use();
   m.geometry = geometry_bytes(scene);
   m.images = image_bytes(scene);
-  m.film = film_bytes(scene) + kThreadBytes * std::max(1u, std::thread::hardware_concurrency());
+  m.film = film_bytes(scene) + kThreadBytes * HardwareThreads().count();
   return m;
 }
 
