@@ -37,8 +37,7 @@ bool SceneBuilder::read_heights(TextureId id, const HeightFieldShape& shape, con
   if (const auto* scaled = std::get_if<ScaledTextureDescription>(&d.model))
     return read_heights(scaled->inner, shape, scale * scaled->scale, out);
   if (const auto* t = std::get_if<BitmapTexture>(&d.model)) {
-    const auto image =
-        pixels(t->file, {.raw = t->raw, .gamma = t->gamma, .channel = t->channel}, d.where);
+    const auto image = pixels(t->file, t->decoding(), d.where, Severity::error);
     if (!image) return false;
     if (!fill(image->width(), image->height(), [&](int x, int y) { return image->color(x, y); }))
       return false;

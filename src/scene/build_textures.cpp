@@ -118,16 +118,20 @@ void SceneBuilder::read_images() {
 
 std::shared_ptr<const BitmapPixels> SceneBuilder::pixels(const std::string& file,
                                                          const BitmapDecoding& decoding,
-                                                         const SourceLocation& where) {
+                                                         const SourceLocation& where,
+                                                         Severity nonfinite) {
   ReadImage& image = images_[{file, decoding}];
   if (!image.pixels && image.error.empty()) image = read_pixels(file, decoding);
+  if (image.pixels && image.pixels->replaced() > 0 && nonfinite == Severity::error)
+    image = {nullptr, fmt::format("{}: has numbers that are not finite ({})", file,
+                                  image.pixels->replaced())};
   if (std::exchange(image.is_told, true)) return image.pixels;
   if (!image.error.empty())
     diagnostics_.error(where, "{}", image.error);
   else if (const size_t replaced = image.pixels->replaced())
-    diagnostics_.warning(where,
-                         "{}: {} numbers are not finite; NaN is taken for 0, infinity for 65504",
-                         file, replaced);
+    diagnostics_.warning(
+        where, "{}: has numbers that are not finite ({}); NaN is taken for 0, infinity for 65504",
+        file, replaced);
   return image.pixels;
 }
 

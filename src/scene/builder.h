@@ -54,9 +54,11 @@ class SceneBuilder {
   const PhaseFunction* phase(PhaseId id);
   ColorVolumeSlot slot(const ColorVolume& input);
   FloatVolumeSlot slot(const FloatVolume& input);
+  /// `nonfinite`: what numbers that are not finite are.
   std::shared_ptr<const BitmapPixels> pixels(const std::string& file,
                                              const BitmapDecoding& decoding,
-                                             const SourceLocation& where);
+                                             const SourceLocation& where,
+                                             Severity nonfinite = Severity::warning);
   /// Forgets an image that nobody else reads in this form.
   void drop_pixels(const std::string& file, const BitmapDecoding& decoding) {
     images_.erase({file, decoding});

@@ -218,8 +218,8 @@ TEST_CASE("height field: what it cannot be made of is said") {
   CHECK(Built(folder, named("none.exr")).has("scene.xml:2:51: error: file \"none.exr\" not found"));
   CHECK(Built(folder, field("")).has("needs one image"));
   CHECK(Built(folder, named("ramp.exr", "<texture type='checkerboard'/>")).has("needs one image"));
-  CHECK(Built(folder, named("nan.exr")).has("error: the height of pixel (1, 1) is not finite"));
-  CHECK(Built(folder, named("inf.exr")).has("the height of pixel (0, 0) is not finite"));
+  CHECK(Built(folder, named("nan.exr")).has("nan.exr: has numbers that are not finite (1)"));
+  CHECK(Built(folder, named("inf.exr")).has("inf.exr: has numbers that are not finite (1)"));
   CHECK(Built(folder, named("large.exr", "<float name='scale' value='1e20'/>"))
             .has("the height of pixel (1, 0) is not finite"));
   CHECK(Built(folder, named("cut.png")).has("scene.xml:2:51: error: "));
