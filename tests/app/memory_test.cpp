@@ -61,6 +61,14 @@ std::string grid(uint32_t size) {
   return duet::ply_bytes(mesh);
 }
 
+std::string spheres(int count) {
+  std::string text;
+  for (int i = 0; i < count; ++i)
+    text += fmt::format("<shape type='sphere'><point name='center' x='{}' y='{}' z='9'/></shape>",
+                        i % 100, i / 100);
+  return text;
+}
+
 std::string textured_sphere(const std::string& file) {
   return fmt::format(
       "<shape type='sphere'><bsdf type='diffuse'><texture name='reflectance' type='bitmap'>"
@@ -151,18 +159,19 @@ TEST_SUITE("program") {
     const std::string mesh =
         "<shape type='ply'><string name='filename' value='grid.ply'/><transform name='to_world'>"
         "<scale value='3'/></transform>";
-    const std::vector<std::string> parts{
-        mesh + "</shape>",
-        mesh + "<emitter type='area'/></shape>",
-        textured_sphere("bytes.png"),
-        textured_sphere("halves.exr"),
-        textured_sphere("halves.exr") + textured_sphere("bytes.png"),
-        "<emitter type='envmap'><string name='filename' value='halves.exr'/></emitter>",
+    const std::vector<std::pair<std::string, std::string>> parts{
+        {"mesh", mesh + "</shape>"},
+        {"lamp", mesh + "<emitter type='area'/></shape>"},
+        {"spheres", spheres(50000)},
+        {"bytes", textured_sphere("bytes.png")},
+        {"halves", textured_sphere("halves.exr")},
+        {"both", textured_sphere("halves.exr") + textured_sphere("bytes.png")},
+        {"environment",
+         "<emitter type='envmap'><string name='filename' value='halves.exr'/></emitter>"},
     };
-    const std::vector<std::string> threads{"--spp", "1", "-q", "--stats", "stats.json"};
-    for (const std::string& part : parts)
-      for (const char* method : {"path", "bdpt"}) {
-        CAPTURE(part);
+    for (const auto& [name, part] : parts)
+      for (const std::string method : {"path", "bdpt"}) {
+        CAPTURE(name);
         CAPTURE(method);
         TinyScene scene;
         scene.extra = part;
@@ -170,7 +179,8 @@ TEST_SUITE("program") {
         const Outcome info = place.run({"info", "--json", "scene.xml", "-i", method});
         REQUIRE_MESSAGE(info.code == 0, info.err);
         const double announced = nlohmann::json::parse(info.out)["memory"]["total"];
-        const Outcome o = place.run(Arguments{"scene.xml", "-i", method} + threads);
+        const Outcome o =
+            place.run({"scene.xml", "-i", method, "--spp", "1", "-q", "--stats", "stats.json"});
         REQUIRE_MESSAGE(o.code == 0, o.err);
         const double peak =
             nlohmann::json::parse(read_file(place.path("stats.json")))["memory_peak_bytes"];
