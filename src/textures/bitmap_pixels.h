@@ -4,6 +4,7 @@
 #include <array>
 #include <cstdint>
 #include <optional>
+#include <type_traits>
 #include <vector>
 
 #include "image/half.h"
@@ -45,33 +46,14 @@ class BitmapPixels {
   /// Calls `f` with a function (x, y) → texel that knows how the pixels are stored.
   template <class F>
   float visit_grey(F&& f) const {
-    const size_t w = size_t(width_);
-    if (type_ == TexelType::byte)
-      return f([w, p = bytes_.data(), t = table_.data()](int x, int y) {
-        return t[p[size_t(y) * w + size_t(x)]];
-      });
-    if (type_ == TexelType::half)
-      return f([w, p = halves_.data()](int x, int y) {
-        return half_value(p[size_t(y) * w + size_t(x)]);
-      });
-    return f([w, p = floats_.data()](int x, int y) { return p[size_t(y) * w + size_t(x)]; });
+    return visit<float>([&](const auto* numbers, const auto& decode) {
+      return f(GreyTexels{numbers, size_t(width_), decode});
+    });
   }
   template <class F>
   Spectrum visit_color(F&& f) const {
-    const size_t w = size_t(width_);
-    if (type_ == TexelType::byte)
-      return f([w, p = bytes_.data(), t = table_.data()](int x, int y) {
-        const uint8_t* c = p + kColorStride * (size_t(y) * w + size_t(x));
-        return Spectrum(t[c[0]], t[c[1]], t[c[2]]);
-      });
-    if (type_ == TexelType::half)
-      return f([w, p = halves_.data()](int x, int y) {
-        const uint16_t* c = p + kColorStride * (size_t(y) * w + size_t(x));
-        return Spectrum(half_value(c[0]), half_value(c[1]), half_value(c[2]));
-      });
-    return f([w, p = floats_.data()](int x, int y) {
-      const float* c = p + 3 * (size_t(y) * w + size_t(x));
-      return Spectrum(c[0], c[1], c[2]);
+    return visit<Spectrum>([&](const auto* numbers, const auto& decode) {
+      return f(ColorTexels{numbers, size_t(width_), decode});
     });
   }
   /// The texel (x, y), which must exist.
@@ -84,8 +66,9 @@ class BitmapPixels {
     const auto texel = [&](const auto& t) { return t(x, y); };
     return is_grey() ? visit_grey(texel) : visit_color(texel).luminance();
   }
-  /// Tells the processor that the texel (x, y), which must exist, will be asked for.
-  void prefetch(int x, int y) const {
+  /// Tells the processor that the texel (x, y), which must exist, will be asked for. (g++ 12 drops
+  /// calls of functions that do nothing else.)
+  [[gnu::always_inline]] void prefetch(int x, int y) const {
     const size_t at = size_t(y) * size_t(width_) + size_t(x), stride = is_grey() ? 1 : kColorStride;
     if (type_ == TexelType::byte)
       __builtin_prefetch(&bytes_[at * stride]);
@@ -98,6 +81,37 @@ class BitmapPixels {
  private:
   /// Numbers per texel of a colour image of bytes or halves.
   static constexpr size_t kColorStride = 4;
+
+  // Four texels are read for each lookup: calls would take longer than the reading.
+  template <class Number, class Decode>
+  struct GreyTexels {
+    const Number* numbers;
+    size_t width;
+    Decode decode;
+    [[gnu::always_inline]] float operator()(int x, int y) const {
+      return decode(numbers[size_t(y) * width + size_t(x)]);
+    }
+  };
+  template <class Number, class Decode>
+  struct ColorTexels {
+    const Number* numbers;
+    size_t width;
+    Decode decode;
+    [[gnu::always_inline]] Spectrum operator()(int x, int y) const {
+      constexpr size_t kStride = std::is_same_v<Number, float> ? 3 : kColorStride;
+      const Number* c = numbers + kStride * (size_t(y) * width + size_t(x));
+      return Spectrum(decode(c[0]), decode(c[1]), decode(c[2]));
+    }
+  };
+  /// Calls `f` with what is stored and a function that makes linear values of it.
+  template <class Result, class F>
+  Result visit(const F& f) const {
+    if (type_ == TexelType::byte)
+      return f(bytes_.data(), [table = table_.data()](uint8_t byte) { return table[byte]; });
+    if (type_ == TexelType::half)
+      return f(halves_.data(), [](uint16_t bits) { return half_value(bits); });
+    return f(floats_.data(), [](float value) { return value; });
+  }
 
   BitmapPixels(int width, int height, int channels)
       : width_(width), height_(height), channels_(channels) {}
