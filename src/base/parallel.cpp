@@ -97,16 +97,18 @@ HardwareThreads::HardwareThreads() {
 HardwareThreads::~HardwareThreads() = default;
 
 void parallel_for(size_t count, int threads, const std::function<void(size_t)>& work) {
-  // Without this TBB starts no more threads than the machine has processors. The least of all such
-  // limits holds, and Embree has one, too: to ask for more would make TBB print a warning.
-  const tbb::global_control limit(kParallelism, size_t(std::max(1, threads)));
-  const int allowed =
-      int(std::min(size_t(std::max(1, threads)), tbb::global_control::active_value(kParallelism)));
-  if (allowed <= 1) {
+  const auto one_by_one = [&] {
     const FlushDenormals mode;
     for (size_t i = 0; i < count; ++i) work(i);
-    return;
-  }
+  };
+  // Limits wake TBB's threads, which takes longer than a small loop.
+  if (threads <= 1 || count <= 1) return one_by_one();
+  // Without this TBB starts no more threads than the machine has processors. The least of all such
+  // limits holds, and Embree has one, too: to ask for more would make TBB print a warning.
+  const tbb::global_control limit(kParallelism, size_t(threads));
+  const int allowed =
+      int(std::min(size_t(threads), tbb::global_control::active_value(kParallelism)));
+  if (allowed <= 1) return one_by_one();
   tbb::task_arena arena(allowed);
   arena.execute([&] {
     tbb::parallel_for(

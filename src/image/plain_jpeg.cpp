@@ -7,6 +7,8 @@
 
 #include <jpeglib.h>
 
+#include <new>
+
 #include "image/image_limits.h"
 
 namespace duet {
@@ -27,6 +29,7 @@ struct JpegDecoder {
     errors.emit_message = [](j_common_ptr state, int level) {
       if (level < 0) give_up(state);
     };
+    if (setjmp(given_up)) throw std::bad_alloc();
     jpeg_create_decompress(&jpeg);
   }
   ~JpegDecoder() { jpeg_destroy_decompress(&jpeg); }
@@ -39,7 +42,7 @@ struct JpegDecoder {
   }
 };
 
-// libjpeg leaves these two by longjmp() where a file is damaged: nothing in them has a destructor.
+// libjpeg leaves these two, and the constructor, by longjmp(): nothing in them has a destructor.
 
 bool read_header(JpegDecoder& d, const std::vector<uint8_t>& bytes) {
   if (setjmp(d.given_up)) return false;

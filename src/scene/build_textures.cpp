@@ -90,7 +90,7 @@ std::unique_ptr<Texture> VolumeTextureDescription::build(SceneBuilder& b,
 
 namespace {
 
-/// Throws nothing.
+/// With what is wrong with the file, if it cannot be read.
 ReadImage read_pixels(const std::string& file, const BitmapDecoding& decoding) {
   try {
     return {std::make_shared<BitmapPixels>(BitmapPixels::from_file(read_image(file), decoding)),
