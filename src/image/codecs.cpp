@@ -77,16 +77,8 @@ ImageFile decode_with_module(const char* kind, const std::vector<uint8_t>& bytes
     throw std::runtime_error(error);
   const std::unique_ptr<void, Release> pixels(decoded.pixels);
 
-  ImageFile file;
+  ImageFile file = unnamed_image(decoded.width, decoded.height, decoded.channels);
   file.display_encoded = decoded.is_integer;
-  file.display_size = {decoded.width, decoded.height};
-  file.image.width = decoded.width;
-  file.image.height = decoded.height;
-  static const std::vector<std::string> kNames[] = {{}, {"Y"}, {"Y", "A"}, {"R", "G", "B"}};
-  file.image.channels = decoded.channels < 4 ? kNames[decoded.channels]
-                                             : std::vector<std::string>{"R", "G", "B", "A"};
-  for (int c = 4; c < decoded.channels; ++c)
-    file.image.channels.push_back(fmt::format("channel{}", c));
   const size_t count = size_t(decoded.width) * size_t(decoded.height) * size_t(decoded.channels);
   if (decoded.is_float) {
     const float* p = static_cast<const float*>(pixels.get());

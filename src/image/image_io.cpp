@@ -101,6 +101,18 @@ std::vector<uint8_t> encoded(const std::string& path, Encode encode) {
 
 }  // namespace
 
+ImageFile unnamed_image(int width, int height, int channels) {
+  static const std::vector<std::string> kNames[] = {
+      {}, {"Y"}, {"Y", "A"}, {"R", "G", "B"}, {"R", "G", "B", "A"}};
+  ImageFile file;
+  file.display_size = {width, height};
+  file.image.width = width;
+  file.image.height = height;
+  file.image.channels = kNames[std::min(channels, 4)];
+  for (int c = 4; c < channels; ++c) file.image.channels.push_back(fmt::format("channel{}", c));
+  return file;
+}
+
 ImageFile read_image(const std::string& path) {
   const std::vector<uint8_t> bytes = read_bytes(path);
   if (bytes.empty()) throw ReadError(path + ": is empty");

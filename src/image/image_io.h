@@ -31,6 +31,9 @@ struct ImageFile {
   std::vector<std::pair<std::string, std::string>> header;
 };
 
+/// An image of a format that has no names for its channels, still without pixels.
+ImageFile unnamed_image(int width, int height, int channels);
+
 /// Reads OpenEXR, PNG, JPEG, BMP, TGA, Radiance HDR, TIFF, PFM and PNM files, told apart by their
 /// contents (TGA, which has no mark, by its extension). Throws ReadError if the file is missing,
 /// damaged or of a kind that is not understood: deep and subsampled EXR files are not. Of EXR files

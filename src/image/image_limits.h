@@ -16,4 +16,11 @@ constexpr bool is_plausible_size(uint64_t image_bytes, uint64_t file_bytes) {
   return image_bytes <= kAlwaysAllowed || image_bytes / 1032 <= file_bytes;
 }
 
+/// Whether an image of this size, whose pixels take up `image_bytes`, is read.
+constexpr bool is_readable_size(uint64_t width, uint64_t height, uint64_t image_bytes,
+                                uint64_t file_bytes) {
+  return width <= uint64_t(kGreatestImageSize) && height <= uint64_t(kGreatestImageSize) &&
+         is_plausible_size(image_bytes, file_bytes);
+}
+
 }  // namespace duet

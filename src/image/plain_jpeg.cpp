@@ -72,18 +72,11 @@ std::optional<ImageFile> read_plain_jpeg(const std::vector<uint8_t>& bytes) {
   const bool coloured = jpeg.num_components == 3 && jpeg.out_color_space == JCS_RGB;
   if (!grey && !coloured) return std::nullopt;
   const size_t width = jpeg.image_width, height = jpeg.image_height,
-               row_bytes = width * size_t(jpeg.num_components);
-  if (width > size_t(kGreatestImageSize) || height > size_t(kGreatestImageSize) ||
-      !is_plausible_size(row_bytes * height, bytes.size()))
-    return std::nullopt;
+               channels = size_t(jpeg.num_components), row_bytes = width * channels;
+  if (!is_readable_size(width, height, row_bytes * height, bytes.size())) return std::nullopt;
 
-  ImageFile file;
+  ImageFile file = unnamed_image(int(width), int(height), int(channels));
   file.display_encoded = true;
-  file.display_size = {int(width), int(height)};
-  file.image.width = int(width);
-  file.image.height = int(height);
-  file.image.channels =
-      grey ? std::vector<std::string>{"Y"} : std::vector<std::string>{"R", "G", "B"};
   file.bytes.resize(row_bytes * height);
   if (!read_rows(decoder, file.bytes.data(), row_bytes)) return std::nullopt;
   return file;

@@ -78,18 +78,10 @@ std::optional<ImageFile> read_plain_png(const std::vector<uint8_t>& bytes) {
   const size_t width = png_get_image_width(decoder.png, decoder.info),
                height = png_get_image_height(decoder.png, decoder.info),
                channels = png_get_channels(decoder.png, decoder.info), row_bytes = width * channels;
-  if (width > size_t(kGreatestImageSize) || height > size_t(kGreatestImageSize) ||
-      !is_plausible_size((row_bytes + 1) * height, bytes.size()))
-    return std::nullopt;
+  if (!is_readable_size(width, height, (row_bytes + 1) * height, bytes.size())) return std::nullopt;
 
-  static const std::vector<std::string> kNames[] = {
-      {"Y"}, {"Y", "A"}, {"R", "G", "B"}, {"R", "G", "B", "A"}};
-  ImageFile file;
+  ImageFile file = unnamed_image(int(width), int(height), int(channels));
   file.display_encoded = true;
-  file.display_size = {int(width), int(height)};
-  file.image.width = int(width);
-  file.image.height = int(height);
-  file.image.channels = kNames[channels - 1];
   file.bytes.resize(row_bytes * height);
   std::vector<uint8_t*> rows(height);
   for (size_t y = 0; y < height; ++y) rows[y] = &file.bytes[y * row_bytes];

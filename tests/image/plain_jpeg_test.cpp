@@ -9,9 +9,10 @@
 
 #include <random>
 
-#include "image/codecs.h"
+#include "support/images.h"
 
 using namespace duet;
+using namespace duet::test;
 
 namespace {
 
@@ -57,17 +58,8 @@ std::vector<uint8_t> jpeg(unsigned width, unsigned height, const JpegKind& kind)
   return bytes;
 }
 
-/// Whether the file is read, and as OpenImageIO reads it.
 bool jpeg_is_as_by_the_module(const std::vector<uint8_t>& file) {
-  const std::optional<ImageFile> plain = read_plain_jpeg(file);
-  if (!plain) return false;
-  const ImageFile other = decode_with_module("jpeg", file);
-  return plain->bytes == other.bytes && plain->image.width == other.image.width &&
-         plain->image.height == other.image.height &&
-         plain->image.channels == other.image.channels && plain->image.data == other.image.data &&
-         plain->display_encoded == other.display_encoded &&
-         plain->display_size.x == other.display_size.x &&
-         plain->display_size.y == other.display_size.y;
+  return is_read_as_by_the_module(read_plain_jpeg(file), "jpeg", file);
 }
 
 }  // namespace

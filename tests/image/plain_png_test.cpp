@@ -5,7 +5,6 @@
 
 #include <random>
 
-#include "image/codecs.h"
 #include "support/images.h"
 
 using namespace duet;
@@ -52,17 +51,8 @@ std::string random_rows(size_t width, size_t height, size_t channels, std::mt199
   return rows;
 }
 
-/// Whether the file is read, and as OpenImageIO reads it.
 bool is_as_by_the_module(const std::string& file) {
-  const std::optional<ImageFile> plain = read_plain_png(bytes_of(file));
-  if (!plain) return false;
-  const ImageFile other = decode_with_module("png", bytes_of(file));
-  return plain->bytes == other.bytes && plain->image.width == other.image.width &&
-         plain->image.height == other.image.height &&
-         plain->image.channels == other.image.channels && plain->image.data == other.image.data &&
-         plain->display_encoded == other.display_encoded &&
-         plain->display_size.x == other.display_size.x &&
-         plain->display_size.y == other.display_size.y;
+  return is_read_as_by_the_module(read_plain_png(bytes_of(file)), "png", bytes_of(file));
 }
 
 bool is_left_to_the_module(const std::string& file) {

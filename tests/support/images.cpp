@@ -2,6 +2,8 @@
 
 #include <zlib.h>
 
+#include "image/codecs.h"
+
 namespace duet::test {
 
 std::string png(uint32_t width, uint32_t height, int bits, int colour, const std::string& rows) {
@@ -43,6 +45,17 @@ std::string tiff(uint32_t width, uint32_t height, const std::string& pixels) {
 std::string hdr(int width, int height, const std::string& rgbe) {
   return "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y " + std::to_string(height) + " +X " +
          std::to_string(width) + "\n" + rgbe;
+}
+
+bool is_read_as_by_the_module(const std::optional<ImageFile>& read, const char* kind,
+                              const std::vector<uint8_t>& file) {
+  if (!read) return false;
+  const ImageFile other = decode_with_module(kind, file);
+  return read->bytes == other.bytes && read->image.width == other.image.width &&
+         read->image.height == other.image.height && read->image.channels == other.image.channels &&
+         read->image.data == other.image.data && read->display_encoded == other.display_encoded &&
+         read->display_size.x == other.display_size.x &&
+         read->display_size.y == other.display_size.y;
 }
 
 }  // namespace duet::test

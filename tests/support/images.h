@@ -1,8 +1,11 @@
-// Small image files of simple formats, made byte by byte.
+// Small image files of simple formats, made byte by byte, and whether files are read right.
 #pragma once
 
+#include <optional>
 #include <string>
+#include <vector>
 
+#include "image/image_io.h"
 #include "support/serialized.h"
 
 namespace duet::test {
@@ -22,5 +25,9 @@ std::string tiff(uint32_t width, uint32_t height, const std::string& pixels);
 
 /// Radiance HDR without run lengths.
 std::string hdr(int width, int height, const std::string& rgbe);
+
+/// Whether a file was read, and as OpenImageIO reads it; `kind` as in codec_module.h.
+bool is_read_as_by_the_module(const std::optional<ImageFile>& read, const char* kind,
+                              const std::vector<uint8_t>& file);
 
 }  // namespace duet::test
