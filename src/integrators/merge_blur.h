@@ -24,8 +24,8 @@ bool lacks_photons(const Scene& scene, const PathVertex& eye, float radius, cons
 
 /// What the merge of a photon with an eye vertex has too much, relative to what it contributes: one
 /// minus the ratio of what the photon would bring if it had come to the vertex itself, from where
-/// it comes from, to what it brings. That is other light by the scattering towards the camera, the
-/// cosine, the distance and what lies between. Together with the photons that are missing
+/// it comes from, to what it brings. That is other light by the scattering towards the camera with
+/// its cosine, the distance and what lies between. Together with the photons that are missing
 /// (lacks_photons) the mean over those of a pixel is the error of its mean, but for edges that what
 /// lies farther back on the light's way makes, such as a lens. At least −1, and 1 where the vertex
 /// lies in the photon's shadow or on a surface that turns away from the photon's. Counts a shadow

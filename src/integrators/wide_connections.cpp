@@ -90,7 +90,8 @@ void WideEye::weigh_glossy_lights(int count, const WidePairs& pairs, int depth) 
     l.paths.ray.direction.set(k, -p.direction_to_previous());
     l.points.ns.set(k, v.lit);
     l.points.reflectance.set(k, v.flux.r, v.flux.g, v.flux.b);
-    l.throughput.set(k, p.throughput.r, p.throughput.g, p.throughput.b);
+    const Spectrum throughput = p.throughput(v.ng);
+    l.throughput.set(k, throughput.r, throughput.g, throughput.b);
   }
   evaluate_ends_.evaluate(count, {paths_, points_, numbers_}, eye_bsdfs_);
   evaluate_ends_.evaluate(count, {l.paths, l.points, numbers_}, l.bsdfs);

@@ -188,8 +188,10 @@ LightVertex WideLightWalk::light_vertex(int i, int depth) const {
   const Hit at = hit(i);
   const ShapeKind kind = wide_.scene.shapes[at.shape].kind;
   // Where a method merges, points of materials that may not be merged are special.
-  return {{points_.position.point(i), -paths_.ray.direction.vector(i), throughput(i), partials(i),
-           depth, true, kind == ShapeKind::mesh ? Point2f{at.u, at.v} : Point2f{}},
+  const Vector3f direction = paths_.ray.direction.vector(i);
+  return {{points_.position.point(i), -direction, std::abs(dot(points_.ng.vector(i), direction)),
+           throughput(i), partials(i), depth, true,
+           kind == ShapeKind::mesh ? Point2f{at.u, at.v} : Point2f{}},
           at};
 }
 

@@ -50,7 +50,7 @@ DUET_WIDEST void sample_only_light(int n, const FlatLight& light, const WidePoin
 template <bool kRound>
 [[gnu::always_inline]] inline void sample_flat(int n, const float* lights, const WidePoints& points,
                                                const WideNumbers& numbers,
-                                               const WideLightChoice& choice,
+                                               const LightChoices& choice,
                                                WideLightSamples& samples) {
   DUET_LANES
   for (int i = 0; i < n; ++i) {
@@ -65,13 +65,13 @@ template <bool kRound>
 }
 
 DUET_WIDEST void sample_parallelograms(int n, const float* lights, const WidePoints& points,
-                                       const WideNumbers& numbers, const WideLightChoice& choice,
+                                       const WideNumbers& numbers, const LightChoices& choice,
                                        WideLightSamples& samples) {
   sample_flat<false>(n, lights, points, numbers, choice, samples);
 }
 
 DUET_WIDEST void sample_flat_lights(int n, const float* lights, const WidePoints& points,
-                                    const WideNumbers& numbers, const WideLightChoice& choice,
+                                    const WideNumbers& numbers, const LightChoices& choice,
                                     WideLightSamples& samples) {
   sample_flat<true>(n, lights, points, numbers, choice, samples);
 }
@@ -104,21 +104,16 @@ WideLights::WideLights(const Scene& scene) : scene_(scene) {
 }
 
 void WideLights::choose(int n, const WidePoints& points, const WideNumbers& numbers,
-                        WideLightChoice& choice) const {
-  for (int i = 0; i < n; ++i) {
-    const LightPicker::Pick pick =
-        has_light_choice(scene_)
-            ? scene_.direct_picker.pick(numbers.light_choice[i],
-                                        {numbers.light_x[i], numbers.light_y[i]},
-                                        points.position.point(i))
-            : LightPicker::Pick{0, 1};
-    choice.light[i] = pick.light;
-    choice.probability[i] = pick.probability;
-  }
+                        LightChoices& choices) const {
+  if (has_light_choice(scene_))
+    return scene_.direct_picker.pick(n, {numbers.light_choice, numbers.light_x, numbers.light_y},
+                                     points.position, choices);
+  std::fill_n(choices.light.begin(), n, 0u);
+  std::fill_n(choices.probability.begin(), n, 1.0f);
 }
 
 void WideLights::sample(int n, const WidePoints& points, const WideNumbers& numbers,
-                        WideLightChoice& choice, WideLightSamples& samples) const {
+                        LightChoices& choice, WideLightSamples& samples) const {
   if (only_) return sample_only_light(n, *only_, points, numbers, samples);
   if (flat_.empty()) {
     for (int i = 0; i < n; ++i) samples.pdf[i] = -1;
@@ -138,7 +133,7 @@ void WideLights::sample(int n, const WidePoints& points, const WideNumbers& numb
 }
 
 void WideLights::find_emission(int n, const LightStarts& starts, const WidePoints& points,
-                               const WideLightChoice& choice, WideLightSamples& samples) const {
+                               const LightChoices& choice, WideLightSamples& samples) const {
   for (int i = 0; i < n; ++i) {
     if (samples.pdf[i] < 0) continue;
     const uint32_t light = only_ ? 0 : choice.light[i];

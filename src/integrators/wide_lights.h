@@ -2,16 +2,11 @@
 #pragma once
 
 #include "integrators/wide_state.h"
+#include "lights/direct_picker.h"
 #include "lights/flat_light.h"
 #include "transport/light_starts.h"
 
 namespace duet {
-
-/// The lights that are chosen for the points of a batch.
-struct WideLightChoice {
-  BatchArray<uint32_t> light;
-  BatchArray<float> probability;
-};
 
 /// A scene's lights as batches of paths see them: choose_light() for many points at once, with the
 /// same results bit for bit. Flat lights are sampled in loops over all paths, the others one by
@@ -22,16 +17,16 @@ class WideLights {
   explicit WideLights(const Scene& scene);
 
   /// `choice` is room for what is chosen.
-  void sample(int n, const WidePoints& points, const WideNumbers& numbers, WideLightChoice& choice,
+  void sample(int n, const WidePoints& points, const WideNumbers& numbers, LightChoices& choice,
               WideLightSamples& samples) const;
   /// LightStarts::density() of the paths that leave the lights of the samples towards the points;
   /// only where there are samples.
   void find_emission(int n, const LightStarts& starts, const WidePoints& points,
-                     const WideLightChoice& choice, WideLightSamples& samples) const;
+                     const LightChoices& choice, WideLightSamples& samples) const;
 
  private:
   void choose(int n, const WidePoints& points, const WideNumbers& numbers,
-              WideLightChoice& choice) const;
+              LightChoices& choice) const;
 
   const Scene& scene_;
   std::vector<FlatLight> flat_;  ///< by light; of area 0 for those that are none

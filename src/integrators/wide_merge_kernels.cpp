@@ -21,17 +21,13 @@ template <class F>
   for (int k = 0; k < n; ++k) {
     const int i = photons.point[k];
     const Vector3f wi = decode_direction(photons.u[k], photons.v[k]);
-    // Photons are counted per area of the surface, not of the shading normal's.
-    const float cosine = std::abs(dot(all.points.ng.vector(i), wi)),
-                inverse = cosine > 0 ? 1 / cosine : 0.0f;
     const Scattered f = scattered(k, i, wi);
     const float weight = 1 / (1 + photons.vcm[k] * term + f.pdf * (light_sums[k] * unit) +
                               all.subpaths.vcm[i] * term + f.reverse * (eye_sums[i] * unit));
     const float within = photons.depth[k] <= all.most ? 1.0f : 0.0f;
-    const float scale = all.kernel[i] * inverse * within;
-    const float r = f.r * photons.throughput.x[k] * scale,
-                g = f.g * photons.throughput.y[k] * scale,
-                b = f.b * photons.throughput.z[k] * scale;
+    const float scale = all.kernel[i] * within;
+    const float r = f.r * photons.arriving.x[k] * scale, g = f.g * photons.arriving.y[k] * scale,
+                b = f.b * photons.arriving.z[k] * scale;
     // What is not a number is to be seen, and counted.
     merged[k] = std::max(std::max(r, g), b) == 0 ? 0 : 1;
     out.set(k, r * weight, g * weight, b * weight);

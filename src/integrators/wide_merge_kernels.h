@@ -10,7 +10,7 @@ namespace duet {
 /// Photons, each near one of the points.
 struct WidePhotons {
   BatchArray<int32_t> point;  ///< number in the batch
-  BatchTriples throughput;
+  BatchTriples arriving;
   BatchArray<float> vcm, vc, vm;  ///< LightVertex::partials_below()
   BatchArray<uint32_t> u, v;      ///< LightVertex::wo
   BatchArray<int32_t> depth;
@@ -18,7 +18,7 @@ struct WidePhotons {
   /// The photon near point `number`, whose sums it has met with.
   void set(int k, int number, const LightVertex& photon, const Partials& p) {
     point[k] = number;
-    throughput.set(k, photon.throughput.r, photon.throughput.g, photon.throughput.b);
+    arriving.set(k, photon.arriving.r, photon.arriving.g, photon.arriving.b);
     vcm[k] = p.vcm, vc[k] = p.vc, vm[k] = p.vm;
     u[k] = photon.wo[0], v[k] = photon.wo[1];
     depth[k] = photon.depth;

@@ -27,6 +27,12 @@ void WideStages::find_points(int n) {
   prefetch_textures();
 }
 
+void WideStages::find_emitting(int n) {
+  emitting_.clear();
+  for (int i = 0; i < n; ++i)
+    if (wide_.shapes[hits_.shape[i]].emits) emitting_.push_back(i);
+}
+
 /// What textures look up, without normals and tangents.
 static Surface textured_point(const Shape& shape, const Point3f& position, const Hit& hit) {
   const TriangleMesh& m = *shape.mesh;
@@ -60,15 +66,34 @@ void WideStages::look_up_textures() {
   }
 }
 
+/// Large meshes are in no cache near by: corners are asked for some points ahead, and the numbers
+/// of the corners before that.
+void WideStages::prefetch_triangle(int i) const {
+  const WideShape& shape = wide_.shapes[hits_.shape[i]];
+  if (shape.triangles) __builtin_prefetch(&shape.triangles[hits_.primitive[i]]);
+}
+
+[[gnu::always_inline]] inline void WideStages::prefetch_corners(int i) const {
+  const WideShape& shape = wide_.shapes[hits_.shape[i]];
+  if (!shape.triangles) return;
+  for (const uint32_t corner : shape.triangles[hits_.primitive[i]]) {
+    __builtin_prefetch(&shape.positions[corner]);
+    if (shape.normals) __builtin_prefetch(&shape.normals[corner]);
+  }
+}
+
 void WideStages::fetch(int n) {
+  find_emitting(n);
   special_.clear();
-  emitting_.clear();
   textured_.clear();
   for (std::vector<int>& points : glossy_points_) points.clear();
   has_glossy_points_ = false;
+  for (int i = 0; i < n; ++i) prefetch_triangle(i);
+  constexpr int kAhead = 12;
+  for (int i = 0; i < std::min(n, kAhead); ++i) prefetch_corners(i);
   for (int i = 0; i < n; ++i) {
+    if (i + kAhead < n) prefetch_corners(i + kAhead);
     const WideShape& shape = wide_.shapes[hits_.shape[i]];
-    if (shape.emits) emitting_.push_back(i);
     set_reflectance(i, shape.reflectance);
     points_.two_sided[i] = shape.two_sided;
     if (shape.model == WideModel::glossy) {

@@ -21,6 +21,8 @@ class WideStages {
       : wide_(scene), limits_(limits), glossy_points_(scene.glossy.size()) {}
 
   void find_points(int n);
+  /// Instead of that where paths end: only finds those of the points that emit.
+  void find_emitting(int n);
   /// Later than find_points(), when what was prefetched has arrived.
   void look_up_textures();
   /// Random numbers of vertices of paths from the camera.
@@ -74,7 +76,7 @@ class WideStages {
   HitBatch hits_{};
   WidePoints points_{};
   WideNumbers numbers_{};
-  WideLightChoice choice_{};
+  LightChoices choice_{};
   WideLightSamples lights_{};  ///< or, of sub-paths from the lights, samples of the lens
   WideShadowRays shadows_{};
   WideScattering scattering_{};
@@ -94,6 +96,8 @@ class WideStages {
   void for_each_glossy(F&& f);
   /// Moves the rays that nothing blocks yet to the front and tests them; returns how many.
   int find_unblocked(int n, WideShadowRays& rays);
+  void prefetch_triangle(int i) const;
+  void prefetch_corners(int i) const;
   void fetch(int n);
   void prefetch_textures();
   void set_reflectance(int i, const Spectrum& r) { points_.reflectance.set(i, r.r, r.g, r.b); }

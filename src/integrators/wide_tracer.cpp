@@ -12,12 +12,14 @@ void WideTracer::trace(int n, const BatchSampler& sampler, WideSamples& samples,
     wide_.scene.accel->closest_hits(paths_.ray, n, hits_);
     n = end_outside(n, samples);
     counters.path_vertices += uint64_t(n);
-    find_points(n);
-    add_emission(samples);
     if (depth == limits_.max_depth) {
+      find_emitting(n);
+      add_emission(samples);
       for (int i = 0; i < n; ++i) samples.alpha[paths_.id[i]] = 1;
       break;
     }
+    find_points(n);
+    add_emission(samples);
     draw_numbers(n, sampler, depth);
     wide_.lights.sample(n, points_, numbers_, choice_, lights_);
     look_up_textures();

@@ -40,17 +40,60 @@ DirectPicker::DirectPicker(std::span<const std::unique_ptr<Light>> lights,
   base_ = LightPicker(weights);
 }
 
-LightPicker::Pick DirectPicker::pick_by_tree(float u, const Point2f& others,
-                                             const Point3f& from) const {
-  const double fine = fine_variate(u, others), share = double(tree_share_);
-  if (fine < share) {
-    const LightTree::Pick pick = tree_->sample(fine / share, from);
-    return {pick.light,
-            base_.probability(pick.light) * (1 - tree_share_) + tree_share_ * pick.probability};
-  }
+LightPicker::Pick DirectPicker::of_tree(const LightTree::Pick& pick) const {
+  return {pick.light,
+          base_.probability(pick.light) * (1 - tree_share_) + tree_share_ * pick.probability};
+}
+
+LightPicker::Pick DirectPicker::pick_evenly(double fine, const Point2f& others,
+                                            const Point3f& from) const {
+  const double share = double(tree_share_);
   const float rest = std::min(float((fine - share) / (1 - share)), kBelowOne);
   const uint32_t light = base_.pick(rest, others).light;
   return {light, probability(light, from)};
+}
+
+LightPicker::Pick DirectPicker::pick_by_tree(float u, const Point2f& others,
+                                             const Point3f& from) const {
+  const double fine = fine_variate(u, others), share = double(tree_share_);
+  return fine < share ? of_tree(tree_->sample(fine / share, from))
+                      : pick_evenly(fine, others, from);
+}
+
+void DirectPicker::pick(int n, const LightVariates& numbers, const BatchTriples& from,
+                        LightChoices& choices) const {
+  if (tree_) return pick_by_tree(n, numbers, from, choices);
+  for (int i = 0; i < n; ++i) {
+    const LightPicker::Pick pick = base_.pick(numbers.u[i], {numbers.x[i], numbers.y[i]});
+    choices.light[i] = pick.light;
+    choices.probability[i] = pick.probability;
+  }
+}
+
+void DirectPicker::pick_by_tree(int n, const LightVariates& numbers, const BatchTriples& from,
+                                LightChoices& choices) const {
+  const double share = double(tree_share_);
+  NodeChoices nodes;
+  double fine[NodeChoices::kPoints];
+  LightTree::Pick picks[NodeChoices::kPoints];
+  for (int first = 0; first < n; first += NodeChoices::kPoints) {
+    const int count = std::min(n - first, NodeChoices::kPoints);
+    for (int k = 0; k < count; ++k) {
+      const int i = first + k;
+      fine[k] = fine_variate(numbers.u[i], {numbers.x[i], numbers.y[i]});
+      // Those beyond the share are chosen otherwise below.
+      nodes.u[k] = fine[k] < share ? fine[k] / share : 0;
+    }
+    tree_->sample(from, first, count, nodes, picks);
+    for (int k = 0; k < count; ++k) {
+      const int i = first + k;
+      const LightPicker::Pick pick =
+          fine[k] < share ? of_tree(picks[k])
+                          : pick_evenly(fine[k], {numbers.x[i], numbers.y[i]}, from.point(i));
+      choices.light[i] = pick.light;
+      choices.probability[i] = pick.probability;
+    }
+  }
 }
 
 }  // namespace duet

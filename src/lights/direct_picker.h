@@ -9,6 +9,17 @@
 
 namespace duet {
 
+/// The numbers in [0, 1) of many light samples: what chooses the light, and the others.
+struct LightVariates {
+  const BatchArray<float>&u, &x, &y;
+};
+
+/// The lights that are chosen for many points.
+struct LightChoices {
+  BatchArray<uint32_t> light;
+  BatchArray<float> probability;
+};
+
 /// Chooses the light of a light sample. Where a tree serves, a light at the point x has the
 /// probability
 ///
@@ -31,6 +42,9 @@ class DirectPicker {
   LightPicker::Pick pick(float u, const Point2f& others, const Point3f& from) const {
     return tree_ ? pick_by_tree(u, others, from) : base_.pick(u, others);
   }
+  /// The same for many points, with the same results bit for bit.
+  void pick(int n, const LightVariates& numbers, const BatchTriples& from,
+            LightChoices& choices) const;
   float probability(uint32_t light, const Point3f& from) const {
     const float p = base_.probability(light);
     return tree_ ? p * (1 - tree_share_) + tree_share_ * tree_->probability(light, from) : p;
@@ -41,6 +55,11 @@ class DirectPicker {
 
  private:
   LightPicker::Pick pick_by_tree(float u, const Point2f& others, const Point3f& from) const;
+  LightPicker::Pick of_tree(const LightTree::Pick& pick) const;
+  /// What is left to `fine` above the share of the tree chooses evenly.
+  LightPicker::Pick pick_evenly(double fine, const Point2f& others, const Point3f& from) const;
+  void pick_by_tree(int n, const LightVariates& numbers, const BatchTriples& from,
+                    LightChoices& choices) const;
 
   /// Beside a tree: of the choices that are not its own.
   LightPicker base_;

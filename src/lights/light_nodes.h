@@ -3,7 +3,7 @@
 
 #include <cstdint>
 
-#include "math/vector.h"
+#include "math/batch.h"
 
 namespace duet {
 
@@ -30,7 +30,18 @@ struct alignas(64) LightNodes {
   float normals[kCount], spread[kCount];
 
   void set(int i, const LightNode& node);
-  LightNode get(int i) const;
+  [[gnu::always_inline]] LightNode get(int i) const {
+    return {{x[i], y[i], z[i]}, radius[i], power[i],
+            intensity[i],       child[i],  {axis_x[i], axis_y[i], axis_z[i]},
+            normals[i],         spread[i]};
+  }
+};
+
+/// One of LightNodes, chosen in proportion to its importance.
+struct NodeChoice {
+  int node;
+  double u;  ///< uniform in [0, 1) again
+  float probability;
 };
 
 /// What lights are expected to send to a point, for each of LightNodes.
@@ -49,11 +60,27 @@ struct LightEstimates {
   bool add_up();
   /// The probability of a node.
   float share(int i) const { return importance[i] / sums[LightNodes::kCount - 1]; }
+  /// `u` in [0, 1).
+  NodeChoice choose(double u) const;
 };
 
 /// `directed` is false if all lights of the tree shine into all directions.
 /// Source: Conty Estevez & Kulla 2018 (light_bounds.h), section 4.3; docs/lights.md.
 void estimate(const LightNodes& nodes, bool directed, const Point3f& from,
               LightEstimates& estimates);
+
+/// Choices among the same nodes for several points, with the bits of LightEstimates.
+struct NodeChoices {
+  /// So few that all numbers are in the nearest cache.
+  static constexpr int kPoints = 64;
+  double u[kPoints];  ///< set by the caller, in [0, 1), and remapped; else as in NodeChoice
+  int32_t node[kPoints];
+  float probability[kPoints];
+  int32_t even[kPoints];  ///< of the chosen node; see LightEstimates
+};
+
+/// Chooses for the `n` points of `from` that begin with `first`; at most NodeChoices::kPoints.
+void choose_nodes(const LightNodes& nodes, bool directed, const BatchTriples& from, int first,
+                  int n, NodeChoices& choices);
 
 }  // namespace duet

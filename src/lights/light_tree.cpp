@@ -4,34 +4,30 @@
 
 namespace duet {
 
-namespace {
-
-/// Times a number it is below that number, whatever rounding does.
-constexpr double kLargestVariate = 1 - 0x1p-52;
-
-}  // namespace
+LightTree::Step LightTree::step(const LightNodes& group, const NodeChoice& choice, bool even) {
+  const uint32_t child = group.child[choice.node];
+  return {choice.u, choice.probability, child, group.power[choice.node], Leaf::is(child) || even};
+}
 
 LightTree::Pick LightTree::sample(double u, const Point3f& from) const {
-  u = std::min(u, kLargestVariate);
-  float probability = 1;
-  uint32_t child = 0;
   LightEstimates estimates;
-  float all = 1;  // the power of what is left to choose from
-  for (bool by_power = false; !by_power;) {
-    const LightNodes& group = groups_[child];
+  estimate(groups_.front(), directed_, from, estimates);
+  const NodeChoice choice = estimates.choose(u);
+  return descend(step(groups_.front(), choice, estimates.even[choice.node]), from);
+}
+
+LightTree::Pick LightTree::descend(Step s, const Point3f& from) const {
+  LightEstimates estimates;
+  while (!s.by_power) {
+    const LightNodes& group = groups_[s.child];
     estimate(group, directed_, from, estimates);
-    // Without branches, which would be hard to predict.
-    const double target = u * double(estimates.sums[LightNodes::kCount - 1]);
-    int chosen = 0;
-    for (int i = 0; i < LightNodes::kCount - 1; ++i) chosen += target >= double(estimates.sums[i]);
-    const double before = chosen > 0 ? double(estimates.sums[chosen - 1]) : 0;
-    u = std::min((target - before) / double(estimates.importance[chosen]), kLargestVariate);
-    probability *= estimates.share(chosen);
-    child = group.child[chosen];
-    all = group.power[chosen];
-    by_power = Leaf::is(child) || estimates.even[chosen];
+    const NodeChoice choice = estimates.choose(s.u);
+    const float probability = s.probability * choice.probability;
+    s = step(group, choice, estimates.even[choice.node]);
+    s.probability = probability;
   }
-  double rest = u * double(all);
+  double rest = s.u * double(s.power);
+  uint32_t child = s.child;
   while (!Leaf::is(child)) {
     const LightNodes& group = groups_[child];
     int chosen = 0;
@@ -44,8 +40,18 @@ LightTree::Pick LightTree::sample(double u, const Point3f& from) const {
   const uint32_t last = position + leaf.count - 1;
   while (position < last && rest >= double(powers_[position])) rest -= double(powers_[position++]);
   const float own = powers_[position];
-  return {order_[position], probability * (own / all),
+  return {order_[position], s.probability * (own / s.power),
           std::min(float(rest / double(own)), kBelowOne)};
+}
+
+void LightTree::sample(const BatchTriples& from, int first, int n, NodeChoices& choices,
+                       Pick* picks) const {
+  const LightNodes& root = groups_.front();
+  choose_nodes(root, directed_, from, first, n, choices);
+  for (int i = 0; i < n; ++i)
+    picks[i] = descend(
+        step(root, {choices.node[i], choices.u[i], choices.probability[i]}, choices.even[i] != 0),
+        from.point(first + i));
 }
 
 float LightTree::probability(uint32_t light, const Point3f& from) const {

@@ -47,6 +47,9 @@ class LightTree {
   };
   /// `u` in [0, 1). The tree must not be empty.
   Pick sample(double u, const Point3f& from) const;
+  /// The same for the `n` points of `from` that begin with `first`, at most NodeChoices::kPoints;
+  /// `choices.u` are the numbers in [0, 1).
+  void sample(const BatchTriples& from, int first, int n, NodeChoices& choices, Pick* picks) const;
   /// The probability with which sample() chooses the light.
   float probability(uint32_t light, const Point3f& from) const;
 
@@ -68,6 +71,17 @@ class LightTree {
     uint32_t position = kNone;  ///< in order_
     uint32_t trail = 0;         ///< three bits for each depth: which node of the group leads to it
   };
+
+  /// A node on the way down.
+  struct Step {
+    double u;
+    float probability;  ///< of the nodes up to this one
+    uint32_t child;
+    float power;    ///< of what is left to choose from
+    bool by_power;  ///< how it is chosen
+  };
+  static Step step(const LightNodes& group, const NodeChoice& choice, bool even);
+  Pick descend(Step step, const Point3f& from) const;
 
   std::vector<LightNodes> groups_;
   std::vector<uint32_t> order_;  ///< lights, those of a leaf one after the other

@@ -322,12 +322,10 @@ template <class Weights>
 inline Connection connect_merge(const Weights& weights, const LightVertex& light,
                                 const PathVertex& eye, float kernel, bool strict_normals) {
   const Vector3f wi = light.direction_to_previous();
-  // Photons are counted per area of the surface, not of the shading normal's.
-  const float cosine = eye.cosine(wi);
-  if (!(cosine > 0) || (strict_normals && sides_differ(eye.surface, wi))) return {};
+  if (strict_normals && sides_differ(eye.surface, wi)) return {};
   const BsdfPair f = eye.bsdf.eval_both_ways(wi, Transport::radiance);
   if (f.value.is_black() || !eye.merges(f.pdf.value, f.reverse.value)) return {};
-  return {eye.throughput * f.value * light.throughput * (kernel / cosine),
+  return {eye.throughput * f.value * light.arriving * kernel,
           weights.merge(light, f.pdf.value, eye, f.reverse.value)};
 }
 

@@ -14,6 +14,9 @@ uint16_t quantize_unit(float x) {
   return uint16_t(std::clamp(x, 0.0f, 1.0f) * 65535.0f + 0.5f);
 }
 
+/// Cosines below it are rounding: nothing arrives.
+constexpr float kLeastCosine = 1e-6f;
+
 /// Where nothing is interpolated, zero.
 Point2f barycentric_of(const Surface& s) {
   const ShapeKind kind = s.shape->kind;
@@ -24,7 +27,7 @@ Point2f barycentric_of(const Surface& s) {
 
 LightVertex::LightVertex(const SurfaceArrival& a, const Hit& hit)
     : position(a.position),
-      throughput(a.throughput),
+      arriving(a.cosine > kLeastCosine ? a.throughput / a.cosine : Spectrum()),
       partials(a.partials),
       shape(hit.shape),
       primitive(hit.primitive),
@@ -37,8 +40,8 @@ LightVertex::LightVertex(const SurfaceArrival& a, const Hit& hit)
 }
 
 LightVertex::LightVertex(const PathVertex& v, const Hit& hit)
-    : LightVertex({v.surface.position, v.wo, v.throughput, v.partials, v.depth, v.merges(),
-                   barycentric_of(v.surface)},
+    : LightVertex({v.surface.position, v.wo, v.cosine(v.wo), v.throughput, v.partials, v.depth,
+                   v.merges(), barycentric_of(v.surface)},
                   hit) {
   set_light_sample(v.light_sample);
 }
@@ -49,7 +52,7 @@ LightVertex::LightVertex(const MediaVertex& v, const Hit& hit) {
     return;
   }
   position = v.position();
-  throughput = v.throughput;
+  arriving = v.throughput;
   partials = v.partials;
   shape = kNone;
   static_assert(sizeof(const Medium*) == sizeof(primitive) + sizeof(instance));
@@ -85,20 +88,22 @@ inline Surface LightVertex::surface(const Scene& scene, const Vector3f& towards_
 template <>
 PathVertex LightVertex::unpack(const Scene& scene) const {
   const Vector3f towards_previous = direction_to_previous();
-  return PathVertex(scene, surface(scene, towards_previous), towards_previous, throughput, partials,
-                    int(depth));
+  const Surface s = surface(scene, towards_previous);
+  return PathVertex(scene, s, towards_previous, throughput(s.ng), partials, int(depth));
 }
 
 template <>
 MediaVertex LightVertex::unpack(const Scene& scene) const {
   const Vector3f towards_previous = direction_to_previous();
-  if (!in_medium())
-    return MediaVertex(scene, surface(scene, towards_previous), towards_previous,
-                       {throughput, partials, int(depth)}, nullptr);
+  if (!in_medium()) {
+    const Surface s = surface(scene, towards_previous);
+    return MediaVertex(scene, s, towards_previous, {throughput(s.ng), partials, int(depth)},
+                       nullptr);
+  }
   const Medium& medium =
       *std::bit_cast<const Medium*>(std::array<uint32_t, 2>{primitive, instance});
   return MediaVertex({medium, medium.nominal_extinction(position), position}, towards_previous,
-                     {throughput, partials, int(depth)});
+                     {arriving, partials, int(depth)});
 }
 
 }  // namespace duet

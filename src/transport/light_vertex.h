@@ -24,7 +24,8 @@ inline constexpr double kOctahedronScale = 2147483647.0;
 /// How a light sub-path arrives at a surface.
 struct SurfaceArrival {
   Point3f position;
-  Vector3f wo;  ///< unit, towards the previous vertex
+  Vector3f wo;   ///< unit, towards the previous vertex
+  float cosine;  ///< of it with the geometric normal, without sign
   Spectrum throughput;
   Partials partials;
   int depth;
@@ -37,7 +38,10 @@ struct SurfaceArrival {
 /// instance.
 struct LightVertex {
   Point3f position;
-  Spectrum throughput;
+  /// The throughput, on a surface over the cosine of the direction back with the geometric normal:
+  /// photons are counted per area of the surface on which they are, and near by it may face
+  /// another way.
+  Spectrum arriving;
   Partials partials;
   uint32_t shape, primitive, instance;
   uint32_t wo[2];           ///< octahedral, 32 bits per coordinate
@@ -55,6 +59,10 @@ struct LightVertex {
 
   Vector3f direction_to_previous() const { return decode_direction(wo[0], wo[1]); }
   bool in_medium() const { return shape == kNone; }
+  /// At a point of a surface with this normal.
+  Spectrum throughput(const Normal3f& ng) const {
+    return arriving * std::abs(dot(ng, direction_to_previous()));
+  }
   void set_light_sample(const LightSampleVariance& v) {
     light_distance = v.distance & ((1 << LightSampleVariance::kDistanceBits) - 1);
     other_lights = v.others;

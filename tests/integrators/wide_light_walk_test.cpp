@@ -50,7 +50,7 @@ bool close(const Spectrum& a, const Spectrum& b) {
 bool close(const LightVertex& a, const LightVertex& b) {
   return a.shape == b.shape && a.primitive == b.primitive && a.instance == b.instance &&
          a.depth == b.depth && a.merges == b.merges && length(a.position - b.position) < 1e-4f &&
-         close(a.throughput, b.throughput) && close(a.partials.vcm, b.partials.vcm) &&
+         close(a.arriving, b.arriving) && close(a.partials.vcm, b.partials.vcm) &&
          close(a.partials.vc, b.partials.vc) && close(a.partials.vm, b.partials.vm) &&
          std::abs(a.barycentric[0] - b.barycentric[0]) < 8 &&
          std::abs(a.barycentric[1] - b.barycentric[1]) < 8 &&

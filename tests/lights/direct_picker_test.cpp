@@ -5,6 +5,7 @@
 #include "lights/beam.h"
 #include "lights/delta.h"
 #include "lights/environment.h"
+#include "media/random_stream.h"
 
 using namespace duet;
 
@@ -16,6 +17,12 @@ struct Lights {
   void point(const Point3f& p, float intensity = 1, double factor = 1) {
     lights.push_back(std::make_unique<PointEmitter>(p, Spectrum(intensity)));
     factors.push_back(factor);
+  }
+  void spot(const Point3f& p) {
+    lights.push_back(std::make_unique<SpotEmitter>(
+        Transform(Matrix4::translate(double(p.x), double(p.y), double(p.z))), Spectrum(1), 0.5, 0.4,
+        nullptr));
+    factors.push_back(1);
   }
   void sky() {
     lights.push_back(std::make_unique<ConstantEnvironment>(Spectrum(1)));
@@ -116,4 +123,34 @@ TEST_CASE("factors multiply what a light gets, near or far, and uniform shares")
   CHECK(even.probability(0, from) == doctest::Approx(0.4));
   CHECK(even.probability(1, from) == doctest::Approx(0.1));
   CHECK(even.probability(7, from) == 0);
+}
+
+TEST_CASE("the lights of many points are those of one after the other, bit for bit") {
+  RandomStream random(3);
+  BatchArray<float> u, x, y;
+  BatchTriples from;
+  LightChoices choices;
+  const int n = kBatch - 3;  // no multiple of what is looked at together
+  // A tree over spots alone has nothing to go by behind them but intensities.
+  for (const bool points : {true, false}) {
+    for (const int count : {1, 2, 4, 5, 8, 9, 40}) {
+      CAPTURE(points);
+      CAPTURE(count);
+      Lights l = row(points ? count : 0);
+      for (int i = 0; i < count; ++i) l.spot({float(i), 0, 3});
+      const DirectPicker picker = l.picker(LightSelection::automatic);
+      for (int i = 0; i < n; ++i) {
+        u[i] = random.next(), x[i] = random.next(), y[i] = random.next();
+        from.set(i, float(count) * random.next(), random.next(), 6 * random.next());
+      }
+      from.set(0, 0, 0, 0);  // at a light
+      picker.pick(n, {u, x, y}, from, choices);
+      int different = 0;
+      for (int i = 0; i < n; ++i) {
+        const auto one = picker.pick(u[i], {x[i], y[i]}, from.point(i));
+        different += one.light != choices.light[i] || one.probability != choices.probability[i];
+      }
+      CHECK(different == 0);
+    }
+  }
 }
