@@ -36,8 +36,8 @@ float merge_blur(const Scene& scene, const PathVertex& eye, const Point3f& photo
     ++counters.shadow_rays;
     if (scene.accel->occluded(spawn_ray_to(eye.surface, arrival.from))) return 1;
   }
-  // What the photon brings at its place, where all counts by its distance, and would bring at the
-  // vertex.
+  // What the photon brings at its place, and would bring at the vertex: it is counted across its
+  // direction, so that its light falls with the squared distance alone.
   const Vector3f beside = arrival.from - (x + (photon - x) * shift.scale);
   const Vector3f at = arrival.from - x;
   const float d2_beside = length_squared(beside), d2_at = length_squared(at);
