@@ -139,7 +139,7 @@ MUTATIONS = [
      "return unmerged_ ? p.vm : p.vc;", "return p.vc;", "weights are the balance heuristic in pixels*"),
     ("photons are merged in all pixels", "src/integrators/bidirectional_connect.h",
      "if (eye.merging && v.merges()) merge(weights, v, eye);", "if (set_.merges && v.merges()) merge(weights, v, eye);",
-     "where vcm merges*"),
+     "batches merge photons*"),
     ("tiles get samples by their own noise", "src/integrators/sample_allocation.cpp",
      "{tile_rates(films_.subspan(half)), tile_rates", "{tile_rates(films_.first(half)), tile_rates",
      "a film's samples have no say*"),
