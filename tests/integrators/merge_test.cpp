@@ -1,5 +1,6 @@
 // Merging keeps the mean of an image.
 #include <cmath>
+#include <numbers>
 
 #include "support/transport_scene.h"
 
@@ -14,7 +15,7 @@ std::string coarse_ball_obj() {
   std::string vertices, normals, faces;
   for (int j = 0; j <= kDown; ++j)
     for (int i = 0; i < kAround; ++i) {
-      const double theta = M_PI * j / kDown, phi = 2 * M_PI * i / kAround;
+      const double theta = std::numbers::pi * j / kDown, phi = 2 * std::numbers::pi * i / kAround;
       const std::string at = std::to_string(std::sin(theta) * std::cos(phi)) + " " +
                              std::to_string(std::sin(theta) * std::sin(phi)) + " " +
                              std::to_string(std::cos(theta)) + "\n";
