@@ -8,6 +8,7 @@
 #include "base/parallel.h"
 #include "integrators/importance_map.h"
 #include "integrators/pilot.h"
+#include "transport/light_choice.h"
 #include "transport/light_subpath.h"
 
 namespace duet {
@@ -26,7 +27,7 @@ constexpr double kMostCounted = 0.25;
 /// From fewer rays nothing can be learned.
 constexpr size_t kFewestUseful = 8;
 /// By how much a guide has to make useful rays denser, in their mean, to be worth its time.
-constexpr double kLeastGain = 1.5;
+constexpr double kLeastGain = 2;
 
 /// A ray that was of use, and by how much the guide had changed its density.
 struct UsefulRay {
@@ -48,7 +49,7 @@ class EmissionLearner {
   EmissionLearner(const Scene& scene, const LightPassPlan& plan, std::vector<Importon> importons)
       : scene_(scene),
         plan_(plan),
-        guide_(std::make_unique<EmissionGuide>(scene.lights, aimed_at(importons))),
+        guide_(guide_by(aimed_at(importons))),
         importance_(std::move(importons)) {
     plan_.max_depth = std::min(plan_.max_depth, kMostSegments);
   }
@@ -59,15 +60,16 @@ class EmissionLearner {
     std::vector<UsefulRay> rays;
     for (uint32_t round = 0; round < kRounds.size(); ++round) {
       rays = trace(round);
+      // Where most rays are of use, more rounds change little.
+      if (rays.size() > kRounds[round] / 2 && !(gain(rays) > kLeastGain)) return nullptr;
       for (UsefulRay& r : rays) {
         records.push_back(r.record);
         records.back().weight /= float(kRounds[round]);
       }
-      if (records.size() >= kFewestUseful)
-        guide_ = std::make_unique<EmissionGuide>(scene_.lights, records);
+      if (records.size() >= kFewestUseful) guide_ = guide_by(records);
     }
     if (!(gain(rays) > kLeastGain)) return nullptr;
-    return std::make_unique<EmissionGuide>(scene_.lights, std::move(records), most);
+    return guide_by(std::move(records), most);
   }
 
  private:
@@ -81,23 +83,53 @@ class EmissionLearner {
     return sum > 0 ? denser / sum : 0.0;
   }
 
-  /// Rays of all lights through points where camera sub-paths have been.
+  std::unique_ptr<EmissionGuide> guide_by(std::vector<EmissionGuide::Record> records,
+                                          float most = INFINITY) const {
+    return std::make_unique<EmissionGuide>(scene_.lights, scene_.emission_picker,
+                                           std::move(records), most);
+  }
+
+  /// Rays of lights to points where camera sub-paths have been, as often of each light as light
+  /// samples choose it there.
   std::vector<EmissionGuide::Record> aimed_at(const std::vector<Importon>& importons) const {
     std::vector<EmissionGuide::Record> records;
-    for (uint32_t light = 0; light < scene_.lights.size(); ++light) {
-      const SceneSphere* sphere = scene_.lights[light]->entered_sphere();
-      if (!sphere) continue;
-      for (size_t i = 0; i < importons.size(); ++i) {
-        Sampler sampler(SampleSequence::independent, kAimSeed, light, i);
-        sampler.start_sample(0);
-        const auto e = scene_.lights[light]->sample_emission({0.5f, 0.5f}, sampler.next_2d());
-        if (!e) continue;
-        const Vector3f from = -e->ray.direction;
-        const Point2f entry = sphere->entry(from, importons[i].position);
-        records.push_back({light, from, entry, importons[i].weight});
-      }
+    std::vector<float> chosen(scene_.lights.size());
+    float all = 0;
+    for (size_t i = 0; i < importons.size(); ++i) {
+      const auto& [position, normal, weight, is_smooth] = importons[i];
+      all += weight;
+      Sampler sampler(SampleSequence::independent, kAimSeed, scene_.lights.size(), i);
+      sampler.start_sample(0);
+      const ChosenLight light = choose_light(scene_, position, sampler);
+      if (!light.sample) continue;
+      chosen[light.light] += weight;
+      if (!scene_.lights[light.light]->entered_sphere())
+        records.push_back(record(light.light, light.sample->wi, position, weight));
     }
+    for (uint32_t light = 0; light < scene_.lights.size(); ++light)
+      if (scene_.lights[light]->entered_sphere() && chosen[light] > 0)
+        aim(light, importons, chosen[light] / all, records);
     return records;
+  }
+
+  /// One ray of a light that is infinitely far away through each point, by its own choice of
+  /// direction.
+  void aim(uint32_t light, const std::vector<Importon>& importons, float scale,
+           std::vector<EmissionGuide::Record>& records) const {
+    for (size_t i = 0; i < importons.size(); ++i) {
+      Sampler sampler(SampleSequence::independent, kAimSeed, light, i);
+      sampler.start_sample(0);
+      const auto e = scene_.lights[light]->sample_emission({0.5f, 0.5f}, sampler.next_2d());
+      if (!e) continue;
+      const Importon& to = importons[i];
+      records.push_back(record(light, -e->ray.direction, to.position, to.weight * scale));
+    }
+  }
+
+  EmissionGuide::Record record(uint32_t light, const Vector3f& from, const Point3f& through,
+                               float weight) const {
+    const auto numbers = EmissionGuide::guided_numbers(*scene_.lights[light], from, through);
+    return {light, from, numbers.value_or(Point2f(0.5f, 0.5f)), weight};
   }
 
   std::vector<UsefulRay> trace(uint32_t round) const {
@@ -114,8 +146,6 @@ class EmissionLearner {
     const LightStarts starts(scene_, guide_.get());
     const auto start = start_light_subpath(scene_, starts, sampler);
     if (!start) return std::nullopt;
-    const SceneSphere* sphere = start->light->entered_sphere();
-    if (!sphere) return std::nullopt;
     float use = 0;
     const auto visit = [&](const PathVertex& v, const Hit&) {
       // Light samples find best what lights send directly.
@@ -128,11 +158,14 @@ class EmissionLearner {
     if (!(use > 0 && use < INFINITY)) return std::nullopt;
     const Ray& ray = start->emission.ray;
     const Vector3f from = -ray.direction;
-    const float factor = guide_->factor(start->index, *start->light, from, ray.origin);
+    const auto density = [&](const LightStarts& of) {
+      return of.density(start->index, 1, from, ray.origin);
+    };
+    const float factor = density(starts) / density(LightStarts(scene_));
     // The least variance has a density in proportion to the root of the mean square of the use,
     // which the root of the use is nearer to than the use itself where that differs much.
     const float weight = std::sqrt(use * factor) / factor;
-    return UsefulRay{{start->index, from, sphere->entry(from, ray.origin), weight}, factor};
+    return UsefulRay{record(start->index, from, ray.origin, weight), factor};
   }
 
   const Scene& scene_;
@@ -145,9 +178,13 @@ class EmissionLearner {
 
 std::unique_ptr<const EmissionGuide> learn_emission(const Scene& scene, Point2i film,
                                                     const LightPassPlan& plan) {
-  const bool any = std::any_of(scene.lights.begin(), scene.lights.end(),
-                               [](const auto& light) { return light->entered_sphere(); });
-  if (!any || scene.needs_media_vertices() || plan.max_depth < 1) return nullptr;
+  const auto is_guided = [](const auto& light) {
+    return EmissionGuide::guided_numbers(*light, {0, 0, 1}, {0, 0, 0}).has_value();
+  };
+  if (!(has_light_choice(scene) ||
+        std::any_of(scene.lights.begin(), scene.lights.end(), is_guided)) ||
+      scene.needs_media_vertices() || plan.max_depth < 1)
+    return nullptr;
   const int depth = std::min(plan.max_depth, kMostSegments);
   std::vector<Importon> importons =
       trace_importons(scene, film, kImportonSide, depth, plan.subpath, plan.threads);

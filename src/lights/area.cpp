@@ -1,5 +1,6 @@
 #include "lights/area.h"
 
+#include "math/equal_area.h"
 #include "math/warp.h"
 
 namespace duet {
@@ -217,13 +218,17 @@ std::optional<LightSample> AreaLight::sample_cone(const Point3f& from, const Poi
   const float sin2 = sin2_theta(local);
   const float t = d * local.z - safe_sqrt(r2 - d2 * sin2);
   const Normal3f n(normalize((from + wi * t) - center_));
+  return toward(point_of_sphere(n), PdfW{1 / (2 * kPi * span)}, wi);
+}
+
+ShapePoint AreaLight::point_of_sphere(const Normal3f& n) const {
   ShapePoint p;
   p.position = center_ + Vector3f(n) * radius_;
-  p.ng = n;
+  p.ng = p.ns = n;
   p.offset = kOffsetScale * (max_abs(center_) + radius_);
   p.pdf = uniform_;
   if (radiance_.texture) p.uv = analytic_uv(shape_.kind, shape_.to_world.inverse(p.position));
-  return toward(p, PdfW{1 / (2 * kPi * span)}, wi);
+  return p;
 }
 
 inline PdfW AreaLight::cone_pdf(const Point3f& from) const {
@@ -249,11 +254,7 @@ PdfW AreaLight::pdf_direct(const Point3f& from, const Surface& surface, const Ve
 
 ShapePoint AreaLight::sample_point(const Point2f& u) const {
   if (cells_) return cells_->sample(u);
-  if (strategy_ != Strategy::parallelogram) {
-    ShapePoint p = sample_analytic(shape_, u);
-    if (strategy_ == Strategy::cone) p.pdf = uniform_;
-    return p;
-  }
+  if (strategy_ == Strategy::surface) return sample_analytic(shape_, u);
   ShapePoint p{};
   const FlatLight& l = flat_;
   p.position = l.origin + (l.edge_u * u.x + l.edge_v * u.y);
@@ -262,17 +263,37 @@ ShapePoint AreaLight::sample_point(const Point2f& u) const {
   return p;
 }
 
-std::optional<EmissionSample> AreaLight::sample_emission(const Point2f& position,
-                                                         const Point2f& direction) const {
+inline AreaLight::EmittedRay AreaLight::leave_point(const Point2f& position, Point2f u) const {
   ShapePoint p = sample_point(position);
-  Point2f u = direction;
   if (two_sided()) {
     // Half of the directions for each side.
     const bool back = u.x >= 0.5f;
     if (back) p.ng = -p.ng, p.ns = -p.ns;
     u.x = std::min(2 * u.x - (back ? 1.0f : 0.0f), kBelowOne);
   }
-  const Vector3f w = Frame(p.ng).to_world(square_to_cosine_hemisphere(u));
+  return {p, Frame(p.ng).to_world(square_to_cosine_hemisphere(u))};
+}
+
+// Both have the density of a uniform point and the cosine there: 1 / 4π for the direction, and one
+// over the area of the disk that the sphere is across it.
+inline AreaLight::EmittedRay AreaLight::leave_sphere(const Point2f& position,
+                                                     const Point2f& direction) const {
+  const Vector3f w = normalize(square_to_sphere_equal_area(direction));
+  const Normal3f n(Frame(Normal3f(w)).to_world(square_to_cosine_hemisphere(position)));
+  return {point_of_sphere(n), w};
+}
+
+std::optional<Point2f> AreaLight::direction_numbers(const Vector3f& w) const {
+  if (strategy_ == Strategy::cone) return sphere_to_square_equal_area(w);
+  if (!(flat_.area > 0)) return std::nullopt;
+  const Vector3f local = Frame(flat_.normal).to_local(w);
+  return disk_to_square({local.x, local.y});
+}
+
+std::optional<EmissionSample> AreaLight::sample_emission(const Point2f& position,
+                                                         const Point2f& direction) const {
+  const auto [p, w] = strategy_ == Strategy::cone ? leave_sphere(position, direction)
+                                                  : leave_point(position, direction);
   if (!(dot(p.ng, w) > 0 && leaves(p.ns, w))) return std::nullopt;
   const Spectrum emitted = radiance(p);
   if (emitted.is_black()) return std::nullopt;

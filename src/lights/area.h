@@ -32,9 +32,10 @@ class AreaLight final : public SurfaceLight {
   double power(double scene_radius) const override;
   std::optional<LightBounds> bounds() const override;
   /// A point in proportion to what it emits, and a direction by its cosine with the geometric
-  /// normal.
+  /// normal. Of a sphere the direction comes first.
   std::optional<EmissionSample> sample_emission(const Point2f& position,
                                                 const Point2f& direction) const override;
+  std::optional<Point2f> direction_numbers(const Vector3f& w) const override;
   float direct_density(const EmissionSample& emission, const Point3f& at) const override;
   float emission_density(const Surface& surface, const Vector3f& w) const override;
   /// Total area of the surface.
@@ -47,7 +48,7 @@ class AreaLight final : public SurfaceLight {
   enum class Strategy {
     cells,          ///< a triangle by the light it emits, then a point of it
     parallelogram,  ///< two triangles that are one, taken as a whole to keep strata together
-    cone,           ///< a sphere: a direction within the cone that it fills; by area for emission
+    cone,           ///< a sphere: a direction within the cone that it fills, any for emission
     surface,        ///< an analytic shape by its parameters
   };
 
@@ -80,8 +81,16 @@ class AreaLight final : public SurfaceLight {
   std::optional<LightSample> sample_cone(const Point3f& from, const Point2f& u) const;
   /// The density of any direction that sample_cone() makes.
   PdfW cone_pdf(const Point3f& from) const;
-  /// Where emitted rays start.
+  /// The point of the sphere with this normal.
+  ShapePoint point_of_sphere(const Normal3f& n) const;
+  /// Where emitted rays start, unless from a sphere.
   ShapePoint sample_point(const Point2f& u) const;
+  struct EmittedRay {
+    ShapePoint start;
+    Vector3f direction;
+  };
+  EmittedRay leave_point(const Point2f& position, Point2f direction) const;
+  EmittedRay leave_sphere(const Point2f& position, const Point2f& direction) const;
   /// The density with which sample_point() makes a point of the surface.
   PdfA point_pdf(const Surface& surface) const;
 

@@ -86,6 +86,10 @@ std::optional<EmissionSample> PointEmitter::sample_emission(const Point2f&,
   return reversed(from_point(position_, away, intensity_, 0.25f * kInvPi), length_squared(away));
 }
 
+std::optional<Point2f> PointEmitter::direction_numbers(const Vector3f& w) const {
+  return sphere_to_square(w);
+}
+
 double PointEmitter::power(double) const {
   return 4 * std::numbers::pi * double(intensity_.luminance());
 }
@@ -147,6 +151,10 @@ std::optional<EmissionSample> SpotEmitter::sample_emission(const Point2f&,
                                                            const Point2f& direction) const {
   const Vector3f away = to_world_(square_to_cone(direction, span_));
   return reversed(send(away), length_squared(away));
+}
+
+std::optional<Point2f> SpotEmitter::direction_numbers(const Vector3f& w) const {
+  return cone_to_square(normalize(to_world_.inverse(w)), span_);
 }
 
 double SpotEmitter::power(double) const {

@@ -34,6 +34,7 @@ class PointEmitter final : public PositionEmitter {
   double power(double scene_radius) const override;
   std::optional<EmissionSample> sample_emission(const Point2f& position,
                                                 const Point2f& direction) const override;
+  std::optional<Point2f> direction_numbers(const Vector3f& w) const override;
 
  private:
   Spectrum intensity_;
@@ -53,6 +54,7 @@ class SpotEmitter final : public PositionEmitter {
   /// A direction that is uniform in the cone, before the transform.
   std::optional<EmissionSample> sample_emission(const Point2f& position,
                                                 const Point2f& direction) const override;
+  std::optional<Point2f> direction_numbers(const Vector3f& w) const override;
 
  private:
   /// The light at the point that is `away` from the emitter.

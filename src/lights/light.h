@@ -84,6 +84,9 @@ class Light {
   /// The sphere that rays of sample_emission() enter uniformly, whatever their direction, which
   /// depends on its second argument alone; null if the light does not do so.
   virtual const SceneSphere* entered_sphere() const { return nullptr; }
+  /// The second argument of sample_emission() for which it makes a ray in the unit direction `w`,
+  /// wherever that starts. Nothing, whatever the direction, if that depends on where it starts.
+  virtual std::optional<Point2f> direction_numbers(const Vector3f&) const { return std::nullopt; }
 
  private:
   LightKind kind_;

@@ -37,12 +37,23 @@ inline Point2f disk_to_square(const Point2f& d) {
   return {d.x, d.y, safe_sqrt(1 - d.x * d.x - d.y * d.y)};
 }
 
+/// The angle of (x, y) from the x axis, in turns: in [0, 1).
+inline float turns(float x, float y) {
+  const float t = std::atan2(y, x) * (0.5f * kInvPi);
+  return std::min(t < 0 ? t + 1 : t, kBelowOne);
+}
+
 /// Density 1 / 4π on the unit sphere.
 inline Vector3f square_to_sphere(const Point2f& u) {
   const float z = 1 - 2 * u.y, r = safe_sqrt(1 - z * z);
   float sine, cosine;
   sincos_turns(u.x, sine, cosine);
   return {r * cosine, r * sine, z};
+}
+
+/// The point of the square that square_to_sphere() takes to a unit direction.
+inline Point2f sphere_to_square(const Vector3f& d) {
+  return {turns(d.x, d.y), std::clamp(0.5f * (1 - d.z), 0.0f, kBelowOne)};
 }
 
 /// Uniform in the cone around +z whose half angle has 1 − cosine = `one_minus_cos`
@@ -53,6 +64,14 @@ inline Vector3f square_to_cone(const Point2f& u, float one_minus_cos) {
   float sine, cosine;
   sincos_turns(u.y, sine, cosine);
   return {sin_theta * cosine, sin_theta * sine, 1 - h};
+}
+
+/// The point of the square that square_to_cone() takes to a unit direction, or one at the edge if
+/// the direction is outside of the cone.
+inline Point2f cone_to_square(const Vector3f& d, float one_minus_cos) {
+  const float sin2 = d.x * d.x + d.y * d.y;
+  const float h = d.z > 0 ? sin2 / (1 + d.z) : 1 - d.z;
+  return {std::min(h / one_minus_cos, kBelowOne), turns(d.x, d.y)};
 }
 
 /// Barycentric coordinates (b1, b2), uniform on a triangle.

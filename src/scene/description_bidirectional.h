@@ -26,7 +26,7 @@ struct BidirectionalIntegratorDescription {
   /// Light vertices to which each eye vertex is connected; −1: all of one light sub-path.
   int connections = -1;
   bool light_image = true;     ///< bdpt: connect light vertices to the camera
-  bool guide_emission = true;  ///< learn where light from infinitely far away is of use
+  bool guide_emission = true;  ///< learn where light sub-paths should begin
   double radius = 0;  ///< of merging in the first iteration, world units; 0: from the pixels' size
   double alpha = 0;   ///< how fast the radius shrinks; 0: the method's default
   int max_eye_depth = 4, max_light_depth = 3;  ///< reuse
@@ -107,7 +107,7 @@ struct BidirectionalIntegratorDescription {
                 .when([](const D& d) { return d.is(bdpt); }),
             field(&D::guide_emission,
                   Parameter{"guide_emission", boolean, kInitial,
-                            "learn where light from infinitely far away is of use"})
+                            "learn at which light and with which rays light sub-paths begin best"})
                 .terse(),
             field(&D::radius,
                   Parameter{.name = "radius",

@@ -1,4 +1,4 @@
-// How light sub-paths begin: at which light, and where rays from infinitely far away enter.
+// How light sub-paths begin: at which light, and with which ray.
 #pragma once
 
 #include "lights/emission_guide.h"
@@ -14,23 +14,23 @@ class LightStarts {
       : scene_(&scene), guide_(guide) {}
 
   LightPicker::Pick pick(float choice, const Point2f& position) const {
-    return scene_->emission_picker.pick(choice, position);
+    return guide_ ? guide_->pick(choice, position)
+                  : scene_->emission_picker.pick(choice, position);
   }
   /// A ray of the light; empty if it carries nothing.
   std::optional<EmissionSample> emit(uint32_t light, const Point2f& position,
                                      const Point2f& direction) const {
     const Light& emitter = *scene_->lights[light];
-    auto e = emitter.sample_emission(position, direction);
-    if (e && guide_) guide_->redirect(light, emitter, position, *e);
-    return e;
+    return guide_ ? guide_->emit(light, emitter, position, direction)
+                  : emitter.sample_emission(position, direction);
   }
   /// The density of the choice of a light and of its ray through a point. `emission` is what the
   /// light says of it (EmissionSample::density), `from` the unit direction towards the light.
   float density(uint32_t light, float emission, const Vector3f& from,
                 const Point3f& through) const {
-    emission *= scene_->emission_picker.probability(light);
-    return guide_ ? emission * guide_->factor(light, *scene_->lights[light], from, through)
-                  : emission;
+    if (!guide_) return emission * scene_->emission_picker.probability(light);
+    return emission * guide_->probability(light) *
+           guide_->factor(light, *scene_->lights[light], from, through);
   }
 
  private:

@@ -24,6 +24,25 @@ std::string sun(const std::string& direction) {
 const std::string kSky = "<emitter type='constant'><rgb name='radiance' value='1'/></emitter>";
 /// Into the open side of the room.
 const std::string kSun = sun("0.3, 1, -0.6");
+/// Lamps high above the room and the plain.
+const std::string kBulb =
+    "<emitter type='point'><point name='position' value='-1, -4, 6'/><rgb "
+    "name='intensity' value='100'/></emitter>";
+const std::string kGlobe = sphere_xml(
+    "-1, -4, 6", "0.1", "<emitter type='area'><rgb name='radiance' value='3000'/></emitter>");
+const std::string kPanel =
+    "<shape type='rectangle'><transform name='to_world'><scale value='0.1'/><lookat origin='-1, "
+    "-4, "
+    "6' target='0, 0, 0' up='0, 0, 1'/></transform><emitter type='area'><rgb name='radiance' "
+    "value='3000'/></emitter></shape>";
+/// One near the room among a hundred that are far away from it.
+std::string chain() {
+  std::string all = kBulb;
+  for (int i = 0; i < 100; ++i)
+    all += "<emitter type='point'><point name='position' value='" + std::to_string(i % 10) +
+           ", 11, 0.1'/><rgb name='intensity' value='100'/></emitter>";
+  return all;
+}
 const std::string kBall = sphere_xml("0.3, 0.3, 0.4", "0.4", "<bsdf type='dielectric'/>");
 
 LightPassPlan plan(int threads = 2) {
@@ -85,20 +104,25 @@ TEST_CASE("there is no guide where it does not help") {
 // with bdpt is 0.5 % of the mean, so that four of them would notice 2 %.
 TEST_CASE("guided light sub-paths bring the same light, with less noise") {
   struct Case {
-    const char* name;
+    std::string name;
     TransportScene scene;
-    const char* method;
+    std::string method;
     double least_gain;  ///< of the variance of the mean
   };
   const Case cases[] = {{"sun, ppm", on_plain(kSun, "12"), "ppm", 8},
                         {"sun, ptracer", on_plain(kSun, "12"), "ptracer", 8},
                         {"sun and glass, vcm", on_plain(kSun, "12", kBall), "vcm", 3},
                         {"sky, ptracer", on_plain(kSky, "12"), "ptracer", 3},
-                        {"sky and sun, bpm", on_plain(kSky + kSun, "12"), "bpm", 3}};
+                        {"sky and sun, bpm", on_plain(kSky + kSun, "12"), "bpm", 3},
+                        {"point, ptracer", on_plain(kBulb, "12"), "ptracer", 8},
+                        {"point and glass, vcm", on_plain(kBulb, "12", kBall), "vcm", 3},
+                        {"sphere, bpm", on_plain(kGlobe, "12"), "bpm", 8},
+                        {"panel and glass, bdpt", on_plain(kPanel, "12", kBall), "bdpt", 1},
+                        {"many points, ptracer", on_plain(chain(), "12"), "ptracer", 3}};
   for (const Case& c : cases) {
     CAPTURE(c.name);
     Parameters p{{"max_depth", "5"}, {"light_paths", "4"}};
-    if (c.method != std::string("ptracer")) p.push_back({"radius", "0.05"});
+    if (c.method != "ptracer" && c.method != "bdpt") p.push_back({"radius", "0.05"});
     const Moments guided = means(c.scene, c.method, p, 8, 100);
     p.push_back({"guide_emission", "false"});
     const Moments plain = means(c.scene, c.method, p, 8, 500);
