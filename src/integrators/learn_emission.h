@@ -1,5 +1,5 @@
-// Learns at which light and with which rays light sub-paths should begin: most rays may meet nothing
-// that the image has to do with, such as the outside of a house.
+// Learns at which light and with which rays light sub-paths should begin: most rays may meet
+// nothing that the image has to do with, such as the outside of a house.
 #pragma once
 
 #include <memory>

@@ -14,8 +14,7 @@ class LightStarts {
       : scene_(&scene), guide_(guide) {}
 
   LightPicker::Pick pick(float choice, const Point2f& position) const {
-    return guide_ ? guide_->pick(choice, position)
-                  : scene_->emission_picker.pick(choice, position);
+    return guide_ ? guide_->pick(choice, position) : scene_->emission_picker.pick(choice, position);
   }
   /// A ray of the light; empty if it carries nothing.
   std::optional<EmissionSample> emit(uint32_t light, const Point2f& position,
