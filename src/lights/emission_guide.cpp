@@ -31,9 +31,10 @@ EmissionGuide::EmissionGuide(std::span<const std::unique_ptr<Light>> lights,
     double use = 0;
     for (auto r = first; r != end; ++r) use += double(r->weight);
     const float plain = unguided.probability(i);
-    chosen[i] = all > 0 ? lerp(float(use / all), plain, kUniform) : plain;
-    most_.push_back(is_infinite(lights[i]->kind()) && chosen[i] > 0 ? most * plain / chosen[i]
-                                                                    : INFINITY);
+    // Lights without power begin no sub-paths.
+    chosen[i] = all > 0 && plain > 0 ? lerp(float(use / all), plain, kUniform) : plain;
+    most_.push_back(is_infinite(lights[i]->kind()) && plain > 0 ? most * plain / chosen[i]
+                                                                : INFINITY);
     if (first != end && guided_numbers(*lights[i], {0, 0, 1}, {0, 0, 0}))
       roots_[i] =
           divide({first, end}, {{0, 0}, {1, 1}, 0}, lights[i]->kind() == LightKind::environment);

@@ -178,6 +178,9 @@ TEST_CASE("a guide chooses lights by the use of their rays") {
   }
   for (uint32_t i = 0; i < 3; ++i)
     CHECK(std::abs(float(found[i]) - kChoices * guide.probability(i)) < 3);
+  // Lights that begin no sub-paths without a guide begin none with one.
+  const float without[] = {0, 2, 5};
+  CHECK(EmissionGuide(lights, LightPicker(without), records).probability(0) == 0);
   // Without records, as without a guide.
   CHECK(EmissionGuide(lights, LightPicker(weights), {}).probability(2) == doctest::Approx(5 / 8.0));
 }
