@@ -96,15 +96,15 @@ class EmissionLearner {
     std::vector<float> chosen(scene_.lights.size());
     float all = 0;
     for (size_t i = 0; i < importons.size(); ++i) {
-      const auto& [position, normal, weight, is_smooth] = importons[i];
-      all += weight;
+      const Importon& to = importons[i];
+      all += to.weight;
       Sampler sampler(SampleSequence::independent, kAimSeed, scene_.lights.size(), i);
       sampler.start_sample(0);
-      const ChosenLight light = choose_light(scene_, position, sampler);
+      const ChosenLight light = choose_light(scene_, to.position, sampler);
       if (!light.sample) continue;
-      chosen[light.light] += weight;
+      chosen[light.light] += to.weight;
       if (!scene_.lights[light.light]->entered_sphere())
-        records.push_back(record(light.light, light.sample->wi, position, weight));
+        records.push_back(record(light.light, light.sample->wi, to.position, to.weight));
     }
     for (uint32_t light = 0; light < scene_.lights.size(); ++light)
       if (scene_.lights[light]->entered_sphere() && chosen[light] > 0)

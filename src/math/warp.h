@@ -39,7 +39,7 @@ inline Point2f disk_to_square(const Point2f& d) {
 
 /// The angle of (x, y) from the x axis, in turns: in [0, 1).
 inline float turns(float x, float y) {
-  const float t = std::atan2(y, x) * (0.5f * kInvPi);
+  const float t = atan2_turns(y, x);
   return std::min(t < 0 ? t + 1 : t, kBelowOne);
 }
 

@@ -31,10 +31,9 @@ const std::string kBulb =
 const std::string kGlobe = sphere_xml(
     "-1, -4, 6", "0.1", "<emitter type='area'><rgb name='radiance' value='3000'/></emitter>");
 const std::string kPanel =
-    "<shape type='rectangle'><transform name='to_world'><scale value='0.1'/><lookat origin='-1, "
-    "-4, "
-    "6' target='0, 0, 0' up='0, 0, 1'/></transform><emitter type='area'><rgb name='radiance' "
-    "value='3000'/></emitter></shape>";
+    "<shape type='rectangle'><transform name='to_world'><scale value='0.1'/>"
+    "<lookat origin='-1, -4, 6' target='0, 0, 0' up='0, 0, 1'/></transform>"
+    "<emitter type='area'><rgb name='radiance' value='3000'/></emitter></shape>";
 /// One near the room among a hundred that are far away from it.
 std::string chain() {
   std::string all = kBulb;

@@ -331,7 +331,7 @@ class Checker {
   }
 
   /// The probability with which a light sub-path begins at the light.
-  double chosen(uint32_t light) const {
+  double emission_choice(uint32_t light) const {
     return double(guide_ ? guide_->probability(light) : scene_.emission_picker.probability(light));
   }
   double guided(uint32_t light, const Vector3f& from, const Point3f& through) const {
@@ -354,7 +354,7 @@ class Checker {
     path.light_can_be_hit = !sample.delta;
     path.direct = (sample.delta ? none : double(sample.pdf.value)) * pick;
     path.choice = pick, path.is_light_near = sample.finite;
-    path.emission = double(sample.emission) * this->chosen(chosen.light) *
+    path.emission = double(sample.emission) * emission_choice(chosen.light) *
                     guided(chosen.light, sample.wi, v.position());
     append_eye(path, eye, v.depth, camera_ray);
     check(path, 1, connection.weight,
@@ -477,7 +477,7 @@ void Checker<Vertex>::eye_subpath(Weights weights, const Ray& camera_ray, int ma
       double direct = 0, emission = 0, choice = 0;
       if (!found && scene_.environment) {
         connection = connect_escape(connections, subpath, transmittance);
-        const double pick = chosen(scene_.environment_index);
+        const double pick = emission_choice(scene_.environment_index);
         direct = double(scene_.environment->pdf_direct(subpath.from, subpath.ray.direction).value) *
                  direct_probability(scene_, scene_.environment_index, subpath.from);
         emission = double(scene_.environment->emission_density(subpath.ray.direction) * pick) *
@@ -486,7 +486,7 @@ void Checker<Vertex>::eye_subpath(Weights weights, const Ray& camera_ray, int ma
         connection =
             connect_hit(connections, subpath, s, d2, Vertex::kMedia ? 0 : depth, transmittance);
         const SurfaceLight& l = *scene_.light_on(*s.shape);
-        const double pick = chosen(s.shape->light);
+        const double pick = emission_choice(s.shape->light);
         choice = direct_probability(scene_, s.shape->light, subpath.from);
         direct = double(l.pdf_direct(subpath.from, s, subpath.ray.direction, d2).value) * choice;
         emission = double(l.emission_density(s, -subpath.ray.direction)) * pick *
