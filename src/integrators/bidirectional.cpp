@@ -242,6 +242,10 @@ void BidirectionalIntegrator::iteration(const Scene& scene, Film& film, const Sa
           splat(sums, splats, of_block);
         },
         counters);
+  if (set_.connections && options_.connections > 0) {
+    const LightVertices& light = lights_.vertices();
+    drawn_ = {light.vertices.size(), light.ends.size(), options_.connections};
+  }
   if (set_.merges) {
     const std::vector<LightVertex>& v = lights_.vertices().vertices;
     grid_.build(

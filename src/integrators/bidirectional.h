@@ -8,6 +8,7 @@
 #include "integrators/pilot.h"
 #include "integrators/technique_layers.h"
 #include "scene/description_integrators.h"
+#include "transport/drawn_vertices.h"
 #include "transport/light_pass.h"
 #include "transport/subpath_sharing.h"
 #include "transport/vertex_grid.h"
@@ -116,6 +117,7 @@ class BidirectionalIntegrator final : public CameraIntegrator {
   SubpathSharing sharing_;
   LightPass lights_;
   VertexGrid grid_;
+  DrawnVertices drawn_;
 };
 
 std::unique_ptr<Integrator> make_bidirectional(const BidirectionalIntegratorDescription& d,

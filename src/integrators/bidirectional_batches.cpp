@@ -11,8 +11,7 @@ bool BidirectionalIntegrator::may_take_batches() const {
 
 bool BidirectionalIntegrator::may_take_eye_batches() const {
   return may_take_batches() && only_colours() &&
-         (options_.method == Method::bdpt || options_.method == Method::vcm) &&
-         options_.connections <= 0;
+         (options_.method == Method::bdpt || options_.method == Method::vcm);
 }
 
 std::unique_ptr<BidirectionalIntegrator::Batches> BidirectionalIntegrator::make_batches(
@@ -29,8 +28,9 @@ std::unique_ptr<BidirectionalIntegrator::Batches> BidirectionalIntegrator::make_
 
 void BidirectionalIntegrator::trace_batches(Film& film, const SampleRange& samples,
                                             const PassControl& control, RenderCounters& counters) {
-  batches_->plan = {set_,   key_,  pilot_->roulette_threshold(), &lights_, &sharing_, guide_.get(),
-                    &grid_, &mask_};
+  batches_->plan = {set_,     key_,      pilot_->roulette_threshold(),
+                    &lights_, &sharing_, guide_.get(),
+                    &grid_,   &mask_,    options_.connections > 0 ? &drawn_ : nullptr};
   for_each_tile(film, samples, control, TileSplit::by_samples, counters,
                 [&](FilmTile& tile, const TileSamples& part, RenderCounters& c) {
                   batches_->eye->render(film, tile, samples, part, c);

@@ -65,20 +65,13 @@ void BidirectionalIntegrator::connect(const Weights& weights, const Vertex& v,
 template <class Vertex, class Weights>
 void BidirectionalIntegrator::connect_to_cache(const Weights& weights, const Vertex& v,
                                                Eye<Vertex>& eye) const {
-  const LightVertices& light = lights_.vertices();
-  const std::vector<LightVertex>& cache = light.vertices;
-  if (cache.empty()) return;
-  // Every vertex of all sub-paths is drawn with the same probability.
-  const float scale =
-      float(double(cache.size()) / (double(light.ends.size()) * options_.connections));
   const ConnectionContext<Weights> connections = eye.connections(weights, options_.strict_normals);
-  for (int i = 0; i < options_.connections; ++i) {
-    const LightVertex& drawn =
-        cache[std::min(size_t(double(eye.draw()) * double(cache.size())), cache.size() - 1)];
+  for (int i = 0; i < drawn_.count(); ++i) {
+    const auto [index, scale] = drawn_.draw(eye.key, v.depth, i);
+    const LightVertex& drawn = lights_.vertices().vertices[index];
     if (int(drawn.depth) + v.depth + 1 > max_depth_) continue;
-    Connection found = connect_ends(connections, drawn.unpack<Vertex>(eye.scene), v, i);
-    found.value *= scale;
-    add(eye, int(drawn.depth) + 1, v.depth + 1, found);
+    add(eye, int(drawn.depth) + 1, v.depth + 1,
+        connect_ends(connections, drawn.unpack<Vertex>(eye.scene), v, i, scale));
   }
 }
 

@@ -220,6 +220,7 @@ Spectrum BidirectionalIntegrator::trace(const Scene& scene, const CameraPath& pa
                   values,
                   ConnectionRoulette(pilot_->roulette_threshold(), ~key),
                   key,
+                  key,
                   RandomStream(key + kShadowStream),
                   workspace,
                   merges_in(path.pixel)};

@@ -29,7 +29,8 @@ struct BidirectionalIntegrator::Eye {
   RenderCounters& counters;
   std::span<float> values;
   ConnectionRoulette roulette;
-  uint64_t random;       ///< key of numbers that no dimension of the sampler is set aside for
+  const uint64_t key;    ///< of numbers that no dimension of the sampler is set aside for
+  uint64_t random;       ///< state of those that are drawn one after the other
   RandomStream shadows;  ///< for shadow rays through media
   EyeWorkspace<Vertex>& workspace;
   bool merging;  ///< in this pixel, if the method merges

@@ -11,20 +11,75 @@ void WideEye::connect(int n, int depth, WideSamples& samples, RenderCounters& co
   const std::vector<ConnectionVertex>& vertices = plan_.lights->connection_vertices();
   const int most = limits_.max_depth - depth - 1;
   if (!plan_.set.connections || vertices.empty() || most <= 0) return;
+  if (plan_.drawn) return connect_drawn(n, depth, samples, counters);
   for (int i = 0; i < n; ++i) {
     if (!carries(i)) continue;
     const LightSubpath& light = light_[size_t(paths_.id[i])];
     const PathVertex* const special = special_vertex(i);
-    int count = (special ? special->is_smooth() : is_smooth(i)) ? light.count : 0;
+    int count = connects_at(i) ? light.count : 0;
     while (count > 0 && vertices[light.first + uint32_t(count) - 1].depth > most) --count;
     counters.connections.failed_specular += uint64_t(std::min(most, light.length) - count);
     if (!special)
       find_pairs(i, count, depth, samples, counters);
     else
-      for (int k = 0; k < count; ++k) connect_one_by_one(i, k, depth, samples, counters);
+      for (int k = 0; k < count; ++k)
+        connect_one_by_one(i, light_vertex(paths_.id[i], k), depth, samples, counters);
   }
   for (size_t list = 0; list < pairs_.size(); ++list) flush_pairs(list, depth, samples, counters);
   flush_single(samples, counters);
+}
+
+bool WideEye::connects_at(int i) {
+  const PathVertex* const special = special_vertex(i);
+  return special ? special->is_smooth() : is_smooth(i);
+}
+
+void WideEye::connect_drawn(int n, int depth, WideSamples& samples, RenderCounters& counters) {
+  constexpr int kAhead = 16;
+  const std::vector<ConnectionVertex>& vertices = plan_.lights->connection_vertices();
+  std::array<DrawnVertex, kAhead> drawn;
+  for (int i = 0; i < n; ++i) {
+    if (!carries(i) || !connects_at(i)) continue;
+    for (int first = 0; first < plan_.drawn->count(); first += kAhead) {
+      const int count = std::min(plan_.drawn->count() - first, kAhead);
+      for (int k = 0; k < count; ++k) {
+        drawn[size_t(k)] = plan_.drawn->draw(~keys_[size_t(paths_.id[i])], depth, first + k);
+        __builtin_prefetch(&vertices[drawn[size_t(k)].index]);
+        __builtin_prefetch(&vertices[drawn[size_t(k)].index].depth);
+      }
+      for (int k = 0; k < count; ++k)
+        connect_drawn(i, first + k, drawn[size_t(k)], depth, samples, counters);
+    }
+  }
+  for (size_t list = 0; list < pairs_.size(); ++list) flush_pairs(list, depth, samples, counters);
+  flush_single(samples, counters);
+}
+
+void WideEye::connect_drawn(int i, int k, const DrawnVertex& drawn, int depth, WideSamples& samples,
+                            RenderCounters& counters) {
+  const ConnectionVertex& l = plan_.lights->connection_vertices()[drawn.index];
+  if (l.depth + depth + 1 > limits_.max_depth) return;
+  const bool special = special_vertex(i);
+  const Vector3f d = l.position - points_.position.point(i);
+  // The side on which an eye vertex is lit is known of those in lanes alone.
+  if (l.faces && !((special || dot(ends_.lit.vector(i), d) > 0) && dot(l.lit, d) < 0)) {
+    ++counters.connections.failed_zero;
+    return;
+  }
+  if (special || l.material == ConnectionVertex::kOther) {
+    const LightVertex& packed = plan_.lights->vertices().vertices[drawn.index];
+    const PathVertex light = Unpacked<PathVertex>{packed, wide_.scene};
+    return connect_one_by_one(i, light, depth, samples, counters, k, drawn.scale);
+  }
+  const size_t number = l.material == ConnectionVertex::kDiffuse
+                            ? size_t(wide_.shapes[hits_.shape[i]].pair_list())
+                            : pairs_.size() - 1;
+  PairList& list = pairs_[number];
+  if (list.count == kBatch) flush_pairs(number, depth, samples, counters);
+  list.pairs.eye[list.count] = i;
+  list.pairs.light[list.count] = int32_t(drawn.index);
+  list.pairs.drawn[list.count] = ConnectionRoulette::event(0, 0, k);
+  list.pairs.scale[list.count++] = drawn.scale;
 }
 
 void WideEye::find_pairs(int i, int count, int depth, WideSamples& samples,
@@ -41,7 +96,7 @@ void WideEye::find_pairs(int i, int count, int depth, WideSamples& samples,
       if (l.faces && !(dot(lit, d) > 0 && dot(l.lit, d) < 0))
         ++counters.connections.failed_zero;
       else
-        connect_one_by_one(i, k, depth, samples, counters);
+        connect_one_by_one(i, light_vertex(paths_.id[i], k), depth, samples, counters);
       continue;
     }
     const size_t number = l.material == ConnectionVertex::kDiffuse ? own : pairs_.size() - 1;
@@ -115,12 +170,12 @@ void WideEye::flush_pairs(size_t number, int depth, WideSamples& samples,
   count = 0;
 }
 
-void WideEye::connect_one_by_one(int i, int number, int depth, WideSamples& samples,
-                                 RenderCounters& counters) {
+void WideEye::connect_one_by_one(int i, const PathVertex& light, int depth, WideSamples& samples,
+                                 RenderCounters& counters, int drawn, float scale) {
   const int id = paths_.id[i];
   const ConnectionRoulette own = roulette(id);
   const PathVertex& eye = eye_vertex(i, depth);
-  const auto ends = weigh_ends(context(id, own, counters), light_vertex(id, number), eye);
+  const auto ends = weigh_ends(context(id, own, counters), light, eye, drawn, scale);
   if (!ends) return;
   const Ray ray = spawn_ray_to(eye.surface, ends->target);
   const int k = single_count_++;

@@ -26,13 +26,14 @@ void WideEye::enter(std::span<const uint64_t> pixels) {
     keys_[id] = ~key;
     random_[id] = key;
     merging_[id] = plan_.set.merges && plan_.merges_in(pixels[id]);
-    if (subpaths == 0) continue;
+    if (subpaths == 0 || plan_.drawn) continue;
     const size_t subpath = plan_.sharing->subpath(pixels[id], subpaths);
     const uint32_t first = subpath == 0 ? 0 : vertices.ends[subpath - 1];
     light_[id] = {first, int(vertices.ends[subpath] - first), vertices.lengths[subpath],
                   leader(subpath, int(id))};
     first_light_ = std::min(first_light_, first);
   }
+  if (plan_.drawn) first_light_ = 0;
   unpacked_.clear();
 }
 

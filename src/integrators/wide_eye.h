@@ -6,6 +6,7 @@
 #include "integrators/wide_merge_kernels.h"
 #include "integrators/wide_subpath_stages.h"
 #include "integrators/wide_walk.h"
+#include "transport/drawn_vertices.h"
 #include "transport/light_pass.h"
 #include "transport/subpath_sharing.h"
 #include "transport/vertex_grid.h"
@@ -25,6 +26,8 @@ struct WideEyePlan {
   const EmissionGuide* guide = nullptr;  ///< or null
   const VertexGrid* photons = nullptr;   ///< if the set merges
   const MergeMask* mask = nullptr;       ///< if it does so in part
+  /// Null if each vertex is connected with all those of its pixel's light sub-path.
+  const DrawnVertices* drawn = nullptr;
 
   bool merges_in(uint64_t pixel) const {
     return set.partly_merged ? mask->merges_in(pixel) : set.merges;
@@ -77,9 +80,14 @@ class WideEye final : public WideWalk, private WideSubpathStages {
   void weigh(size_t list, int depth);
   /// The same of pairs whose light vertices are glossy.
   void weigh_glossy_lights(int count, const WidePairs& pairs, int depth);
-  /// One vertex with one of its light sub-path; at least one of them is special.
-  void connect_one_by_one(int i, int number, int depth, WideSamples& samples,
-                          RenderCounters& counters);
+  /// Connects the points with vertices drawn for each of them.
+  void connect_drawn(int n, int depth, WideSamples& samples, RenderCounters& counters);
+  void connect_drawn(int i, int k, const DrawnVertex& drawn, int depth, WideSamples& samples,
+                     RenderCounters& counters);
+  bool connects_at(int i);
+  /// One vertex with one light vertex; at least one of them is special.
+  void connect_one_by_one(int i, const PathVertex& light, int depth, WideSamples& samples,
+                          RenderCounters& counters, int drawn = 0, float scale = 1);
   void flush_pairs(size_t list, int depth, WideSamples& samples, RenderCounters& counters);
   void flush_single(WideSamples& samples, RenderCounters& counters);
   const PathVertex& eye_vertex(int i, int depth);

@@ -135,11 +135,13 @@ template <class F>
                                      l.vcm, g.reverse, light_sum) +
                               beyond(g.pdf * std::abs(eye_geometric) * inverse_d2, merge_term,
                                      all.subpaths.vcm[i], f.reverse, all.eye.sum[i]));
-    const float scale = adjoint * inverse_d2;
+    const float scale = adjoint * inverse_d2 * pairs.scale[k];
     const Spectrum value(f.r * g.r * scale, f.g * g.g * scale, f.b * g.b * scale);
     set_contribution(
         k, value, weight, all.threshold,
-        ConnectionRoulette::draw(all.eye.roulette[i], all.connection + uint32_t(l.depth)), out);
+        ConnectionRoulette::draw(all.eye.roulette[i],
+                                 all.connection + uint32_t(l.depth) + pairs.drawn[k]),
+        out);
     out.id[k] = all.paths.id[i];
     const Point3f target = moved_off(l.position, l.ng, l.offset, light_geometric);
     const Point3f origin =

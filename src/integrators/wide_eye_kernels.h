@@ -22,8 +22,12 @@ struct WideConnections {
 
 /// Pairs of an eye vertex with a light vertex.
 struct WidePairs {
-  BatchArray<int32_t> eye;    ///< number in the batch
-  BatchArray<int32_t> light;  ///< number in the list of light vertices
+  WidePairs() { scale.fill(1); }
+
+  BatchArray<int32_t> eye{};     ///< number in the batch
+  BatchArray<int32_t> light{};   ///< number in the list of light vertices
+  BatchArray<uint32_t> drawn{};  ///< what ConnectionRoulette::event() makes of its `drawn` alone
+  BatchArray<float> scale;       ///< what the connection is to be multiplied by
 };
 
 /// Contributions of light samples and their shadow rays: connect_light().

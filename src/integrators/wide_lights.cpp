@@ -76,6 +76,44 @@ DUET_WIDEST void sample_flat_lights(int n, const float* lights, const WidePoints
   sample_flat<true>(n, lights, points, numbers, choice, samples);
 }
 
+constexpr int kSphereNumbers = sizeof(SphereLight) / sizeof(float);
+static_assert(kSphereNumbers == 9);
+
+[[gnu::always_inline]] inline SphereLight sphere_at(const float* f, int i) {
+  SphereLight l;
+  l.center = Point3f(f[i], f[i + 1], f[i + 2]);
+  l.radius = f[i + 3];
+  l.radiance = Spectrum(f[i + 4], f[i + 5], f[i + 6]);
+  l.offset = f[i + 7];
+  l.emission = f[i + 8];
+  return l;
+}
+
+/// Light samples of spheres one after the other, whatever points they belong to.
+struct SphereSamples {
+  BatchArray<int32_t> at;  ///< number of the point
+  BatchTriples wi, target, weight;
+  BatchArray<float> pdf;  ///< 0 without a sample
+};
+
+DUET_WIDEST void sample_listed(int n, const float* lights, const WidePoints& points,
+                               const WideNumbers& numbers, const LightChoices& choice,
+                               SphereSamples& out) {
+  DUET_LANES
+  for (int k = 0; k < n; ++k) {
+    const int i = out.at[k];
+    const SphereLight l = sphere_at(lights, int32_t(choice.light[i]) * kSphereNumbers);
+    const SphereLight::Sample s =
+        l.sample(points.position.point(i), {numbers.light_x[i], numbers.light_y[i]});
+    const Point3f target = s.target(l);
+    const float inverse = 1 / s.pdf;
+    out.wi.set(k, s.wi);
+    out.target.set(k, target);
+    out.weight.set(k, l.radiance.r * inverse, l.radiance.g * inverse, l.radiance.b * inverse);
+    out.pdf[k] = s.pdf;
+  }
+}
+
 void set_sample(int i, const std::optional<LightSample>& sample, float probability,
                 WideLightSamples& samples) {
   samples.pdf[i] = -1;
@@ -99,6 +137,10 @@ WideLights::WideLights(const Scene& scene) : scene_(scene) {
     flat_.push_back(flat ? *flat : FlatLight{});
     has_flat_ |= flat != nullptr;
     has_round_ |= flat && flat->round > 0;
+    const auto* sphere =
+        light->kind() == LightKind::area ? static_cast<const AreaLight&>(*light).sphere() : nullptr;
+    spheres_.push_back(sphere ? *sphere : SphereLight{});
+    has_spheres_ |= sphere != nullptr;
   }
   if (flat_.size() == 1 && has_flat_ && !has_round_) only_ = flat_.data();
 }
@@ -123,12 +165,37 @@ void WideLights::sample(int n, const WidePoints& points, const WideNumbers& numb
   if (has_flat_)
     (has_round_ ? sample_flat_lights : sample_parallelograms)(n, &flat_.data()->origin.x, points,
                                                               numbers, choice, samples);
+  if (has_spheres_) sample_spheres(n, points, numbers, choice, samples);
   for (int i = 0; i < n; ++i) {
-    if (flat_[choice.light[i]].area > 0) continue;
+    const uint32_t light = choice.light[i];
+    if (flat_[light].area > 0 || spheres_[light].radius > 0) continue;
     set_sample(i,
-               scene_.lights[choice.light[i]]->sample_direct(
-                   points.position.point(i), {numbers.light_x[i], numbers.light_y[i]}),
+               scene_.lights[light]->sample_direct(points.position.point(i),
+                                                   {numbers.light_x[i], numbers.light_y[i]}),
                choice.probability[i], samples);
+  }
+}
+
+void WideLights::sample_spheres(int n, const WidePoints& points, const WideNumbers& numbers,
+                                const LightChoices& choice, WideLightSamples& samples) const {
+  SphereSamples spheres;
+  int count = 0;
+  for (int i = 0; i < n; ++i) {
+    spheres.at[count] = i;
+    count += spheres_[choice.light[i]].radius > 0;
+  }
+  sample_listed(count, &spheres_.data()->center.x, points, numbers, choice, spheres);
+  for (int k = 0; k < count; ++k) {
+    const int i = spheres.at[k];
+    const float probability = choice.probability[i];
+    samples.wi.set(i, spheres.wi.vector(k));
+    samples.target.set(i, spheres.target.point(k));
+    samples.weight.set(i, spheres.weight.x[k], spheres.weight.y[k], spheres.weight.z[k]);
+    samples.pdf[i] = spheres.pdf[k] > 0 ? spheres.pdf[k] * probability : -1.0f;
+    samples.probability[i] = probability;
+    samples.finite[i] = 1;
+    samples.delta[i] = 0;
+    samples.emission[i] = spheres_[choice.light[i]].emission;
   }
 }
 

@@ -4,13 +4,13 @@
 #include "integrators/wide_state.h"
 #include "lights/direct_picker.h"
 #include "lights/flat_light.h"
+#include "lights/sphere_light.h"
 #include "transport/light_starts.h"
 
 namespace duet {
 
 /// A scene's lights as batches of paths see them: choose_light() for many points at once, with the
-/// same results bit for bit. Flat lights are sampled in loops over all paths, the others one by
-/// one.
+/// same results bit for bit. Flat lights and spheres are sampled in loops, the others one by one.
 class WideLights {
  public:
   /// `scene` must outlive this and stand still.
@@ -27,10 +27,15 @@ class WideLights {
  private:
   void choose(int n, const WidePoints& points, const WideNumbers& numbers,
               LightChoices& choice) const;
+  /// Where the choice is one of the spheres.
+  void sample_spheres(int n, const WidePoints& points, const WideNumbers& numbers,
+                      const LightChoices& choice, WideLightSamples& samples) const;
 
   const Scene& scene_;
   std::vector<FlatLight> flat_;  ///< by light; of area 0 for those that are none
   bool has_flat_ = false, has_round_ = false;
+  std::vector<SphereLight> spheres_;  ///< by light; of radius 0 for those that are none
+  bool has_spheres_ = false;
   const FlatLight* only_ = nullptr;  ///< the only light, if it is a parallelogram
 };
 

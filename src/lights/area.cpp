@@ -67,8 +67,11 @@ bool AreaLight::choose_cone() {
   for (const float off :
        {length_squared(y) - r2, length_squared(z) - r2, dot(x, y), dot(y, z), dot(z, x)})
     if (!(std::abs(off) < 1e-5f * r2)) return false;
-  center_ = shape_.to_world(Point3f(0, 0, 0));
-  radius_ = std::sqrt(r2);
+  sphere_.center = shape_.to_world(Point3f(0, 0, 0));
+  sphere_.radius = std::sqrt(r2);
+  if (radiance_.is_constant()) sphere_.radiance = radiance_.constant;
+  sphere_.offset = kOffsetScale * (max_abs(sphere_.center) + sphere_.radius);
+  sphere_.emission = uniform_.value * direction_density();
   return true;
 }
 
@@ -196,44 +199,20 @@ LightSample AreaLight::toward(const ShapePoint& p, PdfW pdf, const Vector3f& wi)
           p.pdf.value * direction_density()};
 }
 
-namespace {
-
-/// 1 − cos of the half angle under which a sphere appears, from the squared sine.
-float one_minus_cosine(float sin2) {
-  return sin2 < 1e-3f ? sin2 * (0.5f + 0.125f * sin2) : 1 - safe_sqrt(1 - sin2);
-}
-
-}  // namespace
-
 std::optional<LightSample> AreaLight::sample_cone(const Point3f& from, const Point2f& u) const {
-  const Vector3f axis = center_ - from;
-  const float d2 = length_squared(axis), r2 = radius_ * radius_;
-  // From within, the outward side cannot be seen.
-  if (!(d2 > r2)) return std::nullopt;
-  const float d = std::sqrt(d2);
-  const float span = one_minus_cosine(r2 / d2);
-  const Vector3f local = square_to_cone(u, span);
-  const Vector3f wi = Frame(Normal3f(axis / d)).to_world(local);
-  // The nearer intersection, from the triangle of the centre, `from` and the point.
-  const float sin2 = sin2_theta(local);
-  const float t = d * local.z - safe_sqrt(r2 - d2 * sin2);
-  const Normal3f n(normalize((from + wi * t) - center_));
-  return toward(point_of_sphere(n), PdfW{1 / (2 * kPi * span)}, wi);
+  const SphereLight::Sample s = sphere_.sample(from, u);
+  if (!(s.pdf > 0)) return std::nullopt;
+  return toward(point_of_sphere(s.normal), PdfW{s.pdf}, s.wi);
 }
 
 ShapePoint AreaLight::point_of_sphere(const Normal3f& n) const {
   ShapePoint p;
-  p.position = center_ + Vector3f(n) * radius_;
+  p.position = sphere_.center + Vector3f(n) * sphere_.radius;
   p.ng = p.ns = n;
-  p.offset = kOffsetScale * (max_abs(center_) + radius_);
+  p.offset = sphere_.offset;
   p.pdf = uniform_;
   if (radiance_.texture) p.uv = analytic_uv(shape_.kind, shape_.to_world.inverse(p.position));
   return p;
-}
-
-inline PdfW AreaLight::cone_pdf(const Point3f& from) const {
-  const float d2 = length_squared(center_ - from), r2 = radius_ * radius_;
-  return {d2 > r2 ? 1 / (2 * kPi * one_minus_cosine(r2 / d2)) : 0.0f};
 }
 
 inline PdfA AreaLight::point_pdf(const Surface& surface) const {
@@ -246,7 +225,7 @@ PdfW AreaLight::pdf_direct(const Point3f& from, const Surface& surface, const Ve
                            float d2) const {
   const float facing = -dot(surface.ng, wi), cosine = two_sided() ? std::abs(facing) : facing;
   if (!(cosine > 0)) return {};
-  if (strategy_ == Strategy::cone) return cone_pdf(from);
+  if (strategy_ == Strategy::cone) return {sphere_.pdf(from)};
   const PdfA pdf =
       tree_ ? tree_pdf(from, surface.primitive, surface.barycentric) : point_pdf(surface);
   return to_solid_angle(pdf, d2, cosine);
@@ -310,7 +289,7 @@ float AreaLight::emission_density(const Surface& surface, const Vector3f& w) con
 }
 
 float AreaLight::direct_density(const EmissionSample& emission, const Point3f& at) const {
-  if (strategy_ == Strategy::cone) return cone_pdf(at).value;
+  if (strategy_ == Strategy::cone) return sphere_.pdf(at);
   const ShapePoint& p = emission.point;
   const PdfA pdf = tree_ ? tree_pdf(at, p.primitive, p.barycentric) : p.pdf;
   return to_solid_angle(pdf, length_squared(p.position - at), dot(p.ng, emission.ray.direction))

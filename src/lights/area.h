@@ -7,6 +7,7 @@
 #include "lights/flat_light.h"
 #include "lights/light.h"
 #include "lights/light_tree.h"
+#include "lights/sphere_light.h"
 #include "lights/triangle_cells.h"
 #include "textures/texture.h"
 
@@ -42,6 +43,10 @@ class AreaLight final : public SurfaceLight {
   double area() const { return area_; }
   /// The light as such, or null if it is none.
   const FlatLight* flat() const { return flat_.area > 0 ? &flat_ : nullptr; }
+  /// The light as such if its radiance is the same everywhere, or null.
+  const SphereLight* sphere() const {
+    return strategy_ == Strategy::cone && radiance_.is_constant() ? &sphere_ : nullptr;
+  }
 
  private:
   /// How points are chosen.
@@ -79,8 +84,6 @@ class AreaLight final : public SurfaceLight {
   std::optional<LightSample> sample_flat(const Point3f& from, const Point2f& u) const;
   std::optional<LightSample> sample_shape(const Point3f& from, const Point2f& u) const;
   std::optional<LightSample> sample_cone(const Point3f& from, const Point2f& u) const;
-  /// The density of any direction that sample_cone() makes.
-  PdfW cone_pdf(const Point3f& from) const;
   /// The point of the sphere with this normal.
   ShapePoint point_of_sphere(const Normal3f& n) const;
   /// Where emitted rays start, unless from a sphere.
@@ -103,8 +106,7 @@ class AreaLight final : public SurfaceLight {
   std::optional<TriangleCells> cells_;
   std::unique_ptr<const LightTree> tree_;  ///< over the triangles of a mesh, or null
   FlatLight flat_;                         ///< of area 0 if the light is none
-  Point3f center_;                         ///< of the sphere
-  float radius_ = 0;
+  SphereLight sphere_;                     ///< of Strategy::cone
 };
 
 // The most frequent lights are looked into by whoever asks them: the sample then stays in

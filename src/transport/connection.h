@@ -255,7 +255,7 @@ struct EndsConnection {
 template <class Weights, class Vertex>
 inline std::optional<EndsConnection> weigh_ends(const ConnectionContext<Weights>& c,
                                                 const Vertex& light, const Vertex& eye,
-                                                int drawn = 0) {
+                                                int drawn = 0, float scale = 1) {
   ConnectionCounters& counters = c.counters.connections;
   const auto fails = [](uint64_t& reason) {
     ++reason;
@@ -278,7 +278,7 @@ inline std::optional<EndsConnection> weigh_ends(const ConnectionContext<Weights>
   const ConnectionEnd eye_end{g.pdf.value * eye.cosine(to_light) * inverse_d2, f.reverse.value,
                               eye.merges(f.pdf.value, f.reverse.value)};
   Connection connection{
-      eye.throughput * f.value * light.throughput * g.value * (adjoint * inverse_d2),
+      eye.throughput * f.value * light.throughput * g.value * (adjoint * inverse_d2 * scale),
       c.weights.connection(light, light_end, eye, eye_end)};
   const float kept = c.roulette.keep(connection.value * connection.weight,
                                      ConnectionRoulette::event(light.depth, eye.depth, drawn));
@@ -290,8 +290,8 @@ inline std::optional<EndsConnection> weigh_ends(const ConnectionContext<Weights>
 /// A light vertex seen from an eye vertex.
 template <class Weights, class Vertex>
 inline Connection connect_ends(const ConnectionContext<Weights>& c, const Vertex& light,
-                               const Vertex& eye, int drawn = 0) {
-  std::optional<EndsConnection> ends = weigh_ends(c, light, eye, drawn);
+                               const Vertex& eye, int drawn = 0, float scale = 1) {
+  std::optional<EndsConnection> ends = weigh_ends(c, light, eye, drawn, scale);
   if (!ends) return {};
   ConnectionCounters& counters = c.counters.connections;
   const auto fails = [&] {

@@ -96,6 +96,11 @@ const std::vector<BatchCase> kBatchCases = {
                  "<translate x='0.9' z='0.5'/>") +
          emitter("cube", "<scale value='0.05'/><translate x='0.3' z='0.3'/>") +
          emitter("sphere", "<scale value='0.05'/><translate x='-0.3' z='0.4'/>")},
+    {"balls that shine, one seen from within",
+     camera() + room_xml(grey("0.6")) +
+         emitter("sphere", "<scale value='0.1'/><translate x='-0.5' y='0.3' z='0.4'/>") +
+         emitter("sphere", "<scale value='0.002'/><translate x='0.4' y='-0.2' z='1.3'/>") +
+         emitter("sphere", "<scale value='9'/>")},
     {"rough plastics in lanes",
      camera() + room_xml(kVarnishedCheckers) + kLamp + sphere_xml("-0.4,0.2,0.4", "0.35", kTinted) +
          sphere_xml("0.5,-0.3,0.3", "0.25", kBubble) + hollow_xml("0.5,0.3,1.2", "0.3", kTinted) +

@@ -66,6 +66,27 @@ TEST_CASE("batches of eye sub-paths need no connections") {
   check_same_work(batches.counters, singly.counters);
 }
 
+TEST_CASE("batches of eye sub-paths draw the light vertices that one draws") {
+  for (const BatchCase& c : kBatchCases) {
+    CAPTURE(std::string(c.name));
+    const TransportScene scene = c.scene();
+    for (const auto method : {BidirectionalMethod::bdpt, BidirectionalMethod::vcm}) {
+      BidirectionalIntegratorDescription options;
+      options.method = method;
+      options.max_depth = 6;
+      options.radius = 0.05;
+      // More than are looked up ahead.
+      options.connections = 19;
+      const RenderRequest r = batch_request(2, SampleSequence::sobol);
+      const RenderResult batches = render_bdpt(scene, PathBatches::where_possible, r, options),
+                         singly = render_bdpt(scene, PathBatches::never, r, options);
+      CHECK(differences(batches.image, singly.image) <= int(singly.image.data.size() / 200));
+      check_same_work(batches.counters, singly.counters);
+      CHECK(singly.counters.connections.contributed > 0);
+    }
+  }
+}
+
 TEST_CASE("batches merge photons as one eye sub-path does, everywhere or in parts of the image") {
   for (const BatchCase& c : kBatchCases) {
     CAPTURE(std::string(c.name));
