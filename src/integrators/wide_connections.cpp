@@ -23,7 +23,7 @@ void WideEye::connect(int n, int depth, WideSamples& samples, RenderCounters& co
       find_pairs(i, count, depth, samples, counters);
     else
       for (int k = 0; k < count; ++k)
-        connect_one_by_one(i, light_vertex(paths_.id[i], k), depth, samples, counters);
+        connect_one_by_one(i, {light_vertex(paths_.id[i], k)}, depth, samples, counters);
   }
   for (size_t list = 0; list < pairs_.size(); ++list) flush_pairs(list, depth, samples, counters);
   flush_single(samples, counters);
@@ -66,10 +66,10 @@ void WideEye::connect_drawn(int i, int k, const DrawnVertex& drawn, int depth, W
     ++counters.connections.failed_zero;
     return;
   }
-  if (special || l.material == ConnectionVertex::kOther) {
+  if (special || l.material == ConnectionVertex::kOther || drawn.index >= kMostPairVertices) {
     const LightVertex& packed = plan_.lights->vertices().vertices[drawn.index];
     const PathVertex light = Unpacked<PathVertex>{packed, wide_.scene};
-    return connect_one_by_one(i, light, depth, samples, counters, k, drawn.scale);
+    return connect_one_by_one(i, {light, k, drawn.scale}, depth, samples, counters);
   }
   const size_t number = l.material == ConnectionVertex::kDiffuse
                             ? size_t(wide_.shapes[hits_.shape[i]].pair_list())
@@ -96,7 +96,7 @@ void WideEye::find_pairs(int i, int count, int depth, WideSamples& samples,
       if (l.faces && !(dot(lit, d) > 0 && dot(l.lit, d) < 0))
         ++counters.connections.failed_zero;
       else
-        connect_one_by_one(i, light_vertex(paths_.id[i], k), depth, samples, counters);
+        connect_one_by_one(i, {light_vertex(paths_.id[i], k)}, depth, samples, counters);
       continue;
     }
     const size_t number = l.material == ConnectionVertex::kDiffuse ? own : pairs_.size() - 1;
@@ -170,12 +170,13 @@ void WideEye::flush_pairs(size_t number, int depth, WideSamples& samples,
   count = 0;
 }
 
-void WideEye::connect_one_by_one(int i, const PathVertex& light, int depth, WideSamples& samples,
-                                 RenderCounters& counters, int drawn, float scale) {
+void WideEye::connect_one_by_one(int i, const LightEnd& light, int depth, WideSamples& samples,
+                                 RenderCounters& counters) {
   const int id = paths_.id[i];
   const ConnectionRoulette own = roulette(id);
   const PathVertex& eye = eye_vertex(i, depth);
-  const auto ends = weigh_ends(context(id, own, counters), light, eye, drawn, scale);
+  const auto ends =
+      weigh_ends(context(id, own, counters), light.vertex, eye, light.drawn, light.scale);
   if (!ends) return;
   const Ray ray = spawn_ray_to(eye.surface, ends->target);
   const int k = single_count_++;

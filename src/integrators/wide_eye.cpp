@@ -20,7 +20,7 @@ void WideEye::enter(std::span<const uint64_t> pixels) {
   leaders_.fill({});
   const LightVertices& vertices = plan_.lights->vertices();
   const size_t subpaths = vertices.ends.size();
-  first_light_ = ~0u;
+  first_light_ = plan_.drawn ? 0 : ~0u;
   for (size_t id = 0; id < pixels.size(); ++id) {
     const uint64_t key = hash_combine(plan_.key, pixels[id]);
     keys_[id] = ~key;
@@ -33,7 +33,6 @@ void WideEye::enter(std::span<const uint64_t> pixels) {
                   leader(subpath, int(id))};
     first_light_ = std::min(first_light_, first);
   }
-  if (plan_.drawn) first_light_ = 0;
   unpacked_.clear();
 }
 

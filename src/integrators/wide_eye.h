@@ -85,9 +85,15 @@ class WideEye final : public WideWalk, private WideSubpathStages {
   void connect_drawn(int i, int k, const DrawnVertex& drawn, int depth, WideSamples& samples,
                      RenderCounters& counters);
   bool connects_at(int i);
+  /// A light vertex that is connected; the rest as weigh_ends() has it.
+  struct LightEnd {
+    const PathVertex& vertex;
+    int drawn = 0;
+    float scale = 1;
+  };
   /// One vertex with one light vertex; at least one of them is special.
-  void connect_one_by_one(int i, const PathVertex& light, int depth, WideSamples& samples,
-                          RenderCounters& counters, int drawn = 0, float scale = 1);
+  void connect_one_by_one(int i, const LightEnd& light, int depth, WideSamples& samples,
+                          RenderCounters& counters);
   void flush_pairs(size_t list, int depth, WideSamples& samples, RenderCounters& counters);
   void flush_single(WideSamples& samples, RenderCounters& counters);
   const PathVertex& eye_vertex(int i, int depth);

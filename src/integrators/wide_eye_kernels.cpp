@@ -137,11 +137,10 @@ template <class F>
                                      all.subpaths.vcm[i], f.reverse, all.eye.sum[i]));
     const float scale = adjoint * inverse_d2 * pairs.scale[k];
     const Spectrum value(f.r * g.r * scale, f.g * g.g * scale, f.b * g.b * scale);
-    set_contribution(
-        k, value, weight, all.threshold,
-        ConnectionRoulette::draw(all.eye.roulette[i],
-                                 all.connection + uint32_t(l.depth) + pairs.drawn[k]),
-        out);
+    set_contribution(k, value, weight, all.threshold,
+                     ConnectionRoulette::draw(all.eye.roulette[i],
+                                              all.connection + uint32_t(l.depth) + pairs.drawn[k]),
+                     out);
     out.id[k] = all.paths.id[i];
     const Point3f target = moved_off(l.position, l.ng, l.offset, light_geometric);
     const Point3f origin =

@@ -20,6 +20,11 @@ struct WideConnections {
   bool first;           ///< they are what the camera sees
 };
 
+/// How far from the first light vertex those of pairs may be: numbers of their numbers have 32
+/// bits.
+inline constexpr uint32_t kMostPairVertices =
+    0x7fffffff / (sizeof(ConnectionVertex) / sizeof(float));
+
 /// Pairs of an eye vertex with a light vertex.
 struct WidePairs {
   WidePairs() { scale.fill(1); }

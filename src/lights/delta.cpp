@@ -6,6 +6,7 @@
 
 #include "math/angles.h"
 #include "math/equal_area.h"
+#include "math/trig.h"
 #include "math/warp.h"
 
 namespace duet {
@@ -137,7 +138,8 @@ inline float SpotEmitter::falloff(float angle) const {
 inline std::optional<LightSample> SpotEmitter::send(const Vector3f& away) const {
   const Vector3f local = to_world_.inverse(away);
   // By the arc tangent, because the arc cosine knows nothing about narrow cones.
-  const float angle = std::atan2(std::sqrt(local.x * local.x + local.y * local.y), local.z);
+  const float angle =
+      2 * kPi * atan2_turns(std::sqrt(local.x * local.x + local.y * local.y), local.z);
   if (!(angle < cutoff_angle_)) return std::nullopt;
   Spectrum intensity = intensity_ * falloff(angle);
   if (texture_)

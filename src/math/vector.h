@@ -80,7 +80,7 @@ inline float length(const Tuple3<K>& a) {
   return std::sqrt(dot(a, a));
 }
 template <TupleKind K>
-inline Tuple3<K> normalize(const Tuple3<K>& a) {
+[[gnu::always_inline]] inline Tuple3<K> normalize(const Tuple3<K>& a) {
   return a * (1.0f / std::sqrt(dot(a, a)));
 }
 template <TupleKind K>

@@ -1,7 +1,6 @@
 // Directions of rays that start at lights within the scene, chosen by a guide.
 #include <doctest/doctest.h>
 
-
 #include "lights/delta.h"
 #include "lights/emission_guide.h"
 #include "math/sampler.h"
