@@ -251,7 +251,7 @@ struct EndsConnection {
 };
 
 /// What a light vertex and an eye vertex contribute if they see each other; empty if nothing.
-/// `drawn` tells connections of the same two ends apart.
+/// `drawn` tells connections of the same two ends apart, each of which counts `scale` times.
 template <class Weights, class Vertex>
 inline std::optional<EndsConnection> weigh_ends(const ConnectionContext<Weights>& c,
                                                 const Vertex& light, const Vertex& eye,
