@@ -98,7 +98,7 @@ const std::vector<BatchCase> kBatchCases = {
          emitter("sphere", "<scale value='0.05'/><translate x='-0.3' z='0.4'/>")},
     {"balls that shine, one seen from within",
      camera() + room_xml(grey("0.6")) +
-         emitter("sphere", "<scale value='0.1'/><translate x='-0.5' y='0.3' z='0.4'/>") +
+         emitter("sphere", "<scale value='0.35'/><translate x='-0.5' y='0.3' z='0.4'/>") +
          emitter("sphere", "<scale value='0.002'/><translate x='0.4' y='-0.2' z='1.3'/>") +
          emitter("sphere", "<scale value='9'/>")},
     {"rough plastics in lanes",
