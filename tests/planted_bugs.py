@@ -109,7 +109,7 @@ MUTATIONS = [
     ("cached connections forget how many there are", "src/transport/drawn_vertices.h",
      "part_ / double(subpaths)", "part_ * count / double(subpaths)", MEAN),
     ("vertices drawn in a batch count as those of the pixel's own sub-path", "src/integrators/wide_eye_kernels.cpp",
-     "adjoint * inverse_d2 * pairs.scale[k]", "adjoint * inverse_d2", "batches of eye sub-paths draw*"),
+     "adjoint * inverse_d2 * all.scale", "adjoint * inverse_d2", "batches of eye sub-paths draw*"),
     ("vertices drawn in a batch share the luck of roulette", "src/integrators/wide_eye_kernels.cpp",
      " + pairs.drawn[k]", "", "batches of eye sub-paths draw*"),
     ("the choice of a sphere is left out in batches", "src/integrators/wide_lights.cpp",

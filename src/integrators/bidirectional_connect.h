@@ -67,11 +67,10 @@ void BidirectionalIntegrator::connect_to_cache(const Weights& weights, const Ver
                                                Eye<Vertex>& eye) const {
   const ConnectionContext<Weights> connections = eye.connections(weights, options_.strict_normals);
   for (int i = 0; i < drawn_.count(); ++i) {
-    const auto [index, scale] = drawn_.draw(eye.key, v.depth, i);
-    const LightVertex& drawn = lights_.vertices().vertices[index];
+    const LightVertex& drawn = lights_.vertices().vertices[drawn_.draw(eye.key, v.depth, i)];
     if (int(drawn.depth) + v.depth + 1 > max_depth_) continue;
     add(eye, int(drawn.depth) + 1, v.depth + 1,
-        connect_ends(connections, drawn.unpack<Vertex>(eye.scene), v, i, scale));
+        connect_ends(connections, drawn.unpack<Vertex>(eye.scene), v, i, drawn_.scale()));
   }
 }
 

@@ -23,7 +23,7 @@ void WideEye::connect(int n, int depth, WideSamples& samples, RenderCounters& co
       find_pairs(i, count, depth, samples, counters);
     else
       for (int k = 0; k < count; ++k)
-        connect_one_by_one(i, {light_vertex(paths_.id[i], k)}, depth, samples, counters);
+        connect_one_by_one(i, light_vertex(paths_.id[i], k), 0, depth, samples, counters);
   }
   for (size_t list = 0; list < pairs_.size(); ++list) flush_pairs(list, depth, samples, counters);
   flush_single(samples, counters);
@@ -37,15 +37,15 @@ bool WideEye::connects_at(int i) {
 void WideEye::connect_drawn(int n, int depth, WideSamples& samples, RenderCounters& counters) {
   constexpr int kAhead = 16;
   const std::vector<ConnectionVertex>& vertices = plan_.lights->connection_vertices();
-  std::array<DrawnVertex, kAhead> drawn;
+  std::array<uint32_t, kAhead> drawn;
   for (int i = 0; i < n; ++i) {
     if (!carries(i) || !connects_at(i)) continue;
     for (int first = 0; first < plan_.drawn->count(); first += kAhead) {
       const int count = std::min(plan_.drawn->count() - first, kAhead);
       for (int k = 0; k < count; ++k) {
         drawn[size_t(k)] = plan_.drawn->draw(~keys_[size_t(paths_.id[i])], depth, first + k);
-        __builtin_prefetch(&vertices[drawn[size_t(k)].index]);
-        __builtin_prefetch(&vertices[drawn[size_t(k)].index].depth);
+        __builtin_prefetch(&vertices[drawn[size_t(k)]]);
+        __builtin_prefetch(&vertices[drawn[size_t(k)]].depth);
       }
       for (int k = 0; k < count; ++k)
         connect_drawn(i, first + k, drawn[size_t(k)], depth, samples, counters);
@@ -55,9 +55,9 @@ void WideEye::connect_drawn(int n, int depth, WideSamples& samples, RenderCounte
   flush_single(samples, counters);
 }
 
-void WideEye::connect_drawn(int i, int k, const DrawnVertex& drawn, int depth, WideSamples& samples,
+void WideEye::connect_drawn(int i, int k, uint32_t index, int depth, WideSamples& samples,
                             RenderCounters& counters) {
-  const ConnectionVertex& l = plan_.lights->connection_vertices()[drawn.index];
+  const ConnectionVertex& l = plan_.lights->connection_vertices()[index];
   if (l.depth + depth + 1 > limits_.max_depth) return;
   const bool special = special_vertex(i);
   const Vector3f d = l.position - points_.position.point(i);
@@ -66,10 +66,10 @@ void WideEye::connect_drawn(int i, int k, const DrawnVertex& drawn, int depth, W
     ++counters.connections.failed_zero;
     return;
   }
-  if (special || l.material == ConnectionVertex::kOther || drawn.index >= kMostPairVertices) {
-    const LightVertex& packed = plan_.lights->vertices().vertices[drawn.index];
+  if (special || l.material == ConnectionVertex::kOther || index >= kMostPairVertices) {
+    const LightVertex& packed = plan_.lights->vertices().vertices[index];
     const PathVertex light = Unpacked<PathVertex>{packed, wide_.scene};
-    return connect_one_by_one(i, {light, k, drawn.scale}, depth, samples, counters);
+    return connect_one_by_one(i, light, k, depth, samples, counters);
   }
   const size_t number = l.material == ConnectionVertex::kDiffuse
                             ? size_t(wide_.shapes[hits_.shape[i]].pair_list())
@@ -77,9 +77,8 @@ void WideEye::connect_drawn(int i, int k, const DrawnVertex& drawn, int depth, W
   PairList& list = pairs_[number];
   if (list.count == kBatch) flush_pairs(number, depth, samples, counters);
   list.pairs.eye[list.count] = i;
-  list.pairs.light[list.count] = int32_t(drawn.index);
-  list.pairs.drawn[list.count] = ConnectionRoulette::event(0, 0, k);
-  list.pairs.scale[list.count++] = drawn.scale;
+  list.pairs.light[list.count] = int32_t(index);
+  list.pairs.drawn[list.count++] = ConnectionRoulette::event(0, 0, k);
 }
 
 void WideEye::find_pairs(int i, int count, int depth, WideSamples& samples,
@@ -96,7 +95,7 @@ void WideEye::find_pairs(int i, int count, int depth, WideSamples& samples,
       if (l.faces && !(dot(lit, d) > 0 && dot(l.lit, d) < 0))
         ++counters.connections.failed_zero;
       else
-        connect_one_by_one(i, {light_vertex(paths_.id[i], k)}, depth, samples, counters);
+        connect_one_by_one(i, light_vertex(paths_.id[i], k), 0, depth, samples, counters);
       continue;
     }
     const size_t number = l.material == ConnectionVertex::kDiffuse ? own : pairs_.size() - 1;
@@ -170,13 +169,12 @@ void WideEye::flush_pairs(size_t number, int depth, WideSamples& samples,
   count = 0;
 }
 
-void WideEye::connect_one_by_one(int i, const LightEnd& light, int depth, WideSamples& samples,
-                                 RenderCounters& counters) {
+void WideEye::connect_one_by_one(int i, const PathVertex& light, int drawn, int depth,
+                                 WideSamples& samples, RenderCounters& counters) {
   const int id = paths_.id[i];
   const ConnectionRoulette own = roulette(id);
   const PathVertex& eye = eye_vertex(i, depth);
-  const auto ends =
-      weigh_ends(context(id, own, counters), light.vertex, eye, light.drawn, light.scale);
+  const auto ends = weigh_ends(context(id, own, counters), light, eye, drawn, scale());
   if (!ends) return;
   const Ray ray = spawn_ray_to(eye.surface, ends->target);
   const int k = single_count_++;

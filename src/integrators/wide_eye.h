@@ -82,18 +82,14 @@ class WideEye final : public WideWalk, private WideSubpathStages {
   void weigh_glossy_lights(int count, const WidePairs& pairs, int depth);
   /// Connects the points with vertices drawn for each of them.
   void connect_drawn(int n, int depth, WideSamples& samples, RenderCounters& counters);
-  void connect_drawn(int i, int k, const DrawnVertex& drawn, int depth, WideSamples& samples,
+  /// One point with the light vertex `index`, the k-th that is drawn for it.
+  void connect_drawn(int i, int k, uint32_t index, int depth, WideSamples& samples,
                      RenderCounters& counters);
   bool connects_at(int i);
-  /// A light vertex that is connected; the rest as weigh_ends() has it.
-  struct LightEnd {
-    const PathVertex& vertex;
-    int drawn = 0;
-    float scale = 1;
-  };
-  /// One vertex with one light vertex; at least one of them is special.
-  void connect_one_by_one(int i, const LightEnd& light, int depth, WideSamples& samples,
-                          RenderCounters& counters);
+  /// One vertex with one light vertex; at least one of them is special. `drawn` is as in
+  /// weigh_ends().
+  void connect_one_by_one(int i, const PathVertex& light, int drawn, int depth,
+                          WideSamples& samples, RenderCounters& counters);
   void flush_pairs(size_t list, int depth, WideSamples& samples, RenderCounters& counters);
   void flush_single(WideSamples& samples, RenderCounters& counters);
   const PathVertex& eye_vertex(int i, int depth);
@@ -121,6 +117,7 @@ class WideEye final : public WideWalk, private WideSubpathStages {
                                             RenderCounters& counters) const {
     return {wide_.scene, starts_, weights_[merging_[size_t(id)]], roulette, counters};
   }
+  float scale() const { return plan_.drawn ? plan_.drawn->scale() : 1.0f; }
   float camera_scale() const { return plan_.set.connection_share / plan_.set.light_paths; }
   WideConnections connections(int depth) const {
     return {paths_,
@@ -131,7 +128,8 @@ class WideEye final : public WideWalk, private WideSubpathStages {
             camera_scale(),
             plan_.roulette_threshold,
             ConnectionRoulette::event(0, depth),
-            depth == 1};
+            depth == 1,
+            scale()};
   }
   /// As the code for one sub-path has it, on its way to the next vertex.
   Subpath subpath(int i) const;

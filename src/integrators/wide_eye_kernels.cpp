@@ -135,7 +135,7 @@ template <class F>
                                      l.vcm, g.reverse, light_sum) +
                               beyond(g.pdf * std::abs(eye_geometric) * inverse_d2, merge_term,
                                      all.subpaths.vcm[i], f.reverse, all.eye.sum[i]));
-    const float scale = adjoint * inverse_d2 * pairs.scale[k];
+    const float scale = adjoint * inverse_d2 * all.scale;
     const Spectrum value(f.r * g.r * scale, f.g * g.g * scale, f.b * g.b * scale);
     set_contribution(k, value, weight, all.threshold,
                      ConnectionRoulette::draw(all.eye.roulette[i],

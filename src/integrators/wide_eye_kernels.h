@@ -18,6 +18,7 @@ struct WideConnections {
   float threshold;      ///< of ConnectionRoulette
   uint32_t connection;  ///< ConnectionRoulette::event() of the connection with the light itself
   bool first;           ///< they are what the camera sees
+  float scale;          ///< what connections of pairs are to be multiplied by
 };
 
 /// How far from the first light vertex those of pairs may be: numbers of their numbers have 32
@@ -27,12 +28,9 @@ inline constexpr uint32_t kMostPairVertices =
 
 /// Pairs of an eye vertex with a light vertex.
 struct WidePairs {
-  WidePairs() { scale.fill(1); }
-
   BatchArray<int32_t> eye{};     ///< number in the batch
   BatchArray<int32_t> light{};   ///< number in the list of light vertices
   BatchArray<uint32_t> drawn{};  ///< what ConnectionRoulette::event() makes of its `drawn` alone
-  BatchArray<float> scale;       ///< what the connection is to be multiplied by
 };
 
 /// Contributions of light samples and their shadow rays: connect_light().

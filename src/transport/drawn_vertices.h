@@ -8,12 +8,6 @@
 
 namespace duet {
 
-/// A vertex of the cache, and what its connection is to be multiplied by.
-struct DrawnVertex {
-  uint32_t index;
-  float scale;
-};
-
 /// Draws `count` vertices for each eye vertex, one of each of as many parts of the cache, every
 /// vertex with the same probability.
 class DrawnVertices {
@@ -26,12 +20,14 @@ class DrawnVertices {
         scale_(float(part_ / double(subpaths))) {}
 
   int count() const { return count_; }
-  /// The number `i` below count() of those for the vertex `depth` of the eye sub-path that `key`
-  /// belongs to.
-  DrawnVertex draw(uint64_t key, int depth, int i) const {
+  /// What the connection with a drawn vertex is to be multiplied by.
+  float scale() const { return scale_; }
+  /// The index of number `i` below count() of those for the vertex `depth` of the eye sub-path that
+  /// `key` belongs to.
+  uint32_t draw(uint64_t key, int depth, int i) const {
     const uint64_t bits = mix64(key ^ (uint64_t(uint32_t(depth)) << 32 | uint32_t(i))) >> 32;
     const auto index = uint32_t((double(i) + double(bits) * 0x1p-32) * part_);
-    return {index < last_ ? index : last_, scale_};
+    return index < last_ ? index : last_;
   }
 
  private:
