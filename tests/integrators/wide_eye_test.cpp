@@ -1,5 +1,7 @@
 #include "integrators/wide_eye.h"
 
+#include <array>
+
 #include "integrators/batch_cases.h"
 #include "integrators/bidirectional.h"
 
@@ -30,6 +32,18 @@ void check_same_work(const RenderCounters& a, const RenderCounters& b) {
   CHECK(a.camera_paths == b.camera_paths);
 }
 
+/// Whether batches make the image that is made one by one, with the same work; returns the counters
+/// of both, of the batches first.
+std::array<RenderCounters, 2> check_same(const TransportScene& scene, const RenderRequest& r,
+                                         const BidirectionalIntegratorDescription& options) {
+  const RenderResult batches = render_bdpt(scene, PathBatches::where_possible, r, options),
+                     singly = render_bdpt(scene, PathBatches::never, r, options);
+  // But for rays that meet an edge, and what rounding decides otherwise.
+  CHECK(differences(batches.image, singly.image) <= int(singly.image.data.size() / 200));
+  check_same_work(batches.counters, singly.counters);
+  return {batches.counters, singly.counters};
+}
+
 }  // namespace
 
 TEST_CASE("eye sub-paths of a batch are those that are traced one by one") {
@@ -46,11 +60,7 @@ TEST_CASE("eye sub-paths of a batch are those that are traced one by one") {
         options.light_paths = light_paths;
         const RenderRequest r =
             batch_request(4, light_paths < 1 ? SampleSequence::sobol : SampleSequence::independent);
-        const RenderResult batches = render_bdpt(scene, PathBatches::where_possible, r, options),
-                           singly = render_bdpt(scene, PathBatches::never, r, options);
-        // But for rays that meet an edge, and what rounding decides otherwise.
-        CHECK(differences(batches.image, singly.image) <= int(singly.image.data.size() / 200));
-        check_same_work(batches.counters, singly.counters);
+        check_same(scene, r, options);
       }
   }
 }
@@ -59,11 +69,7 @@ TEST_CASE("batches of eye sub-paths need no connections") {
   const TransportScene scene(kBatchCases[0].content);
   BidirectionalIntegratorDescription options;
   options.connections = 0;
-  const RenderRequest r = batch_request(4, SampleSequence::sobol);
-  const RenderResult batches = render_bdpt(scene, PathBatches::where_possible, r, options),
-                     singly = render_bdpt(scene, PathBatches::never, r, options);
-  CHECK(differences(batches.image, singly.image) <= int(singly.image.data.size() / 200));
-  check_same_work(batches.counters, singly.counters);
+  check_same(scene, batch_request(4, SampleSequence::sobol), options);
 }
 
 TEST_CASE("batches of eye sub-paths draw the light vertices that one draws") {
@@ -77,12 +83,9 @@ TEST_CASE("batches of eye sub-paths draw the light vertices that one draws") {
       options.radius = 0.05;
       // More than are looked up ahead.
       options.connections = 19;
-      const RenderRequest r = batch_request(2, SampleSequence::sobol);
-      const RenderResult batches = render_bdpt(scene, PathBatches::where_possible, r, options),
-                         singly = render_bdpt(scene, PathBatches::never, r, options);
-      CHECK(differences(batches.image, singly.image) <= int(singly.image.data.size() / 200));
-      check_same_work(batches.counters, singly.counters);
-      CHECK(singly.counters.connections.contributed > 0);
+      const auto [batches, singly] =
+          check_same(scene, batch_request(2, SampleSequence::sobol), options);
+      CHECK(singly.connections.contributed > 0);
     }
   }
 }
@@ -101,14 +104,11 @@ TEST_CASE("batches merge photons as one eye sub-path does, everywhere or in part
         options.merge_parts.assign(MergeMask::kSide * MergeMask::kSide, 0);
         for (size_t i = 0; i < options.merge_parts.size(); i += 3) options.merge_parts[i] = 1;
       }
-      const RenderRequest r = batch_request(3, SampleSequence::sobol);
-      const RenderResult batches = render_bdpt(scene, PathBatches::where_possible, r, options),
-                         singly = render_bdpt(scene, PathBatches::never, r, options);
-      CHECK(differences(batches.image, singly.image) <= int(singly.image.data.size() / 200));
-      check_same_work(batches.counters, singly.counters);
-      check_close(batches.counters.merges, singly.counters.merges);
-      check_close(batches.counters.merge_queries, singly.counters.merge_queries);
-      CHECK(singly.counters.merges > 0);
+      const auto [batches, singly] =
+          check_same(scene, batch_request(3, SampleSequence::sobol), options);
+      check_close(batches.merges, singly.merges);
+      check_close(batches.merge_queries, singly.merge_queries);
+      CHECK(singly.merges > 0);
     }
   }
 }
