@@ -9,6 +9,7 @@
 #include <charconv>
 #include <condition_variable>
 #include <cstdlib>
+#include <map>
 #include <mutex>
 #include <optional>
 #include <string_view>
@@ -45,6 +46,14 @@ class FlushDenormals {
   unsigned saved_;
 #endif
 };
+
+/// The arena in which this thread's loops on so many threads run. All are kept, since loops may be
+/// within others: to end one is to wait for its threads to leave it, which takes longer than a small
+/// loop where other processes are at work, too.
+tbb::task_arena& arena_of(int threads) {
+  thread_local std::map<int, tbb::task_arena> arenas;
+  return arenas.try_emplace(threads, threads).first->second;
+}
 
 std::optional<int> wanted_threads() {
   const char* const text = std::getenv(kThreadsVariable);
@@ -101,16 +110,17 @@ void parallel_for(size_t count, int threads, const std::function<void(size_t)>& 
     const FlushDenormals mode;
     for (size_t i = 0; i < count; ++i) work(i);
   };
-  // Limits wake TBB's threads, which takes longer than a small loop.
   if (threads <= 1 || count <= 1) return one_by_one();
   // Without this TBB starts no more threads than the machine has processors. The least of all such
-  // limits holds, and Embree has one, too: to ask for more would make TBB print a warning.
-  const tbb::global_control limit(kParallelism, size_t(threads));
+  // limits holds, and Embree has one, too: to ask for more would make TBB print a warning. Limits
+  // wake TBB's threads, which takes longer than a small loop.
+  std::optional<tbb::global_control> limit;
+  if (size_t(threads) > tbb::global_control::active_value(kParallelism))
+    limit.emplace(kParallelism, size_t(threads));
   const int allowed =
       int(std::min(size_t(threads), tbb::global_control::active_value(kParallelism)));
   if (allowed <= 1) return one_by_one();
-  tbb::task_arena arena(allowed);
-  arena.execute([&] {
+  arena_of(allowed).execute([&] {
     tbb::parallel_for(
         tbb::blocked_range<size_t>(0, count, 1),
         [&](const tbb::blocked_range<size_t>& range) {

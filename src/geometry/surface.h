@@ -23,8 +23,11 @@ struct Surface {
 };
 
 /// Whether the shading and the geometric normal see a direction on different sides.
+inline bool sides_differ(const Vector3f& ng, const Vector3f& ns, const Vector3f& w) {
+  return dot(ng, w) * dot(ns, w) <= 0;
+}
 inline bool sides_differ(const Surface& s, const Vector3f& w) {
-  return dot(s.ng, w) * dot(s.shading.n, w) <= 0;
+  return sides_differ(Vector3f(s.ng), Vector3f(s.shading.n), w);
 }
 
 /// Completes a hit of a mesh that is not instanced.

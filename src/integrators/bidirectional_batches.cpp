@@ -16,13 +16,12 @@ bool BidirectionalIntegrator::may_take_eye_batches() const {
 
 std::unique_ptr<BidirectionalIntegrator::Batches> BidirectionalIntegrator::make_batches(
     const Scene& scene) const {
-  if (!may_take_batches() || scene.needs_media_vertices() ||
-      !suits_batches(scene, options_.hide_emitters, options_.strict_normals))
-    return nullptr;
+  if (!may_take_batches() || scene.needs_media_vertices() || !suits_batches(scene)) return nullptr;
   auto batches = std::make_unique<Batches>(scene, blurs());
   PathLimits limits;
   limits.max_depth = max_depth_, limits.rr_depth = options_.rr_depth;
-  if (may_take_eye_batches()) batches->begin_eye(limits);
+  limits.hide_emitters = options_.hide_emitters, limits.strict_normals = options_.strict_normals;
+  if (may_take_eye_batches()) batches->begin_eye(*this, limits);
   return batches;
 }
 

@@ -12,8 +12,8 @@ namespace duet {
 struct BidirectionalIntegrator::Batches {
   Batches(const Scene& s, bool merges) : scene(s, merges), lights(scene) {}
 
-  void begin_eye(const PathLimits& limits) {
-    eye.emplace(*scene.scene.camera,
+  void begin_eye(const CameraIntegrator& method, const PathLimits& limits) {
+    eye.emplace(scene.scene, method,
                 [this, limits] { return std::make_unique<WideEye>(scene, limits, plan); });
   }
 

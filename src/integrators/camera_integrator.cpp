@@ -81,10 +81,8 @@ void CameraIntegrator::gather_moments(Film& film) const {
 
 void CameraIntegrator::sample(const Scene& scene, const CameraPath& path, Sampler& sampler,
                               RenderCounters& counters, std::span<float> values) const {
-  const Ray& ray = path.ray;
-  Spectrum l;
   if (image_) {
-    l = radiance(scene, path, sampler, counters, values);
+    Spectrum l = radiance(scene, path, sampler, counters, values);
     if (path.weight != 1) {
       l *= path.weight;
       for (const size_t first : colour_layers_)
@@ -92,7 +90,13 @@ void CameraIntegrator::sample(const Scene& scene, const CameraPath& path, Sample
     }
     values[0] = l.r, values[1] = l.g, values[2] = l.b;
   }
-  if (layers_.empty()) return;
+  if (has_layers()) add_layers(scene, path, sampler, counters, values);
+}
+
+void CameraIntegrator::add_layers(const Scene& scene, const CameraPath& path, Sampler& sampler,
+                                  RenderCounters& counters, std::span<float> values) const {
+  const Ray& ray = path.ray;
+  const Spectrum l = image_ ? Spectrum(values[0], values[1], values[2]) : Spectrum();
   Hit hit;
   const bool found = looks_at_first_hit_ && scene.accel->closest_hit(ray, hit);
   counters.closest_rays += looks_at_first_hit_;

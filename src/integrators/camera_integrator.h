@@ -60,6 +60,13 @@ class CameraIntegrator : public Integrator {
   /// Not if a layer tells how many samples there are, or needs to know.
   bool tiles_may_differ() const final;
 
+  bool has_layers() const { return !layers_.empty(); }
+  bool looks_at_next_rays() const { return looks_at_next_rays_; }
+  /// Of a sample whose colours, and nothing else, are in `values`, the layers beside them. The
+  /// sampler is at the sample.
+  void add_layers(const Scene& scene, const CameraPath& path, Sampler& sampler,
+                  RenderCounters& counters, std::span<float> values) const;
+
  protected:
   void render_samples(const Scene& scene, Film& film, const SampleRange& samples,
                       const PassControl& control, RenderCounters& counters) override;
@@ -69,8 +76,8 @@ class CameraIntegrator : public Integrator {
   virtual Spectrum radiance(const Scene& scene, const CameraPath& path, Sampler& sampler,
                             RenderCounters& counters, std::span<float> values) const = 0;
   virtual std::unique_ptr<PathWorkspace> make_workspace(const Scene&) const { return nullptr; }
-  /// Whether colours and alpha are all that is rendered.
-  bool only_colours() const { return image_ && layers_.empty() && colour_layers_.empty(); }
+  /// Whether radiance() makes colours and alpha alone, which batches can do in its place.
+  bool only_colours() const { return image_ && colour_layers_.empty(); }
   /// Adds a layer of three channels that radiance() fills; returns the first of them.
   size_t add_colour_layer(const std::string& name);
   /// Has the film gather the moments that layers ask for, which a sample cannot tell where passes

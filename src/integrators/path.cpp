@@ -30,9 +30,8 @@ static bool has_shapes_lit_beside(const Scene& scene) {
 }
 
 bool PathIntegrator::takes_batches(const Scene& scene) const {
-  return batches_ == PathBatches::where_possible && only_colours() && options_.max_depth != 0 &&
-         suits_batches(scene, options_.hide_emitters, options_.strict_normals) &&
-         !options_.only_specular && !has_shapes_lit_beside(scene);
+  return batches_ == PathBatches::where_possible && options_.max_depth != 0 &&
+         !options_.only_specular && suits_batches(scene) && !has_shapes_lit_beside(scene);
 }
 
 void PathIntegrator::render_samples(const Scene& scene, Film& film, const SampleRange& samples,
@@ -40,7 +39,7 @@ void PathIntegrator::render_samples(const Scene& scene, Film& film, const Sample
   if (!takes_batches(scene))
     return CameraIntegrator::render_samples(scene, film, samples, control, counters);
   const WideScene wide_scene(scene);
-  WideTiles wide(*scene.camera, [&] { return std::make_unique<WideTracer>(wide_scene, options_); });
+  WideTiles wide(scene, *this, [&] { return std::make_unique<WideTracer>(wide_scene, options_); });
   for_each_tile(film, samples, control, TileSplit::by_samples, counters,
                 [&](FilmTile& tile, const TileSamples& part, RenderCounters& c) {
                   wide.render(film, tile, samples, part, c);

@@ -165,7 +165,7 @@ class PricingPilot {
 PricingRecord run_pricing_pilot(const Scene& scene, const PricingPlan& plan) {
   if (scene.needs_media_vertices()) return PricingPilot<MediaVertex>(scene, plan).run();
   PricingRecord record = PricingPilot<PathVertex>(scene, plan).run();
-  record.batches = suits_batches(scene, plan.hide_emitters, plan.strict_normals);
+  record.batches = suits_batches(scene);
   return record;
 }
 

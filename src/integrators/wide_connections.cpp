@@ -62,7 +62,9 @@ void WideEye::connect_drawn(int i, int k, uint32_t index, int depth, WideSamples
   const bool special = special_vertex(i);
   const Vector3f d = l.position - points_.position.point(i);
   // The side on which an eye vertex is lit is known of those in lanes alone.
-  if (l.faces && !((special || dot(ends_.lit.vector(i), d) > 0) && dot(l.lit, d) < 0)) {
+  const bool faces = special || (dot(ends_.lit.vector(i), d) > 0 &&
+                                 !(limits_.strict_normals && has_two_sides(i, d)));
+  if (l.faces && !(faces && dot(l.lit, d) < 0)) {
     ++counters.connections.failed_zero;
     return;
   }
@@ -87,6 +89,7 @@ void WideEye::find_pairs(int i, int count, int depth, WideSamples& samples,
   const ConnectionVertex* const vertices = plan_.lights->connection_vertices().data() + light.first;
   const Point3f position = points_.position.point(i);
   const Vector3f lit = ends_.lit.vector(i);
+  const bool strict = limits_.strict_normals;
   const auto own = size_t(wide_.shapes[hits_.shape[i]].pair_list());
   for (int k = 0; k < count; ++k) {
     const ConnectionVertex& l = vertices[k];
@@ -103,7 +106,8 @@ void WideEye::find_pairs(int i, int count, int depth, WideSamples& samples,
     if (list.count == kBatch) flush_pairs(number, depth, samples, counters);
     // Without branches: half of the vertices do not face each other, and which cannot be predicted.
     const Vector3f d = l.position - position;
-    const int face = int(dot(lit, d) > 0) & int(dot(l.lit, d) < 0);
+    const int face =
+        int(dot(lit, d) > 0) & int(dot(l.lit, d) < 0) & int(!(strict && has_two_sides(i, d)));
     list.pairs.eye[list.count] = i;
     list.pairs.light[list.count] = int32_t(light.first - first_light_) + k;
     list.count += face;

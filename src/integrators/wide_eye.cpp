@@ -49,6 +49,7 @@ void WideEye::begin(int n) {
   for (int i = 0; i < n; ++i) {
     subpaths_.vcm[i] = subpaths_.vc[i] = subpaths_.vm[i] = 0;
     subpaths_.carried[i] = 1;
+    camera_origin_.set(paths_.id[i], paths_.ray.origin.point(i));
   }
 }
 
@@ -66,8 +67,8 @@ void WideEye::trace(int n, const BatchSampler& sampler, WideSamples& samples,
                     RenderCounters& counters) {
   begin(n);
   for (int depth = 1; n > 0; ++depth) {
-    counters.closest_rays += uint64_t(n);
-    wide_.scene.accel->closest_hits(paths_.ray, n, hits_);
+    trace_rays(n, counters);
+    if (depth == 1 && limits_.hide_emitters) pass_emitters(n, counters);
     n = end_outside(n, samples, counters);
     counters.path_vertices += uint64_t(n);
     find_points(n);
@@ -80,6 +81,7 @@ void WideEye::trace(int n, const BatchSampler& sampler, WideSamples& samples,
     arrive_at_points(n, depth);
     draw_numbers(n, sampler, depth);
     wide_.lights.sample(n, points_, numbers_, choice_, lights_);
+    if (limits_.strict_normals) drop_two_sided_light_samples(n);
     look_up_textures();
     make_ends(n, paths_, subpaths_, points_, ends_);
     evaluate_diffuse(n, paths_, points_, lights_);
@@ -93,6 +95,7 @@ void WideEye::trace(int n, const BatchSampler& sampler, WideSamples& samples,
     scatter_special_vertices(Transport::radiance);
     for (int i = 0; i < n; ++i)
       if (!scattering_.null[i]) samples.alpha[paths_.id[i]] = 1;
+    if (limits_.strict_normals) drop_two_sided_directions(n);
     go_on(n, has_roulette(depth), {plan_.set, ends_, points_}, scattering_, paths_, subpaths_);
     n = find_alive(n);
     fill_gaps();
@@ -104,8 +107,8 @@ int WideEye::end_outside(int n, WideSamples& samples, RenderCounters& counters) 
   if (found == n) return n;
   if (wide_.scene.environment)
     for (int i = 0; i < n; ++i) {
-      if (hits_.shape[i] != kNone) continue;
       const int id = paths_.id[i];
+      if (hits_.shape[i] != kNone || !sees_environment(limits_, id, samples)) continue;
       const ConnectionRoulette own = roulette(id);
       const Connection c = connect_escape(context(id, own, counters), subpath(i));
       samples.add(id, c.value * c.weight);
@@ -137,7 +140,8 @@ void WideEye::arrive_at_points(int n, int depth) {
   }
   if (depth > 1) return;
   for (int i = 0; i < n; ++i) {
-    const Ray ray = paths_.ray[i];
+    Ray ray = paths_.ray[i];
+    ray.origin = camera_origin_.point(paths_.id[i]);
     const float cosine = std::abs(dot(points_.ng.vector(i), ray.direction));
     Subpath unused;
     const Partials p = first_eye_partials(

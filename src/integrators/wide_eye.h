@@ -115,7 +115,8 @@ class WideEye final : public WideWalk, private WideSubpathStages {
   }
   ConnectionContext<BalanceWeights> context(int id, const ConnectionRoulette& roulette,
                                             RenderCounters& counters) const {
-    return {wide_.scene, starts_, weights_[merging_[size_t(id)]], roulette, counters};
+    return {wide_.scene, starts_,  weights_[merging_[size_t(id)]],
+            roulette,    counters, limits_.strict_normals};
   }
   float scale() const { return plan_.drawn ? plan_.drawn->scale() : 1.0f; }
   float camera_scale() const { return plan_.set.connection_share / plan_.set.light_paths; }
@@ -140,6 +141,7 @@ class WideEye final : public WideWalk, private WideSubpathStages {
   std::array<BalanceWeights, 2> weights_{BalanceWeights({}), BalanceWeights({})};
   std::vector<uint64_t> keys_;    ///< of ConnectionRoulette, by id
   std::vector<uint64_t> random_;  ///< state of numbers beside the sampler's, by id
+  BatchTriples camera_origin_{};  ///< where the camera's rays begin, by id
   std::vector<uint8_t> merging_;  ///< whether the pixel merges, by id
   /// If the set merges:
   VertexGrid::NeighborhoodBatch around_{};  ///< of the points

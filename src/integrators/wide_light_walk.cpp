@@ -11,6 +11,7 @@ void WideLightTracer::trace(const LightPassPlan& plan, LightRange range, LightBl
 void WideLightWalk::trace(const LightPassPlan& plan, LightRange range, LightBlock& block) {
   plan_ = &plan;
   limits_.max_depth = plan.max_depth, limits_.rr_depth = plan.subpath.rr_depth;
+  limits_.hide_emitters = plan.hide_emitters, limits_.strict_normals = plan.subpath.strict_normals;
   BatchSampler sampler(plan.sequence, plan.sampler_seed(), plan.scramble);
   for (uint32_t first = range.first; first < range.end; first += kBatch) {
     const uint32_t end = std::min(first + kBatch, range.end);
@@ -57,8 +58,7 @@ int WideLightWalk::start(LightRange range, BatchSampler& sampler) {
 void WideLightWalk::trace_batch(int n, const BatchSampler& sampler, LightBlock& block) {
   uint32_t dimension = kLightStartDimensions;
   for (int depth = 1; n > 0; ++depth, dimension += kLightVertexDimensions) {
-    block.counters.closest_rays += uint64_t(n);
-    wide_.scene.accel->closest_hits(paths_.ray, n, hits_);
+    trace_rays(n, block.counters);
     n = end_outside(n);
     find_points(n);
     arrive_at_points(n, depth);
@@ -91,6 +91,8 @@ void WideLightWalk::arrive_at_points(int n, int depth) {
   for (int i = 0; i < n; ++i) {
     LightSampleVariance light_sample;
     if (depth == 1) light_sample = arrive_first(i);
+    if (limits_.strict_normals && has_two_sides(i, paths_.ray.direction.vector(i)))
+      paths_.throughput.set(i, 0, 0, 0);
     seen_.set_light_sample(i, light_sample);
     if (carries(i)) lengths_[size_t(paths_.id[i])] = depth;
   }
@@ -121,8 +123,9 @@ void WideLightWalk::look_at_lens(int n, const BatchSampler& sampler, uint32_t di
   if (camera.has_lens()) sampler.numbers_2d(n, paths_.keys, dimension, lens_x, lens_y);
   for (int i = 0; i < n; ++i) {
     const Point2f lens = camera.has_lens() ? Point2f{lens_x[i], lens_y[i]} : Point2f{};
-    const auto seen = carries(i) ? camera.sample_lens(points_.position.point(i), lens)
-                                 : std::optional<CameraSample>();
+    const bool hidden = limits_.hide_emitters && wide_.shapes[hits_.shape[i]].emits;
+    const auto seen = carries(i) && !hidden ? camera.sample_lens(points_.position.point(i), lens)
+                                            : std::optional<CameraSample>();
     if (!seen) continue;
     lights_.pdf[i] = 1;
     lights_.finite[i] = 1;
@@ -152,7 +155,18 @@ void WideLightWalk::connect_lens(int n, int depth, LightBlock& block) {
       splats.push_back({{{seen.film_x[i], seen.film_y[i]}, value}, seen.weight[i], depth});
     }
   } sums{seen_, depth, block.splats};
-  block.counters.shadow_rays += uint64_t(test_shadows(n, shadows_, sums).rays);
+  const int rays = find_unblocked(n, shadows_);
+  block.counters.shadow_rays += uint64_t(rays);
+  if (limits_.hide_emitters) see_past_emitters(rays, block.counters);
+  add_lit(rays, shadows_, sums);
+}
+
+void WideLightWalk::see_past_emitters(int rays, RenderCounters& counters) {
+  for (int i = 0; i < rays; ++i) {
+    if (!shadows_.blocked[i]) continue;
+    --counters.shadow_rays;  // which are counted again
+    shadows_.blocked[i] = occluded_by_others(wide_.scene, shadows_.ray[i], counters);
+  }
 }
 
 void WideLightWalk::scatter(int n, const BatchSampler& sampler, uint32_t dimension, int depth) {

@@ -30,6 +30,8 @@ class WideLightWalk final : private WideSubpathStages {
   /// Finds out how the lens sees the points.
   void look_at_lens(int n, const BatchSampler& sampler, uint32_t dimension);
   void connect_lens(int n, int depth, LightBlock& block);
+  /// With hide_emitters the first shadow rays, which have been tested, are blocked by others alone.
+  void see_past_emitters(int rays, RenderCounters& counters);
   void scatter(int n, const BatchSampler& sampler, uint32_t dimension, int depth);
   void keep_vertices(int n, int depth);
   LightVertex light_vertex(int i, int depth) const;

@@ -54,6 +54,7 @@ void WideEye::merge_listed(int count, int depth, RenderCounters& counters) {
       merge_one(i, photon, depth, counters);
       continue;
     }
+    if (limits_.strict_normals && has_two_sides(i, photon.direction_to_previous())) continue;
     const bool glossy = model == WideModel::glossy;
     auto& [list, listed] = near_[glossy];
     const float pixel_area = camera_scale() * subpaths_.vcm[i];
@@ -66,7 +67,7 @@ void WideEye::merge_listed(int count, int depth, RenderCounters& counters) {
 void WideEye::merge_one(int i, const LightVertex& photon, int depth, RenderCounters& counters) {
   if (int(photon.depth) + depth > limits_.max_depth) return;
   const Connection found =
-      connect_merge(weights_[1], photon, eye_vertex(i, depth), kernel_[i], false);
+      connect_merge(weights_[1], photon, eye_vertex(i, depth), kernel_[i], limits_.strict_normals);
   if (found.value.is_black()) return;
   ++counters.merges;
   add_merged(i, found.value * found.weight);

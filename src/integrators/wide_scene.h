@@ -11,8 +11,8 @@
 namespace duet {
 
 /// Whether paths of a method without media can be traced in batches.
-inline bool suits_batches(const Scene& scene, bool hide_emitters, bool strict_normals) {
-  return !scene.motion && !hide_emitters && !strict_normals;
+inline bool suits_batches(const Scene& scene) {
+  return !scene.motion;
 }
 
 /// How points of a shape scatter.

@@ -3,8 +3,41 @@
 #include "integrators/wide_conductor.h"
 #include "integrators/wide_plastic.h"
 #include "transport/light_choice.h"
+#include "transport/shadow_transmittance.h"
 
 namespace duet {
+
+void WideStages::trace_rays(int n, RenderCounters& counters) {
+  counters.closest_rays += uint64_t(n);
+  wide_.scene.accel->closest_hits(paths_.ray, n, hits_);
+}
+
+void WideStages::pass_emitters(int n, RenderCounters& counters) {
+  for (int i = 0; i < n; ++i) {
+    while (hits_.shape[i] != kNone && wide_.shapes[hits_.shape[i]].emits) {
+      const Ray ray = beyond_hit(wide_.scene, paths_.ray[i], hit(i));
+      paths_.ray.origin.set(i, ray.origin);
+      paths_.ray.tmax[i] = ray.tmax;
+      paths_.from.set(i, ray.origin);
+      Hit found{};
+      ++counters.closest_rays;
+      if (!wide_.scene.accel->closest_hit(ray, found)) found.shape = kNone;
+      hits_.t[i] = found.t, hits_.u[i] = found.u, hits_.v[i] = found.v;
+      hits_.primitive[i] = found.primitive, hits_.shape[i] = found.shape;
+      hits_.instance[i] = found.instance;
+    }
+  }
+}
+
+void WideStages::drop_two_sided_light_samples(int n) {
+  for (int i = 0; i < n; ++i)
+    if (has_two_sides(i, lights_.wi.vector(i))) lights_.pdf[i] = -1;
+}
+
+void WideStages::drop_two_sided_directions(int n) {
+  for (int i = 0; i < n; ++i)
+    if (has_two_sides(i, scattering_.wi.vector(i))) scattering_.alive[i] = 0;
+}
 
 void WideStages::find_points(int n) {
   fetch(n);

@@ -20,6 +20,11 @@ class WideStages {
   WideStages(const WideScene& scene, const PathLimits& limits)
       : wide_(scene), limits_(limits), glossy_points_(scene.glossy.size()) {}
 
+  /// What the rays of all paths meet next.
+  void trace_rays(int n, RenderCounters& counters);
+  /// With hide_emitters the camera's rays, which have been traced, begin behind the emitters that
+  /// they meet: behind_emitters().
+  void pass_emitters(int n, RenderCounters& counters);
   void find_points(int n);
   /// Instead of that where paths end: only finds those of the points that emit.
   void find_emitting(int n);
@@ -36,6 +41,13 @@ class WideStages {
   void sample_glossy_points(BatchArray<float>* reverse);
   /// Samples a BSDF at a point that has no loop of its own; the sample is empty if the path ends.
   std::optional<BsdfSample> scatter_at(int i, const Bsdf& bsdf, Transport transport);
+  /// With strict_normals: no light samples, or next directions, that the two normals of a point see
+  /// on different sides.
+  void drop_two_sided_light_samples(int n);
+  void drop_two_sided_directions(int n);
+  bool has_two_sides(int i, const Vector3f& w) const {
+    return sides_differ(points_.ng.vector(i), points_.ns.vector(i), w);
+  }
   bool has_roulette(int depth) const { return depth >= limits_.rr_depth; }
   Hit hit(int i) const {
     return {hits_.t[i],         hits_.u[i],     hits_.v[i],
@@ -60,7 +72,14 @@ class WideStages {
   };
   template <class Sums>
   Tested test_shadows(int n, WideShadowRays& rays, Sums& sums) {
-    Tested tested{find_unblocked(n, rays), 0};
+    return add_lit(find_unblocked(n, rays), rays, sums);
+  }
+  /// Moves the rays that nothing blocks yet to the front and tests them; returns how many.
+  int find_unblocked(int n, WideShadowRays& rays);
+  /// The same as test_shadows() of rays that find_unblocked() has left.
+  template <class Sums>
+  static Tested add_lit(int count, const WideShadowRays& rays, Sums& sums) {
+    Tested tested{count, 0};
     for (int i = 0; i < tested.rays; ++i) {
       if (rays.blocked[i]) continue;
       ++tested.lit;
@@ -94,8 +113,6 @@ class WideStages {
   /// `glossy_` then.
   template <class F>
   void for_each_glossy(F&& f);
-  /// Moves the rays that nothing blocks yet to the front and tests them; returns how many.
-  int find_unblocked(int n, WideShadowRays& rays);
   void prefetch_triangle(int i) const;
   void prefetch_corners(int i) const;
   void fetch(int n);

@@ -22,6 +22,16 @@ PixelBounds whole_square(const Film& film, const FilmTile& tile) {
                                                                                : full);
 }
 
+/// What it takes to add samples with layers beside their colours.
+struct LayerAdder {
+  const Scene& scene;
+  const CameraIntegrator& method;
+  const SampleRange& range;
+  SampleAdder& sums;
+  RenderCounters& counters;
+  std::vector<float> values;
+};
+
 }  // namespace
 
 /// What one thread needs for a tile.
@@ -34,13 +44,20 @@ struct WideTiles::Workspace {
   int start_paths(uint32_t index, BatchSampler& sampler);
   /// Pixels of the range.
   uint64_t meant_within(const PixelBounds& bounds) const;
-  /// Weights samples by the camera's weights, and makes those black that no film can add.
-  void weight_samples(const PixelBounds& bounds, RenderCounters& counters);
+  /// Weights samples by the camera's weights; whether no film can add some of them.
+  bool weight_samples();
+  /// Makes those black.
+  void drop_large(const PixelBounds& bounds, RenderCounters& counters);
   void add_to(BatchAdder& sums) const {
     sums.add({x, y, samples.r, samples.g, samples.b, samples.alpha});
   }
   /// One by one.
   void add_to(SampleAdder& sums, const PixelBounds& bounds) const;
+  /// The same of samples number `index` with their layers.
+  void add_to(LayerAdder& adder, const PixelBounds& bounds, uint32_t index) const;
+  /// Calls `f(x, y, id)` for the pixels of the range within bounds.
+  template <class F>
+  void for_each_meant(const PixelBounds& bounds, const F& f) const;
 
   const Camera& camera;
   std::unique_ptr<WideWalk> walk;
@@ -97,7 +114,7 @@ int WideTiles::Workspace::start_paths(uint32_t index, BatchSampler& sampler) {
   return n;
 }
 
-void WideTiles::Workspace::weight_samples(const PixelBounds& bounds, RenderCounters& counters) {
+bool WideTiles::Workspace::weight_samples() {
   const auto is_large = [](float v) {
     return std::abs(v) <= float(ExactSum::kLargest) ? 0 : 1;  // also what is not a number
   };
@@ -109,7 +126,10 @@ void WideTiles::Workspace::weight_samples(const PixelBounds& bounds, RenderCount
     samples.r[id] = r, samples.g[id] = g, samples.b[id] = b;
     large |= is_large(r) | is_large(g) | is_large(b) | is_large(samples.alpha[id]);
   }
-  if (large == 0) return;
+  return large != 0;
+}
+
+void WideTiles::Workspace::drop_large(const PixelBounds& bounds, RenderCounters& counters) {
   for (int id = 0; id < count; ++id) {
     const float values[]{samples.r[id], samples.g[id], samples.b[id], samples.alpha[id]};
     if (film_can_add(std::span<const float>(values))) continue;
@@ -119,33 +139,61 @@ void WideTiles::Workspace::weight_samples(const PixelBounds& bounds, RenderCount
   }
 }
 
-void WideTiles::Workspace::add_to(SampleAdder& sums, const PixelBounds& bounds) const {
+template <class F>
+void WideTiles::Workspace::for_each_meant(const PixelBounds& bounds, const F& f) const {
   int id = 0;
   for (int py = square.y0; py < square.y1; ++py)
     for (int px = square.x0; px < square.x1; ++px, ++id)
-      if (is_meant[id] && bounds.contains(px, py))
-        sums.add(px, py, {x[id], y[id]},
-                 std::array{samples.r[id], samples.g[id], samples.b[id], samples.alpha[id]});
+      if (is_meant[id] && bounds.contains(px, py)) f(px, py, id);
+}
+
+void WideTiles::Workspace::add_to(SampleAdder& sums, const PixelBounds& bounds) const {
+  for_each_meant(bounds, [&](int px, int py, int id) {
+    sums.add(px, py, {x[id], y[id]},
+             std::array{samples.r[id], samples.g[id], samples.b[id], samples.alpha[id]});
+  });
+}
+
+void WideTiles::Workspace::add_to(LayerAdder& a, const PixelBounds& bounds, uint32_t index) const {
+  const std::span<float> values(a.values);
+  for_each_meant(bounds, [&](int px, int py, int id) {
+    std::fill(values.begin(), values.end(), 0.0f);
+    values[0] = samples.r[id], values[1] = samples.g[id], values[2] = samples.b[id];
+    values[3] = samples.alpha[id];
+    const Point2f position{x[id], y[id]}, lens{lens_x[id], lens_y[id]};
+    if (weight[id] != 0) {
+      std::optional<NextRays> next;
+      if (a.method.looks_at_next_rays()) next = camera.next_rays(position, lens);
+      Sampler sampler(a.range.sequence, a.range.seed, a.range.scramble, pixels[id]);
+      sampler.start_sample(index);
+      a.method.add_layers(a.scene,
+                          {camera.sample_ray(position, lens), pixels[id], index, weight[id],
+                           next ? &*next : nullptr},
+                          sampler, a.counters, values);
+    }
+    if (!film_can_add(std::span<const float>(values))) {
+      ++a.counters.nonfinite_samples;
+      std::fill(values.begin(), values.end(), 0.0f);
+    }
+    a.sums.add(px, py, position, values);
+  });
 }
 
 uint64_t WideTiles::Workspace::meant_within(const PixelBounds& bounds) const {
   uint64_t n = 0;
-  int id = 0;
-  for (int py = square.y0; py < square.y1; ++py)
-    for (int px = square.x0; px < square.x1; ++px, ++id)
-      n += is_meant[id] && bounds.contains(px, py);
+  for_each_meant(bounds, [&](int, int, int) { ++n; });
   return n;
 }
 
-WideTiles::WideTiles(const Camera& camera, MakeWalk make_walk)
-    : camera_(camera), make_walk_(std::move(make_walk)) {}
+WideTiles::WideTiles(const Scene& scene, const CameraIntegrator& method, MakeWalk make_walk)
+    : scene_(scene), method_(method), make_walk_(std::move(make_walk)) {}
 
 WideTiles::~WideTiles() = default;
 
 void WideTiles::render(const Film& film, FilmTile& tile, const SampleRange& range,
                        const TileSamples& samples, RenderCounters& counters) {
   auto workspace =
-      workspaces_.take([&] { return std::make_unique<Workspace>(camera_, make_walk_()); });
+      workspaces_.take([&] { return std::make_unique<Workspace>(*scene_.camera, make_walk_()); });
   BatchSampler sampler(range.sequence, range.seed, range.scramble);
   workspace->enter(whole_square(film, tile), film.full_size().x, range, sampler);
   const PixelBounds& bounds = tile.sampled();
@@ -153,16 +201,22 @@ void WideTiles::render(const Film& film, FilmTile& tile, const SampleRange& rang
     for (uint32_t i = samples.first; i < samples.first + samples.count; ++i) {
       const int n = workspace->start_paths(i, sampler);
       workspace->walk->trace(n, sampler, workspace->samples, counters);
-      workspace->weight_samples(bounds, counters);
-      add();
+      const bool has_large = workspace->weight_samples();
+      if (has_large && !method_.has_layers()) workspace->drop_large(bounds, counters);
+      add(i);
     }
   };
-  if (!range.phase && BatchAdder::suits(film)) {
+  if (method_.has_layers()) {
+    SampleAdder sums(film, tile);
+    LayerAdder adder{scene_, method_,  range,
+                     sums,   counters, std::vector<float>(method_.channels().size())};
+    trace([&](uint32_t i) { workspace->add_to(adder, bounds, i); });
+  } else if (!range.phase && BatchAdder::suits(film)) {
     BatchAdder sums(film, tile, workspace->square);
-    trace([&] { workspace->add_to(sums); });
+    trace([&](uint32_t) { workspace->add_to(sums); });
   } else {
     SampleAdder sums(film, tile);
-    trace([&] { workspace->add_to(sums, bounds); });
+    trace([&](uint32_t) { workspace->add_to(sums, bounds); });
   }
   counters.camera_paths += workspace->meant_within(bounds) * samples.count;
   workspaces_.give_back(std::move(workspace));

@@ -15,8 +15,9 @@ namespace duet {
 class WideTiles {
  public:
   using MakeWalk = std::function<std::unique_ptr<WideWalk>()>;
-  /// `make_walk` is called once for each thread at work. The camera must outlive this.
-  WideTiles(const Camera& camera, MakeWalk make_walk);
+  /// `make_walk` is called once for each thread at work. `method` adds its layers. Both it and the
+  /// scene must outlive this.
+  WideTiles(const Scene& scene, const CameraIntegrator& method, MakeWalk make_walk);
   ~WideTiles();
 
   /// Samples `range` but for the part of it, which `samples` says.
@@ -26,7 +27,8 @@ class WideTiles {
  private:
   struct Workspace;
 
-  const Camera& camera_;
+  const Scene& scene_;
+  const CameraIntegrator& method_;
   MakeWalk make_walk_;
   ObjectPool<Workspace> workspaces_;
 };

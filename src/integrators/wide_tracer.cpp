@@ -8,8 +8,8 @@ namespace duet {
 void WideTracer::trace(int n, const BatchSampler& sampler, WideSamples& samples,
                        RenderCounters& counters) {
   for (int depth = 1; n > 0; ++depth) {
-    counters.closest_rays += uint64_t(n);
-    wide_.scene.accel->closest_hits(paths_.ray, n, hits_);
+    trace_rays(n, counters);
+    if (depth == 1 && limits_.hide_emitters) pass_emitters(n, counters);
     n = end_outside(n, samples);
     counters.path_vertices += uint64_t(n);
     if (depth == limits_.max_depth) {
@@ -22,6 +22,7 @@ void WideTracer::trace(int n, const BatchSampler& sampler, WideSamples& samples,
     add_emission(samples);
     draw_numbers(n, sampler, depth);
     wide_.lights.sample(n, points_, numbers_, choice_, lights_);
+    if (limits_.strict_normals) drop_two_sided_light_samples(n);
     look_up_textures();
     evaluate_diffuse(n, paths_, points_, lights_);
     sample_diffuse(n, paths_, points_, numbers_, scattering_);
@@ -31,6 +32,7 @@ void WideTracer::trace(int n, const BatchSampler& sampler, WideSamples& samples,
     add_light(n, samples, counters);
     for (int i = 0; i < n; ++i)
       if (!scattering_.null[i]) samples.alpha[paths_.id[i]] = 1;
+    if (limits_.strict_normals) drop_two_sided_directions(n);
     go_on(n, has_roulette(depth), points_, scattering_, paths_);
     n = keep_alive(n);
   }
@@ -42,7 +44,7 @@ int WideTracer::end_outside(int n, WideSamples& samples) {
   if (found == n) return n;
   if (scene.environment)
     for (int i = 0; i < n; ++i)
-      if (hits_.shape[i] == kNone) {
+      if (hits_.shape[i] == kNone && sees_environment(limits_, paths_.id[i], samples)) {
         const Spectrum l = weighted_environment(scene, paths_.from.point(i),
                                                 paths_.ray.direction.vector(i), bsdf_pdf(i), {});
         samples.add(paths_.id[i], throughput(i) * l);

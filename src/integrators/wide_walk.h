@@ -13,6 +13,12 @@ struct WideSamples {
   void add(int id, const Spectrum& s) { r[id] += s.r, g[id] += s.g, b[id] += s.b; }
 };
 
+/// Whether the environment is to be seen: with hide_emitters not by paths that nothing has made
+/// opaque yet.
+inline bool sees_environment(const PathLimits& limits, int id, const WideSamples& samples) {
+  return !limits.hide_emitters || samples.alpha[id] != 0;
+}
+
 /// Traces batches of paths from the camera for one thread; see WideTiles.
 class WideWalk {
  public:

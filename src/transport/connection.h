@@ -62,12 +62,8 @@ inline bool occluded_by_others(const Scene& scene, Ray ray, RenderCounters& coun
     Hit hit;
     ++counters.shadow_rays;
     if (!scene.accel->closest_hit(ray, hit)) return false;
-    const Surface s = scene.surface(ray, hit);
-    if (s.shape->light == kNone) return true;
-    // Directions that end at a target keep their length.
-    const float left = ray.tmax - hit.t;
-    ray = spawn_ray(s, ray.direction);
-    ray.tmax = left;
+    if (scene.shapes[hit.shape].light == kNone) return true;
+    ray = beyond_hit(scene, ray, hit);
   }
 }
 

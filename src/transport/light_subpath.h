@@ -224,7 +224,9 @@ class LightSubpath {
   /// Whether the sub-path goes on behind the vertex.
   bool pass(const Vertex& v, const Hit& hit, bool may_be_passed) {
     c_.sampler.start_dimension(dimension_ + kLensOffset);
-    const bool is_dark = depth_ == 1 && start_.is_before_entry(v.position());
+    // Where normals are strict no light arrives from between the two horizons of a surface.
+    const bool is_dark = (depth_ == 1 && start_.is_before_entry(v.position())) ||
+                         (c_.options.strict_normals && v.has_two_sides(v.wo));
     if (!is_dark) visit_(v, hit);
     if (depth_ == c_.max_depth && !may_be_passed) return is_dark && miss();
     c_.sampler.start_dimension(dimension_);

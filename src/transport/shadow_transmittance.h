@@ -15,6 +15,13 @@ inline Ray ray_to(const Point3f& origin, const Point3f& target) {
   return {origin, d / l, l * 0x1.fffep-1f};
 }
 
+/// The rest of a ray beyond the surface that it has hit, of the same direction.
+inline Ray beyond_hit(const Scene& scene, const Ray& ray, const Hit& hit) {
+  Ray rest = spawn_ray(scene.surface(ray, hit), ray.direction);
+  rest.tmax = ray.tmax - hit.t;
+  return rest;
+}
+
 /// The camera's ray continued behind all emitting surfaces that it meets first: what
 /// `hide_emitters` means in Mitsuba 3. The environment is hidden by whoever traces the ray.
 inline Ray behind_emitters(const Scene& scene, Ray ray, RenderCounters& counters) {
@@ -22,9 +29,7 @@ inline Ray behind_emitters(const Scene& scene, Ray ray, RenderCounters& counters
     Hit hit;
     ++counters.closest_rays;
     if (!scene.accel->closest_hit(ray, hit) || scene.shapes[hit.shape].light == kNone) return ray;
-    const float left = ray.tmax - hit.t;
-    ray = spawn_ray(scene.surface(ray, hit), ray.direction);
-    ray.tmax = left;
+    ray = beyond_hit(scene, ray, hit);
   }
 }
 

@@ -8,9 +8,26 @@ using namespace duet::test;
 namespace {
 
 RenderResult render_path(const TransportScene& s, PathBatches batches, const RenderRequest& r,
-                         PathLimits limits = {}) {
-  PathIntegrator path({limits}, {}, batches);
+                         PathLimits limits = {}, const CameraOutput& output = {}) {
+  PathIntegrator path({limits}, output, batches);
   return render(*s.scene, path, s.layout, r);
+}
+
+void check_same(const TransportScene& scene, const RenderRequest& r, const PathLimits& limits,
+                const CameraOutput& output = {}) {
+  const RenderResult batches = render_path(scene, PathBatches::where_possible, r, limits, output),
+                     singly = render_path(scene, PathBatches::never, r, limits, output);
+  // But for paths that meet an edge, or that rounding has led elsewhere.
+  CHECK(differences(batches.image, singly.image) <= int(singly.image.data.size() / 200));
+  // One by one all rays of the camera are traced once more where emitters are hidden.
+  const uint64_t again = limits.hide_emitters ? singly.counters.camera_paths : 0;
+  CHECK(double(batches.counters.closest_rays) ==
+        doctest::Approx(double(singly.counters.closest_rays - again)).epsilon(1e-3));
+  for (const auto counter : {&RenderCounters::shadow_rays, &RenderCounters::path_vertices})
+    CHECK(double(batches.counters.*counter) ==
+          doctest::Approx(double(singly.counters.*counter)).epsilon(1e-3));
+  CHECK(batches.counters.camera_paths == singly.counters.camera_paths);
+  CHECK(batches.counters.nonfinite_samples == singly.counters.nonfinite_samples);
 }
 
 }  // namespace
@@ -25,19 +42,29 @@ TEST_CASE("paths of a batch are those that are traced one by one") {
         PathLimits limits;
         limits.max_depth = depth;
         limits.rr_depth = 3;
-        const RenderRequest r = batch_request(4, sequence);
-        const RenderResult batches = render_path(scene, PathBatches::where_possible, r, limits),
-                           singly = render_path(scene, PathBatches::never, r, limits);
-        // But for paths that meet an edge, or that rounding has led elsewhere.
-        CHECK(differences(batches.image, singly.image) <= int(singly.image.data.size() / 200));
-        CHECK(double(batches.counters.closest_rays) ==
-              doctest::Approx(double(singly.counters.closest_rays)).epsilon(1e-3));
-        CHECK(double(batches.counters.shadow_rays) ==
-              doctest::Approx(double(singly.counters.shadow_rays)).epsilon(1e-3));
-        CHECK(double(batches.counters.path_vertices) ==
-              doctest::Approx(double(singly.counters.path_vertices)).epsilon(1e-3));
-        CHECK(batches.counters.camera_paths == singly.counters.camera_paths);
+        check_same(scene, batch_request(4, sequence), limits);
       }
+  }
+}
+
+TEST_CASE("batches hide emitters and drop directions that two normals see differently") {
+  PathLimits limits;
+  limits.hide_emitters = limits.strict_normals = true;
+  for (const BatchCase& c : kBatchCases) {
+    CAPTURE(std::string(c.name));
+    check_same(c.scene(), batch_request(4, SampleSequence::sobol), limits);
+  }
+}
+
+TEST_CASE("layers beside colours that were made in batches are those of paths one by one") {
+  CameraOutput output;
+  for (const char* const name :
+       {"albedo", "normal", "depth", "dz_dx", "denoise_albedo", "denoise_split", "variance"})
+    output.layers.push_back({*find_layer(name), name});
+  for (const size_t number : {1, 2, 3}) {
+    const BatchCase& c = kBatchCases[number];
+    CAPTURE(std::string(c.name));
+    check_same(c.scene(), batch_request(4, SampleSequence::sobol), {}, output);
   }
 }
 

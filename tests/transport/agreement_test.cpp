@@ -22,6 +22,7 @@ struct Case {
   /// Whether light samples alone have finite variance: not where light is scattered next to a point
   /// that shines. Nor has light tracing next to the camera.
   bool bounded = true;
+  TransportScene::Parameters parameters{};  ///< of all methods
 };
 
 std::string material(const std::string& type, const std::string& content = "") {
@@ -50,6 +51,17 @@ std::string obstacles(const TemporaryDirectory& folder) {
          "</shape><shape type='rectangle'><transform name='to_world'><scale value='0.7'/>"
          "<rotate y='1' angle='90'/><translate x='0.4' z='0.8'/></transform>" +
          material("twosided", grey("0.5")) + "</shape>";
+}
+
+/// A floor whose normals lean away from the camera: light reaches what is seen of it from between
+/// the horizons of both normals.
+std::string leaning(const TemporaryDirectory& folder) {
+  const std::string file = folder.write("leaning.obj",
+                                        "v -1 -1 0\nv 1 -1 0\nv 1 1 0\nv -1 1 0\n"
+                                        "vn 0 0.985 0.17\nf 1//1 2//1 3//1\nf 1//1 3//1 4//1\n");
+  return "<shape type='obj'><string name='filename' value='" + file +
+         "'/><transform name='to_world'><translate z='0.05'/></transform>" +
+         material("twosided", grey("0.9, 0.8, 0.7")) + "</shape>";
 }
 
 /// Some of them with files in `folder`.
@@ -142,6 +154,15 @@ std::vector<Case> cases(const TemporaryDirectory& folder) {
       {"smooth normals", [](int n) { return TransportScene("mesh-lumpy", n); }},
       {"tilted normals", text(room_xml(material("twosided", tilted)) + lamp), true},
       {"normals of a ball on few triangles", text(room + lamp + obstacles(folder)), true, 1, true},
+      {"strict normals and a lamp in view that is hidden",
+       text(room + lamp + leaning(folder) + unequal +
+            sphere_xml("0.2, -1.6, 0.9", "0.15", area + "3, 4, 5'/></emitter>")),
+       false,
+       2,
+       true,
+       false,
+       true,
+       {{"strict_normals", "true"}, {"hide_emitters", "true"}}},
       {"bumps", text(room_xml(material("twosided", bumps)) + lamp), true, 1, true},
       {"a textured lamp",
        text(room +
@@ -294,8 +315,9 @@ const std::vector<Method>& unbiased() {
 }
 
 TileBatches render(const TransportScene& scene, const Method& method, int max_depth, int spp,
-                   uint64_t seed = 0) {
+                   uint64_t seed = 0, const TransportScene::Parameters& more = {}) {
   TransportScene::Parameters p = method.parameters;
+  p.insert(p.end(), more.begin(), more.end());
   p.emplace_back("max_depth", std::to_string(max_depth));
   std::vector<Image> images(kBatches);
   parallel_for(kBatches, HardwareThreads().count(), [&](size_t b) {
@@ -320,7 +342,7 @@ void check_agreement(const std::vector<Case>& all, const std::vector<int>& depth
         if (m.name == (c.has_media ? "path" : "volpath")) continue;
         if (!c.bounded && (m.name == "volpath" || m.name == "reuse")) continue;
         if (m.name == "ptracer" && !c.light_tracing) continue;
-        images.push_back(render(scene, m, depth, c.effort * spp, images.size()));
+        images.push_back(render(scene, m, depth, c.effort * spp, images.size(), c.parameters));
         names.push_back(m.name);
       }
       double total = 0;
@@ -348,7 +370,7 @@ TEST_CASE("unbiased methods have the same mean") {
   const TemporaryDirectory folder;
   std::vector<Case> some = cases(folder);
   std::erase_if(some, [](const Case& c) { return !c.in_short; });
-  CHECK(some.size() == 6);
+  CHECK(some.size() == 7);
   check_agreement(some, {4}, 16, 16);
 }
 
