@@ -346,7 +346,7 @@ MUTATIONS = [
     ("light from between two horizons is followed where normals are strict", "src/transport/light_subpath.h",
      "(c_.options.strict_normals && v.has_two_sides(v.wo))", "false", "unbiased methods have the same mean"),
     ("batches show a sky that is hidden", "src/integrators/wide_walk.h",
-     "return !limits.hide_emitters || samples.alpha[id] != 0;", "return true;", "batches hide*"),
+     "samples.alpha[id] != 0;", "samples.alpha[id] >= 0;", "batches hide*"),
     ("lamps that are hidden cast shadows on what light sub-paths of a batch show", "src/integrators/wide_light_walk.cpp",
      "if (limits_.hide_emitters) see_past_emitters(", "if (false) see_past_emitters(",
      "batches of eye sub-paths hide*"),

@@ -48,8 +48,8 @@ class FlushDenormals {
 };
 
 /// The arena in which this thread's loops on so many threads run. All are kept, since loops may be
-/// within others: to end one is to wait for its threads to leave it, which takes longer than a small
-/// loop where other processes are at work, too.
+/// within others: to end one is to wait for its threads to leave it, which takes longer than a
+/// small loop where other processes are at work, too.
 tbb::task_arena& arena_of(int threads) {
   thread_local std::map<int, tbb::task_arena> arenas;
   return arenas.try_emplace(threads, threads).first->second;
