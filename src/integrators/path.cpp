@@ -30,7 +30,7 @@ static bool has_shapes_lit_beside(const Scene& scene) {
 }
 
 bool PathIntegrator::takes_batches(const Scene& scene) const {
-  return batches_ == PathBatches::where_possible && options_.max_depth != 0 &&
+  return batches_ == PathBatches::where_possible && only_colours() && options_.max_depth != 0 &&
          !options_.only_specular && suits_batches(scene) && !has_shapes_lit_beside(scene);
 }
 

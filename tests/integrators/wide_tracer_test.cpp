@@ -68,6 +68,14 @@ TEST_CASE("layers beside colours that were made in batches are those of paths on
   }
 }
 
+TEST_CASE("layers without colours are not traced in batches") {
+  CameraOutput output;
+  output.image = false;
+  for (const char* const name : {"normal", "depth"})
+    output.layers.push_back({*find_layer(name), name});
+  check_same(kBatchCases[0].scene(), batch_request(2, SampleSequence::sobol), {}, output);
+}
+
 TEST_CASE("batches make the same image on any number of threads and in any passes") {
   const TransportScene scene(coplanar());
   RenderRequest r = batch_request(6, SampleSequence::sobol, 1);
