@@ -2,6 +2,7 @@
 #include <algorithm>
 
 #include "integrators/wide_conductor.h"
+#include "integrators/wide_dielectric.h"
 #include "integrators/wide_eye.h"
 #include "integrators/wide_plastic.h"
 
@@ -62,9 +63,9 @@ void WideEye::connect_drawn(int i, int k, uint32_t index, int depth, WideSamples
   const bool special = special_vertex(i);
   const Vector3f d = l.position - points_.position.point(i);
   // The side on which an eye vertex is lit is known of those in lanes alone.
-  const bool faces = special || (dot(ends_.lit.vector(i), d) > 0 &&
-                                 !(limits_.strict_normals && has_two_sides(i, d)));
-  if (l.faces && !(faces && dot(l.lit, d) < 0)) {
+  const bool lit = wide_.shapes[hits_.shape[i]].transmits || dot(ends_.lit.vector(i), d) > 0;
+  const bool faces = special || (lit && !(limits_.strict_normals && has_two_sides(i, d)));
+  if (l.is_placed() && !(faces && (!l.faces || dot(l.lit, d) < 0))) {
     ++counters.connections.failed_zero;
     return;
   }
@@ -90,12 +91,14 @@ void WideEye::find_pairs(int i, int count, int depth, WideSamples& samples,
   const Point3f position = points_.position.point(i);
   const Vector3f lit = ends_.lit.vector(i);
   const bool strict = limits_.strict_normals;
-  const auto own = size_t(wide_.shapes[hits_.shape[i]].pair_list());
+  const WideShape& shape = wide_.shapes[hits_.shape[i]];
+  const auto own = size_t(shape.pair_list());
+  const int transmits = shape.transmits;
   for (int k = 0; k < count; ++k) {
     const ConnectionVertex& l = vertices[k];
     if (l.material == ConnectionVertex::kOther) {
       const Vector3f d = l.position - position;
-      if (l.faces && !(dot(lit, d) > 0 && dot(l.lit, d) < 0))
+      if (l.faces && !((transmits || dot(lit, d) > 0) && dot(l.lit, d) < 0))
         ++counters.connections.failed_zero;
       else
         connect_one_by_one(i, light_vertex(paths_.id[i], k), 0, depth, samples, counters);
@@ -106,8 +109,8 @@ void WideEye::find_pairs(int i, int count, int depth, WideSamples& samples,
     if (list.count == kBatch) flush_pairs(number, depth, samples, counters);
     // Without branches: half of the vertices do not face each other, and which cannot be predicted.
     const Vector3f d = l.position - position;
-    const int face =
-        int(dot(lit, d) > 0) & int(dot(l.lit, d) < 0) & int(!(strict && has_two_sides(i, d)));
+    const int face = (transmits | int(dot(lit, d) > 0)) & ((1 - l.faces) | int(dot(l.lit, d) < 0)) &
+                     int(!(strict && has_two_sides(i, d)));
     list.pairs.eye[list.count] = i;
     list.pairs.light[list.count] = int32_t(light.first - first_light_) + k;
     list.count += face;
@@ -152,7 +155,7 @@ void WideEye::weigh_glossy_lights(int count, const WidePairs& pairs, int depth) 
     l.throughput.set(k, throughput.r, throughput.g, throughput.b);
   }
   evaluate_ends_.evaluate(count, {paths_, points_, numbers_}, eye_bsdfs_);
-  evaluate_ends_.evaluate(count, {l.paths, l.points, numbers_}, l.bsdfs);
+  evaluate_ends_.evaluate(count, {l.paths, l.points, numbers_, Transport::importance}, l.bsdfs);
   weigh_glossy_ends(count, pairs, connections(depth), light, {eye_bsdfs_, l.bsdfs, l.throughput},
                     shadows_);
 }

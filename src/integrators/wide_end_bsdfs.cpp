@@ -4,6 +4,7 @@
 #include <numeric>
 
 #include "integrators/wide_conductor.h"
+#include "integrators/wide_dielectric.h"
 #include "integrators/wide_plastic.h"
 
 namespace duet {

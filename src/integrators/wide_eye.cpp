@@ -87,12 +87,13 @@ void WideEye::trace(int n, const BatchSampler& sampler, WideSamples& samples,
     evaluate_diffuse(n, paths_, points_, lights_);
     evaluate_glossy_points(&ends_.reverse);
     sample_diffuse(n, paths_, points_, numbers_, scattering_);
-    make_special_vertices(n, depth, Transport::radiance);
+    make_special_vertices(n, depth);
     sample_lights(n, depth, samples, counters);
     connect(n, depth, samples, counters);
     if (plan_.set.merges) merge(n, depth, samples, counters);
     sample_glossy_points(&ends_.reverse);
-    scatter_special_vertices(Transport::radiance);
+    sample_specular_points(&ends_.reverse);
+    scatter_special_vertices();
     for (int i = 0; i < n; ++i)
       if (!scattering_.null[i]) samples.alpha[paths_.id[i]] = 1;
     if (limits_.strict_normals) drop_two_sided_directions(n);

@@ -42,7 +42,7 @@ class WideEye final : public WideWalk, private WideSubpathStages {
  public:
   /// What is referred to must outlive this; the plan may change between batches.
   WideEye(const WideScene& scene, const PathLimits& limits, const WideEyePlan& plan)
-      : WideSubpathStages(scene, limits),
+      : WideSubpathStages(scene, limits, Transport::radiance),
         plan_(plan),
         starts_(scene.scene),
         pairs_(2 + scene.glossy.size()),

@@ -124,9 +124,8 @@ template <class F>
     const float cosine = -dot(l.lit, to_light);
     const Scattered f = both.eye(k, i, to_light), g = both.light(k, l, cosine);
     const float eye_geometric = dot(ng, to_light), light_geometric = -dot(l.ng, to_light);
-    // Vertices that faced each other may not do so by the unit direction.
-    const float facing = l.adjoint * std::abs(light_geometric) / cosine;
-    const float adjoint = cosine > 0 ? facing : 0.0f;
+    const float ratio = l.adjoint * std::abs(light_geometric / cosine);
+    const float adjoint = cosine != 0 ? ratio : 0.0f;
     // Both vertices merge, if the pixel does: neither is nearly specular.
     const float merge_term = all.eye.merge_term[i];
     const float light_sum = all.eye.unmerged[i] != 0 ? l.vm : l.vc;
@@ -160,7 +159,8 @@ struct DiffuseEye {
 };
 struct DiffuseLight {
   [[gnu::always_inline]] Scattered light(int, const GatheredVertex& l, float cosine) const {
-    const float pdf = cosine * kInvPi;
+    // Vertices that faced each other may not do so by the unit direction.
+    const float pdf = std::max(0.0f, cosine * kInvPi);
     return {l.flux[0] * pdf, l.flux[1] * pdf, l.flux[2] * pdf, pdf, l.reverse};
   }
 };

@@ -1,4 +1,4 @@
-// What batches of paths do at points of glossy materials has in common.
+// What batches of paths do at points of glossy and of specular materials has in common.
 #pragma once
 
 #include "integrators/wide_state.h"
@@ -12,6 +12,7 @@ struct WideVertices {
   const WidePaths& paths;
   const WidePoints& points;  ///< the reflectance is what the material takes from textures
   const WideNumbers& numbers;
+  Transport transport = Transport::radiance;
 };
 
 /// Some of the points, and what is made of them, without gaps.
@@ -24,6 +25,8 @@ struct WideGlossy {
   BatchTriples wi, weight;    ///< see WideScattering
   BatchArray<float> pdf, roulette;
   BatchArray<int32_t> alive;
+  BatchArray<float> eta;     ///< of materials that transmit; of others always 1
+  BatchArray<int32_t> null;  ///< of specular materials; of glossy ones always 0
 };
 
 /// Facets of one kind, so that loops need not ask for it: GGX, all visible and without correlation.

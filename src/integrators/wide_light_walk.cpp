@@ -69,7 +69,7 @@ void WideLightWalk::trace_batch(int n, const BatchSampler& sampler, LightBlock& 
       evaluate_diffuse(n, paths_, points_, lights_);
       evaluate_glossy_points(&ends_.reverse);
     }
-    make_special_vertices(n, depth, Transport::importance);
+    make_special_vertices(n, depth);
     if (plan_->set.camera_connections) connect_lens(n, depth, block);
     if (plan_->keep_vertices) keep_vertices(n, depth);
     if (depth == limits_.max_depth) break;
@@ -173,7 +173,8 @@ void WideLightWalk::scatter(int n, const BatchSampler& sampler, uint32_t dimensi
   draw_scattering(n, sampler, dimension, depth);
   sample_diffuse(n, paths_, points_, numbers_, scattering_);
   sample_glossy_points(&ends_.reverse);
-  scatter_special_vertices(Transport::importance);
+  sample_specular_points(&ends_.reverse);
+  scatter_special_vertices();
   weigh_by_adjoint(n, paths_, points_, scattering_);
   go_on(n, has_roulette(depth), {plan_->set, ends_, points_}, scattering_, paths_, subpaths_);
 }
@@ -213,9 +214,9 @@ ConnectionVertex WideLightWalk::connection_vertex(int i, int depth) const {
   ConnectionVertex v;
   v.depth = depth;
   v.position = points_.position.point(i);
-  v.lit = ends_.lit.normal(i);
-  v.faces = 1;
   const WideShape& shape = wide_.shapes[hits_.shape[i]];
+  v.lit = shape.transmits ? points_.ns.normal(i) : ends_.lit.normal(i);
+  v.faces = shape.transmits ? 0 : 1;
   const bool glossy = shape.model == WideModel::glossy;
   const BatchTriples& flux = glossy ? points_.reflectance : ends_.flux;
   v.material = glossy ? shape.pair_list() : ConnectionVertex::kDiffuse;

@@ -15,7 +15,8 @@ namespace duet {
 class WideLightWalk final : private WideSubpathStages {
  public:
   /// The scene must outlive this.
-  explicit WideLightWalk(const WideScene& scene) : WideSubpathStages(scene, {}) {}
+  explicit WideLightWalk(const WideScene& scene)
+      : WideSubpathStages(scene, {}, Transport::importance) {}
 
   void trace(const LightPassPlan& plan, LightRange range, LightBlock& block);
 

@@ -119,4 +119,61 @@ DUET_WIDEST void reverse_glossy(int n, const RoughPlasticSurface& surface,
     reverse_all<WideGgx>(n, surface, vertices, out);
 }
 
+DUET_WIDEST void evaluate_glossy(int n, const PlasticSurface& surface, const WideVertices& vertices,
+                                 WideGlossy& out) {
+  const UniformPlastic plastic = surface.plastic;
+  const bool two_sided = surface.two_sided;
+  const WideVertices v = vertices;
+  DUET_LANES
+  for (int k = 0; k < n; ++k) {
+    const int i = out.at[k];
+    const LocalPoint at = local_point(v, i, two_sided);
+    const Vector3f wi = at.to_local(out.towards.vector(k));
+    const ModelEval e = plastic.model(reflectance_at(v.points, i))
+                            .eval_above(above_horizon(at.wo), above_horizon(wi));
+    const bool above = std::min(at.wo.z, wi.z) > 0;
+    out.value.set(k, above ? e.value.r : 0, above ? e.value.g : 0, above ? e.value.b : 0);
+    out.value_pdf[k] = above ? e.pdf : 0;
+  }
+}
+
+DUET_WIDEST void sample_glossy(int n, const PlasticSurface& surface, const WideVertices& vertices,
+                               WideGlossy& out) {
+  const UniformPlastic plastic = surface.plastic;
+  const bool two_sided = surface.two_sided;
+  const WideVertices v = vertices;
+  DUET_LANES
+  for (int k = 0; k < n; ++k) {
+    const int i = out.at[k];
+    const LocalPoint at = local_point(v, i, two_sided);
+    const PlasticModel model = plastic.model(reflectance_at(v.points, i));
+    const float first = v.numbers.first[i], second = v.numbers.second[i];
+    // See PlasticModel::needs_choice(): the coat reflects in any case.
+    const bool chooses = model.diffuse_weight > 0;
+    const BranchFreeSample s = model.sample_branch_free(
+        at.wo, chooses ? first : 0.5f, {v.numbers.x[i], v.numbers.y[i]}, Transport::radiance);
+    out.roulette[k] = chooses ? second : first;
+    out.wi.set(k, at.to_world(s.wi));
+    out.weight.set(k, s.weight.r, s.weight.g, s.weight.b);
+    out.pdf[k] = s.delta != 0 ? -1.0f : s.pdf;
+    out.alive[k] = s.carries;
+  }
+}
+
+DUET_WIDEST void reverse_glossy(int n, const PlasticSurface& surface, const WideVertices& vertices,
+                                WideGlossy& out) {
+  const UniformPlastic plastic = surface.plastic;
+  const bool two_sided = surface.two_sided;
+  const WideVertices v = vertices;
+  DUET_LANES
+  for (int k = 0; k < n; ++k) {
+    const int i = out.at[k];
+    const LocalPoint at = local_point(v, i, two_sided);
+    const Vector3f wi = at.to_local(out.towards.vector(k));
+    const ModelEval e = plastic.model(reflectance_at(v.points, i))
+                            .eval_above(above_horizon(wi), above_horizon(at.wo));
+    out.reverse[k] = std::min(at.wo.z, wi.z) > 0 ? e.pdf : 0;
+  }
+}
+
 }  // namespace duet

@@ -1,4 +1,4 @@
-// What batches of paths do at points of rough plastics.
+// What batches of paths do at points of plastics, rough and smooth.
 #pragma once
 
 #include "integrators/wide_glossy.h"
@@ -15,6 +15,15 @@ void sample_glossy(int n, const RoughPlasticSurface& surface, const WideVertices
                    WideGlossy& out);
 /// The reverse densities for `out.towards`.
 void reverse_glossy(int n, const RoughPlasticSurface& surface, const WideVertices& vertices,
+                    WideGlossy& out);
+
+/// The same of smooth plastics, without what the coat mirrors. Of directions that it mirrors the
+/// density is negative.
+void evaluate_glossy(int n, const PlasticSurface& surface, const WideVertices& vertices,
+                     WideGlossy& out);
+void sample_glossy(int n, const PlasticSurface& surface, const WideVertices& vertices,
+                   WideGlossy& out);
+void reverse_glossy(int n, const PlasticSurface& surface, const WideVertices& vertices,
                     WideGlossy& out);
 
 }  // namespace duet

@@ -1,7 +1,5 @@
 #include "integrators/wide_scene.h"
 
-#include <algorithm>
-
 namespace duet {
 
 namespace {
@@ -16,17 +14,21 @@ bool has_frame_of_normal(const Shape& shape) {
 struct GlossySurface {
   WideGlossyMaterial material;
   bool two_sided, nearly_specular;
-  const ColorSlot& reflectance;  ///< which may depend on the point
+  const ColorSlot* reflectance;  ///< which may depend on the point; null if there is none
 };
 
 std::optional<GlossySurface> as_glossy(const Material& material) {
   if (const auto plastic = as_rough_plastic(material))
     return GlossySurface{*plastic, plastic->two_sided,
-                         plastic->plastic.microfacet.is_nearly_specular(), plastic->base};
+                         plastic->plastic.microfacet.is_nearly_specular(), &plastic->base};
   if (const auto conductor = as_rough_conductor(material))
     return GlossySurface{*conductor, conductor->two_sided,
                          conductor->conductor.microfacet.is_nearly_specular(),
-                         conductor->reflectance};
+                         &conductor->reflectance};
+  if (const auto plastic = as_plastic(material))
+    return GlossySurface{*plastic, plastic->two_sided, false, &plastic->base};
+  if (const auto glass = as_rough_dielectric(material))
+    return GlossySurface{*glass, false, glass->dielectric.microfacet.is_nearly_specular(), nullptr};
   return std::nullopt;
 }
 
@@ -48,6 +50,11 @@ void WideScene::set_model(WideShape& w, const Shape& shape, bool merges) {
     w.textured = &slot;
     w.prefetched = if_large(slot.texture);
   };
+  const auto number_of = [this](uint32_t name, const auto& surface, auto& surfaces) {
+    const auto [known, is_new] = numbers_.try_emplace(name, int32_t(surfaces.size()));
+    if (is_new) surfaces.push_back(surface);
+    return known->second;
+  };
   const bool by_normal = has_frame_of_normal(shape);
   if (const auto diffuse = by_normal ? as_diffuse(material) : std::nullopt) {
     w.model = WideModel::diffuse;
@@ -56,13 +63,13 @@ void WideScene::set_model(WideShape& w, const Shape& shape, bool merges) {
   } else if (const auto surface = by_normal ? as_glossy(material) : std::nullopt;
              surface && !(merges && surface->nearly_specular)) {
     w.model = WideModel::glossy;
-    const auto known = std::find(glossy_materials.begin(), glossy_materials.end(), shape.material);
-    w.glossy = int32_t(known - glossy_materials.begin());
     w.two_sided = surface->two_sided;
-    set_reflectance(surface->reflectance);
-    if (known != glossy_materials.end()) return;
-    glossy.push_back(surface->material);
-    glossy_materials.push_back(shape.material);
+    w.transmits = std::holds_alternative<RoughDielectricSurface>(surface->material);
+    if (surface->reflectance) set_reflectance(*surface->reflectance);
+    w.number = number_of(shape.material, surface->material, glossy);
+  } else if (const auto delta = by_normal ? as_specular(material) : std::nullopt) {
+    w.model = WideModel::specular;
+    w.number = number_of(shape.material, *delta, specular);
   } else {
     w.prefetched = if_large(material.main_texture());
   }

@@ -1,6 +1,7 @@
 // What a batch of paths looks up for each hit, in one cache line per shape.
 #pragma once
 
+#include <map>
 #include <variant>
 #include <vector>
 
@@ -17,13 +18,15 @@ inline bool suits_batches(const Scene& scene) {
 
 /// How points of a shape scatter.
 enum class WideModel : uint8_t {
-  diffuse,  ///< DiffuseSurface
-  glossy,   ///< WideGlossyMaterial
-  other,    ///< path by path, by the code for one
+  diffuse,   ///< DiffuseSurface
+  glossy,    ///< WideGlossyMaterial
+  specular,  ///< SpecularSurface
+  other,     ///< path by path, by the code for one
 };
 
 /// A material whose points are scattered in a loop of their own.
-using WideGlossyMaterial = std::variant<RoughPlasticSurface, RoughConductorSurface>;
+using WideGlossyMaterial = std::variant<RoughPlasticSurface, RoughConductorSurface, PlasticSurface,
+                                        RoughDielectricSurface>;
 
 struct alignas(64) WideShape {
   const Point3f* positions = nullptr;  ///< null if points are made by Scene::surface() alone
@@ -35,12 +38,13 @@ struct alignas(64) WideShape {
   float sign = 1;                       ///< −1 if the normals are to be turned
   WideModel model = WideModel::other;
   bool two_sided = false;  ///< see DiffuseSurface; not of WideModel::other
+  bool transmits = false;  ///< of WideModel::glossy: scatters to both sides
   bool emits = false;
-  int32_t glossy = 0;  ///< its number in WideScene::glossy, if it is that
+  int32_t number = 0;  ///< of the material in WideScene::glossy or WideScene::specular
 
   /// The number of the material among those of vertices that are connected in loops: zero for all
   /// that are diffuse.
-  int32_t pair_list() const { return model == WideModel::glossy ? 1 + glossy : 0; }
+  int32_t pair_list() const { return model == WideModel::glossy ? 1 + number : 0; }
 };
 
 /// A scene, which must outlive this and stand still, as batches of paths see it.
@@ -52,12 +56,14 @@ struct WideScene {
   const Scene& scene;
   std::vector<WideShape> shapes;
   std::vector<WideGlossyMaterial> glossy;
-  std::vector<uint32_t> glossy_materials;  ///< their numbers in the scene
-  bool has_normals = false;                ///< whether any mesh has shading normals
+  std::vector<SpecularSurface> specular;
+  bool has_normals = false;  ///< whether any mesh has shading normals
   WideLights lights;
 
  private:
   void set_model(WideShape& w, const Shape& shape, bool merges);
+
+  std::map<uint32_t, int32_t> numbers_;  ///< WideShape::number by Shape::material
 };
 
 }  // namespace duet

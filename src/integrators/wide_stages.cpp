@@ -1,7 +1,9 @@
 #include "integrators/wide_stages.h"
 
 #include "integrators/wide_conductor.h"
+#include "integrators/wide_dielectric.h"
 #include "integrators/wide_plastic.h"
+#include "integrators/wide_specular.h"
 #include "transport/light_choice.h"
 #include "transport/shadow_transmittance.h"
 
@@ -115,12 +117,20 @@ void WideStages::look_up_textures() {
   }
 }
 
+[[gnu::always_inline]] inline void WideStages::list_point(int i, const WideShape& shape) {
+  if (shape.model != WideModel::glossy && shape.model != WideModel::specular) return;
+  PointLists& lists = shape.model == WideModel::glossy ? glossy_points_ : specular_points_;
+  lists[size_t(shape.number)].push_back(i);
+  has_listed_points_ = true;
+}
+
 void WideStages::fetch(int n) {
   find_emitting(n);
   special_.clear();
   textured_.clear();
   for (std::vector<int>& points : glossy_points_) points.clear();
-  has_glossy_points_ = false;
+  for (std::vector<int>& points : specular_points_) points.clear();
+  has_listed_points_ = false;
   for (int i = 0; i < n; ++i) prefetch_triangle(i);
   constexpr int kAhead = 12;
   for (int i = 0; i < std::min(n, kAhead); ++i) prefetch_corners(i);
@@ -129,10 +139,7 @@ void WideStages::fetch(int n) {
     const WideShape& shape = wide_.shapes[hits_.shape[i]];
     set_reflectance(i, shape.reflectance);
     points_.two_sided[i] = shape.two_sided;
-    if (shape.model == WideModel::glossy) {
-      glossy_points_[size_t(shape.glossy)].push_back(i);
-      has_glossy_points_ = true;
-    }
+    list_point(i, shape);
     if (shape.model == WideModel::other || !shape.positions || hits_.instance[i] != kNone) {
       special_.push_back(i);
       continue;
@@ -162,66 +169,99 @@ void WideStages::draw_numbers(int n, const BatchSampler& sampler, int depth) {
 void WideStages::draw_scattering(int n, const BatchSampler& sampler, uint32_t dimension,
                                  int depth) {
   sampler.numbers_2d(n, paths_.keys, dimension, numbers_.x, numbers_.y);
-  const bool chooses = !special_.empty() || has_glossy_points_;
+  const bool chooses = !special_.empty() || has_listed_points_;
   if (chooses || has_roulette(depth))
     sampler.numbers_1d(n, paths_.keys, dimension + 2, numbers_.first);
   if (chooses && has_roulette(depth))
     sampler.numbers_1d(n, paths_.keys, dimension + 3, numbers_.second);
 }
 
-template <class F>
-void WideStages::for_each_glossy(F&& f) {
-  for (size_t number = 0; number < glossy_points_.size(); ++number) {
-    const std::vector<int>& points = glossy_points_[number];
+template <class Material, class F>
+void WideStages::for_each_material(const PointLists& lists, const std::vector<Material>& materials,
+                                   F&& f) {
+  for (size_t number = 0; number < lists.size(); ++number) {
+    const std::vector<int>& points = lists[number];
     if (points.empty()) continue;
     std::copy(points.begin(), points.end(), glossy_.at.begin());
-    std::visit([&](const auto& material) { f(int(points.size()), material); },
-               wide_.glossy[number]);
+    f(int(points.size()), materials[number]);
   }
 }
 
+template <class F>
+static auto with_model(F&& f) {
+  return [f](int count, const WideGlossyMaterial& material) {
+    std::visit([&](const auto& m) { f(count, m); }, material);
+  };
+}
+
 void WideStages::evaluate_glossy_points(BatchArray<float>* reverse) {
-  const WideVertices vertices{paths_, points_, numbers_};
+  const WideVertices all = vertices();
   WideGlossy& p = glossy_;
-  for_each_glossy([&](int count, const auto& material) {
+  const auto evaluate = [&](int count, const auto& material) {
     for (int k = 0; k < count; ++k) p.towards.set(k, lights_.wi.vector(p.at[k]));
-    evaluate_glossy(count, material, vertices, p);
-    if (reverse) reverse_glossy(count, material, vertices, p);
+    evaluate_glossy(count, material, all, p);
+    if (reverse) reverse_glossy(count, material, all, p);
     for (int k = 0; k < count; ++k) {
       const int i = p.at[k];
       lights_.value.set(i, p.value.vector(k));
       lights_.bsdf_pdf[i] = p.value_pdf[k];
       if (reverse) (*reverse)[i] = p.reverse[k];
     }
-  });
+  };
+  for_each_material(glossy_points_, wide_.glossy, with_model(evaluate));
+}
+
+void WideStages::set_scattering(int k, BatchArray<float>* reverse) {
+  const WideGlossy& p = glossy_;
+  const int i = p.at[k];
+  scattering_.wi.set(i, p.wi.vector(k));
+  scattering_.weight.set(i, p.weight.vector(k));
+  scattering_.pdf[i] = p.pdf[k];
+  scattering_.roulette[i] = p.roulette[k];
+  scattering_.alive[i] = p.alive[k];
+  if (reverse) (*reverse)[i] = p.reverse[k];
+}
+
+/// Of directions that a plastic mirrors: specular_jacobian().
+static void set_jacobians(int n, WideGlossy& p) {
+  for (int k = 0; k < n; ++k)
+    if (p.pdf[k] < 0) p.reverse[k] = 1;
 }
 
 void WideStages::sample_glossy_points(BatchArray<float>* reverse) {
-  const WideVertices vertices{paths_, points_, numbers_};
+  const WideVertices all = vertices();
   WideGlossy& p = glossy_;
-  for_each_glossy([&](int count, const auto& material) {
-    sample_glossy(count, material, vertices, p);
+  const auto sample = [&](int count, const auto& material) {
+    sample_glossy(count, material, all, p);
     if (reverse) {
       p.towards = p.wi;
-      reverse_glossy(count, material, vertices, p);
+      reverse_glossy(count, material, all, p);
+      set_jacobians(count, p);
     }
+    // sample_diffuse() has set the rest.
+    for (int k = 0; k < count; ++k) set_scattering(k, reverse);
+    if constexpr (std::is_same_v<decltype(material), const RoughDielectricSurface&>)
+      for (int k = 0; k < count; ++k) scattering_.eta[p.at[k]] = p.eta[k];
+  };
+  for_each_material(glossy_points_, wide_.glossy, with_model(sample));
+}
+
+void WideStages::sample_specular_points(BatchArray<float>* reverse) {
+  const WideVertices all = vertices();
+  for_each_material(specular_points_, wide_.specular, [&](int count, const auto& surface) {
+    sample_specular(count, surface, all, glossy_);
     for (int k = 0; k < count; ++k) {
-      const int i = p.at[k];
-      scattering_.wi.set(i, p.wi.vector(k));
-      scattering_.weight.set(i, p.weight.vector(k));
-      scattering_.pdf[i] = p.pdf[k];
-      scattering_.roulette[i] = p.roulette[k];
-      scattering_.alive[i] = p.alive[k];
-      // sample_diffuse() has set the rest.
-      if (reverse) (*reverse)[i] = p.reverse[k];
+      set_scattering(k, reverse);
+      scattering_.eta[glossy_.at[k]] = glossy_.eta[k];
+      scattering_.null[glossy_.at[k]] = glossy_.null[k];
     }
   });
 }
 
-std::optional<BsdfSample> WideStages::scatter_at(int i, const Bsdf& bsdf, Transport transport) {
+std::optional<BsdfSample> WideStages::scatter_at(int i, const Bsdf& bsdf) {
   const bool chooses = bsdf.needs_choice();
   const auto sample =
-      bsdf.sample(chooses ? numbers_.first[i] : 0.5f, {numbers_.x[i], numbers_.y[i]}, transport);
+      bsdf.sample(chooses ? numbers_.first[i] : 0.5f, {numbers_.x[i], numbers_.y[i]}, transport_);
   scattering_.alive[i] = sample.has_value();
   scattering_.null[i] = sample && sample->null;
   if (!sample) return sample;
@@ -229,7 +269,7 @@ std::optional<BsdfSample> WideStages::scatter_at(int i, const Bsdf& bsdf, Transp
   scattering_.weight.set(i, sample->weight.r, sample->weight.g, sample->weight.b);
   scattering_.pdf[i] = sample->delta ? -1.0f : sample->pdf.value;
   // Sub-paths from the lights carry no more into a denser medium.
-  scattering_.eta[i] = transport == Transport::radiance ? sample->eta : 1.0f;
+  scattering_.eta[i] = transport_ == Transport::radiance ? sample->eta : 1.0f;
   if (chooses) scattering_.roulette[i] = numbers_.second[i];
   return sample;
 }

@@ -17,8 +17,13 @@ namespace duet {
 /// Wavefront Path Tracing on GPUs", 2013; Lee et al., "Vectorized Production Path Tracing", 2017.
 class WideStages {
  protected:
-  WideStages(const WideScene& scene, const PathLimits& limits)
-      : wide_(scene), limits_(limits), glossy_points_(scene.glossy.size()) {}
+  /// `transport` is what the paths carry.
+  WideStages(const WideScene& scene, const PathLimits& limits, Transport transport)
+      : wide_(scene),
+        limits_(limits),
+        transport_(transport),
+        glossy_points_(scene.glossy.size()),
+        specular_points_(scene.specular.size()) {}
 
   /// What the rays of all paths meet next.
   void trace_rays(int n, RenderCounters& counters);
@@ -39,8 +44,10 @@ class WideStages {
   void evaluate_glossy_points(BatchArray<float>* reverse);
   /// From there, the next directions; likewise.
   void sample_glossy_points(BatchArray<float>* reverse);
+  /// The same at points of specular materials.
+  void sample_specular_points(BatchArray<float>* reverse);
   /// Samples a BSDF at a point that has no loop of its own; the sample is empty if the path ends.
-  std::optional<BsdfSample> scatter_at(int i, const Bsdf& bsdf, Transport transport);
+  std::optional<BsdfSample> scatter_at(int i, const Bsdf& bsdf);
   /// With strict_normals: no light samples, or next directions, that the two normals of a point see
   /// on different sides.
   void drop_two_sided_light_samples(int n);
@@ -91,6 +98,7 @@ class WideStages {
 
   const WideScene& wide_;
   PathLimits limits_;
+  const Transport transport_;
   WidePaths paths_{};
   HitBatch hits_{};
   WidePoints points_{};
@@ -100,19 +108,24 @@ class WideStages {
   WideShadowRays shadows_{};
   WideScattering scattering_{};
   WideGaps gaps_;
-  std::vector<int> emitting_;                    ///< numbers of points on lights
-  std::vector<std::vector<int>> glossy_points_;  ///< by WideShape::glossy
-  bool has_glossy_points_ = false;
+  std::vector<int> emitting_;  ///< numbers of points on lights
+  using PointLists = std::vector<std::vector<int>>;
+  PointLists glossy_points_, specular_points_;  ///< by WideShape::number
+  bool has_listed_points_ = false;              ///< whether there are any of these
   WideGlossy glossy_{};
   /// Numbers of the points that Scene::surface() makes, and those surfaces.
   std::vector<int> special_;
   std::vector<Surface> surfaces_;
 
  private:
-  /// Calls `f(count, material)` for the glossy points of each material, whose numbers stand in
-  /// `glossy_` then.
-  template <class F>
-  void for_each_glossy(F&& f);
+  WideVertices vertices() const { return {paths_, points_, numbers_, transport_}; }
+  /// Calls `f(count, material)` for the points of each material, whose numbers stand in `glossy_`
+  /// then.
+  template <class Material, class F>
+  void for_each_material(const PointLists& points, const std::vector<Material>& materials, F&& f);
+  void list_point(int i, const WideShape& shape);
+  /// The k-th of what was sampled for those.
+  void set_scattering(int k, BatchArray<float>* reverse);
   void prefetch_triangle(int i) const;
   void prefetch_corners(int i) const;
   void fetch(int n);

@@ -12,15 +12,16 @@ namespace duet {
 /// vertices ("special" here).
 class WideSubpathStages : protected WideStages {
  protected:
-  WideSubpathStages(const WideScene& scene, const PathLimits& limits) : WideStages(scene, limits) {
+  WideSubpathStages(const WideScene& scene, const PathLimits& limits, Transport transport)
+      : WideStages(scene, limits, transport) {
     vertices_.reserve(kBatch);
   }
 
   void fill_gaps();
   /// Binds the BSDFs of WideModel::other and evaluates them for the directions of `lights_`.
-  void make_special_vertices(int n, int depth, Transport transport);
+  void make_special_vertices(int n, int depth);
   /// From there, the next directions.
-  void scatter_special_vertices(Transport transport);
+  void scatter_special_vertices();
   /// The special vertex of a point, or null.
   PathVertex* special_vertex(int i) {
     return vertex_of_[i] >= 0 && vertex_of_[i] < special_vertices_

@@ -28,6 +28,7 @@ void WideTracer::trace(int n, const BatchSampler& sampler, WideSamples& samples,
     sample_diffuse(n, paths_, points_, numbers_, scattering_);
     evaluate_glossy_points(nullptr);
     sample_glossy_points(nullptr);
+    sample_specular_points(nullptr);
     scatter_one_by_one();
     add_light(n, samples, counters);
     for (int i = 0; i < n; ++i)
@@ -78,7 +79,7 @@ void WideTracer::scatter_one_by_one() {
       f = bsdf.eval(lights_.wi.vector(i), Transport::radiance);
     lights_.value.set(i, f.value.r, f.value.g, f.value.b);
     lights_.bsdf_pdf[i] = f.pdf.value;
-    scatter_at(i, bsdf, Transport::radiance);
+    scatter_at(i, bsdf);
   }
 }
 

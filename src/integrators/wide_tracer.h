@@ -11,7 +11,8 @@ namespace duet {
 /// rounding, the edge of one. Usual rough plastics and conductors are scattered in loops, too.
 class WideTracer final : public WideWalk, private WideStages {
  public:
-  WideTracer(const WideScene& scene, const PathLimits& limits) : WideStages(scene, limits) {}
+  WideTracer(const WideScene& scene, const PathLimits& limits)
+      : WideStages(scene, limits, Transport::radiance) {}
 
   WidePaths& paths() override { return paths_; }
   void trace(int n, const BatchSampler& sampler, WideSamples& samples,

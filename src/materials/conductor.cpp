@@ -4,15 +4,6 @@
 
 namespace duet {
 
-std::optional<ModelSample> ConductorModel::sample(const Vector3f& wo, float, const Point2f&,
-                                                  Transport) const {
-  if (!(wo.z > 0)) return std::nullopt;
-  return ModelSample{.wi = reflect(wo),
-                     .weight = specular_reflectance * fresnel_conductor(wo.z, eta, k),
-                     .pdf = 1,
-                     .delta = true};
-}
-
 ModelEval RoughConductorModel::eval(const Vector3f& wo, const Vector3f& wi, Transport) const {
   if (!(wo.z > kMinCosine && wi.z > kMinCosine)) return {};
   const Microfacet::Reflection r = microfacet.reflection(wo, wi);

@@ -17,7 +17,20 @@ struct ConductorModel {
   bool needs_choice() const { return false; }
 
   ModelEval eval(const Vector3f&, const Vector3f&, Transport) const { return {}; }
-  std::optional<ModelSample> sample(const Vector3f& wo, float, const Point2f&, Transport) const;
+  [[gnu::always_inline]] BranchFreeSample sample_branch_free(const Vector3f& wo, float,
+                                                             const Point2f&, Transport) const {
+    BranchFreeSample s;
+    s.wi = Vector3f(-wo.x, -wo.y, wo.z);
+    s.weight = specular_reflectance * fresnel_conductor(wo.z, eta, k);
+    s.pdf = 1;
+    s.delta = 1;
+    s.carries = wo.z > 0 ? 1 : 0;
+    return s;
+  }
+  std::optional<ModelSample> sample(const Vector3f& wo, float u, const Point2f& v,
+                                    Transport transport) const {
+    return sample_branch_free(wo, u, v, transport).model_sample();
+  }
 };
 
 /// Rough metal: single reflection off microfacets, on the upper side only.

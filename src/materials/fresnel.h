@@ -23,23 +23,21 @@ struct DielectricFresnel {
   float cos_t;  ///< on the far side; 0 under total internal reflection
 };
 
-/// `eta` is the index of the far side over that of the near side. With eta = 1 nothing is
-/// reflected.
-inline DielectricFresnel fresnel_dielectric(float cos_i, float eta) {
-  if (eta == 1) return {0, cos_i};
-  const float eta2 = eta * eta;
-  const float g2 = eta2 - (1 - cos_i * cos_i);
-  if (!(g2 > 0 && cos_i > 0)) return {1, safe_sqrt(g2) / eta};
-  const float g = std::sqrt(g2);  // η cos θ_t
-  return {transmitting_reflectance(cos_i, eta2, g), g / eta};
-}
-
-/// The same reflectance, for eta ≠ 1, without branches: for loops over many points.
+/// Reflectance for eta ≠ 1, the index of the far side over that of the near side. Without branches:
+/// for loops over many points, too.
 [[gnu::always_inline]] inline float dielectric_reflectance(float cos_i, float eta) {
   const float eta2 = eta * eta;
   const float g2 = eta2 - (1 - cos_i * cos_i);
   const float transmitting = transmitting_reflectance(cos_i, eta2, safe_sqrt(g2));
   return std::min(g2, cos_i) > 0 ? transmitting : 1.0f;
+}
+
+/// The same with the direction of refraction. With eta = 1 nothing is reflected.
+[[gnu::always_inline]] [[gnu::always_inline]] inline DielectricFresnel fresnel_dielectric(
+    float cos_i, float eta) {
+  const float g = safe_sqrt(eta * eta - (1 - cos_i * cos_i));  // η cos θ_t
+  const float reflectance = dielectric_reflectance(cos_i, eta), cos_t = g / eta;
+  return {eta == 1 ? 0.0f : reflectance, eta == 1 ? cos_i : cos_t};
 }
 
 /// Unpolarised reflection at a conductor with the complex index eta + i k (relative to the

@@ -151,6 +151,9 @@ class Plastic final : public SingleModelMaterial<Plastic> {
  public:
   explicit Plastic(const PlasticOptions& options);
   PlasticModel model(const Surface& s) const;
+  /// The plastic without its base, if the rest is the same everywhere.
+  std::optional<UniformPlastic> uniform() const;
+  const ColorSlot& base() const { return options_.diffuse_reflectance; }
   SurfaceNeeds needs() const override;
   bool transmits() const override { return false; }
   Spectrum local_albedo(const Surface& s, const Vector3f&) const override {
@@ -159,6 +162,10 @@ class Plastic final : public SingleModelMaterial<Plastic> {
   const Texture* main_texture() const override { return options_.diffuse_reflectance.texture; }
 
  private:
+  UniformPlastic plastic(const Spectrum& specular_reflectance) const {
+    return {options_.eta, specular_reflectance, internal_reflectance_, options_.nonlinear};
+  }
+
   PlasticOptions options_;
   float internal_reflectance_;
 };

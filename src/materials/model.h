@@ -35,6 +35,19 @@ inline std::optional<ModelSample> sample_from(const ModelEval& e, const Vector3f
   return ModelSample{wi, e.value / e.pdf, e.pdf};
 }
 
+/// A sample that is made without branches, for loops over many points.
+struct BranchFreeSample {
+  Vector3f wi;
+  Spectrum weight;  ///< of no meaning, as the rest, if nothing is carried
+  float pdf = 0, eta = 1;
+  int32_t carries = 1, delta = 0, null = 0;  ///< 0 or 1
+
+  std::optional<ModelSample> model_sample() const {
+    if (!carries) return std::nullopt;
+    return ModelSample{wi, weight, pdf, eta, delta != 0, null != 0};
+  }
+};
+
 /// A model has its parameters as plain numbers, already looked up at the hit. Directions are unit
 /// vectors in the local frame and point away from the surface: wo to where the path comes from, wi
 /// to where it goes. All functions are const and know nothing of the frame. Each model provides
@@ -49,6 +62,11 @@ inline std::optional<ModelSample> sample_from(const ModelEval& e, const Vector3f
 /// eval and sample must agree: over many samples, mean(weight · g(wi)) = ∫ f |cos| g dwi plus the
 /// delta terms. The density of the reverse direction is obtained by swapping wo and wi and
 /// taking the other transport; a delta lobe is picked with the same probability from either end.
+///
+/// A model with delta lobes that is asked for many points at once also provides
+///
+///   BranchFreeSample sample_branch_free(wo, u, v, transport)
+///                                                what sample() makes
 ///
 /// A model that may have nearly specular lobes also provides
 ///

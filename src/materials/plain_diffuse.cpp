@@ -40,12 +40,44 @@ std::optional<RoughPlasticSurface> as_rough_plastic(const Material& material) {
   return RoughPlasticSurface{plastic->base(), *uniform, bare.two_sided};
 }
 
+std::optional<PlasticSurface> as_plastic(const Material& material) {
+  const Unwrapped bare = unwrapped(material);
+  const auto* plastic = dynamic_cast<const Plastic*>(bare.material);
+  const auto uniform = plastic ? plastic->uniform() : std::nullopt;
+  if (!uniform || !(uniform->specular_reflectance.mean() > 0)) return std::nullopt;
+  return PlasticSurface{plastic->base(), *uniform, bare.two_sided};
+}
+
 std::optional<RoughConductorSurface> as_rough_conductor(const Material& material) {
   const Unwrapped bare = unwrapped(material);
   const auto* conductor = dynamic_cast<const RoughConductor*>(bare.material);
   const auto uniform = conductor ? conductor->uniform() : std::nullopt;
   if (!uniform || !has_visible_facets(uniform->microfacet)) return std::nullopt;
   return RoughConductorSurface{conductor->specular_reflectance(), *uniform, bare.two_sided};
+}
+
+std::optional<RoughDielectricSurface> as_rough_dielectric(const Material& material) {
+  const ConstantMaterial* const constant = material.constant();
+  if (!constant || constant->component.kind != ModelKind::rough_dielectric) return std::nullopt;
+  const RoughDielectricModel& dielectric = constant->component.model.rough_dielectric;
+  if (!has_visible_facets(dielectric.microfacet) || dielectric.eta == 1) return std::nullopt;
+  return RoughDielectricSurface{dielectric};
+}
+
+std::optional<SpecularSurface> as_specular(const Material& material) {
+  const ConstantMaterial* const constant = material.constant();
+  if (!constant) return std::nullopt;
+  const ModelUnion& model = constant->component.model;
+  switch (constant->component.kind) {
+    case ModelKind::dielectric:
+      return SpecularSurface{model.dielectric, constant->two_sided};
+    case ModelKind::thin_dielectric:
+      return SpecularSurface{model.thin_dielectric, constant->two_sided};
+    case ModelKind::conductor:
+      return SpecularSurface{model.conductor, constant->two_sided};
+    default:
+      return std::nullopt;
+  }
 }
 
 }  // namespace duet

@@ -1,6 +1,8 @@
 // The most frequent material, bound without the machinery of all others.
 #pragma once
 
+#include <variant>
+
 #include "materials/material.h"
 #include "textures/texture.h"
 
@@ -76,6 +78,16 @@ struct RoughPlasticSurface {
 /// The material as such, if it is one.
 std::optional<RoughPlasticSurface> as_rough_plastic(const Material& material);
 
+/// A material that is nothing but a smooth plastic on one or both sides, with a coat that is the
+/// same everywhere and reflects anything.
+struct PlasticSurface {
+  const ColorSlot& base;
+  UniformPlastic plastic;
+  bool two_sided;
+};
+/// The material as such, if it is one.
+std::optional<PlasticSurface> as_plastic(const Material& material);
+
 /// A material that is nothing but a rough conductor on one or both sides, with such facets and an
 /// index that is the same everywhere.
 struct RoughConductorSurface {
@@ -85,5 +97,22 @@ struct RoughConductorSurface {
 };
 /// The material as such, if it is one.
 std::optional<RoughConductorSurface> as_rough_conductor(const Material& material);
+
+/// A material that is nothing but a rough dielectric that is the same everywhere, with such facets
+/// and an index that is not 1.
+struct RoughDielectricSurface {
+  RoughDielectricModel dielectric;
+};
+/// The material as such, if it is one.
+std::optional<RoughDielectricSurface> as_rough_dielectric(const Material& material);
+
+/// A material with delta lobes alone that is the same everywhere: glass, a pane or a mirror, the
+/// last on one or both sides.
+struct SpecularSurface {
+  std::variant<DielectricModel, ThinDielectricModel, ConductorModel> model;
+  bool two_sided;
+};
+/// The material as such, if it is one.
+std::optional<SpecularSurface> as_specular(const Material& material);
 
 }  // namespace duet

@@ -4,29 +4,6 @@
 
 namespace duet {
 
-ModelEval PlasticModel::eval(const Vector3f& wo, const Vector3f& wi, Transport) const {
-  if (!(wo.z > 0 && wi.z > 0)) return {};
-  const float fo = fresnel_dielectric(wo.z, eta).reflectance;
-  const float fi = fresnel_dielectric(wi.z, eta).reflectance;
-  const float cosine = wi.z * kInvPi;
-  return {coated_base * (cosine * (1 - fo) * (1 - fi)),
-          cosine * (1 - lobe_probability(fo, specular_weight, diffuse_weight))};
-}
-
-std::optional<ModelSample> PlasticModel::sample(const Vector3f& wo, float u, const Point2f& v,
-                                                Transport) const {
-  if (!(wo.z > 0)) return std::nullopt;
-  const float fo = fresnel_dielectric(wo.z, eta).reflectance;
-  const float p = lobe_probability(fo, specular_weight, diffuse_weight);
-  if (u < p)
-    return ModelSample{
-        .wi = reflect(wo), .weight = specular_reflectance * (fo / p), .pdf = p, .delta = true};
-  const Vector3f wi = square_to_cosine_hemisphere(v);
-  if (!(wi.z > 0 && p < 1)) return std::nullopt;
-  const float fi = fresnel_dielectric(wi.z, eta).reflectance;
-  return ModelSample{wi, coated_base * ((1 - fo) * (1 - fi) / (1 - p)), (1 - p) * wi.z * kInvPi};
-}
-
 float RoughPlasticModel::nearly_specular_share() const {
   if (!microfacet.is_nearly_specular()) return 0;
   return lobe_probability(normal_reflectance(eta), specular_weight, diffuse_weight);
@@ -74,11 +51,12 @@ Plastic::Plastic(const PlasticOptions& options)
 }
 
 PlasticModel Plastic::model(const Surface& s) const {
-  const Spectrum base = options_.diffuse_reflectance(s);
-  const Spectrum specular = options_.specular_reflectance(s);
-  return {options_.eta, specular,
-          coated_reflectance(base, internal_reflectance_, options_.eta, options_.nonlinear),
-          specular.mean(), base.mean()};
+  return plastic(options_.specular_reflectance(s)).model(options_.diffuse_reflectance(s));
+}
+
+std::optional<UniformPlastic> Plastic::uniform() const {
+  if (!options_.specular_reflectance.is_constant()) return std::nullopt;
+  return plastic(options_.specular_reflectance.constant);
 }
 
 SurfaceNeeds Plastic::needs() const {

@@ -8,6 +8,7 @@
 #include "materials/microfacet.h"
 #include "materials/model.h"
 #include "materials/rough_transmittance.h"
+#include "math/warp.h"
 
 namespace duet {
 
@@ -47,8 +48,55 @@ struct PlasticModel {
   bool has_delta() const { return specular_weight > 0; }
   bool needs_choice() const { return has_smooth() && has_delta(); }
 
-  ModelEval eval(const Vector3f& wo, const Vector3f& wi, Transport) const;
-  std::optional<ModelSample> sample(const Vector3f& wo, float u, const Point2f& v, Transport) const;
+  ModelEval eval(const Vector3f& wo, const Vector3f& wi, Transport) const {
+    return wo.z > 0 && wi.z > 0 ? eval_above(wo, wi) : ModelEval{};
+  }
+  std::optional<ModelSample> sample(const Vector3f& wo, float u, const Point2f& v,
+                                    Transport transport) const {
+    return sample_branch_free(wo, u, v, transport).model_sample();
+  }
+  /// eval() of directions above the horizon. Without branches, for loops over many points, too.
+  [[gnu::always_inline]] ModelEval eval_above(const Vector3f& wo, const Vector3f& wi) const {
+    const float fo = fresnel_dielectric(wo.z, eta).reflectance;
+    const float fi = fresnel_dielectric(wi.z, eta).reflectance;
+    const float cosine = wi.z * kInvPi;
+    return {coated_base * (cosine * (1 - fo) * (1 - fi)),
+            cosine * (1 - lobe_probability(fo, specular_weight, diffuse_weight))};
+  }
+  [[gnu::always_inline]] BranchFreeSample sample_branch_free(const Vector3f& wo, float u,
+                                                             const Point2f& v, Transport) const {
+    const float fo = fresnel_dielectric(wo.z, eta).reflectance;
+    const float p = lobe_probability(fo, specular_weight, diffuse_weight);
+    const bool reflects = u < p;
+    const Vector3f diffuse = square_to_cosine_hemisphere(v);
+    const float fi = fresnel_dielectric(diffuse.z, eta).reflectance;
+    const Spectrum mirrored = specular_reflectance * (fo / p);
+    const Spectrum scattered = coated_base * ((1 - fo) * (1 - fi) / (1 - p));
+    BranchFreeSample s;
+    s.wi = Vector3f(reflects ? -wo.x : diffuse.x, reflects ? -wo.y : diffuse.y,
+                    reflects ? wo.z : diffuse.z);
+    s.weight = {reflects ? mirrored.r : scattered.r, reflects ? mirrored.g : scattered.g,
+                reflects ? mirrored.b : scattered.b};
+    s.pdf = reflects ? p : (1 - p) * diffuse.z * kInvPi;
+    s.delta = reflects ? 1 : 0;
+    const int32_t enters = std::min(diffuse.z, 1 - p) > 0 ? 1 : 0;
+    s.carries = wo.z > 0 ? (reflects ? 1 : enters) : 0;
+    return s;
+  }
+};
+
+/// A smooth plastic of which only the base differs from point to point.
+struct UniformPlastic {
+  float eta;
+  Spectrum specular_reflectance;
+  float internal_reflectance;
+  bool nonlinear;
+
+  [[gnu::always_inline]] PlasticModel model(const Spectrum& base) const {
+    return {eta, specular_reflectance,
+            coated_reflectance(base, internal_reflectance, eta, nonlinear),
+            specular_reflectance.mean(), base.mean()};
+  }
 };
 
 /// A rough coat: reflection off microfacets and the base.

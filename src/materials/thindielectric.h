@@ -23,20 +23,28 @@ struct ThinDielectricModel {
     return specular_transmittance * (1 - 2 * once / (1 + once));
   }
 
-  std::optional<ModelSample> sample(const Vector3f& wo, float u, const Point2f&, Transport) const {
-    if (wo.z == 0) return std::nullopt;
+  [[gnu::always_inline]] BranchFreeSample sample_branch_free(const Vector3f& wo, float u,
+                                                             const Point2f&, Transport) const {
     const float once = fresnel_dielectric(std::abs(wo.z), eta).reflectance;
-    const float r = 2 * once / (1 + once);
-    const float p = reflection_probability(r, specular_reflectance, specular_transmittance);
-    if (u < p)
-      return ModelSample{
-          .wi = reflect(wo), .weight = specular_reflectance * (r / p), .pdf = p, .delta = true};
-    if (!(r < 1)) return std::nullopt;
-    return ModelSample{.wi = -wo,
-                       .weight = specular_transmittance * ((1 - r) / (1 - p)),
-                       .pdf = 1 - p,
-                       .delta = true,
-                       .null = true};
+    const float f = 2 * once / (1 + once);
+    const float p = reflection_probability(f, specular_reflectance, specular_transmittance);
+    const bool reflects = u < p;
+    const float share = reflects ? f / p : (1 - f) / (1 - p);
+    const Spectrum &r = specular_reflectance, &t = specular_transmittance;
+    BranchFreeSample s;
+    s.wi = Vector3f(-wo.x, -wo.y, reflects ? wo.z : -wo.z);
+    s.weight = {(reflects ? r.r : t.r) * share, (reflects ? r.g : t.g) * share,
+                (reflects ? r.b : t.b) * share};
+    s.pdf = reflects ? p : 1 - p;
+    s.delta = 1;
+    const int32_t passes = f < 1 ? 1 : 0;
+    s.carries = wo.z != 0 ? (reflects ? 1 : passes) : 0;
+    s.null = reflects ? 0 : 1;
+    return s;
+  }
+  std::optional<ModelSample> sample(const Vector3f& wo, float u, const Point2f& v,
+                                    Transport transport) const {
+    return sample_branch_free(wo, u, v, transport).model_sample();
   }
 };
 

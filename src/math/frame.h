@@ -57,7 +57,7 @@ inline bool same_hemisphere(const Vector3f& a, const Vector3f& b) {
 }
 /// `w`, or its mirror image behind the surface: so that both sides can be treated as if seen from
 /// above.
-inline Vector3f mirrored(const Vector3f& w, bool mirror) {
+[[gnu::always_inline]] inline Vector3f mirrored(const Vector3f& w, bool mirror) {
   return {w.x, w.y, mirror ? -w.z : w.z};
 }
 /// The mirror image of `w` about the normal.

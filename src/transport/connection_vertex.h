@@ -15,15 +15,16 @@ struct ConnectionVertex {
   Point3f position{0};
   float offset = 0;
   Normal3f ng{0};
-  Normal3f lit{0};    ///< the shading normal on the lit side; zero where nothing is reflected
+  Normal3f lit{0};    ///< the shading normal on the lit side; zero where nothing is reflected. Of
+                      ///< materials that transmit the shading normal
   Spectrum flux;      ///< throughput times reflectance
   float reverse = 0;  ///< density of going back to the previous vertex
   float adjoint = 0;  ///< what adjoint_factor() has of the direction back: |l·n_s| / |l·n_g|
   float vcm = 0, vc = 0, vm = 0;  ///< Partials
   int32_t depth = 0;              ///< as a vertex's
   int32_t material = kOther;      ///< of kOther only the depth is valid
-  int32_t faces = 0;  ///< 1 if position and `lit` are valid, also where the rest is not: all light
-                      ///< stays on that side
+  int32_t faces = 0;  ///< 1 if all light stays on the lit side: position and `lit` are then valid,
+                      ///< also where the rest is not
 
   ConnectionVertex() = default;
   explicit ConnectionVertex(const PathVertex& v) : depth(v.depth) {
@@ -43,6 +44,7 @@ struct ConnectionVertex {
     material = kDiffuse;
   }
 
+  bool is_placed() const { return material != kOther || faces; }
   /// Of the direction back with the shading and with the geometric normal.
   void set_cosines(float cosine, float geometric) {
     reverse = std::abs(cosine) * kInvPi;
@@ -52,8 +54,8 @@ struct ConnectionVertex {
  private:
   /// Whether all light stays on the side of the shading normal that it comes from.
   static bool reflects(ModelKind kind) {
-    return kind == ModelKind::diffuse || kind == ModelKind::rough_plastic ||
-           kind == ModelKind::rough_conductor;
+    return kind == ModelKind::diffuse || kind == ModelKind::plastic ||
+           kind == ModelKind::rough_plastic || kind == ModelKind::rough_conductor;
   }
 };
 

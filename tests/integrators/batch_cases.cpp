@@ -9,6 +9,15 @@ std::string ggx_plastic(const std::string& parameters, bool two_sided) {
   return two_sided ? "<bsdf type='twosided'>" + plastic + "</bsdf>" : plastic;
 }
 
+std::string smooth_plastic(const std::string& parameters, bool two_sided) {
+  const std::string plastic = "<bsdf type='plastic'>" + parameters + "</bsdf>";
+  return two_sided ? "<bsdf type='twosided'>" + plastic + "</bsdf>" : plastic;
+}
+
+std::string rough_glass(const std::string& parameters) {
+  return "<bsdf type='roughdielectric'>" + parameters + "</bsdf>";
+}
+
 std::string conductor(const std::string& parameters, bool two_sided) {
   const std::string metal = "<bsdf type='roughconductor'>" + parameters + "</bsdf>";
   return two_sided ? "<bsdf type='twosided'>" + metal + "</bsdf>" : metal;
@@ -120,6 +129,40 @@ const std::vector<BatchCase> kBatchCases = {
          "<shape type='cube'><transform name='to_world'><scale value='0.2'/><rotate z='1' "
          "angle='30'/><translate y='-0.5' z='1.2'/></transform>" +
          kAluminium + "</shape>"},
+    {"smooth plastics",
+     camera() + room_xml(smooth_plastic(kCheckerColours)) + kLamp +
+         lumpy_xml("-0.4,0.2,0.5", smooth_plastic("<float name='int_ior' value='1.9'/>", false)) +
+         hollow_xml("0.5,-0.3,0.4", "0.3", smooth_plastic("", false)) +
+         sphere_xml("0.4,0.3,1.2", "0.3",
+                    smooth_plastic("<float name='int_ior' value='1'/><float name='ext_ior' "
+                                   "value='1.4'/><boolean name='nonlinear' value='true'/>"))},
+    {"rough glass in lanes",
+     camera() + room_xml(grey("0.6")) + kLamp + kEnvironment +
+         lumpy_xml("-0.4,0.2,0.5", rough_glass("<float name='alpha' value='0.3'/>")) +
+         sphere_xml("0.5,-0.3,0.5", "0.3",
+                    rough_glass("<float name='alpha' value='0.15'/>"
+                                "<rgb name='specular_transmittance' "
+                                "value='0.9,0.7,0.5'/>")) +
+         hollow_xml("0.4,0.3,1.2", "0.3",
+                    rough_glass("<string name='distribution' value='ggx'/>"
+                                "<float name='alpha' value='0.2'/>")) +
+         "<shape type='rectangle'><transform name='to_world'><scale value='0.4'/><rotate x='1' "
+         "angle='80'/><translate x='-0.3' y='-0.8' z='0.6'/></transform>" +
+         rough_glass("<float name='alpha' value='0.05'/>") + "</shape>" +
+         sphere_xml("-0.4,-0.1,1.4", "0.25", kPlastic)},
+    {"glass, panes and mirrors",
+     camera() + room_xml(grey("0.6")) + kLamp + kEnvironment +
+         lumpy_xml("-0.4,0.2,0.5",
+                   "<bsdf type='dielectric'><rgb name='specular_transmittance' "
+                   "value='0.9,0.7,0.8'/></bsdf>") +
+         lumpy_xml("0.5,-0.3,0.5", kMirror) + hollow_xml("0.4,0.3,1.2", "0.3", kMirror) +
+         hollow_xml("-0.3,-0.4,1.2", "0.25", kGlass) +
+         "<shape type='rectangle'><transform name='to_world'><scale value='0.4'/><rotate x='1' "
+         "angle='80'/><translate y='-0.8' z='0.6'/></transform><bsdf "
+         "type='thindielectric'/></shape>"
+         "<shape type='rectangle'><transform name='to_world'><scale value='0.3'/><rotate y='1' "
+         "angle='100'/><translate x='0.9' z='0.9'/></transform><bsdf type='twosided'>" +
+         kMirror + "</bsdf></shape>"},
     {"diffuse and glossy meshes with shading normals",
      camera() + room_xml(kVarnishedCheckers) + kLamp + lumpy_xml("-0.4,0.2,0.5", grey("0.7")) +
          lumpy_xml("0.4,-0.1,0.5", kAluminium) + lumpy_xml("0.1,0.2,1.3", kPlastic)},

@@ -17,11 +17,12 @@ inline const std::string kPlastic =
 inline const std::string kTwoSidedPlastic = "<bsdf type='twosided'>" + kPlastic + "</bsdf>";
 /// Rough plastic with the other facets, which batches scatter in lanes.
 std::string ggx_plastic(const std::string& parameters, bool two_sided = true);
-inline const std::string kVarnishedCheckers = ggx_plastic(
-    "<boolean name='nonlinear' value='true'/><texture type='checkerboard' "
-    "name='diffuse_reflectance'><rgb name='color0' value='0.8,0.3,0.2'/>"
-    "<rgb name='color1' value='0,0,0'/><transform name='to_uv'><scale x='5' y='7'/></transform>"
-    "</texture>");
+inline const std::string kCheckerColours =
+    "<texture type='checkerboard' name='diffuse_reflectance'><rgb name='color0' "
+    "value='0.8,0.3,0.2'/><rgb name='color1' value='0,0,0'/><transform name='to_uv'>"
+    "<scale x='5' y='7'/></transform></texture>";
+inline const std::string kVarnishedCheckers =
+    ggx_plastic("<boolean name='nonlinear' value='true'/>" + kCheckerColours);
 inline const std::string kTinted = ggx_plastic(
     "<float name='alpha' value='0.02'/><float name='int_ior' value='1.9'/>"
     "<rgb name='specular_reflectance' value='0.9,0.5,0.2'/>",
@@ -29,6 +30,10 @@ inline const std::string kTinted = ggx_plastic(
 /// Inside denser than outside: total reflection.
 inline const std::string kBubble =
     ggx_plastic("<float name='int_ior' value='1'/><float name='ext_ior' value='1.4'/>");
+
+std::string smooth_plastic(const std::string& parameters, bool two_sided = true);
+
+std::string rough_glass(const std::string& parameters);
 
 /// Rough metal, which batches scatter in lanes, too.
 std::string conductor(const std::string& parameters, bool two_sided = true);
@@ -57,6 +62,8 @@ std::string hollow_xml(const std::string& center, const std::string& radius,
                        const std::string& bsdf);
 
 inline const std::string kGlass = "<bsdf type='dielectric'/>";
+inline const std::string kMirror =
+    "<bsdf type='conductor'><string name='material' value='Cu'/></bsdf>";
 inline const std::string kCheckers =
     "<bsdf type='twosided'><bsdf type='diffuse'><texture type='checkerboard' name='reflectance'>"
     "<rgb name='color0' value='0.8,0.3,0.2'/><rgb name='color1' value='0.2,0.3,0.7'/>"

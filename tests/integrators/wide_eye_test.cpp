@@ -16,8 +16,8 @@ RenderResult render_bdpt(const TransportScene& s, PathBatches batches, const Ren
   return render(*s.scene, bdpt, s.layout, r);
 }
 
-void check_close(uint64_t a, uint64_t b) {
-  CHECK(double(a) == doctest::Approx(double(b)).epsilon(2e-3));
+void check_close(uint64_t a, uint64_t b, double tolerance = 2e-3) {
+  CHECK(double(a) == doctest::Approx(double(b)).epsilon(tolerance));
 }
 
 void check_same_work(const RenderCounters& a, const RenderCounters& b, bool hide_emitters) {
@@ -28,8 +28,12 @@ void check_same_work(const RenderCounters& a, const RenderCounters& b, bool hide
   check_close(a.connections.contributed, b.connections.contributed);
   check_close(a.connections.failed_occluded, b.connections.failed_occluded);
   check_close(a.connections.failed_specular, b.connections.failed_specular);
-  check_close(a.connections.failed_zero, b.connections.failed_zero);
-  check_close(a.connections.skipped, b.connections.skipped);
+  // What is next to nothing, as facets far from where they mostly face, is nothing in another
+  // order.
+  const ConnectionCounters &c = a.connections, &d = b.connections;
+  check_close(c.failed_zero + c.skipped, d.failed_zero + d.skipped);
+  check_close(c.failed_zero, d.failed_zero, 5e-3);
+  check_close(c.skipped, d.skipped, 5e-3);
   CHECK(a.camera_paths == b.camera_paths);
 }
 

@@ -1,8 +1,10 @@
-// Glossy materials in lanes give what their Bsdf gives, bit for bit.
+// Glossy and specular materials in lanes give what their Bsdf gives, bit for bit.
 #include <doctest/doctest.h>
 
 #include "integrators/wide_conductor.h"
+#include "integrators/wide_dielectric.h"
 #include "integrators/wide_plastic.h"
+#include "integrators/wide_specular.h"
 #include "math/sampler.h"
 #include "support/test_material.h"
 
@@ -18,6 +20,13 @@ const char* const kPlastics[] = {
     R"({"type": "roughplastic", "alpha": 0.02, "int_ior": 1.0, "ext_ior": 1.4})",
     R"({"type": "roughplastic", "diffuse_reflectance": [0, 0, 0]})",
 };
+const char* const kSmoothPlastics[] = {
+    R"({"type": "plastic"})",
+    R"({"type": "plastic", "diffuse_reflectance": [0.2, 0.5, 0.8], "nonlinear": true,
+        "specular_reflectance": [0.9, 0.5, 0.2], "int_ior": 1.9})",
+    R"({"type": "plastic", "int_ior": 1.0, "ext_ior": 1.4})",
+    R"({"type": "plastic", "diffuse_reflectance": [0, 0, 0]})",
+};
 const char* const kConductors[] = {
     R"({"type": "roughconductor", "distribution": "ggx", "alpha": 0.3, "eta": [0.2, 0.9, 1.4],
         "k": [3.9, 2.4, 2.1]})",
@@ -26,6 +35,32 @@ const char* const kConductors[] = {
     R"({"type": "roughconductor", "alpha": 0.9, "eta": [0, 0.9, 0], "k": [0, 0, 2]})",
     R"({"type": "roughconductor", "alpha": 0.0001, "eta": [0, 0, 0], "k": [1, 1, 1]})",
     R"({"type": "roughconductor", "distribution": "ggx", "eta": [0, 0, 0], "k": [0, 0, 0]})",
+};
+
+const char* const kRoughDielectrics[] = {
+    R"({"type": "roughdielectric", "distribution": "ggx", "alpha": 0.3})",
+    R"({"type": "roughdielectric", "alpha": 0.1, "int_ior": 1.0, "ext_ior": 1.9})",
+    R"({"type": "roughdielectric", "alpha": 0.6, "specular_reflectance": [0.9, 0.5, 0.2],
+        "specular_transmittance": [0.1, 0.5, 0.8]})",
+    R"({"type": "roughdielectric", "distribution": "ggx", "alpha": 0.02,
+        "specular_transmittance": [0, 0, 0]})",
+    R"({"type": "roughdielectric", "alpha": 0.0001})",
+};
+const char* const kSpecular[] = {
+    R"({"type": "dielectric"})",
+    R"({"type": "dielectric", "int_ior": 1.0, "ext_ior": 1.9,
+        "specular_reflectance": [0.9, 0.5, 0.2], "specular_transmittance": [0.1, 0.5, 0.8]})",
+    R"({"type": "dielectric", "int_ior": 1.3, "ext_ior": 1.3})",
+    R"({"type": "dielectric", "specular_transmittance": [0, 0, 0]})",
+    R"({"type": "dielectric", "specular_reflectance": [0, 0, 0],
+        "specular_transmittance": [0, 0, 0]})",
+    R"({"type": "thindielectric"})",
+    R"({"type": "thindielectric", "int_ior": 1.9, "specular_reflectance": [0.9, 0.5, 0.2],
+        "specular_transmittance": [0.1, 0.5, 0.8]})",
+    R"({"type": "conductor", "eta": [0.2, 0.9, 1.4], "k": [3.9, 2.4, 2.1],
+        "specular_reflectance": [0.9, 0.5, 0.2]})",
+    R"({"type": "twosided", "nested": [{"type": "conductor", "eta": [0.2, 0.9, 1.4],
+        "k": [3.9, 2.4, 2.1]}]})",
 };
 
 std::string two_sided(const std::string& bsdf) {
@@ -66,34 +101,77 @@ struct Points {
 };
 
 /// Checks the k-th of what was made. Returns whether a path goes on from it.
-bool check_point(const Material& material, const Points& p, int k) {
+bool check_point(const Material& material, const Points& p, int k, Transport transport) {
   const int i = p.out.at[k];
   CAPTURE(i);
   Surface surface = flat_surface();
   surface.shading = Frame(p.points.ns.normal(i));
   const Bsdf bsdf = material.bind(surface, -p.paths.ray.direction.vector(i));
-  const BsdfEval e = bsdf.eval(p.light.vector(i), Transport::radiance);
+  const BsdfEval e = bsdf.eval(p.light.vector(i), transport);
   CHECK(e.value == Spectrum(p.out.value.x[k], p.out.value.y[k], p.out.value.z[k]));
   CHECK(e.pdf.value == p.out.value_pdf[k]);
   if (!e.value.is_black())
-    CHECK(bsdf.reverse_pdf(p.light.vector(i), Transport::radiance).value == p.out.reverse[k]);
+    CHECK(bsdf.reverse_pdf(p.light.vector(i), transport).value == p.out.reverse[k]);
   const bool chooses = bsdf.needs_choice();
-  const auto s = bsdf.sample(chooses ? p.numbers.first[i] : 0.5f, {p.numbers.x[i], p.numbers.y[i]},
-                             Transport::radiance);
+  const auto s =
+      bsdf.sample(chooses ? p.numbers.first[i] : 0.5f, {p.numbers.x[i], p.numbers.y[i]}, transport);
   CHECK(p.out.roulette[k] == (chooses ? p.numbers.second[i] : p.numbers.first[i]));
   CHECK(s.has_value() == (p.out.alive[k] != 0));
   if (!s || !p.out.alive[k]) return false;
   CHECK(s->wi == p.out.wi.vector(k));
   CHECK(s->weight == Spectrum(p.out.weight.x[k], p.out.weight.y[k], p.out.weight.z[k]));
-  CHECK(s->pdf.value == p.out.pdf[k]);
+  if (material.transmits())
+    CHECK(p.out.eta[k] == (transport == Transport::radiance ? s->eta : 1.0f));
+  CHECK((s->delta ? -1.0f : s->pdf.value) == p.out.pdf[k]);
   return true;
+}
+
+/// The same of specular materials.
+bool check_specular_point(const Material& material, const Points& p, int k, Transport transport) {
+  const int i = p.out.at[k];
+  CAPTURE(i);
+  Surface surface = flat_surface();
+  surface.shading = Frame(p.points.ns.normal(i));
+  const Vector3f wo = -p.paths.ray.direction.vector(i);
+  const Bsdf bsdf = material.bind(surface, wo);
+  const bool chooses = bsdf.needs_choice();
+  const auto s =
+      bsdf.sample(chooses ? p.numbers.first[i] : 0.5f, {p.numbers.x[i], p.numbers.y[i]}, transport);
+  CHECK(p.out.roulette[k] == (chooses ? p.numbers.second[i] : p.numbers.first[i]));
+  CHECK(s.has_value() == (p.out.alive[k] != 0));
+  if (!s || !p.out.alive[k]) return false;
+  CHECK(s->wi == p.out.wi.vector(k));
+  CHECK(s->weight == Spectrum(p.out.weight.x[k], p.out.weight.y[k], p.out.weight.z[k]));
+  CHECK(s->null == (p.out.null[k] != 0));
+  CHECK((s->delta && p.out.pdf[k] < 0));
+  CHECK((transport == Transport::radiance ? s->eta : 1.0f) == p.out.eta[k]);
+  const Normal3f& n = surface.shading.n;
+  const float refracted = std::abs(dot(n, wo) / (dot(n, s->wi) * s->eta * s->eta));
+  CHECK(p.out.reverse[k] == doctest::Approx(s->eta == 1 ? 1 : refracted).epsilon(1e-3));
+  return true;
+}
+
+void compare_specular(const std::string& description, Transport transport) {
+  CAPTURE(description);
+  const TestMaterial material(nlohmann::json::parse(description));
+  const auto surface = as_specular(*material);
+  REQUIRE(surface);
+  int alive = 0;
+  for (uint64_t seed = 0; seed < 20; ++seed) {
+    CAPTURE(seed);
+    Points p(Spectrum(0), seed);
+    sample_specular(p.count, *surface, {p.paths, p.points, p.numbers, transport}, p.out);
+    for (int k = 0; k < p.count; ++k) alive += check_specular_point(*material, p, k, transport);
+  }
+  const bool black = description.find("reflectance\": [0, 0, 0]") != std::string::npos;
+  CHECK((black ? alive == 0 : alive > 500));
 }
 
 /// `as_surface` makes a material that which is scattered in lanes; `reflectance_of` what of that
 /// may depend on the point.
 template <class AsSurface, class ReflectanceOf>
-void compare(const std::string& description, AsSurface&& as_surface,
-             ReflectanceOf&& reflectance_of) {
+void compare(const std::string& description, AsSurface&& as_surface, ReflectanceOf&& reflectance_of,
+             Transport transport = Transport::radiance) {
   CAPTURE(description);
   const TestMaterial material(nlohmann::json::parse(description));
   const auto surface = as_surface(*material);
@@ -102,11 +180,11 @@ void compare(const std::string& description, AsSurface&& as_surface,
   for (uint64_t seed = 0; seed < 20; ++seed) {
     CAPTURE(seed);
     Points p(reflectance_of(*surface).constant, seed);
-    const WideVertices vertices{p.paths, p.points, p.numbers};
+    const WideVertices vertices{p.paths, p.points, p.numbers, transport};
     evaluate_glossy(p.count, *surface, vertices, p.out);
     reverse_glossy(p.count, *surface, vertices, p.out);
     sample_glossy(p.count, *surface, vertices, p.out);
-    for (int k = 0; k < p.count; ++k) alive += check_point(*material, p, k);
+    for (int k = 0; k < p.count; ++k) alive += check_point(*material, p, k, transport);
   }
   CHECK(alive > 500);
 }
@@ -114,6 +192,18 @@ void compare(const std::string& description, AsSurface&& as_surface,
 void compare_plastic(const std::string& description) {
   compare(description, as_rough_plastic,
           [](const RoughPlasticSurface& s) -> const ColorSlot& { return s.base; });
+}
+
+void compare_smooth_plastic(const std::string& description) {
+  compare(description, as_plastic,
+          [](const PlasticSurface& s) -> const ColorSlot& { return s.base; });
+}
+
+void compare_dielectric(const std::string& description, Transport transport) {
+  static const ColorSlot none(Spectrum(0));
+  compare(
+      description, as_rough_dielectric,
+      [](const RoughDielectricSurface&) -> const ColorSlot& { return none; }, transport);
 }
 
 void compare_conductor(const std::string& description) {
@@ -130,11 +220,45 @@ TEST_CASE("rough plastics in lanes are what their Bsdf is") {
   }
 }
 
+TEST_CASE("smooth plastics in lanes are what their Bsdf is") {
+  for (const std::string bsdf : kSmoothPlastics) {
+    compare_smooth_plastic(bsdf);
+    compare_smooth_plastic(two_sided(bsdf));
+  }
+}
+
 TEST_CASE("rough conductors in lanes are what their Bsdf is") {
   for (const std::string bsdf : kConductors) {
     compare_conductor(bsdf);
     compare_conductor(two_sided(bsdf));
   }
+}
+
+TEST_CASE("rough dielectrics in lanes are what their Bsdf is") {
+  for (const std::string bsdf : kRoughDielectrics)
+    for (const Transport transport : {Transport::radiance, Transport::importance})
+      compare_dielectric(bsdf, transport);
+  for (const char* description : {R"({"type": "roughdielectric", "sample_visible": false})",
+                                  R"({"type": "roughdielectric", "int_ior": 1.3, "ext_ior": 1.3})",
+                                  R"({"type": "dielectric"})"})
+    CHECK(!as_rough_dielectric(*TestMaterial(description)));
+}
+
+TEST_CASE("specular materials in lanes are what their Bsdf is") {
+  for (const std::string bsdf : kSpecular)
+    for (const Transport transport : {Transport::radiance, Transport::importance})
+      compare_specular(bsdf, transport);
+}
+
+TEST_CASE("what has smooth lobes, covers or textures is not specular") {
+  for (const char* description :
+       {R"({"type": "roughdielectric"})", R"({"type": "plastic"})", R"({"type": "null"})",
+        R"({"type": "mask", "opacity": 0.5, "nested": [{"type": "dielectric"}]})"})
+    CHECK(!as_specular(*TestMaterial(description)));
+  const FlatTexture tint(Spectrum(0.5f));
+  DielectricOptions options;
+  options.specular_transmittance.texture = &tint;
+  CHECK(!as_specular(Dielectric(options)));
 }
 
 TEST_CASE("what has other facets or an index from a texture is not scattered in lanes") {
