@@ -12,7 +12,7 @@ struct WideVertices {
   const WidePaths& paths;
   const WidePoints& points;  ///< the reflectance is what the material takes from textures
   const WideNumbers& numbers;
-  Transport transport = Transport::radiance;
+  Transport transport = Transport::radiance;  ///< what the paths carry
 };
 
 /// Some of the points, and what is made of them, without gaps.
@@ -25,8 +25,8 @@ struct WideGlossy {
   BatchTriples wi, weight;    ///< see WideScattering
   BatchArray<float> pdf, roulette;
   BatchArray<int32_t> alive;
-  BatchArray<float> eta;     ///< of materials that transmit; of others always 1
-  BatchArray<int32_t> null;  ///< of specular materials; of glossy ones always 0
+  BatchArray<float> eta;     ///< of rough dielectrics and specular materials alone
+  BatchArray<int32_t> null;  ///< of specular materials alone
 };
 
 /// Facets of one kind, so that loops need not ask for it: GGX, all visible and without correlation.
