@@ -187,6 +187,7 @@ void WideStages::for_each_material(const PointLists& lists, const std::vector<Ma
   }
 }
 
+/// Calls `f` with the material itself.
 template <class F>
 static auto with_model(F&& f) {
   return [f](int count, const WideGlossyMaterial& material) {
@@ -236,7 +237,8 @@ void WideStages::sample_glossy_points(BatchArray<float>* reverse) {
     if (reverse) {
       p.towards = p.wi;
       reverse_glossy(count, material, all, p);
-      set_jacobians(count, p);
+      if constexpr (std::is_same_v<decltype(material), const PlasticSurface&>)
+        set_jacobians(count, p);
     }
     // sample_diffuse() has set the rest.
     for (int k = 0; k < count; ++k) set_scattering(k, reverse);

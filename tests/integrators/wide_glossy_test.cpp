@@ -100,52 +100,57 @@ struct Points {
   }
 };
 
-/// Checks the k-th of what was made. Returns whether a path goes on from it.
-bool check_point(const Material& material, const Points& p, int k, Transport transport) {
+/// The material at the point of the k-th of what was made.
+Bsdf bind(const Material& material, const Points& p, int k) {
   const int i = p.out.at[k];
-  CAPTURE(i);
   Surface surface = flat_surface();
   surface.shading = Frame(p.points.ns.normal(i));
-  const Bsdf bsdf = material.bind(surface, -p.paths.ray.direction.vector(i));
-  const BsdfEval e = bsdf.eval(p.light.vector(i), transport);
-  CHECK(e.value == Spectrum(p.out.value.x[k], p.out.value.y[k], p.out.value.z[k]));
-  CHECK(e.pdf.value == p.out.value_pdf[k]);
-  if (!e.value.is_black())
-    CHECK(bsdf.reverse_pdf(p.light.vector(i), transport).value == p.out.reverse[k]);
+  return material.bind(surface, -p.paths.ray.direction.vector(i));
+}
+
+/// Checks the k-th direction that was sampled; returns the one of the Bsdf if the path goes on.
+std::optional<BsdfSample> check_sample(const Bsdf& bsdf, const Points& p, int k,
+                                       Transport transport) {
+  const int i = p.out.at[k];
   const bool chooses = bsdf.needs_choice();
   const auto s =
       bsdf.sample(chooses ? p.numbers.first[i] : 0.5f, {p.numbers.x[i], p.numbers.y[i]}, transport);
   CHECK(p.out.roulette[k] == (chooses ? p.numbers.second[i] : p.numbers.first[i]));
   CHECK(s.has_value() == (p.out.alive[k] != 0));
-  if (!s || !p.out.alive[k]) return false;
+  if (!s || !p.out.alive[k]) return std::nullopt;
   CHECK(s->wi == p.out.wi.vector(k));
   CHECK(s->weight == Spectrum(p.out.weight.x[k], p.out.weight.y[k], p.out.weight.z[k]));
-  if (material.transmits())
-    CHECK(p.out.eta[k] == (transport == Transport::radiance ? s->eta : 1.0f));
   CHECK((s->delta ? -1.0f : s->pdf.value) == p.out.pdf[k]);
-  return true;
+  return s;
+}
+
+/// Checks the k-th of what was made. Returns whether a path goes on from it.
+bool check_point(const Material& material, const Points& p, int k, Transport transport) {
+  const int i = p.out.at[k];
+  CAPTURE(i);
+  const Bsdf bsdf = bind(material, p, k);
+  const BsdfEval e = bsdf.eval(p.light.vector(i), transport);
+  CHECK(e.value == Spectrum(p.out.value.x[k], p.out.value.y[k], p.out.value.z[k]));
+  CHECK(e.pdf.value == p.out.value_pdf[k]);
+  if (!e.value.is_black())
+    CHECK(bsdf.reverse_pdf(p.light.vector(i), transport).value == p.out.reverse[k]);
+  const auto s = check_sample(bsdf, p, k, transport);
+  if (s && material.transmits())
+    CHECK(p.out.eta[k] == (transport == Transport::radiance ? s->eta : 1.0f));
+  return s.has_value();
 }
 
 /// The same of specular materials.
 bool check_specular_point(const Material& material, const Points& p, int k, Transport transport) {
   const int i = p.out.at[k];
   CAPTURE(i);
-  Surface surface = flat_surface();
-  surface.shading = Frame(p.points.ns.normal(i));
-  const Vector3f wo = -p.paths.ray.direction.vector(i);
-  const Bsdf bsdf = material.bind(surface, wo);
-  const bool chooses = bsdf.needs_choice();
-  const auto s =
-      bsdf.sample(chooses ? p.numbers.first[i] : 0.5f, {p.numbers.x[i], p.numbers.y[i]}, transport);
-  CHECK(p.out.roulette[k] == (chooses ? p.numbers.second[i] : p.numbers.first[i]));
-  CHECK(s.has_value() == (p.out.alive[k] != 0));
-  if (!s || !p.out.alive[k]) return false;
-  CHECK(s->wi == p.out.wi.vector(k));
-  CHECK(s->weight == Spectrum(p.out.weight.x[k], p.out.weight.y[k], p.out.weight.z[k]));
+  const auto s = check_sample(bind(material, p, k), p, k, transport);
+  if (!s) return false;
   CHECK(s->null == (p.out.null[k] != 0));
   CHECK((s->delta && p.out.pdf[k] < 0));
   CHECK((transport == Transport::radiance ? s->eta : 1.0f) == p.out.eta[k]);
-  const Normal3f& n = surface.shading.n;
+  const Normal3f n = p.points.ns.normal(i);
+  const Vector3f wo = -p.paths.ray.direction.vector(i);
   const float refracted = std::abs(dot(n, wo) / (dot(n, s->wi) * s->eta * s->eta));
   CHECK(p.out.reverse[k] == doctest::Approx(s->eta == 1 ? 1 : refracted).epsilon(1e-3));
   return true;
