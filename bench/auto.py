@@ -1,7 +1,8 @@
 #!/usr/bin/env python3
 """How well `auto` chooses: its efficiency against every fixed method's, and what it has chosen.
 
-    auto.py [--set fitted|holdout] [--duet build/duet] [--rounds 3] [--spp 64] [--references DIR] [--json FILE] [SCENE...]
+    auto.py [--set fitted|holdout] [--mitsuba] [--duet build/duet] [--rounds 3] [--spp 64] [--references DIR] [--json FILE]
+            [SCENE...]
 
 The fitted set are scenes of scenes/ that have been looked at when the rules and constants of `auto` were found; the hold-out
 set is made by bench/holdout_scenes.py, and nothing is fitted on it. Each round renders every scene with auto and with
@@ -19,6 +20,10 @@ One rule for all, auto included: an image does not count if its mean is off by m
 more than 2 %, beyond four standard errors, too bright or too dark. Tiles darker than a twentieth of the image are
 measured by that. Standard errors come from the rounds and the reference. A fixed method that does not count is marked
 with a star and not the best; an auto that does not count reaches 0 of the best.
+
+--mitsuba renders with the llvm_ad_rgb variant of Mitsuba 3 in each round, too, by the scene's own integrator (path, volpath)
+as far as Mitsuba can read it. Its seconds are those of one more image, without start-up (mitsuba_path.py); those of Duet
+are of the whole process.
 """
 import argparse
 import json
@@ -26,6 +31,7 @@ import math
 import resource
 import statistics
 import subprocess
+import sys
 import tempfile
 from pathlib import Path
 
@@ -43,6 +49,7 @@ FITTED = ['thesis-empty', 'thesis-modified', 'box-point', 'box-spheres', 'door-a
 SDS = {'sun-glass', 'room-1', 'room-2'}
 UNBIASED = ['bdpt', '-I', 'light_paths=1']
 MERGING = ['vcm', '-I', 'light_paths=1', '-I', 'alpha=0.1']
+MITSUBA = 'Mitsuba'
 TILES, MEAN_LIMIT, TILE_LIMIT, ERRORS, DARK = 8, 0.005, 0.02, 4, 0.05
 
 
@@ -73,6 +80,11 @@ class Scene:
     def render(self, o, image, method, spp, seed, *more):
         return run([o.duet, 'render', str(self.file), '-q', '-i', *method, '--spp', str(spp), '--seed', str(seed),
                     '-t', str(o.threads), '--size', self.size, '-o', str(image), *more])
+
+    def render_with_mitsuba(self, o, image, spp, seed):
+        """CPU seconds of one more image."""
+        command = [sys.executable, ROOT / 'bench/mitsuba_path.py', self.file, image, *self.size.split('x'), spp, seed, o.threads]
+        return float(subprocess.run(list(map(str, command)), check=True, capture_output=True, text=True).stdout)
 
     def reference(self, o):
         """Mean, variance of the mean, and what made them."""
@@ -138,12 +150,15 @@ def is_off(images, mean, variance):
 
 def judge(scene, o, folder):
     mean, variance, source = scene.reference(o)
-    methods = scene.fixed + ['auto']
+    methods = scene.fixed + ['auto'] + [MITSUBA] * o.mitsuba
     efficiency, images, chosen = {m: [] for m in methods}, {m: [] for m in methods}, ''
     for r in range(o.rounds):
         for m in methods:
             image, stats = folder / 'image.exr', folder / 'stats.json'
-            cpu = scene.render(o, image, [m], o.spp, r + 1, '--stats', str(stats))
+            if m == MITSUBA:
+                cpu = scene.render_with_mitsuba(o, image, o.spp, r + 1)
+            else:
+                cpu = scene.render(o, image, [m], o.spp, r + 1, '--stats', str(stats))
             if m == 'auto':
                 chosen = json.loads(stats.read_text())['chosen']['reason'].split(':')[0]
             images[m].append(read(image))
@@ -156,7 +171,21 @@ def judge(scene, o, folder):
     return {'relative': relative, 'efficiency': {m: statistics.median(e) for m, e in efficiency.items()}, 'off': off,
             'of_best': best, 'chosen': chosen, 'reference': source, 'scene': scene.made,
             'mean': {m: float(np.mean(images[m]) / mean.mean()) for m in methods},
-            'confirmed': [m for m in scene.fixed if m not in off]}
+            'confirmed': [m for m in scene.fixed if m not in off],
+            'over_mitsuba': o.mitsuba and statistics.median(a / m for a, m in zip(efficiency['auto'], efficiency[MITSUBA]))}
+
+
+def row(scene, t):
+    mark = lambda m: f'{t["relative"][m]:.3g}' + '*' * (m in t['off'])
+    cells = [mark(m) for m in scene.fixed] + [''] * (4 - len(scene.fixed)) + [mark('auto'), f'{t["of_best"]:.2f}']
+    if t['over_mitsuba']:
+        cells += [mark(MITSUBA), f'{t["over_mitsuba"]:.2f}']
+    cells += [t['chosen'], f'{t["reference"]}: {", ".join(t["confirmed"]) or "none"}']
+    return f'| {scene.name} | ' + ' | '.join(cells) + ' |'
+
+
+def geometric_mean(values):
+    return math.exp(statistics.mean(math.log(max(v, 1e-3)) for v in values))
 
 
 def main():
@@ -169,27 +198,29 @@ def main():
     p.add_argument('--reference-spp', type=int, default=1024)
     p.add_argument('--threads', type=int, default=2)
     p.add_argument('--references', type=Path, default=Path.home() / '.cache/duet/auto')
+    p.add_argument('--mitsuba', action='store_true')
     p.add_argument('--json', type=Path)
     o = p.parse_args()
     table = {}
-    print('| | `path` | `bdpt` | `vcm` | `ppm` | `auto` | of the best | `auto` chose | reference, confirmed by |')
-    print('|---|---|---|---|---|---|---|---|---|')
+    theirs = ['Mitsuba', '`auto` / it'] if o.mitsuba else []
+    head = ['', '`path`', '`bdpt`', '`vcm`', '`ppm`', '`auto`', 'of the best', *theirs, '`auto` chose', 'reference, confirmed by']
+    print('| ' + ' | '.join(head) + ' |')
+    print('|---' * len(head) + '|')
     with tempfile.TemporaryDirectory() as folder:
         folder = Path(folder)
         for scene in fitted() if o.set == 'fitted' else holdout(folder):
             if o.scenes and scene.name not in o.scenes:
                 continue
             t = table[scene.name] = judge(scene, o, folder)
-            cells = [f'{t["relative"][m]:.3g}' + '*' * (m in t['off']) for m in scene.fixed + ['auto']]
-            cells[len(scene.fixed):-1] = [''] * (4 - len(scene.fixed))
-            print(f'| {scene.name} | ' + ' | '.join(cells) + f' | {t["of_best"]:.2f} | {t["chosen"]} | {t["reference"]}: '
-                  f'{", ".join(t["confirmed"]) or "none"} |', flush=True)
+            print(row(scene, t), flush=True)
             if o.json:
                 o.json.write_text(json.dumps(table, indent=1) + '\n')
     shares = [t['of_best'] for t in table.values()]
-    print(f'\nOf the best: geometric mean {math.exp(statistics.mean(math.log(max(s, 1e-3)) for s in shares)):.2f}, '
-          f'least {min(shares):.2f}. Against path in the geometric mean: '
-          f'{math.exp(statistics.mean(math.log(t["relative"]["auto"]) for t in table.values())):.2f}')
+    print(f'\nOf the best: geometric mean {geometric_mean(shares):.2f}, least {min(shares):.2f}. Against path in the geometric '
+          f'mean: {geometric_mean([t["relative"]["auto"] for t in table.values()]):.2f}')
+    if o.mitsuba:
+        ratios = [t['over_mitsuba'] for t in table.values()]
+        print(f'Against Mitsuba: geometric mean {geometric_mean(ratios):.2f}, least {min(ratios):.2f}')
 
 
 if __name__ == '__main__':

@@ -129,7 +129,7 @@ class EmissionLearner {
   EmissionGuide::Record record(uint32_t light, const Vector3f& from, const Point3f& through,
                                float weight) const {
     const auto numbers = EmissionGuide::guided_numbers(*scene_.lights[light], from, through);
-    return {light, from, numbers.value_or(Point2f(0.5f, 0.5f)), weight};
+    return {light, from, numbers.value_or(Point2f{0.5f, 0.5f}), weight};
   }
 
   std::vector<UsefulRay> trace(uint32_t round) const {

@@ -1,6 +1,8 @@
 #include "scene/build.h"
 
+#include "lights/guided_environment.h"
 #include "scene/builder.h"
+#include "scene/learn_environment.h"
 #include "scene/light_media.h"
 #include "scene/scene_motion.h"
 
@@ -55,6 +57,7 @@ std::unique_ptr<Scene> SceneBuilder::build() {
   scene.accel = std::make_unique<Accel>(scene.shapes, scene.top, scene.groups, scene.instances,
                                         options_.threads, use_);
   survey();
+  guide_environment({sensor.film.width, sensor.film.height});
   return std::move(made_);
 }
 
@@ -77,6 +80,23 @@ void SceneBuilder::survey() {
       LightPicker(selection_weights(scene.lights, sampling_weights_, bounds.radius()));
   scene.direct_picker = DirectPicker(scene.lights, sampling_weights_, bounds.radius(),
                                      light_selection(description_.integrator));
+}
+
+void SceneBuilder::guide_environment(Point2i film) {
+  Scene& scene = *scene_;
+  // Portals, which have no sphere, know where they are seen.
+  if (!scene.environment || !scene.environment->entered_sphere() || scene.needs_media_vertices() ||
+      use_ != AccelUse::still ||
+      light_selection(description_.integrator) != LightSelection::automatic)
+    return;
+  std::optional<EnvironmentGuide> guide = learn_environment(scene, film, options_.threads);
+  if (!guide) return;
+  std::unique_ptr<Light>& light = scene.lights[scene.environment_index];
+  auto guided = std::make_unique<GuidedEnvironment>(
+      std::unique_ptr<EnvironmentLight>(static_cast<EnvironmentLight*>(light.release())),
+      std::move(*guide));
+  scene.environment = guided.get();
+  light = std::move(guided);
 }
 
 bool SceneBuilder::check_transform(const Matrix4& m, const SourceLocation& where) {

@@ -163,6 +163,8 @@ class SceneBuilder {
 
   /// What depends on where everything is.
   void survey();
+  /// Lets light samples know where the environment is seen.
+  void guide_environment(Point2i film);
 
   // build_names.cpp
   void name_things(SceneNames& names) const;

@@ -92,6 +92,9 @@ class BitmapPixels {
       return decode(numbers[size_t(y) * width + size_t(x)]);
     }
   };
+  // Compilers older than C++20's rules for aggregates need the guides.
+  template <class Number, class Decode>
+  GreyTexels(const Number*, size_t, Decode) -> GreyTexels<Number, Decode>;
   template <class Number, class Decode>
   struct ColorTexels {
     const Number* numbers;
@@ -103,6 +106,8 @@ class BitmapPixels {
       return Spectrum(decode(c[0]), decode(c[1]), decode(c[2]));
     }
   };
+  template <class Number, class Decode>
+  ColorTexels(const Number*, size_t, Decode) -> ColorTexels<Number, Decode>;
   /// Calls `f` with what is stored and a function that makes linear values of it.
   template <class Result, class F>
   Result visit(const F& f) const {
