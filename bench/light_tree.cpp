@@ -45,7 +45,7 @@ int main(int argc, char** argv) {
   const ColorSlot radiance{Spectrum(1.0f)};
   for (const LightSelection selection : {LightSelection::power, LightSelection::automatic}) {
     const double start = cpu_seconds();
-    const AreaLight light(shape, radiance, false, selection);
+    const AreaLight light(shape, radiance, EmittingSide::shading, selection);
     fmt::print("{}: {} triangles in {:.2f} s\n", kLightSelectionNames[size_t(selection)],
                shape.mesh->triangles.size(), cpu_seconds() - start);
     const Point3f from(0.3f * float(n), 0.6f * float(n), 3);

@@ -8,6 +8,7 @@
 #include "app/workplace.h"
 #include "image/image_facts.h"
 #include "image/image_io.h"
+#include "support/show.h"
 
 using namespace duet;
 using namespace duet::test;
@@ -197,7 +198,7 @@ TEST_SUITE("program") {
         {DUET_OTHER_LIBRARY, "is not its version 2"},
         {"", "does not exist"}};
     for (const auto& [name, reason] : broken) {
-      CAPTURE(name);
+      SHOW(name);
       const Outcome o = run_duet({"tiny.xml", "--denoise"},
                                  {.directory = place.path(""), .environment = {{kVariable, name}}});
       CHECK(o.code == 1);

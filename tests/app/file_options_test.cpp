@@ -8,6 +8,7 @@
 #include "app/workplace.h"
 #include "image/image_io.h"
 #include "math/spectrum.h"
+#include "support/show.h"
 
 using namespace duet;
 using namespace duet::test;
@@ -159,7 +160,7 @@ TEST_SUITE("program") {
         {"nuke", {"G", "N.blue", "depth.Z", "shape.red"}},
         {"mitsuba", {"G", "sh_normal.Z", "depth.T", "shape_index.I"}}};
     for (const auto& [program, names] : programs) {
-      CAPTURE(program);
+      SHOW(program);
       Texts all = render;
       all.back() = "b.exr";
       all.insert(all.end(), {"--aov-names", program});
@@ -171,7 +172,7 @@ TEST_SUITE("program") {
       const char* const own[] = {"G", "normal.Z", "depth.T", "shape.I"};
       for (size_t k = 0; k < 4; ++k) {
         const int a = plain.find_channel(own[k]), b = named.find_channel(names[k]);
-        CAPTURE(names[k]);
+        SHOW(names[k]);
         REQUIRE(b >= 0);
         for (int y = 0; y < plain.height; ++y)
           for (int x = 0; x < plain.width; ++x) CHECK(named.pixel(x, y)[b] == plain.pixel(x, y)[a]);

@@ -11,6 +11,7 @@
 #include "app/workplace.h"
 #include "image/image_facts.h"
 #include "image/image_io.h"
+#include "support/show.h"
 
 using namespace duet;
 using namespace duet::test;
@@ -70,7 +71,7 @@ TEST_SUITE("program") {
         CHECK(facts.field("scene") == name);
         CHECK(facts.field("commandLine") == "duet " + name + " -o a.exr -oa.png --log=log.txt");
         for (const auto& [field, value] : facts.fields) {
-          CAPTURE(field);
+          SHOW(field);
           CHECK(!contains(value, place.path("")));
           CHECK(!contains(value, elsewhere.path("")));
         }

@@ -11,6 +11,7 @@
 #include "base/memory_limit.h"
 #include "image/image_io.h"
 #include "mesh/ply_writer.h"
+#include "support/show.h"
 
 using namespace duet::test;
 
@@ -171,7 +172,7 @@ TEST_SUITE("program") {
     };
     for (const auto& [name, part] : parts)
       for (const std::string method : {"path", "bdpt"}) {
-        CAPTURE(name);
+        SHOW(name);
         CAPTURE(method);
         TinyScene scene;
         scene.extra = part;

@@ -11,6 +11,7 @@
 
 #include "app/workplace.h"
 #include "image/image_io.h"
+#include "support/show.h"
 
 using namespace duet;
 using namespace duet::test;
@@ -170,7 +171,7 @@ TEST_SUITE("program") {
         {"luminance", {"Y"}},     {"luminance_alpha", {"Y", "A"}},
         {"xyz", {"X", "Y", "Z"}}, {"xyza", {"X", "Y", "Z", "A"}}};
     for (const auto& [format, channels] : formats) {
-      CAPTURE(format);
+      SHOW(format);
       place.scene("tiny.xml", film(format, "float32"));
       const Outcome o = place.run({"tiny.xml", "-o", "a.exr", "-o", "a.png"});
       CAPTURE(o.err);

@@ -3,6 +3,7 @@
 #include <sys/stat.h>
 
 #include "app/workplace.h"
+#include "support/show.h"
 
 using namespace duet::test;
 
@@ -67,7 +68,7 @@ TEST_SUITE("program") {
       for (const std::vector<std::string>& arguments :
            {std::vector<std::string>{file}, {"info", file}}) {
         const Outcome o = place.run(arguments);
-        CAPTURE(file);
+        SHOW(file);
         CAPTURE(o.err);
         CHECK(o.code == 1);
         CHECK(contains(o.err, message));

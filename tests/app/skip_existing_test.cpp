@@ -4,6 +4,7 @@
 #include <csignal>
 
 #include "app/workplace.h"
+#include "support/show.h"
 
 using namespace duet::test;
 
@@ -99,7 +100,7 @@ TEST_SUITE("program") {
          {std::tuple<Arguments, const char*, const char*>{{"--png-depth", "16"}, "a.png", "a.exr"},
           {{"--aov-names", "blender"}, "a.exr", "a.png"},
           {{"--exr-parts"}, "a.exr", "a.png"}}) {
-      CAPTURE(options[0]);
+      SHOW(options[0]);
       const Outcome other = place.run(arguments + options);
       CHECK(contains(other.err, std::string(changed) + " is rendered again"));
       CHECK(!contains(other.err, std::string(kept) + " is rendered again"));

@@ -36,7 +36,7 @@ std::vector<View> views() {
   std::vector<View> views;
   for (const auto& [how, matrix] : places) {
     const Transform t(matrix);
-    const auto add = [&](const std::string& kind, std::unique_ptr<Camera> camera) {
+    const auto add = [&, how = how](const std::string& kind, std::unique_ptr<Camera> camera) {
       views.push_back({kind + ", " + how, t, std::move(camera)});
     };
     const PerspectiveView centered{t, kFilm, 50, 0, 0, kNear, kFar};

@@ -10,6 +10,7 @@
 #include <random>
 
 #include "support/images.h"
+#include "support/show.h"
 
 using namespace duet;
 using namespace duet::test;
@@ -67,7 +68,7 @@ bool jpeg_is_as_by_the_module(const std::vector<uint8_t>& file) {
 TEST_CASE("JPEG files have the pixels that OpenImageIO reads") {
   for (const auto& [width, height] : {std::pair{1u, 1u}, {17u, 33u}, {150u, 40u}})
     for (const bool progressive : {false, true}) {
-      CAPTURE(width);
+      SHOW(width);
       CAPTURE(progressive);
       for (const int sampling : {1, 2})
         CHECK(jpeg_is_as_by_the_module(

@@ -6,6 +6,7 @@
 #include <random>
 
 #include "support/images.h"
+#include "support/show.h"
 
 using namespace duet;
 using namespace duet::test;
@@ -66,7 +67,7 @@ TEST_CASE("plain PNG files have the pixels that OpenImageIO reads") {
   for (const PngKind& kind : kPngKinds)
     for (const auto& [width, height] : {std::pair{1u, 1u}, {7u, 23u}, {150u, 40u}}) {
       CAPTURE(kind.colour);
-      CAPTURE(width);
+      SHOW(width);
       CHECK(is_as_by_the_module(
           png(width, height, 8, kind.colour, random_rows(width, height, kind.channels, random))));
     }

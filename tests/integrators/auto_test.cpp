@@ -6,6 +6,7 @@
 
 #include "integrators/method_choice.h"
 #include "integrators/method_rules.h"
+#include "support/show.h"
 #include "support/transport_scene.h"
 
 using namespace duet;
@@ -378,7 +379,7 @@ TEST_CASE("auto: a decision that was made before is the method, and is not made 
       {"ppm", {{"alpha", "0.7"}}},
       {"volpath", {{"rr_depth", "3"}}}};
   for (const auto& [name, parameters] : methods) {
-    CAPTURE(name);
+    SHOW(name);
     IntegratorDescription direct = s.integrator;
     apply_override(direct, {name, parameters, {}});
     MethodDecision decision{

@@ -158,7 +158,7 @@ TEST_CASE("values that a parameter cannot have are refused by name") {
 }
 
 TEST_CASE("another method keeps what the scene said about paths and nothing else") {
-  const PathIntegratorDescription path{8, 3, true, true, LightSelection::bvh};
+  const PathIntegratorDescription path{{8, 3, true, true, LightSelection::bvh}};
   for (const std::string name : {"bdpt", "reuse", "ppm", "bpm", "vcm"}) {
     CAPTURE(name);
     const IntegratorDescription selected = with(describe(path), name);

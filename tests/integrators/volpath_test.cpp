@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "image/tile_test.h"
+#include "support/show.h"
 #include "support/statistics.h"
 #include "support/transport_scene.h"
 #include "support/volume_files.h"
@@ -128,7 +129,7 @@ TEST_CASE("sub-paths from both ends find the light that is scattered once in a s
                              kLowSun);
   for (const auto& [method, effort] :
        {std::pair("bdpt", 1), {"reuse", 1}, {"vcm", 1}, {"ptracer", 4}}) {
-    CAPTURE(method);
+    SHOW(method);
     render(scene, 512 * effort, {{"max_depth", "2"}, {"light_paths", "1"}}, method)
         .check(once(0.5, 0.9), once(1, 0.5), once(4, 0.2));
   }

@@ -205,7 +205,7 @@ void compare_smooth_plastic(const std::string& description) {
 }
 
 void compare_dielectric(const std::string& description, Transport transport) {
-  static const ColorSlot none(Spectrum(0));
+  static const ColorSlot none{Spectrum(0)};
   compare(
       description, as_rough_dielectric,
       [](const RoughDielectricSurface&) -> const ColorSlot& { return none; }, transport);

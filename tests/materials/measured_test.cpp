@@ -176,7 +176,7 @@ TEST_SUITE("measured materials") {
     const WarpGrid warp(grid, first, second);
     for (const float weight : {0.0f, 0.3f, 1.0f})
       for (int i = 0; i < 50; ++i) {
-        const Point2f u(0.01f + 0.0193f * float(i), 0.99f - 0.0187f * float(i));
+        const Point2f u{0.01f + 0.0193f * float(i), 0.99f - 0.0187f * float(i)};
         const WarpGrid::Mix mix = warp.mix(0, weight);
         float a, b;
         const Point2f p = warp.sample(mix, u, a);

@@ -9,6 +9,8 @@
 #include <tuple>
 #include <vector>
 
+#include "support/show.h"
+
 using namespace duet;
 
 namespace {
@@ -32,7 +34,7 @@ TEST_CASE("Student's t as a normal variate") {
   for (const auto& [dof, p, t] :
        {std::tuple(5.0, 0.05, 2.570582), std::tuple(5.0, 0.001, 6.868827),
         std::tuple(15.0, 0.01, 2.946713), std::tuple(30.0, 0.001, 3.645959)}) {
-    CAPTURE(dof);
+    SHOW(dof);
     CHECK(normal_of_student(t, dof) == doctest::Approx(normal_quantile(p)).epsilon(1e-4));
     CHECK(student_of_normal(normal_of_student(t, dof), dof) == doctest::Approx(t));
   }

@@ -3,6 +3,7 @@
 
 #include <doctest/doctest.h>
 
+#include "support/show.h"
 #include "support/statistics.h"
 
 using namespace duet;
@@ -57,7 +58,7 @@ TEST_CASE("phase functions send light where their densities say, and all of it s
   options.level = sidak(0.001, int(std::size(kDirections) * functions.all().size()));
   for (const auto& [name, f] : functions.all())
     for (const Vector3f& wo : kDirections) {
-      CAPTURE(std::string(name));
+      SHOW(std::string(name));
       CAPTURE(wo.x);
       CAPTURE(wo.z);
       ++options.seed;
@@ -78,7 +79,7 @@ TEST_CASE("the density of a sampled direction is the one that eval gives") {
   for (const auto& [name, f] : functions.all())
     for (const Vector3f& wo : kDirections)
       for (int i = 0; i < 50; ++i) {
-        CAPTURE(std::string(name));
+        SHOW(std::string(name));
         const PhaseSample s =
             f->sample(kPoint, wo, (float(i) + 0.5f) / 50,
                       {std::fmod(float(i) * 0.618f, 1.0f), std::fmod(float(i) * 0.414f, 1.0f)});

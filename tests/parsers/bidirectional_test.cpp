@@ -4,6 +4,7 @@
 
 #include "mitsuba/writer.h"
 #include "parsers/plugin_checks.h"
+#include "support/show.h"
 
 using namespace duet;
 using namespace duet::test;
@@ -43,7 +44,7 @@ TEST_CASE("bidirectional integrators without parameters have the presets of the 
       {"ptracer", ptracer}, {"bdpt", bdpt}, {"reuse", reuse}, {"bpm", bpm}, {"vcm", vcm}};
   for (const auto& [name, kind] : names)
     for (const std::string version : kVersions) {
-      CAPTURE(name);
+      SHOW(name);
       CAPTURE(version);
       const ReadResult r = read_integrator(version, "<integrator type='" + name + "'/>");
       REQUIRE(r.scene);

@@ -4,6 +4,7 @@
 #include <string_view>
 
 #include "references/reference_tiles.h"
+#include "support/show.h"
 
 using namespace duet;
 using namespace duet::test;
@@ -122,7 +123,7 @@ TEST_SUITE("references") {
         if (has_fibres(c) || (name == "vcm" ? is_left_out(c) : has_media(c))) continue;
         const Reference reference(c.reference);
         const ReferenceComparison r = compare_tiles(render(c, name, most_error), reference);
-        CAPTURE(name);
+        SHOW(name);
         CAPTURE(c.reference);
         CHECK(r.ratio_error < most_error);
         CHECK(std::abs(r.ratio - 1) < bias + 3.5 * r.ratio_error);

@@ -243,7 +243,7 @@ TEST_CASE("dots lie in two of five squares and keep to them") {
       int hits = 0;
       for (int i = 0; i < 20; ++i)
         for (int j = 0; j < 20; ++j) {
-          const Point2f uv(float(x) + (float(i) - 9.5f) / 20, float(y) + (float(j) - 9.5f) / 20);
+          const Point2f uv{float(x) + (float(i) - 9.5f) / 20, float(y) + (float(j) - 9.5f) / 20};
           const float value = dots.value(at({}, uv));
           CHECK((value == 0 || value == 1));
           hits += value == 1;

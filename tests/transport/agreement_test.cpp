@@ -1,6 +1,7 @@
 // Methods that are unbiased have one mean, whatever they do; those that merge come near it.
 #include "base/parallel.h"
 #include "image/tile_test.h"
+#include "support/show.h"
 #include "support/statistics.h"
 #include "support/transport_scene.h"
 #include "support/volume_files.h"
@@ -415,7 +416,7 @@ TEST_CASE("the test sees the bias of limits and of the thesis's weights") {
       {"reading a",
        render_reuse(scene, "4", 32, {{"weights", "thesis"}, {"thesis_reading", "a"}})}};
   for (const auto& [name, images] : biased) {
-    CAPTURE(std::string(name));
+    SHOW(std::string(name));
     const TileComparison r = compare_tiles(images, exact);
     CHECK(r.least_p < sidak(0.01, 64));
     CHECK(r.ratio < 0.98);
