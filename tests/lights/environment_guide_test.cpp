@@ -56,8 +56,8 @@ void check_choice(std::unique_ptr<EnvironmentLight> light, const std::string& na
   CHECK(guided.emission_density({1, 0, 0}) == emission);
   const Vector3f axes[] = {{1, 0, 0}, {-1, 0, 0}, {0, 0.6f, 0.8f}, {0, -0.6f, -0.8f}};
   for (const Point3f& from : kPlaces) {
-    // The integral of the cosine with an axis is π. Of walls so near to a place densities have
-    // edges that a sum over directions cannot resolve.
+    // The integral of the cosine with an axis is π: a density that is 5 % off is noticed. Of walls
+    // so near to a place densities have edges that a sum over directions cannot resolve.
     Moments found[std::size(axes)];
     for (uint32_t i = 0; i < 100000; ++i) {
       Sampler sampler(SampleSequence::independent, 7, 0, 0);
@@ -72,7 +72,7 @@ void check_choice(std::unique_ptr<EnvironmentLight> light, const std::string& na
       CAPTURE(m.mean());
       CAPTURE(m.error());
       CHECK(std::abs(m.mean() - double(kPi)) < 4 * m.error());
-      CHECK(m.error() < 0.02);
+      CHECK(m.error() < 0.04);
     }
     Sampler sampler(SampleSequence::independent, 3, 0, 0);
     for (uint32_t i = 0; i < 1000; ++i) {
