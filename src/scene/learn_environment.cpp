@@ -54,6 +54,7 @@ bool leaves_scene(const Scene& scene, Ray ray) {
   return true;
 }
 
+/// What found a direction.
 enum class Source : uint8_t { light_sample, bsdf_sample, other_light };
 struct Attempt {
   Record record;  ///< of another light that of the place alone
@@ -122,7 +123,7 @@ void camera_subpath(const Scene& scene, const EnvironmentGuide& guide, Ray ray, 
     const Surface s = scene.surface(ray, hit);
     const Bsdf bsdf = scene.materials[s.shape->material]->bind(s, -ray.direction);
     const Vertex v(scene, guide, s, bsdf);
-    if (bsdf.has_smooth() && true)
+    if (bsdf.has_smooth())
       for (int k = 0; k < kSamplesPerVertex; ++k) {
         v.sample_light(sampler.next_2d(), attempts);
         if (scene.lights.size() > 1)
