@@ -11,8 +11,8 @@ namespace duet {
 
 class BoxWalls {
  public:
-  static constexpr int kWalls = 6, kSide = 32, kCellsOfWall = kSide * kSide,
-                       kCells = kWalls * kCellsOfWall;
+  static constexpr int kWalls = 6, kDivisions = 5, kSide = 1 << kDivisions,
+                       kCellsOfWall = kSide * kSide, kCells = kWalls * kCellsOfWall;
 
   /// A box that holds nothing.
   BoxWalls() = default;

@@ -19,11 +19,13 @@ constexpr float kUniformShare = 0.02f, kLeastDensity = 2 * kUniformShare;
 EnvironmentGuide::EnvironmentGuide(const BoxWalls& walls, std::span<const Record> records)
     : walls_(walls), probability_(BoxWalls::kCells) {
   std::array<std::vector<SquareTree::Record>, BoxWalls::kWalls> by_wall;
-  std::array<float, BoxWalls::kWalls> mass{};
+  std::array<double, BoxWalls::kWalls> mass{};
+  double all = 0;
   for (const Record& r : records) {
     const BoxWalls::Exit e = walls.exit(r.at, r.wi);
     by_wall[size_t(e.wall)].push_back({e.at, r.use / r.pdf.value});
-    mass[size_t(e.wall)] += r.use / r.pdf.value;
+    mass[size_t(e.wall)] += double(r.use / r.pdf.value);
+    all += double(r.use / r.pdf.value);
   }
   std::vector<float> weights;
   for (uint32_t wall = 0; wall < BoxWalls::kWalls; ++wall) {
@@ -31,10 +33,10 @@ EnvironmentGuide::EnvironmentGuide(const BoxWalls& walls, std::span<const Record
     for (uint32_t i = 0; i < BoxWalls::kCellsOfWall; ++i) {
       const Point2f middle{(float(i % BoxWalls::kSide) + 0.5f) / BoxWalls::kSide,
                            (float(i / BoxWalls::kSide) + 0.5f) / BoxWalls::kSide};
-      const float density = tree.density(middle);
+      const float density = tree.density(middle, BoxWalls::kDivisions);
       if (!(density > kLeastDensity && mass[wall] > 0)) continue;
       cells_.push_back(wall * BoxWalls::kCellsOfWall + i);
-      weights.push_back(density * mass[wall]);
+      weights.push_back(density * float(mass[wall] / all));
     }
   }
   choice_ = DiscreteDistribution(weights);

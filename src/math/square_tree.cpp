@@ -12,7 +12,6 @@ namespace {
 /// Quadrants are divided while they hold so much of all mass and so many records.
 constexpr double kLeastMass = 0.01;
 constexpr size_t kFewestRecords = 16;
-constexpr int kDeepest = 12;
 
 double sum_of(std::span<const SquareTree::Record> records) {
   double sum = 0;
@@ -60,14 +59,14 @@ uint32_t SquareTree::divide(const Building& all, std::span<Record> records, Poin
   return index;
 }
 
-float SquareTree::density(Point2f p) const {
+float SquareTree::density(Point2f p, int divisions) const {
   if (nodes_.empty()) return 1;
   float density = 1;
-  for (uint32_t i = 0;;) {
+  for (uint32_t i = 0, level = 1;; ++level) {
     const uint32_t right = p.x >= 0.5f, high = p.y >= 0.5f, q = right + 2 * high;
     density *= 4 * nodes_[i].share[q];
     i = nodes_[i].child[q];
-    if (i == 0) return density;
+    if (i == 0 || int(level) >= divisions) return density;
     p = {2 * p.x - float(right), 2 * p.y - float(high)};
   }
 }

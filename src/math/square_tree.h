@@ -23,8 +23,12 @@ class SquareTree {
   /// Reorders the records.
   SquareTree(std::span<Record> records, float uniform);
 
-  /// The density at a point, per area of the square.
-  float density(Point2f p) const;
+  /// Quadrants are not divided more often.
+  static constexpr int kDeepest = 12;
+
+  /// The density at a point, per area of the square; the mean over the quadrant around it after so
+  /// many divisions.
+  float density(Point2f p, int divisions = kDeepest) const;
   /// Warps a uniform point: into one with density() of this tree, which is returned in `density`.
   Point2f sample(Point2f u, float& density) const;
 

@@ -79,6 +79,7 @@ class Vertex {
     if (!(use > 0 && use < INFINITY && plain.value > 0)) return std::nullopt;
     const float all =
         float(kSamplesPerVertex) * guide_.pdf(light, s_.position, wi).value + e.pdf.value;
+    if (!(use / all < INFINITY)) return std::nullopt;
     return Record{s_.position, wi, use, {all}, plain};
   }
 
