@@ -22,7 +22,7 @@ measured by that. Standard errors come from the rounds and the reference. A fixe
 with a star and not the best; an auto that does not count reaches 0 of the best.
 
 --mitsuba renders with the llvm_ad_rgb variant of Mitsuba 3 in each round, too, by the scene's own integrator (path, volpath)
-as far as Mitsuba can read it. Its seconds are those of one more image, without start-up (mitsuba_path.py); those of Duet
+as far as Mitsuba can read it. Its seconds are those of one more image, without start-up (mitsuba_render.py); those of Duet
 are of the whole process.
 """
 import argparse
@@ -83,7 +83,8 @@ class Scene:
 
     def render_with_mitsuba(self, o, image, spp, seed):
         """CPU seconds of one more image."""
-        command = [sys.executable, ROOT / 'bench/mitsuba_path.py', self.file, image, *self.size.split('x'), spp, seed, o.threads]
+        command = [sys.executable, ROOT / 'bench/mitsuba_render.py', '--further', 'llvm_ad_rgb', self.file, image,
+                   spp, seed, *self.size.split('x'), o.threads]
         return float(subprocess.run(list(map(str, command)), check=True, capture_output=True, text=True).stdout)
 
     def reference(self, o):

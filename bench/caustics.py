@@ -36,7 +36,7 @@ def duet(args, method, seed, out, *parameters):
 
 
 def mitsuba(args, seed, out):
-    return [sys.executable, '-c', RENDER_WITH_MITSUBA, MITSUBA, str(SCENE), str(out), str(args.iterations),
+    return [sys.executable, RENDER_WITH_MITSUBA, MITSUBA, str(SCENE), str(out), str(args.iterations),
             str(seed), str(args.size), str(args.size), str(args.threads)]
 
 

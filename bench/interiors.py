@@ -17,7 +17,7 @@ from make_big_mesh import torus, write_ply
 from memory import write_png
 
 HEAD = """<scene version="3.0.0">
-<integrator type="path"><integer name="max_depth" value="8"/></integrator>
+<integrator type="path"><integer name="max_depth" value="{depth}"/></integrator>
 <sensor type="perspective"><float name="fov" value="{fov}"/>
 <transform name="to_world"><lookat origin="{origin}" target="{target}" up="0,0,1"/></transform>
 <sampler type="independent"><integer name="sample_count" value="64"/></sampler>
@@ -114,7 +114,7 @@ def hall(folder):
         ply("curtain.ply", diffuse(bitmap("reflectance", "tiles.png", 4)), scale(5, 1, 3.4), move(-2.5, 8.7, 0.1)),
     ] + [lamp(0.4, 0.4, (9, 8, 7), rotate("x", 180), move(x, y, 3.99)) for x in (-2, 2) for y in (2, 5, 8)]
     (folder / "scene.xml").write_text(
-        HEAD.format(fov=55, origin="0,0.3,1.8", target="0,6,1.2") + "\n".join(shapes) + "\n</scene>\n")
+        HEAD.format(depth=8, fov=55, origin="0,0.3,1.8", target="0,6,1.2") + "\n".join(shapes) + "\n</scene>\n")
 
 
 def shelves(folder):
@@ -134,7 +134,7 @@ def shelves(folder):
     shapes += [lamp(0.6, 0.8, (6, 7, 9), rotate("y", 90), move(-2.49, 1.5, 1.7)),
                lamp(0.25, 0.25, (14, 11, 7), rotate("x", 180), move(0.8, 1.8, 2.98))]
     (folder / "scene.xml").write_text(
-        HEAD.format(fov=60, origin="0.6,0.2,1.6", target="0,3.4,1.3") + "\n".join(shapes) + "\n</scene>\n")
+        HEAD.format(depth=8, fov=60, origin="0.6,0.2,1.6", target="0,3.4,1.3") + "\n".join(shapes) + "\n</scene>\n")
 
 
 def main():

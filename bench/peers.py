@@ -40,22 +40,8 @@ mi.set_variant('llvm_ad_rgb')
 mi.set_log_level(mi.LogLevel.Error)
 
 ROOT = Path(__file__).resolve().parent.parent
+RENDER_WITH_MITSUBA = str(ROOT / 'bench/mitsuba_render.py')
 REFERENCE_PASS_SPP = 256
-
-RENDER_WITH_MITSUBA = '''
-import sys, numpy as np, mitsuba as mi
-variant, scene, out, spp, seed, width, height, threads = sys.argv[1:]
-mi.set_variant(variant); mi.set_log_level(mi.LogLevel.Error)
-import drjit as dr
-dr.set_thread_count(int(threads))
-s = mi.load_file(scene)
-p = mi.traverse(s.sensors()[0])
-p['film.size'] = mi.ScalarVector2u(int(width), int(height)); p.update()
-# The array waits for the image. To write a file with one thread would wait for ever.
-image = np.array(mi.render(s, spp=int(spp), seed=int(seed)))
-dr.set_thread_count(max(2, int(threads)))
-mi.Bitmap(image).write(out)
-'''
 
 
 def read(path):
@@ -95,7 +81,7 @@ def commands(args, scene, mitsuba_scene, size, out, seed, spp):
     width, height = map(str, size)
     ours = [args.duet, 'render', str(scene), '-o', out, '--spp', str(spp), '--seed', str(seed), '-q',
             '--size', f'{width}x{height}', '-t', str(args.threads), '-i', args.integrator]
-    theirs = lambda variant: [sys.executable, '-c', RENDER_WITH_MITSUBA, variant, str(mitsuba_scene), out,
+    theirs = lambda variant: [sys.executable, RENDER_WITH_MITSUBA, variant, str(mitsuba_scene), out,
                               str(spp), str(seed), width, height, str(args.threads)]
     return {'duet-independent': ours + ['--strict-sampler'], 'duet': ours,
             'llvm_ad_rgb': theirs('llvm_ad_rgb'), 'scalar_rgb': theirs('scalar_rgb')}

@@ -4,19 +4,16 @@
     window_room.py [--plain 60] [--sun] FILE
 
 --plain is half the side of the plain in metres; --sun adds a sun that shines in. For comparisons of light samples that
-know where the sky is seen (docs/lights.md) with those that do not (--light-selection power).
+know where the sky is seen (docs/lights.md) with those that do not (--light-selection power). Needs numpy.
 """
 import argparse
 from pathlib import Path
 
+from interiors import HEAD, diffuse, plastic, rgb
 
-def diffuse(r, g, b):
-    return f'<bsdf type="twosided"><bsdf type="diffuse"><rgb name="reflectance" value="{r},{g},{b}"/></bsdf></bsdf>'
-
-
-WALL, RED, BLUE, GRASS = diffuse(.75, .73, .7), diffuse(.6, .2, .2), diffuse(.2, .4, .6), diffuse(.3, .35, .25)
-WOOD = ('<bsdf type="roughplastic"><float name="alpha" value="0.1"/>'
-        '<rgb name="diffuse_reflectance" value="0.4,0.25,0.15"/></bsdf>')
+WALL, RED, BLUE, GRASS = (diffuse(rgb('reflectance', *c))
+                          for c in ((.75, .73, .7), (.6, .2, .2), (.2, .4, .6), (.3, .35, .25)))
+WOOD = plastic(rgb('reflectance', .4, .25, .15), .1)
 METAL = '<bsdf type="roughconductor"><float name="alpha" value="0.15"/></bsdf>'
 # Half the sides of a box, its centre, its material and its turn about z.
 BOXES = [((3, 2.5, .05), (0, 0, -.05), WOOD, 0), ((3.1, 2.6, .05), (0, 0, 3.05), WALL, 0),
@@ -27,15 +24,7 @@ BOXES = [((3, 2.5, .05), (0, 0, -.05), WOOD, 0), ((3.1, 2.6, .05), (0, 0, 3.05),
          ((.5, .05, .6), (-2.5, 2.55, 1.6), WALL, 0), ((1, .05, .6), (0, 2.55, 1.6), WALL, 0),
          ((.5, .05, .6), (2.5, 2.55, 1.6), WALL, 0),
          ((.6, .4, .4), (-1, .5, .4), WALL, 30), ((.3, .3, .8), (1.2, .8, .8), METAL, 15)]
-HEAD = """<scene version="3.0.0">
-<integrator type="path"><integer name="max_depth" value="10"/></integrator>
-<sensor type="perspective"><float name="fov" value="70"/>
-<transform name="to_world"><lookat origin="-0.4,-2.3,1.5" target="0.3,1,1.1" up="0,0,1"/></transform>
-<sampler type="independent"><integer name="sample_count" value="64"/></sampler>
-<film type="hdrfilm"><integer name="width" value="128"/><integer name="height" value="96"/>
-<rfilter type="box"/></film></sensor>
-<emitter type="constant"><rgb name="radiance" value="0.8,1,1.3"/></emitter>
-"""
+SKY = '<emitter type="constant"><rgb name="radiance" value="0.8,1,1.3"/></emitter>\n'
 SUN = """<emitter type="directional"><vector name="direction" x="0.5" y="-0.7" z="-0.6"/>
 <rgb name="irradiance" value="12,11,9"/></emitter>
 """
@@ -57,7 +46,8 @@ def main():
             f'{WOOD}</shape>\n')
     plain = (f'<shape type="rectangle"><transform name="to_world"><scale x="{o.plain}" y="{o.plain}"/>'
              f'<translate z="-0.2"/></transform>{GRASS}</shape>\n')
-    o.file.write_text(HEAD + SUN * o.sun + ''.join(box(*b) for b in BOXES) + ball + plain + '</scene>\n')
+    head = HEAD.format(depth=10, fov=70, origin='-0.4,-2.3,1.5', target='0.3,1,1.1')
+    o.file.write_text(head + SKY + SUN * o.sun + ''.join(box(*b) for b in BOXES) + ball + plain + '</scene>\n')
 
 
 if __name__ == '__main__':

@@ -54,13 +54,12 @@ bool leaves_scene(const Scene& scene, Ray ray) {
   return true;
 }
 
-/// What found a direction.
-enum class Source : uint8_t { light_sample, bsdf_sample, other_light };
+/// A direction that was tried, by a light sample or, with no contribution, by the BSDF.
 struct Attempt {
-  Record record;  ///< of another light that of the place alone
-  Source source = Source::bsdf_sample;
-  float contribution = 0;  ///< of a light sample, unblocked
+  Record record;           ///< of other lights the place alone
+  float contribution = 0;  ///< of the light sample, if nothing is in its way
   bool is_seen = true;
+  bool of_other_light = false;
 };
 
 class Vertex {
@@ -88,8 +87,8 @@ class Vertex {
     if (!light || !(light->pdf.value > 0)) return;
     const auto r = record(light->wi);
     if (r)
-      attempts.push_back({*r, Source::light_sample, r->use / light->pdf.value,
-                          leaves_scene(scene_, spawn_ray(s_, light->wi))});
+      attempts.push_back(
+          {*r, r->use / light->pdf.value, leaves_scene(scene_, spawn_ray(s_, light->wi))});
   }
 
   /// One light sample of any light, if it is not the environment.
@@ -103,9 +102,9 @@ class Vertex {
     if (!(use > 0 && use < INFINITY)) return;
     const Ray ray = light->finite ? spawn_ray_to(s_, light->target) : spawn_ray(s_, light->wi);
     attempts.push_back({{s_.position, light->wi, 0, {}, {}},
-                        Source::other_light,
                         use / pick.probability,
-                        leaves_scene(scene_, ray)});
+                        leaves_scene(scene_, ray),
+                        true});
   }
 
  private:
@@ -160,7 +159,7 @@ Found find(const std::vector<Attempt>& attempts) {
   Found found;
   for (const Attempt& a : attempts) {
     const double seen = a.is_seen ? double(a.contribution) : 0;
-    if (a.source == Source::other_light) {
+    if (a.of_other_light) {
       found.others += seen;
       continue;
     }

@@ -1,10 +1,10 @@
 #!/usr/bin/env python3
-"""Renders a scene with the integrator of its file by Mitsuba's llvm_ad_rgb, and prints the CPU seconds of that alone.
+"""Renders a scene with the integrator of its file by a variant of Mitsuba.
 
-    mitsuba_path.py SCENE OUT WIDTH HEIGHT SPP SEED THREADS
+    mitsuba_render.py [--further] VARIANT SCENE OUT SPP SEED WIDTH HEIGHT THREADS
 
-Start-up is not in them: the same image with another seed is rendered before, which loads the scene, compiles the kernels
-and starts the threads. What is left is what one more image takes.
+--further prints the CPU seconds of the image alone: the same with another seed is rendered before, which compiles the
+kernels and starts the threads. What is left is what one more image takes.
 """
 import resource
 import sys
@@ -19,9 +19,10 @@ def cpu_seconds():
 
 
 def main():
-    scene_file, out = sys.argv[1:3]
-    width, height, spp, seed, threads = map(int, sys.argv[3:])
-    mi.set_variant('llvm_ad_rgb')
+    further = sys.argv[1] == '--further'
+    variant, scene_file, out = sys.argv[1 + further:4 + further]
+    spp, seed, width, height, threads = map(int, sys.argv[4 + further:])
+    mi.set_variant(variant)
     mi.set_log_level(mi.LogLevel.Error)
     import drjit as dr  # after the variant, which loads LLVM
     # With one thread, to read or write an image would wait for ever.
@@ -30,10 +31,13 @@ def main():
     parameters = mi.traverse(scene.sensors()[0])
     parameters['film.size'] = mi.ScalarVector2u(width, height)
     parameters.update()
-    np.array(mi.render(scene, spp=spp, seed=seed + 1_000_000))
+    if further:
+        np.array(mi.render(scene, spp=spp, seed=seed + 1_000_000))
     start = cpu_seconds()
+    # The array waits for the image.
     image = np.array(mi.render(scene, spp=spp, seed=seed))
-    print(cpu_seconds() - start)
+    if further:
+        print(cpu_seconds() - start)
     dr.set_thread_count(max(2, threads))
     mi.Bitmap(image).write(out)
 
