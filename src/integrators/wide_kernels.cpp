@@ -9,14 +9,14 @@
 
 namespace duet {
 
-DUET_WIDEST void make_points(int n, const WideTriangles& triangles, const HitBatch& hits,
+DUET_WIDEST void make_points(int n, const WideTriangles& triangles, const WideBarycentrics& at,
                              WidePoints& points) {
   DUET_LANES
   for (int i = 0; i < n; ++i) {
     const Point3f p0 = triangles.p0.point(i), p1 = triangles.p1.point(i),
                   p2 = triangles.p2.point(i);
     const Vector3f e1 = p1 - p0, e2 = p2 - p0;
-    points.position.set(i, p0 + (e1 * hits.u[i] + e2 * hits.v[i]));
+    points.position.set(i, p0 + (e1 * at.b1[i] + e2 * at.b2[i]));
     points.offset[i] = kOffsetScale * std::max(std::max(max_abs(p0), max_abs(p1)), max_abs(p2));
     const Vector3f normal = cross(e1, e2);
     const Vector3f ng = normal * (triangles.sign[i] / std::sqrt(length_squared(normal)));
@@ -25,12 +25,12 @@ DUET_WIDEST void make_points(int n, const WideTriangles& triangles, const HitBat
   }
 }
 
-DUET_WIDEST void make_smooth_points(int n, const WideTriangles& triangles, const HitBatch& hits,
-                                    WidePoints& points) {
-  make_points(n, triangles, hits, points);
+DUET_WIDEST void make_smooth_points(int n, const WideTriangles& triangles,
+                                    const WideBarycentrics& at, WidePoints& points) {
+  make_points(n, triangles, at, points);
   DUET_LANES
   for (int i = 0; i < n; ++i) {
-    const float b1 = hits.u[i], b2 = hits.v[i], b0 = 1 - b1 - b2;
+    const float b1 = at.b1[i], b2 = at.b2[i], b0 = 1 - b1 - b2;
     const Vector3f smooth =
         triangles.n0.vector(i) * b0 + triangles.n1.vector(i) * b1 + triangles.n2.vector(i) * b2;
     const float l2 = length_squared(smooth);

@@ -29,10 +29,16 @@ namespace duet {
   out.tmax[i] = finite ? 0x1.fffep-1f : INFINITY;
 }
 
-/// What make_mesh_surface() makes of hits, but for texture coordinates and tangents.
-void make_points(int n, const WideTriangles& triangles, const HitBatch& hits, WidePoints& points);
+/// Of points of triangles.
+struct WideBarycentrics {
+  const BatchArray<float>&b1, &b2;
+};
+
+/// What make_mesh_surface() makes of them, but for texture coordinates and tangents.
+void make_points(int n, const WideTriangles& triangles, const WideBarycentrics& at,
+                 WidePoints& points);
 /// The same with shading normals.
-void make_smooth_points(int n, const WideTriangles& triangles, const HitBatch& hits,
+void make_smooth_points(int n, const WideTriangles& triangles, const WideBarycentrics& at,
                         WidePoints& points);
 /// What plainly diffuse surfaces make of light samples.
 void evaluate_diffuse(int n, const WidePaths& paths, const WidePoints& points,

@@ -89,16 +89,9 @@ static_assert(kSphereNumbers == 9);
   return l;
 }
 
-/// Light samples of spheres one after the other, whatever points they belong to.
-struct SphereSamples {
-  BatchArray<int32_t> at;  ///< number of the point
-  BatchTriples wi, target, weight;
-  BatchArray<float> pdf;  ///< 0 without a sample
-};
-
 DUET_WIDEST void sample_listed(int n, const float* lights, const WidePoints& points,
                                const WideNumbers& numbers, const LightChoices& choice,
-                               SphereSamples& out) {
+                               ListedLightSamples& out) {
   DUET_LANES
   for (int k = 0; k < n; ++k) {
     const int i = out.at[k];
@@ -141,6 +134,7 @@ WideLights::WideLights(const Scene& scene) : scene_(scene) {
         light->kind() == LightKind::area ? static_cast<const AreaLight&>(*light).sphere() : nullptr;
     spheres_.push_back(sphere ? *sphere : SphereLight{});
     has_spheres_ |= sphere != nullptr;
+    meshes_.add(*light);
   }
   if (flat_.size() == 1 && has_flat_ && !has_round_) only_ = flat_.data();
 }
@@ -166,9 +160,10 @@ void WideLights::sample(int n, const WidePoints& points, const WideNumbers& numb
     (has_round_ ? sample_flat_lights : sample_parallelograms)(n, &flat_.data()->origin.x, points,
                                                               numbers, choice, samples);
   if (has_spheres_) sample_spheres(n, points, numbers, choice, samples);
+  meshes_.sample(n, points, numbers, choice, samples);
   for (int i = 0; i < n; ++i) {
     const uint32_t light = choice.light[i];
-    if (flat_[light].area > 0 || spheres_[light].radius > 0) continue;
+    if (flat_[light].area > 0 || spheres_[light].radius > 0 || meshes_.has(light)) continue;
     set_sample(i,
                scene_.lights[light]->sample_direct(points.position.point(i),
                                                    {numbers.light_x[i], numbers.light_y[i]}),
@@ -178,25 +173,15 @@ void WideLights::sample(int n, const WidePoints& points, const WideNumbers& numb
 
 void WideLights::sample_spheres(int n, const WidePoints& points, const WideNumbers& numbers,
                                 const LightChoices& choice, WideLightSamples& samples) const {
-  SphereSamples spheres;
+  ListedLightSamples spheres;
   int count = 0;
   for (int i = 0; i < n; ++i) {
     spheres.at[count] = i;
     count += spheres_[choice.light[i]].radius > 0;
   }
   sample_listed(count, &spheres_.data()->center.x, points, numbers, choice, spheres);
-  for (int k = 0; k < count; ++k) {
-    const int i = spheres.at[k];
-    const float probability = choice.probability[i];
-    samples.wi.set(i, spheres.wi.vector(k));
-    samples.target.set(i, spheres.target.point(k));
-    samples.weight.set(i, spheres.weight.x[k], spheres.weight.y[k], spheres.weight.z[k]);
-    samples.pdf[i] = spheres.pdf[k] > 0 ? spheres.pdf[k] * probability : -1.0f;
-    samples.probability[i] = probability;
-    samples.finite[i] = 1;
-    samples.delta[i] = 0;
-    samples.emission[i] = spheres_[choice.light[i]].emission;
-  }
+  for (int k = 0; k < count; ++k)
+    spheres.copy(k, spheres_[choice.light[spheres.at[k]]].emission, choice, samples);
 }
 
 void WideLights::find_emission(int n, const LightStarts& starts, const WidePoints& points,

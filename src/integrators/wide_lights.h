@@ -1,6 +1,7 @@
 // Light samples of a batch of paths.
 #pragma once
 
+#include "integrators/wide_mesh_lights.h"
 #include "integrators/wide_state.h"
 #include "lights/direct_picker.h"
 #include "lights/flat_light.h"
@@ -10,7 +11,8 @@
 namespace duet {
 
 /// A scene's lights as batches of paths see them: choose_light() for many points at once, with the
-/// same results bit for bit. Flat lights and spheres are sampled in loops, the others one by one.
+/// same results bit for bit. Flat lights, spheres and meshes that shine the same everywhere are
+/// sampled in loops, the others one by one.
 class WideLights {
  public:
   /// `scene` must outlive this and stand still.
@@ -36,6 +38,7 @@ class WideLights {
   bool has_flat_ = false, has_round_ = false;
   std::vector<SphereLight> spheres_;  ///< by light; of radius 0 for those that are none
   bool has_spheres_ = false;
+  WideMeshLights meshes_;
   const FlatLight* only_ = nullptr;  ///< the only light, if it is a parallelogram
 };
 

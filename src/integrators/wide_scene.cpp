@@ -82,12 +82,8 @@ WideScene::WideScene(const Scene& s, bool merges) : scene(s), lights(s) {
     w.emits = shape.light != kNone;
     set_model(w, shape, merges);
     if (shape.kind != ShapeKind::mesh) continue;
-    w.positions = shape.mesh->positions.data();
-    w.triangles = shape.mesh->triangles.data();
-    w.sign = shape.flip_normals ? -1.0f : 1.0f;
-    if (shape.mesh->normals.empty()) continue;
-    w.normals = shape.mesh->normals.data();
-    has_normals = true;
+    w.mesh = WideMesh(shape);
+    has_normals |= w.mesh.normals != nullptr;
   }
 }
 

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "integrators/wide_lights.h"
+#include "integrators/wide_mesh.h"
 #include "materials/plain_diffuse.h"
 #include "textures/texture.h"
 
@@ -29,23 +30,23 @@ using WideGlossyMaterial = std::variant<RoughPlasticSurface, RoughConductorSurfa
                                         RoughDielectricSurface>;
 
 struct alignas(64) WideShape {
-  const Point3f* positions = nullptr;  ///< null if points are made by Scene::surface() alone
-  const std::array<uint32_t, 3>* triangles = nullptr;
-  const Normal3f* normals = nullptr;    ///< or null
+  /// Empty if points are made by Scene::surface() alone.
+  [[no_unique_address]] WideMesh mesh;
+  int32_t number = 0;  ///< of the material in WideScene::glossy or WideScene::specular
   const Texture* prefetched = nullptr;  ///< what is waited for, or null
   const ColorSlot* textured = nullptr;  ///< the reflectance if it depends on the point, or null
   Spectrum reflectance;                 ///< otherwise
-  float sign = 1;                       ///< −1 if the normals are to be turned
   WideModel model = WideModel::other;
   bool two_sided = false;  ///< see DiffuseSurface; not of WideModel::other
   bool transmits = false;  ///< of WideModel::glossy: scatters to both sides
   bool emits = false;
-  int32_t number = 0;  ///< of the material in WideScene::glossy or WideScene::specular
 
   /// The number of the material among those of vertices that are connected in loops: zero for all
   /// that are diffuse.
   int32_t pair_list() const { return model == WideModel::glossy ? 1 + number : 0; }
 };
+
+static_assert(sizeof(WideShape) == 64);  // with `number` in what `mesh` leaves free
 
 /// A scene, which must outlive this and stand still, as batches of paths see it.
 struct WideScene {

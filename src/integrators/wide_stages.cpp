@@ -44,9 +44,9 @@ void WideStages::drop_two_sided_directions(int n) {
 void WideStages::find_points(int n) {
   fetch(n);
   if (wide_.has_normals)
-    make_smooth_points(n, triangles_, hits_, points_);
+    make_smooth_points(n, triangles_, {hits_.u, hits_.v}, points_);
   else
-    make_points(n, triangles_, hits_, points_);
+    make_points(n, triangles_, {hits_.u, hits_.v}, points_);
   surfaces_.resize(special_.size());
   for (size_t k = 0; k < special_.size(); ++k) {
     const int i = special_[k];
@@ -101,22 +101,6 @@ void WideStages::look_up_textures() {
   }
 }
 
-/// Large meshes are in no cache near by: corners are asked for some points ahead, and the numbers
-/// of the corners before that. (g++ 12 drops calls of functions that do nothing else.)
-[[gnu::always_inline]] inline void WideStages::prefetch_triangle(int i) const {
-  const WideShape& shape = wide_.shapes[hits_.shape[i]];
-  if (shape.triangles) __builtin_prefetch(&shape.triangles[hits_.primitive[i]]);
-}
-
-[[gnu::always_inline]] inline void WideStages::prefetch_corners(int i) const {
-  const WideShape& shape = wide_.shapes[hits_.shape[i]];
-  if (!shape.triangles) return;
-  for (const uint32_t corner : shape.triangles[hits_.primitive[i]]) {
-    __builtin_prefetch(&shape.positions[corner]);
-    if (shape.normals) __builtin_prefetch(&shape.normals[corner]);
-  }
-}
-
 [[gnu::always_inline]] inline void WideStages::list_point(int i, const WideShape& shape) {
   if (shape.model != WideModel::glossy && shape.model != WideModel::specular) return;
   PointLists& lists = shape.model == WideModel::glossy ? glossy_points_ : specular_points_;
@@ -131,30 +115,22 @@ void WideStages::fetch(int n) {
   for (std::vector<int>& points : glossy_points_) points.clear();
   for (std::vector<int>& points : specular_points_) points.clear();
   has_listed_points_ = false;
-  for (int i = 0; i < n; ++i) prefetch_triangle(i);
-  constexpr int kAhead = 12;
-  for (int i = 0; i < std::min(n, kAhead); ++i) prefetch_corners(i);
+  const auto mesh = [this](int i) -> const WideMesh& { return wide_.shapes[hits_.shape[i]].mesh; };
+  for (int i = 0; i < n; ++i) mesh(i).prefetch_triangle(hits_.primitive[i]);
+  const auto prefetch_corners = [&](int i) { mesh(i).prefetch_corners(hits_.primitive[i]); };
+  for (int i = 0; i < std::min(n, WideMesh::kAhead); ++i) prefetch_corners(i);
   for (int i = 0; i < n; ++i) {
-    if (i + kAhead < n) prefetch_corners(i + kAhead);
+    if (i + WideMesh::kAhead < n) prefetch_corners(i + WideMesh::kAhead);
     const WideShape& shape = wide_.shapes[hits_.shape[i]];
     set_reflectance(i, shape.reflectance);
     points_.two_sided[i] = shape.two_sided;
     list_point(i, shape);
-    if (shape.model == WideModel::other || !shape.positions || hits_.instance[i] != kNone) {
+    if (shape.model == WideModel::other || !shape.mesh.positions || hits_.instance[i] != kNone) {
       special_.push_back(i);
       continue;
     }
     if (shape.textured) textured_.push_back(i);
-    const std::array<uint32_t, 3>& t = shape.triangles[hits_.primitive[i]];
-    triangles_.sign[i] = shape.sign;
-    triangles_.p0.set(i, shape.positions[t[0]]);
-    triangles_.p1.set(i, shape.positions[t[1]]);
-    triangles_.p2.set(i, shape.positions[t[2]]);
-    if (!wide_.has_normals) continue;
-    const Normal3f none(0);
-    triangles_.n0.set(i, shape.normals ? shape.normals[t[0]] : none);
-    triangles_.n1.set(i, shape.normals ? shape.normals[t[1]] : none);
-    triangles_.n2.set(i, shape.normals ? shape.normals[t[2]] : none);
+    shape.mesh.get_corners(i, hits_.primitive[i], wide_.has_normals, triangles_);
   }
 }
 

@@ -126,8 +126,6 @@ class WideStages {
   void list_point(int i, const WideShape& shape);
   /// The k-th of what was sampled for those.
   void set_scattering(int k, BatchArray<float>* reverse);
-  void prefetch_triangle(int i) const;
-  void prefetch_corners(int i) const;
   void fetch(int n);
   void prefetch_textures();
   void set_reflectance(int i, const Spectrum& r) { points_.reflectance.set(i, r.r, r.g, r.b); }

@@ -7,11 +7,6 @@ namespace duet {
 
 namespace {
 
-/// Share of points on meshes with a tree that are chosen by what triangles emit.
-constexpr float kEvenShare = 0.1f;
-/// Triangles in a leaf of a tree: a few next to each other are nearly as good from anywhere.
-constexpr uint32_t kTrianglesInLeaf = 4;
-
 /// Corner and edges of the parallelogram that two triangles make together, if they do, and shine on
 /// one side of it.
 std::optional<FlatLight> find_parallelogram(const TriangleMesh& m) {
@@ -50,9 +45,8 @@ AreaLight::AreaLight(const Shape& shape, const ColorSlot& radiance, EmittingSide
   } else if (!two_sided() && radiance.is_constant() && choose_parallelogram()) {
     strategy_ = Strategy::parallelogram;
   } else {
-    strategy_ = Strategy::cells;
-    cells_.emplace(shape, radiance);
-    if (needs_tree(shape.mesh->triangles.size(), selection)) make_tree();
+    strategy_ = Strategy::mesh;
+    mesh_ = std::make_unique<EmissiveMesh>(shape, radiance, two_sided(), selection);
   }
 }
 
@@ -102,7 +96,7 @@ void AreaLight::make_flat_disk() {
 
 double AreaLight::power(double) const {
   const double emission =
-      cells_ ? cells_->integral() : area_ * double(radiance_.average().luminance());
+      mesh_ ? mesh_->cells().integral() : area_ * double(radiance_.average().luminance());
   return double(kPi) * emission * (two_sided() ? 2 : 1);
 }
 
@@ -113,33 +107,8 @@ std::optional<LightBounds> AreaLight::bounds() const {
       b.normals = {Vector3f(sample_analytic(shape_, {0.5f, 0.5f}).ng)};
     return b;
   }
-  if (tree_) return tree_->bounds();
-  LightBounds all;
-  for (uint32_t t = 0; t < shape_.mesh->triangles.size(); ++t) all.extend(triangle_bounds(t));
-  return all;
-}
-
-void AreaLight::make_tree() {
-  const uint32_t count = uint32_t(shape_.mesh->triangles.size());
-  std::vector<LightTree::Entry> entries;
-  entries.reserve(count);
-  for (uint32_t t = 0; t < count; ++t) {
-    LightBounds b = triangle_bounds(t);
-    b.power = cells_->probability(t);
-    if (b.power > 0) entries.push_back({b, t});
-  }
-  tree_ = std::make_unique<LightTree>(std::move(entries), count, kTrianglesInLeaf);
-}
-
-LightBounds AreaLight::triangle_bounds(uint32_t triangle) const {
-  const TriangleMesh& mesh = *shape_.mesh;
-  LightBounds b;
-  for (const uint32_t corner : mesh.triangles[triangle]) b.box.extend(mesh.positions[corner]);
-  if (two_sided())
-    b.normals = DirectionCone::all();
-  else if (triangle_area(mesh, triangle) > 0)
-    b.normals = {Vector3f(point_on_triangle(shape_, triangle, {1 / 3.0f, 1 / 3.0f}).ng)};
-  return b;
+  if (mesh_ && mesh_->tree()) return mesh_->tree()->bounds();
+  return mesh_light_bounds(shape_, two_sided());
 }
 
 Spectrum AreaLight::emitted(const Surface& surface, const Vector3f& w) const {
@@ -149,44 +118,25 @@ Spectrum AreaLight::emitted(const Surface& surface, const Vector3f& w) const {
 
 std::optional<LightSample> AreaLight::sample_shape(const Point3f& from, const Point2f& u) const {
   if (strategy_ == Strategy::cone) return sample_cone(from, u);
-  auto [p, pdf] = direct_point(from, u);
-  const Vector3f d = p.position - from;
-  const float d2 = length_squared(d);
-  if (!(d2 > 0)) return std::nullopt;
-  const Vector3f wi = d * (1 / std::sqrt(d2));
-  if (two_sided() && dot(p.ng, wi) > 0) p.ng = -p.ng, p.ns = -p.ns;
-  const float cosine = -dot(p.ng, wi);
-  if (!(cosine > 0 && leaves(p.ns, -wi))) return std::nullopt;
-  return toward(p, to_solid_angle(pdf, d2, cosine), wi);
+  const auto [p, pdf] = direct_point(from, u);
+  const EmittingPoint point{p.position, Vector3f(p.ng), Vector3f(p.ns), p.offset};
+  const SeenPoint s = SideFactors(side_).see(from, point, pdf.value);
+  if (!(s.pdf > 0)) return std::nullopt;
+  return LightSample{s.wi, s.target, radiance(p) / s.pdf, PdfW{s.pdf},
+                     p.pdf.value * direction_density()};
 }
 
-inline AreaLight::DirectPoint AreaLight::direct_point(const Point3f& from, const Point2f& u) const {
-  if (tree_) return point_by_tree(from, u);
-  const ShapePoint p = cells_ ? cells_->sample(u) : sample_analytic(shape_, u);
+inline EmissiveMesh::DirectPoint AreaLight::direct_point(const Point3f& from,
+                                                         const Point2f& u) const {
+  if (mesh_) return mesh_->sample_direct(from, u);
+  const ShapePoint p = sample_analytic(shape_, u);
   return {p, p.pdf};
 }
 
-// Triangles without power are not in the tree, so that its share is that of all others.
-AreaLight::DirectPoint AreaLight::point_by_tree(const Point3f& from, const Point2f& u) const {
-  const double fine = fine_variate(u.y, u);
-  if (fine < double(kEvenShare)) {
-    const ShapePoint p = cells_->sample({u.x, std::min(float(fine) / kEvenShare, kBelowOne)});
-    return {p, tree_pdf(from, p.primitive, p.barycentric)};
-  }
-  const LightTree::Pick pick =
-      tree_->sample((fine - double(kEvenShare)) / (1 - double(kEvenShare)), from);
-  ShapePoint p = cells_->sample(pick.light, {u.x, pick.remapped});
-  const float even = cells_->probability(pick.light);
-  const PdfA pdf{p.pdf.value * lerp(pick.probability, even, kEvenShare)};
-  p.pdf = cells_->pdf(pick.light, p.barycentric);
-  return {p, pdf};
-}
-
-PdfA AreaLight::tree_pdf(const Point3f& from, uint32_t triangle, const Point2f& barycentric) const {
-  const float even = cells_->probability(triangle);
-  if (!(even > 0)) return {};
-  const float within = cells_->pdf_within(triangle, barycentric).value;
-  return {within * lerp(tree_->probability(triangle, from), even, kEvenShare)};
+MeshLight AreaLight::mesh_light() const {
+  const float even = mesh_->cells().pdf(0, {}).value;
+  return {radiance_.constant, mesh_->tree() ? 0.0f : even, even * direction_density(),
+          SideFactors(side_)};
 }
 
 Spectrum AreaLight::radiance(const ShapePoint& p) const {
@@ -194,15 +144,12 @@ Spectrum AreaLight::radiance(const ShapePoint& p) const {
   return radiance_(textured_point(shape_, p));
 }
 
-LightSample AreaLight::toward(const ShapePoint& p, PdfW pdf, const Vector3f& wi) const {
-  return {wi, p.position + Vector3f(p.ng) * p.offset, radiance(p) / pdf.value, pdf,
-          p.pdf.value * direction_density()};
-}
-
 std::optional<LightSample> AreaLight::sample_cone(const Point3f& from, const Point2f& u) const {
   const SphereLight::Sample s = sphere_.sample(from, u);
   if (!(s.pdf > 0)) return std::nullopt;
-  return toward(point_of_sphere(s.normal), PdfW{s.pdf}, s.wi);
+  const ShapePoint p = point_of_sphere(s.normal);
+  return LightSample{s.wi, p.position + Vector3f(p.ng) * p.offset, radiance(p) / s.pdf, PdfW{s.pdf},
+                     p.pdf.value * direction_density()};
 }
 
 ShapePoint AreaLight::point_of_sphere(const Normal3f& n) const {
@@ -216,7 +163,7 @@ ShapePoint AreaLight::point_of_sphere(const Normal3f& n) const {
 }
 
 inline PdfA AreaLight::point_pdf(const Surface& surface) const {
-  if (cells_) return cells_->pdf(surface.primitive, surface.barycentric);
+  if (mesh_) return mesh_->cells().pdf(surface.primitive, surface.barycentric);
   if (strategy_ != Strategy::surface) return uniform_;
   return pdf_analytic(shape_, normalize(shape_.to_world.inverse(surface.ng)));
 }
@@ -227,12 +174,12 @@ PdfW AreaLight::pdf_direct(const Point3f& from, const Surface& surface, const Ve
   if (!(cosine > 0)) return {};
   if (strategy_ == Strategy::cone) return {sphere_.pdf(from)};
   const PdfA pdf =
-      tree_ ? tree_pdf(from, surface.primitive, surface.barycentric) : point_pdf(surface);
+      mesh_ ? mesh_->pdf_direct(from, surface.primitive, surface.barycentric) : point_pdf(surface);
   return to_solid_angle(pdf, d2, cosine);
 }
 
 ShapePoint AreaLight::sample_point(const Point2f& u) const {
-  if (cells_) return cells_->sample(u);
+  if (mesh_) return mesh_->cells().sample(u);
   if (strategy_ == Strategy::surface) return sample_analytic(shape_, u);
   ShapePoint p{};
   const FlatLight& l = flat_;
@@ -291,7 +238,7 @@ float AreaLight::emission_density(const Surface& surface, const Vector3f& w) con
 float AreaLight::direct_density(const EmissionSample& emission, const Point3f& at) const {
   if (strategy_ == Strategy::cone) return sphere_.pdf(at);
   const ShapePoint& p = emission.point;
-  const PdfA pdf = tree_ ? tree_pdf(at, p.primitive, p.barycentric) : p.pdf;
+  const PdfA pdf = mesh_ ? mesh_->pdf_direct(at, p.primitive, p.barycentric) : p.pdf;
   return to_solid_angle(pdf, length_squared(p.position - at), dot(p.ng, emission.ray.direction))
       .value;
 }

@@ -3,12 +3,12 @@
 
 #include <memory>
 
+#include "lights/emissive_mesh.h"
 #include "lights/emitting_side.h"
 #include "lights/flat_light.h"
 #include "lights/light.h"
-#include "lights/light_tree.h"
+#include "lights/mesh_light.h"
 #include "lights/sphere_light.h"
-#include "lights/triangle_cells.h"
 #include "textures/texture.h"
 
 namespace duet {
@@ -47,11 +47,18 @@ class AreaLight final : public SurfaceLight {
   const SphereLight* sphere() const {
     return strategy_ == Strategy::cone && radiance_.is_constant() ? &sphere_ : nullptr;
   }
+  /// What chooses points of a mesh whose radiance is the same everywhere, or null.
+  const EmissiveMesh* mesh() const {
+    return mesh_ && radiance_.is_constant() ? mesh_.get() : nullptr;
+  }
+  /// The light as such, if mesh() is not null.
+  MeshLight mesh_light() const;
+  const Shape& shape() const { return shape_; }
 
  private:
   /// How points are chosen.
   enum class Strategy {
-    cells,          ///< a triangle by the light it emits, then a point of it
+    mesh,           ///< a triangle, then a point of it
     parallelogram,  ///< two triangles that are one, taken as a whole to keep strata together
     cone,           ///< a sphere: a direction within the cone that it fills, any for emission
     surface,        ///< an analytic shape by its parameters
@@ -67,20 +74,9 @@ class AreaLight final : public SurfaceLight {
   bool choose_cone();
   bool choose_parallelogram();
   void make_flat_disk();
-  void make_tree();
-  LightBounds triangle_bounds(uint32_t triangle) const;
-  /// A light sample's point, with the density of sample_point() there, and its own density.
-  struct DirectPoint {
-    ShapePoint point;
-    PdfA pdf;
-  };
-  DirectPoint direct_point(const Point3f& from, const Point2f& u) const;
-  DirectPoint point_by_tree(const Point3f& from, const Point2f& u) const;
-  /// The density with which a light sample at `from` chooses a point of a mesh by the tree.
-  PdfA tree_pdf(const Point3f& from, uint32_t triangle, const Point2f& barycentric) const;
+  EmissiveMesh::DirectPoint direct_point(const Point3f& from, const Point2f& u) const;
   /// The radiance of a point on the side that shines.
   Spectrum radiance(const ShapePoint& p) const;
-  LightSample toward(const ShapePoint& p, PdfW pdf, const Vector3f& wi) const;
   std::optional<LightSample> sample_flat(const Point3f& from, const Point2f& u) const;
   std::optional<LightSample> sample_shape(const Point3f& from, const Point2f& u) const;
   std::optional<LightSample> sample_cone(const Point3f& from, const Point2f& u) const;
@@ -102,11 +98,10 @@ class AreaLight final : public SurfaceLight {
   EmittingSide side_;
   Strategy strategy_;
   double area_;
-  PdfA uniform_;  ///< 1 / area
-  std::optional<TriangleCells> cells_;
-  std::unique_ptr<const LightTree> tree_;  ///< over the triangles of a mesh, or null
-  FlatLight flat_;                         ///< of area 0 if the light is none
-  SphereLight sphere_;                     ///< of Strategy::cone
+  PdfA uniform_;                              ///< 1 / area
+  std::unique_ptr<const EmissiveMesh> mesh_;  ///< of Strategy::mesh
+  FlatLight flat_;                            ///< of area 0 if the light is none
+  SphereLight sphere_;                        ///< of Strategy::cone
 };
 
 // The most frequent lights are looked into by whoever asks them: the sample then stays in

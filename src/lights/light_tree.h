@@ -44,14 +44,27 @@ class LightTree {
     uint32_t light;
     float probability;
     float remapped;  ///< uniform in [0, 1) again, independent of the light
+    float power;     ///< its share of the tree's
   };
   /// `u` in [0, 1). The tree must not be empty.
   Pick sample(double u, const Point3f& from) const;
   /// The same for the `n` points of `from` that begin with `first`, at most NodeChoices::kPoints;
   /// `choices.u` are the numbers in [0, 1).
   void sample(const BatchTriples& from, int first, int n, NodeChoices& choices, Pick* picks) const;
+  struct Query {
+    const LightTree* tree;
+    double u;  ///< in [0, 1)
+    Point3f from;
+  };
+  /// Picks of the trees, side by side, so that the processor waits for the memory of all at once.
+  static void sample(std::span<const Query> queries, Pick* picks);
   /// The probability with which sample() chooses the light.
   float probability(uint32_t light, const Point3f& from) const;
+  /// Its share of the tree's power, 0 if it is not in the tree.
+  float power(uint32_t light) const {
+    const uint32_t position = places_[light].position;
+    return position == kNone ? 0 : powers_[position];
+  }
 
   bool empty() const { return order_.empty(); }
   size_t memory_bytes() const;
@@ -74,14 +87,30 @@ class LightTree {
 
   /// A node on the way down.
   struct Step {
+    /// Uniform in [0, 1); times the power once the rest of the way goes by that.
     double u;
     float probability;  ///< of the nodes up to this one
     uint32_t child;
-    float power;    ///< of what is left to choose from
-    bool by_power;  ///< how it is chosen
+    float power;    ///< of the last node that was not chosen by power
+    bool by_power;  ///< how what is below is chosen
+
+    bool ends() const { return by_power && Leaf::is(child); }
+  };
+  /// One of several ways down.
+  struct Way {
+    const LightTree* tree;
+    Point3f from;
+    Step step;
   };
   static Step step(const LightNodes& group, const NodeChoice& choice, bool even);
-  Pick descend(Step step, const Point3f& from) const;
+  Step first_step(double u, const Point3f& from) const;
+  /// From a step that does not end.
+  Step next(const Step& s, const Point3f& from) const;
+  static uint32_t choose_by_power(const LightNodes& group, double& u);
+  Pick finish(const Step& s) const;
+  void prefetch(const Step& s) const;
+  /// At most NodeChoices::kPoints ways.
+  static void descend(std::span<Way> ways, Pick* picks);
 
   std::vector<LightNodes> groups_;
   std::vector<uint32_t> order_;  ///< lights, those of a leaf one after the other

@@ -19,6 +19,16 @@ class TriangleCells {
   ShapePoint sample(const Point2f& u) const;
   /// A point of one triangle, with its density per area of that; it must emit.
   ShapePoint sample(uint32_t triangle, const Point2f& u) const;
+  /// If the radiance is the same everywhere: the triangle of sample(u), and what takes the place of
+  /// u.y on it.
+  struct Choice {
+    uint32_t triangle;
+    float y;
+  };
+  Choice choose(const Point2f& u) const {
+    const auto pick = cells_.sample(u.y, u);
+    return {pick.index, pick.remapped};
+  }
   /// The probability with which sample(u) chooses the triangle.
   float probability(uint32_t triangle) const {
     const uint32_t count = uint32_t(n_) * uint32_t(n_);

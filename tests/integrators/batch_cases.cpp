@@ -105,6 +105,13 @@ const std::vector<BatchCase> kBatchCases = {
                  "<translate x='0.9' z='0.5'/>") +
          emitter("cube", "<scale value='0.05'/><translate x='0.3' z='0.3'/>") +
          emitter("sphere", "<scale value='0.05'/><translate x='-0.3' z='0.4'/>")},
+    {"lamps that are meshes, with and without a tree of triangles",
+     camera() + room_xml(grey("0.6")) +
+         lumpy_xml("-0.4,0.2,0.9",
+                   "<emitter type='area'><rgb name='radiance' value='5,7,4'/></emitter>") +
+         emitter("cube",
+                 "<scale value='0.1'/><rotate x='1' y='1' angle='40'/>"
+                 "<translate x='0.4' z='0.5'/>")},
     {"balls that shine, one seen from within",
      camera() + room_xml(grey("0.6")) +
          emitter("sphere", "<scale value='0.35'/><translate x='-0.5' y='0.3' z='0.4'/>") +
