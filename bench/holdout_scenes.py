@@ -113,7 +113,9 @@ def sensor(origin, target, fov, size):
 
 def scene(depth, parts):
     body = '\n  '.join(parts)
-    return (f'<scene version="3.0.0">\n  <integrator type="path"><integer name="max_depth" value="{depth}"/></integrator>\n'
+    # Mitsuba's path knows nothing of media.
+    integrator = 'volpath' if '<medium' in body else 'path'
+    return (f'<scene version="3.0.0">\n  <integrator type="{integrator}"><integer name="max_depth" value="{depth}"/></integrator>\n'
             f'  {body}\n</scene>\n')
 
 

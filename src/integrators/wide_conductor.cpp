@@ -81,26 +81,26 @@ template <class Facets>
 
 DUET_WIDEST void evaluate_glossy(int n, const RoughConductorSurface& surface,
                                  const WideVertices& vertices, WideGlossy& out) {
-  if (surface.conductor.microfacet.is_visible_beckmann())
-    evaluate_all<WideBeckmann>(n, surface, vertices, out);
-  else
-    evaluate_all<WideGgx>(n, surface, vertices, out);
+  with_facets(
+      surface.conductor.microfacet, [&]<class Facets>() __attribute__((always_inline)) {
+        evaluate_all<Facets>(n, surface, vertices, out);
+      });
 }
 
 DUET_WIDEST void sample_glossy(int n, const RoughConductorSurface& surface,
                                const WideVertices& vertices, WideGlossy& out) {
-  if (surface.conductor.microfacet.is_visible_beckmann())
-    sample_all<WideBeckmann>(n, surface, vertices, out);
-  else
-    sample_all<WideGgx>(n, surface, vertices, out);
+  with_facets(
+      surface.conductor.microfacet, [&]<class Facets>() __attribute__((always_inline)) {
+        sample_all<Facets>(n, surface, vertices, out);
+      });
 }
 
 DUET_WIDEST void reverse_glossy(int n, const RoughConductorSurface& surface,
                                 const WideVertices& vertices, WideGlossy& out) {
-  if (surface.conductor.microfacet.is_visible_beckmann())
-    reverse_all<WideBeckmann>(n, surface, vertices, out);
-  else
-    reverse_all<WideGgx>(n, surface, vertices, out);
+  with_facets(
+      surface.conductor.microfacet, [&]<class Facets>() __attribute__((always_inline)) {
+        reverse_all<Facets>(n, surface, vertices, out);
+      });
 }
 
 }  // namespace duet

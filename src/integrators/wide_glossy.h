@@ -66,6 +66,15 @@ struct WideBeckmann {
   }
 };
 
+/// Calls `f` with the type of the facets.
+template <class F>
+[[gnu::always_inline]] inline void with_facets(const Microfacet& facets, const F& f) {
+  if (facets.is_visible_beckmann())
+    f.template operator()<WideBeckmann>();
+  else
+    f.template operator()<WideGgx>();
+}
+
 /// A point in its shading frame, mirrored if it is seen from its back.
 struct LocalPoint {
   Frame frame;

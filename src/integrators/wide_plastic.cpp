@@ -97,26 +97,26 @@ template <class Facets>
 
 DUET_WIDEST void evaluate_glossy(int n, const RoughPlasticSurface& surface,
                                  const WideVertices& vertices, WideGlossy& out) {
-  if (surface.plastic.microfacet.is_visible_beckmann())
-    evaluate_all<WideBeckmann>(n, surface, vertices, out);
-  else
-    evaluate_all<WideGgx>(n, surface, vertices, out);
+  with_facets(
+      surface.plastic.microfacet, [&]<class Facets>() __attribute__((always_inline)) {
+        evaluate_all<Facets>(n, surface, vertices, out);
+      });
 }
 
 DUET_WIDEST void sample_glossy(int n, const RoughPlasticSurface& surface,
                                const WideVertices& vertices, WideGlossy& out) {
-  if (surface.plastic.microfacet.is_visible_beckmann())
-    sample_all<WideBeckmann>(n, surface, vertices, out);
-  else
-    sample_all<WideGgx>(n, surface, vertices, out);
+  with_facets(
+      surface.plastic.microfacet, [&]<class Facets>() __attribute__((always_inline)) {
+        sample_all<Facets>(n, surface, vertices, out);
+      });
 }
 
 DUET_WIDEST void reverse_glossy(int n, const RoughPlasticSurface& surface,
                                 const WideVertices& vertices, WideGlossy& out) {
-  if (surface.plastic.microfacet.is_visible_beckmann())
-    reverse_all<WideBeckmann>(n, surface, vertices, out);
-  else
-    reverse_all<WideGgx>(n, surface, vertices, out);
+  with_facets(
+      surface.plastic.microfacet, [&]<class Facets>() __attribute__((always_inline)) {
+        reverse_all<Facets>(n, surface, vertices, out);
+      });
 }
 
 DUET_WIDEST void evaluate_glossy(int n, const PlasticSurface& surface, const WideVertices& vertices,

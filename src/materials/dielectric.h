@@ -18,6 +18,13 @@ namespace duet {
   return r + t > 0 ? p : 0.0f;
 }
 
+/// The colour of the lobe that was chosen, without branches.
+[[gnu::always_inline]] inline Spectrum colour_of(bool reflects, const Spectrum& reflectance,
+                                                 const Spectrum& transmittance) {
+  return {reflects ? reflectance.r : transmittance.r, reflects ? reflectance.g : transmittance.g,
+          reflects ? reflectance.b : transmittance.b};
+}
+
 /// How much radiance is compressed by passing into a medium of relative index `eta`.
 [[gnu::always_inline]] inline float compression(float eta, Transport transport) {
   return transport == Transport::radiance ? 1 / (eta * eta) : 1.0f;
@@ -45,14 +52,13 @@ struct DielectricModel {
     const float transmitted = 1 - f.reflectance;
     const float share =
         reflects ? f.reflectance / p : transmitted / (1 - p) * compression(relative, transport);
-    const Spectrum &r = specular_reflectance, &t = specular_transmittance;
-    const int32_t passes = std::min(transmitted, f.cos_t) > 0 ? (t.is_black() ? 0 : 1) : 0;
+    const int32_t black = specular_transmittance.is_black() ? 1 : 0;
+    const int32_t passes = std::min(transmitted, f.cos_t) > 0 ? 1 - black : 0;
     const float down = below ? f.cos_t : -f.cos_t;
     BranchFreeSample s;
     s.wi = Vector3f(reflects ? -wo.x : -wo.x / relative, reflects ? -wo.y : -wo.y / relative,
                     reflects ? wo.z : down);
-    s.weight = {(reflects ? r.r : t.r) * share, (reflects ? r.g : t.g) * share,
-                (reflects ? r.b : t.b) * share};
+    s.weight = colour_of(reflects, specular_reflectance, specular_transmittance) * share;
     s.pdf = reflects ? p : 1 - p;
     s.delta = 1;
     s.eta = reflects ? 1.0f : relative;
@@ -115,10 +121,8 @@ inline ModelEval RoughDielectricModel::eval_by(const Facets& facets, const Vecto
   const float seen = std::min(std::min(h.z, oh), reflects ? ih : -ih);
   const float cosine = std::min(std::abs(wo.z), std::abs(wi.z));
   const bool scatters = std::min(seen, cosine - kMinCosine) > 0;
-  const Spectrum &r = specular_reflectance, &t = specular_transmittance;
   const float scale = scatters ? value : 0.0f;
-  return {{(reflects ? r.r : t.r) * scale, (reflects ? r.g : t.g) * scale,
-           (reflects ? r.b : t.b) * scale},
+  return {colour_of(reflects, specular_reflectance, specular_transmittance) * scale,
           scatters ? pdf : 0.0f};
 }
 
@@ -143,11 +147,9 @@ inline BranchFreeSample RoughDielectricModel::sample_by(const Facets& facets, co
   const float jacobian = sqr(relative / (om + relative * im)) * om * -im;
   const float weight = reflects ? ratio * f.reflectance / p
                                 : ratio * transmitted / (1 - p) * compression(relative, transport);
-  const Spectrum &r = specular_reflectance, &t = specular_transmittance;
   BranchFreeSample s;
   s.wi = mirrored(i, below);
-  s.weight = {(reflects ? r.r : t.r) * weight, (reflects ? r.g : t.g) * weight,
-              (reflects ? r.b : t.b) * weight};
+  s.weight = colour_of(reflects, specular_reflectance, specular_transmittance) * weight;
   s.pdf = reflects ? 0.25f * p * core.density : (1 - p) * core.density * jacobian;
   s.eta = reflects ? 1.0f : relative;
   // What is not a number comes first, or it would be lost.

@@ -30,11 +30,9 @@ struct ThinDielectricModel {
     const float p = reflection_probability(f, specular_reflectance, specular_transmittance);
     const bool reflects = u < p;
     const float share = reflects ? f / p : (1 - f) / (1 - p);
-    const Spectrum &r = specular_reflectance, &t = specular_transmittance;
     BranchFreeSample s;
     s.wi = Vector3f(-wo.x, -wo.y, reflects ? wo.z : -wo.z);
-    s.weight = {(reflects ? r.r : t.r) * share, (reflects ? r.g : t.g) * share,
-                (reflects ? r.b : t.b) * share};
+    s.weight = colour_of(reflects, specular_reflectance, specular_transmittance) * share;
     s.pdf = reflects ? p : 1 - p;
     s.delta = 1;
     const int32_t passes = f < 1 ? 1 : 0;
