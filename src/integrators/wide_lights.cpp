@@ -98,12 +98,7 @@ DUET_WIDEST void sample_listed(int n, const float* lights, const WidePoints& poi
     const SphereLight l = sphere_at(lights, int32_t(choice.light[i]) * kSphereNumbers);
     const SphereLight::Sample s =
         l.sample(points.position.point(i), {numbers.light_x[i], numbers.light_y[i]});
-    const Point3f target = s.target(l);
-    const float inverse = 1 / s.pdf;
-    out.wi.set(k, s.wi);
-    out.target.set(k, target);
-    out.weight.set(k, l.radiance.r * inverse, l.radiance.g * inverse, l.radiance.b * inverse);
-    out.pdf[k] = s.pdf;
+    out.set(k, s.wi, s.target(l), l.radiance, s.pdf);
   }
 }
 

@@ -45,7 +45,6 @@ DUET_WIDEST void find_barycentrics(int n, MeshLightRoom& p) {
 }
 
 DUET_WIDEST void see_points(int n, const float* lights, MeshLightRoom& p) {
-  ListedLightSamples& out = p.samples;
   DUET_LANES
   for (int k = 0; k < n; ++k) {
     const MeshLight l = mesh_light_at(lights, p.light[k] * kMeshLightNumbers);
@@ -55,11 +54,7 @@ DUET_WIDEST void see_points(int n, const float* lights, MeshLightRoom& p) {
     const EmittingPoint point{p.points.position.point(k), p.points.ng.vector(k),
                               p.points.ns.vector(k), p.points.offset[k]};
     const SeenPoint s = l.sides.see(p.from.point(k), point, l.even > 0 ? l.even : chosen);
-    const float inverse = 1 / s.pdf;
-    out.wi.set(k, s.wi);
-    out.target.set(k, s.target);
-    out.weight.set(k, l.radiance.r * inverse, l.radiance.g * inverse, l.radiance.b * inverse);
-    out.pdf[k] = s.pdf;
+    p.samples.set(k, s.wi, s.target, l.radiance, s.pdf);
   }
 }
 

@@ -15,6 +15,15 @@ struct ListedLightSamples {
   BatchTriples wi, target, weight;
   BatchArray<float> pdf;  ///< 0 without a sample
 
+  /// A sample of a light with the density `density` per solid angle.
+  [[gnu::always_inline]] void set(int k, const Vector3f& direction, const Point3f& end,
+                                  const Spectrum& radiance, float density) {
+    const float inverse = 1 / density;
+    wi.set(k, direction);
+    target.set(k, end);
+    weight.set(k, radiance.r * inverse, radiance.g * inverse, radiance.b * inverse);
+    pdf[k] = density;
+  }
   /// To the samples of all points; `emission` is LightSample::emission.
   void copy(int k, float emission, const LightChoices& choice, WideLightSamples& out) const {
     const int i = at[k];

@@ -116,14 +116,18 @@ Spectrum AreaLight::emitted(const Surface& surface, const Vector3f& w) const {
   return two_sided() || dot(n, w) > 0 ? radiance_(surface) : Spectrum();
 }
 
+LightSample AreaLight::light_sample(const ShapePoint& p, const SeenPoint& seen) const {
+  return {seen.wi, seen.target, radiance(p) / seen.pdf, PdfW{seen.pdf},
+          p.pdf.value * direction_density()};
+}
+
 std::optional<LightSample> AreaLight::sample_shape(const Point3f& from, const Point2f& u) const {
   if (strategy_ == Strategy::cone) return sample_cone(from, u);
   const auto [p, pdf] = direct_point(from, u);
   const EmittingPoint point{p.position, Vector3f(p.ng), Vector3f(p.ns), p.offset};
   const SeenPoint s = SideFactors(side_).see(from, point, pdf.value);
   if (!(s.pdf > 0)) return std::nullopt;
-  return LightSample{s.wi, s.target, radiance(p) / s.pdf, PdfW{s.pdf},
-                     p.pdf.value * direction_density()};
+  return light_sample(p, s);
 }
 
 inline EmissiveMesh::DirectPoint AreaLight::direct_point(const Point3f& from,
@@ -147,9 +151,7 @@ Spectrum AreaLight::radiance(const ShapePoint& p) const {
 std::optional<LightSample> AreaLight::sample_cone(const Point3f& from, const Point2f& u) const {
   const SphereLight::Sample s = sphere_.sample(from, u);
   if (!(s.pdf > 0)) return std::nullopt;
-  const ShapePoint p = point_of_sphere(s.normal);
-  return LightSample{s.wi, p.position + Vector3f(p.ng) * p.offset, radiance(p) / s.pdf, PdfW{s.pdf},
-                     p.pdf.value * direction_density()};
+  return light_sample(point_of_sphere(s.normal), {s.wi, s.target(sphere_), s.pdf});
 }
 
 ShapePoint AreaLight::point_of_sphere(const Normal3f& n) const {

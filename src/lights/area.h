@@ -77,6 +77,7 @@ class AreaLight final : public SurfaceLight {
   EmissiveMesh::DirectPoint direct_point(const Point3f& from, const Point2f& u) const;
   /// The radiance of a point on the side that shines.
   Spectrum radiance(const ShapePoint& p) const;
+  LightSample light_sample(const ShapePoint& p, const SeenPoint& seen) const;
   std::optional<LightSample> sample_flat(const Point3f& from, const Point2f& u) const;
   std::optional<LightSample> sample_shape(const Point3f& from, const Point2f& u) const;
   std::optional<LightSample> sample_cone(const Point3f& from, const Point2f& u) const;
