@@ -30,7 +30,7 @@ struct IntegratorOverride {
 /// parameters and values that do not exist.
 void apply_override(IntegratorDescription& integrator, const IntegratorOverride& override_with);
 
-/// The method's name and its parameters as "max_depth=8 rr_depth=5 …".
+/// The method's name and its parameters as "max_depth=8 rr_depth=2 …".
 std::string integrator_name(const IntegratorDescription& integrator);
 std::string integrator_parameters(const IntegratorDescription& integrator);
 

@@ -105,7 +105,8 @@ inline bool PathIntegrator::scatter(const Scene& scene, const Surface& s, const 
   path.eta *= sample->eta;
   if (depth >= options_.rr_depth) {
     // Where light is refracted into a denser medium its radiance grows without carrying more.
-    const float survival = russian_roulette(importance * path.eta * path.eta, sampler);
+    const float survival =
+        russian_roulette(kPathRoulette, importance * path.eta * path.eta, sampler);
     if (survival == 0) return false;
     path.throughput *= 1 / survival;
   }

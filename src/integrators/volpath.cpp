@@ -4,7 +4,6 @@
 
 #include "integrators/next_event.h"
 #include "materials/plain_diffuse.h"
-#include "transport/roulette.h"
 
 namespace duet {
 
@@ -154,7 +153,7 @@ bool VolumePathIntegrator::scatter_in_medium(const Scene& scene, const Point3f& 
   path.sampler.start_dimension(dimension + kScatteringDimension);
   const Point2f v = path.sampler.next_2d();
   const PhaseSample sample = phase.sample(p, wo, path.sampler.next_1d(), v);
-  if (!(sample.pdf.value > 0) || !survives(path)) return false;
+  if (!(sample.pdf.value > 0) || !survives(path, kMediaRoulette)) return false;
   path.weights.light = path.weights.pdf * (1 / sample.pdf.value);
   path.competes = true;
   path.from = p;
@@ -195,18 +194,18 @@ inline bool VolumePathIntegrator::scatter_at_surface(const Scene& scene, const S
     if (path.competes) path.weights.light = path.weights.pdf * (1 / sample->pdf.value);
     path.from = lit_point(scene, s);
   }
-  if (!survives(path)) return false;
+  if (!survives(path, kPathRoulette)) return false;
   if (separates) path.medium = scene.medium_beyond(s, sample->wi);
   path.ray = spawn_ray(s, sample->wi);
   return true;
 }
 
-bool VolumePathIntegrator::survives(Path& path) const {
+bool VolumePathIntegrator::survives(Path& path, const Roulette& roulette) const {
   const float importance = path.weights.mean_over_channels().max();
   if (!(importance > 0)) return false;
   if (path.depth < options_.rr_depth) return true;
   // Where light is refracted into a denser medium its radiance grows without carrying more.
-  const float survival = russian_roulette(importance * path.eta * path.eta, path.sampler);
+  const float survival = russian_roulette(roulette, importance * path.eta * path.eta, path.sampler);
   if (survival == 0) return false;
   path.weights.value *= 1 / survival;
   return true;

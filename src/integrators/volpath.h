@@ -3,6 +3,7 @@
 
 #include "integrators/camera_integrator.h"
 #include "scene/description_integrators.h"
+#include "transport/roulette.h"
 
 namespace duet {
 
@@ -35,7 +36,7 @@ class VolumePathIntegrator final : public CameraIntegrator {
   bool scatter_at_surface(const Scene& scene, const Surface& s, const B& bsdf, uint32_t dimension,
                           Path& path) const;
   /// Whether the path goes on; its weight then makes up for those that end.
-  bool survives(Path& path) const;
+  bool survives(Path& path, const Roulette& roulette) const;
   /// Whether the next point of scattering would be one too many.
   bool at_limit(int depth) const { return options_.max_depth >= 0 && depth >= options_.max_depth; }
 

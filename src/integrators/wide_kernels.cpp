@@ -115,7 +115,7 @@ template <bool kRoulette>
     alive = importance > 0 ? alive : 0;
     float scale = 1;
     if constexpr (kRoulette) {
-      const float survival = roulette_probability(importance * eta * eta);
+      const float survival = kPathRoulette.probability(importance * eta * eta);
       alive = scattering.roulette[i] < survival ? alive : 0;
       scale = 1 / survival;
     }

@@ -62,7 +62,7 @@ template <bool kRoulette>
     alive = std::max(std::max(r, g), b) > 0 ? alive : 0;
     float scale = 1;
     if constexpr (kRoulette) {
-      const float survival = roulette_probability(carried);
+      const float survival = kSubpathRoulette.probability(carried);
       alive = scattering.roulette[i] < survival ? alive : 0;
       scale = 1 / survival;
     }

@@ -11,7 +11,8 @@
 namespace duet {
 
 namespace parameter_words {
-inline constexpr Parameter kRrDepth{"rr_depth", integer, kInitial, "where Russian roulette begins",
+inline constexpr Parameter kRrDepth{"rr_depth", integer, kInitial,
+                                    "segments before Russian roulette begins (Mitsuba: 5)",
                                     positive};
 inline constexpr Parameter kHideEmitters{"hide_emitters", boolean, kInitial,
                                          "lights cannot be seen directly"};
@@ -37,7 +38,7 @@ constexpr Parameter max_depth_parameter(
 /// What all methods that trace paths of any length share.
 struct PathLimits {
   int max_depth = -1;  ///< longest path in segments; −1 is no limit
-  int rr_depth = 5;    ///< segments before Russian roulette begins
+  int rr_depth = 2;    ///< segments before Russian roulette begins
   bool hide_emitters = false;
   /// Ignore directions that the shading and the geometric normal see on different sides.
   bool strict_normals = false;

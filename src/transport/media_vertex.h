@@ -164,7 +164,7 @@ inline bool scatter_in_medium(const MediaVertex& v, const TechniqueSet& set,
   const PhaseSample s = phase.sample(v.position(), v.wo, sampler.next_1d(), direction);
   if (!(s.pdf.value > 0)) return false;
   subpath.throughput = v.throughput;
-  if (!survives(v.depth, options, sampler, subpath)) return false;
+  if (!survives(v.depth, options, kMediaRoulette, sampler, subpath)) return false;
   const float reverse = phase.eval(v.position(), s.wi, v.wo).value;
   subpath.partials = leave(v.partials, {s.pdf.value, reverse, v.extinction}, set, false);
   subpath.forward = s.pdf.value;

@@ -11,7 +11,7 @@
 namespace duet {
 
 struct SubpathOptions {
-  int rr_depth = 5;  ///< segments before roulette begins
+  int rr_depth = 2;  ///< segments before roulette begins
   bool strict_normals = false;
 };
 
@@ -65,10 +65,11 @@ inline void record_departure(Subpath& subpath, float reverse, bool specular, boo
 
 /// Whether a sub-path goes on from a vertex `depth` segments from its start; its throughput then
 /// makes up for those that end.
-inline bool survives(int depth, const SubpathOptions& options, Sampler& sampler, Subpath& subpath) {
+inline bool survives(int depth, const SubpathOptions& options, const Roulette& roulette,
+                     Sampler& sampler, Subpath& subpath) {
   if (depth < options.rr_depth) return true;
   // Relative to what the sub-path began with: the same for dim and for bright lights.
-  const float survival = russian_roulette(subpath.carried, sampler);
+  const float survival = russian_roulette(roulette, subpath.carried, sampler);
   if (survival == 0) return false;
   subpath.throughput *= 1 / survival;
   subpath.carried /= survival;
@@ -107,7 +108,7 @@ inline bool scatter_on_surface(const PathVertex& v, const TechniqueSet& set,
     if (subpath.pdfs) subpath.pdfs->pop_back();
     return true;
   }
-  if (!survives(v.depth, options, sampler, subpath)) return false;
+  if (!survives(v.depth, options, kSubpathRoulette, sampler, subpath)) return false;
   const float cosine_out = v.cosine(s->wi);
   if (s->delta) {
     const float jacobian = specular_jacobian(v, *s);

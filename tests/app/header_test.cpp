@@ -39,7 +39,7 @@ TEST_SUITE("program") {
     CHECK(h["scene"] == "a scene.xml");
     CHECK(h["sceneHash"].size() == 16);
     CHECK(h["integrator"] == "path");
-    CHECK(contains(h["integratorParameters"], "max_depth=3 rr_depth=5"));
+    CHECK(contains(h["integratorParameters"], "max_depth=3 rr_depth=2"));
     CHECK(h["sampler"] == "sobol");
     CHECK(std::stod(h["spp"]) == 8);
     CHECK(h.contains("lightSubpaths"));

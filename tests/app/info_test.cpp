@@ -155,7 +155,7 @@ TEST_SUITE("program") {
     CHECK(j["version"] == "3.0.0");
     CHECK(j["parameters"]["spp"] == "12");
     CHECK(j["integrator"]["name"] == "path");
-    CHECK(contains(j["integrator"]["parameters"], "max_depth=4 rr_depth=5"));
+    CHECK(contains(j["integrator"]["parameters"], "max_depth=4 rr_depth=2"));
     const auto& sensor = j["sensors"].at(0);
     CHECK(sensor["type"] == "perspective");
     CHECK(sensor["width"] == 16);

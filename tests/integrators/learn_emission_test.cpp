@@ -120,7 +120,8 @@ TEST_CASE("guided light sub-paths bring the same light, with less noise") {
                         {"many points, ptracer", on_plain(chain(), "12"), "ptracer", 3}};
   for (const Case& c : cases) {
     CAPTURE(c.name);
-    Parameters p{{"max_depth", "5"}, {"light_paths", "4"}};
+    // Without roulette, the noise of which guides do not change.
+    Parameters p{{"max_depth", "5"}, {"light_paths", "4"}, {"rr_depth", "5"}};
     if (c.method != "ptracer" && c.method != "bdpt") p.push_back({"radius", "0.05"});
     const Moments guided = means(c.scene, c.method, p, 8, 100);
     p.push_back({"guide_emission", "false"});

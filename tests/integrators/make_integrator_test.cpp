@@ -59,7 +59,7 @@ TEST_CASE("the parameters of each method, with their presets") {
   const auto parameters = [](const std::string& name) {
     return integrator_parameters(with({}, name));
   };
-  const std::string paths = "max_depth=-1 rr_depth=5 hide_emitters=false",
+  const std::string paths = "max_depth=-1 rr_depth=2 hide_emitters=false",
                     own = paths + " strict_normals=false light_selection=auto",
                     lights = " light_paths=0 guide_emission=true", more = own + lights;
   CHECK(parameters("path") == own + " only_specular=false");
