@@ -106,7 +106,7 @@ inline bool PathIntegrator::scatter(const Scene& scene, const Surface& s, const 
   if (depth >= options_.rr_depth) {
     // Where light is refracted into a denser medium its radiance grows without carrying more.
     const float survival =
-        russian_roulette(kPathRoulette, importance * path.eta * path.eta, sampler);
+        russian_roulette(kPathRoulette.at(depth), importance * path.eta * path.eta, sampler);
     if (survival == 0) return false;
     path.throughput *= 1 / survival;
   }

@@ -205,7 +205,8 @@ bool VolumePathIntegrator::survives(Path& path, const Roulette& roulette) const 
   if (!(importance > 0)) return false;
   if (path.depth < options_.rr_depth) return true;
   // Where light is refracted into a denser medium its radiance grows without carrying more.
-  const float survival = russian_roulette(roulette, importance * path.eta * path.eta, path.sampler);
+  const float survival =
+      russian_roulette(roulette.at(path.depth), importance * path.eta * path.eta, path.sampler);
   if (survival == 0) return false;
   path.weights.value *= 1 / survival;
   return true;

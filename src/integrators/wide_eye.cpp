@@ -97,7 +97,8 @@ void WideEye::trace(int n, const BatchSampler& sampler, WideSamples& samples,
     for (int i = 0; i < n; ++i)
       if (!scattering_.null[i]) samples.alpha[paths_.id[i]] = 1;
     if (limits_.strict_normals) drop_two_sided_directions(n);
-    go_on(n, has_roulette(depth), {plan_.set, ends_, points_}, scattering_, paths_, subpaths_);
+    go_on(n, {plan_.set, ends_, points_, roulette_at(depth, kSubpathRoulette)}, scattering_, paths_,
+          subpaths_);
     n = find_alive(n);
     fill_gaps();
   }

@@ -5,7 +5,6 @@
 #include "materials/plain_diffuse.h"
 #include "math/frame.h"
 #include "math/warp.h"
-#include "transport/roulette.h"
 
 namespace duet {
 
@@ -102,7 +101,8 @@ DUET_WIDEST void weigh_light_samples(int n, const WidePaths& paths, const WidePo
 namespace {
 
 template <bool kRoulette>
-[[gnu::always_inline]] inline void continue_paths(int n, const WidePoints& points,
+[[gnu::always_inline]] inline void continue_paths(int n, Roulette roulette,
+                                                  const WidePoints& points,
                                                   WideScattering& scattering, WidePaths& paths) {
   DUET_LANES
   for (int i = 0; i < n; ++i) {
@@ -115,7 +115,7 @@ template <bool kRoulette>
     alive = importance > 0 ? alive : 0;
     float scale = 1;
     if constexpr (kRoulette) {
-      const float survival = kPathRoulette.probability(importance * eta * eta);
+      const float survival = roulette.probability(importance * eta * eta);
       alive = scattering.roulette[i] < survival ? alive : 0;
       scale = 1 / survival;
     }
@@ -134,12 +134,12 @@ template <bool kRoulette>
 
 }  // namespace
 
-DUET_WIDEST void go_on(int n, bool roulette, const WidePoints& points, WideScattering& scattering,
-                       WidePaths& paths) {
+DUET_WIDEST void go_on(int n, const std::optional<Roulette>& roulette, const WidePoints& points,
+                       WideScattering& scattering, WidePaths& paths) {
   if (roulette)
-    continue_paths<true>(n, points, scattering, paths);
+    continue_paths<true>(n, *roulette, points, scattering, paths);
   else
-    continue_paths<false>(n, points, scattering, paths);
+    continue_paths<false>(n, {}, points, scattering, paths);
 }
 
 }  // namespace duet

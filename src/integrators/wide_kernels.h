@@ -3,7 +3,10 @@
 // that the results are the same bit for bit. All work on the first `n` of a batch.
 #pragma once
 
+#include <optional>
+
 #include "integrators/wide_state.h"
+#include "transport/roulette.h"
 
 namespace duet {
 
@@ -49,8 +52,8 @@ void sample_diffuse(int n, const WidePaths& paths, const WidePoints& points,
 /// Contributions of light samples, weighted against BSDF samples, and their shadow rays.
 void weigh_light_samples(int n, const WidePaths& paths, const WidePoints& points,
                          const WideLightSamples& samples, WideShadowRays& out);
-/// The next rays, with or without roulette; `scattering.alive` says which there are.
-void go_on(int n, bool roulette, const WidePoints& points, WideScattering& scattering,
-           WidePaths& paths);
+/// The next rays, with roulette if there is one; `scattering.alive` says which there are.
+void go_on(int n, const std::optional<Roulette>& roulette, const WidePoints& points,
+           WideScattering& scattering, WidePaths& paths);
 
 }  // namespace duet

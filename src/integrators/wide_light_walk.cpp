@@ -176,7 +176,8 @@ void WideLightWalk::scatter(int n, const BatchSampler& sampler, uint32_t dimensi
   sample_specular_points(&ends_.reverse);
   scatter_special_vertices();
   weigh_by_adjoint(n, paths_, points_, scattering_);
-  go_on(n, has_roulette(depth), {plan_->set, ends_, points_}, scattering_, paths_, subpaths_);
+  go_on(n, {plan_->set, ends_, points_, roulette_at(depth, kSubpathRoulette)}, scattering_, paths_,
+        subpaths_);
 }
 
 void WideLightWalk::keep_vertices(int n, int depth) {

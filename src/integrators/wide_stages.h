@@ -56,6 +56,10 @@ class WideStages {
     return sides_differ(points_.ng.vector(i), points_.ns.vector(i), w);
   }
   bool has_roulette(int depth) const { return depth >= limits_.rr_depth; }
+  /// Nothing where it has not begun.
+  std::optional<Roulette> roulette_at(int depth, const Roulette& r) const {
+    return has_roulette(depth) ? std::optional(r.at(depth)) : std::nullopt;
+  }
   Hit hit(int i) const {
     return {hits_.t[i],         hits_.u[i],     hits_.v[i],
             hits_.primitive[i], hits_.shape[i], hits_.instance[i]};

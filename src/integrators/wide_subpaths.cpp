@@ -3,7 +3,6 @@
 #include "base/instruction_sets.h"
 #include "integrators/wide_kernels.h"
 #include "materials/plain_diffuse.h"
-#include "transport/roulette.h"
 
 namespace duet {
 
@@ -43,7 +42,8 @@ DUET_WIDEST void make_ends(int n, const WidePaths& paths, const WideSubpaths& su
 namespace {
 
 template <bool kRoulette>
-[[gnu::always_inline]] inline void continue_subpaths(int n, const WideDepartures& from,
+[[gnu::always_inline]] inline void continue_subpaths(int n, Roulette roulette,
+                                                     const WideDepartures& from,
                                                      WideScattering& scattering, WidePaths& paths,
                                                      WideSubpaths& subpaths) {
   const WideEnds& ends = from.ends;
@@ -62,7 +62,7 @@ template <bool kRoulette>
     alive = std::max(std::max(r, g), b) > 0 ? alive : 0;
     float scale = 1;
     if constexpr (kRoulette) {
-      const float survival = kSubpathRoulette.probability(carried);
+      const float survival = roulette.probability(carried);
       alive = scattering.roulette[i] < survival ? alive : 0;
       scale = 1 / survival;
     }
@@ -92,12 +92,12 @@ template <bool kRoulette>
 
 }  // namespace
 
-DUET_WIDEST void go_on(int n, bool roulette, const WideDepartures& from, WideScattering& scattering,
+DUET_WIDEST void go_on(int n, const WideDepartures& from, WideScattering& scattering,
                        WidePaths& paths, WideSubpaths& subpaths) {
-  if (roulette)
-    continue_subpaths<true>(n, from, scattering, paths, subpaths);
+  if (from.roulette)
+    continue_subpaths<true>(n, *from.roulette, from, scattering, paths, subpaths);
   else
-    continue_subpaths<false>(n, from, scattering, paths, subpaths);
+    continue_subpaths<false>(n, {}, from, scattering, paths, subpaths);
 }
 
 }  // namespace duet

@@ -4,6 +4,7 @@
 
 #include "integrators/wide_glossy.h"
 #include "transport/mis.h"
+#include "transport/roulette.h"
 
 namespace duet {
 
@@ -33,6 +34,7 @@ struct WideDepartures {
   const TechniqueSet& set;
   const WideEnds& ends;
   const WidePoints& points;
+  std::optional<Roulette> roulette;
 };
 
 /// beyond_end(); `merge_term` is zero where the end does not merge.
@@ -50,7 +52,7 @@ void make_ends(int n, const WidePaths& paths, const WideSubpaths& subpaths,
                const WidePoints& points, WideEnds& out);
 /// The next rays and the sums that go with them: leave(). For delta lobes the reverse density of
 /// `from` is the factor of leave_specular().
-void go_on(int n, bool roulette, const WideDepartures& from, WideScattering& scattering,
-           WidePaths& paths, WideSubpaths& subpaths);
+void go_on(int n, const WideDepartures& from, WideScattering& scattering, WidePaths& paths,
+           WideSubpaths& subpaths);
 
 }  // namespace duet

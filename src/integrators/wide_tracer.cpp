@@ -34,7 +34,7 @@ void WideTracer::trace(int n, const BatchSampler& sampler, WideSamples& samples,
     for (int i = 0; i < n; ++i)
       if (!scattering_.null[i]) samples.alpha[paths_.id[i]] = 1;
     if (limits_.strict_normals) drop_two_sided_directions(n);
-    go_on(n, has_roulette(depth), points_, scattering_, paths_);
+    go_on(n, roulette_at(depth, kPathRoulette), points_, scattering_, paths_);
     n = keep_alive(n);
   }
 }

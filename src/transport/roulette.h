@@ -16,6 +16,11 @@ struct Roulette {
   float most;  ///< below one, for paths that lose nothing on their way, as in glass
 
   float probability(float share) const { return std::min(factor * share, most); }
+
+  /// The same at a vertex `depth` segments from the start. What carries much is let go on surely at
+  /// first: light behind a few panes would be noisy for nothing.
+  Roulette at(int depth) const { return {factor, depth < kSure ? 1.0f : most}; }
+  static constexpr int kSure = 5;
 };
 
 /// Of paths that only their own vertices connect with the lights.

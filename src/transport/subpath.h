@@ -69,7 +69,7 @@ inline bool survives(int depth, const SubpathOptions& options, const Roulette& r
                      Sampler& sampler, Subpath& subpath) {
   if (depth < options.rr_depth) return true;
   // Relative to what the sub-path began with: the same for dim and for bright lights.
-  const float survival = russian_roulette(roulette, subpath.carried, sampler);
+  const float survival = russian_roulette(roulette.at(depth), subpath.carried, sampler);
   if (survival == 0) return false;
   subpath.throughput *= 1 / survival;
   subpath.carried /= survival;

@@ -25,7 +25,8 @@ constexpr const char* kRoom =
     "</integrator><sensor type='perspective'><float name='fov' value='60'/>"
     "<film type='hdrfilm'><string name='component_format' value='$component'/>"
     "<rfilter type='$filter'/></film></sensor>"
-    "<shape type='cube'><boolean name='flip_normals' value='true'/></shape>"
+    "<shape type='cube'><boolean name='flip_normals' value='true'/><bsdf type='diffuse'>"
+    "<rgb name='reflectance' value='0.7'/></bsdf></shape>"
     "<shape type='sphere'><float name='radius' value='0.3'/><point name='center' x='0' y='0.5' "
     "z='0.6'/>"
     "<emitter type='area'/></shape></scene>";

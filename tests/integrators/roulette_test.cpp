@@ -41,10 +41,11 @@ TEST_CASE("roulette ends most of what carries little, and in time what carries a
     CHECK(r.probability(0.01f) == doctest::Approx(0.01 * double(r.factor)));
     CHECK(r.probability(1) == r.most);
   }
+  CHECK(kPathRoulette.at(Roulette::kSure - 1).probability(1) == 1);
   const TransportScene mirrors =
       closed_ball("<bsdf type='conductor'><string name='material' value='none'/></bsdf>");
   const RenderCounters c = mirrors.render("path", {{"rr_depth", "2"}}, 64, 1).counters;
-  // One vertex that is sure, and 1 / (1 - most) others.
+  // So many vertices that are sure, and 1 / (1 - most) others.
   CHECK(double(c.path_vertices) / double(c.camera_paths) ==
-        doctest::Approx(1 + 1 / (1 - double(kPathRoulette.most))).epsilon(0.03));
+        doctest::Approx(Roulette::kSure - 1 + 1 / (1 - double(kPathRoulette.most))).epsilon(0.03));
 }

@@ -57,7 +57,7 @@ inline const std::vector<ReferenceCase>& reference_cases() {
       {"media-heterogeneous", "media-heterogeneous", {}, 256, 0.043},
       {"media-homogeneous", "media-homogeneous", {}, 256, 0.37, 0.985},
       {"media-nested", "media-nested", {}, 256, 0.1, kHeavyTails},
-      {"media-phase", "media-phase", {}, 256, 0.083},
+      {"media-phase", "media-phase", {}, 512, 0.083},
       {"mesh-lumpy", "mesh-lumpy", {{"size", "128"}}, 256, 0.05},
       {"orthographic", "orthographic", {}, 256, 0.023},
       {"sdf-grid", "sdf-grid", {}, 256, 0.06},
