@@ -43,7 +43,7 @@ TEST_CASE("another method takes the place of an unknown integrator, with a warni
         "place\n");
   // What all methods share is kept where it can be read.
   REQUIRE(path(r));
-  CHECK(*path(r) == PathIntegratorDescription{{6, 5, true, false}});
+  CHECK(*path(r) == PathIntegratorDescription{{6, 2, true, false}});
   CHECK(replaced("<integrator type='volprim_rf_basic'/>", {"path"}).scene);
   // Elsewhere in the scene errors are errors.
   CHECK(!replaced(kUnknown + "<shape type='sphere'><ref id='nothing'/></shape>", {"path"}).scene);
