@@ -42,10 +42,10 @@ DUET_WIDEST void make_ends(int n, const WidePaths& paths, const WideSubpaths& su
 namespace {
 
 template <bool kRoulette>
-[[gnu::always_inline]] inline void continue_subpaths(int n, Roulette roulette,
-                                                     const WideDepartures& from,
+[[gnu::always_inline]] inline void continue_subpaths(int n, const WideDepartures& from,
                                                      WideScattering& scattering, WidePaths& paths,
                                                      WideSubpaths& subpaths) {
+  const Roulette roulette = kRoulette ? *from.roulette : Roulette{};
   const WideEnds& ends = from.ends;
   const WidePoints& points = from.points;
   const TechniqueSet& set = from.set;
@@ -95,9 +95,9 @@ template <bool kRoulette>
 DUET_WIDEST void go_on(int n, const WideDepartures& from, WideScattering& scattering,
                        WidePaths& paths, WideSubpaths& subpaths) {
   if (from.roulette)
-    continue_subpaths<true>(n, *from.roulette, from, scattering, paths, subpaths);
+    continue_subpaths<true>(n, from, scattering, paths, subpaths);
   else
-    continue_subpaths<false>(n, {}, from, scattering, paths, subpaths);
+    continue_subpaths<false>(n, from, scattering, paths, subpaths);
 }
 
 }  // namespace duet

@@ -2,6 +2,8 @@
 // one sub-path (subpath.h, mis.h), so that the results are the same to rounding.
 #pragma once
 
+#include <optional>
+
 #include "integrators/wide_glossy.h"
 #include "transport/mis.h"
 #include "transport/roulette.h"

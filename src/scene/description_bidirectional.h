@@ -19,7 +19,7 @@ struct BidirectionalIntegratorDescription {
   BidirectionalMethod method = BidirectionalMethod::bdpt;
   /// In segments; −1 is no limit, but max_eye_depth + max_light_depth + 1 with the thesis' weights.
   int max_depth = -1;
-  int rr_depth = 2;
+  int rr_depth = kUsualRrDepth;
   bool hide_emitters = false, strict_normals = false;
   LightSelection light_selection = LightSelection::automatic;
   double light_paths = 0;  ///< light sub-paths per pixel; 0: the default of the method

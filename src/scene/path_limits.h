@@ -35,10 +35,13 @@ constexpr Parameter max_depth_parameter(
 }
 }  // namespace parameter_words
 
+/// `rr_depth` unless a scene says otherwise (docs/roulette.md).
+inline constexpr int kUsualRrDepth = 2;
+
 /// What all methods that trace paths of any length share.
 struct PathLimits {
-  int max_depth = -1;  ///< longest path in segments; −1 is no limit
-  int rr_depth = 2;    ///< segments before Russian roulette begins
+  int max_depth = -1;            ///< longest path in segments; −1 is no limit
+  int rr_depth = kUsualRrDepth;  ///< segments before Russian roulette begins
   bool hide_emitters = false;
   /// Ignore directions that the shading and the geometric normal see on different sides.
   bool strict_normals = false;

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "math/sampler.h"
+#include "scene/path_limits.h"
 #include "transport/counters.h"
 #include "transport/path_vertex.h"
 #include "transport/roulette.h"
@@ -11,7 +12,7 @@
 namespace duet {
 
 struct SubpathOptions {
-  int rr_depth = 2;  ///< segments before roulette begins
+  int rr_depth = kUsualRrDepth;  ///< segments before roulette begins
   bool strict_normals = false;
 };
 

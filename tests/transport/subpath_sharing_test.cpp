@@ -125,7 +125,8 @@ TEST_CASE("noise has no direction, although pixels share light sub-paths") {
       {"bdpt", {{"light_paths", "0.4"}}},
       {"bdpt", {{"connections", "2"}}},
       {"reuse", {{"light_paths", "0.25"}}},
-      {"vcm", {}},
+      // With roulette from two segments on neighbours have a little more in common (0.0502).
+      {"vcm", {{"rr_depth", "5"}}},
   };
   for (const auto& method : methods) {
     const std::string name = method.first;
@@ -138,7 +139,7 @@ TEST_CASE("noise has no direction, although pixels share light sub-paths") {
     CAPTURE(c.down);
     CHECK(std::abs((c.across - c.down) - (path.across - path.down)) < 0.03);
     // Neighbours have photons in common, which makes the noise of merging alike in all directions.
-    const double most = name == "vcm" ? 0.06 : 0.03;
+    const double most = name == "vcm" ? 0.05 : 0.03;
     CHECK(std::abs(c.across - path.across) < most);
     CHECK(std::abs(c.down - path.down) < most);
   }
