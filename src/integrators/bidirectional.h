@@ -86,8 +86,11 @@ class BidirectionalIntegrator final : public CameraIntegrator {
   void find_photons(const Vertex& v, Eye<Vertex>& eye) const;
   template <class Vertex, class Weights>
   void merge(const Weights& weights, const Vertex& v, Eye<Vertex>& eye) const;
-  /// Vertices of the pixel's light sub-path that are near enough in length to be connected with
-  /// `v`.
+  /// The light sub-path that `v` is connected with.
+  template <class Vertex>
+  size_t light_subpath(const Vertex& v, const Eye<Vertex>& eye) const;
+  /// Its vertices that make no path too long with `v`, and those among them that cannot be
+  /// connected.
   template <class Vertex>
   int candidates(const Vertex& v, const Eye<Vertex>& eye) const;
   /// Whether the method merges in a pixel, whose number is that of CameraPath.

@@ -33,7 +33,14 @@ int BidirectionalIntegrator::candidates(const Vertex& v, const Eye<Vertex>& eye)
   const LightVertices& light = lights_.vertices();
   if (!set_.connections || options_.connections >= 0 || light.ends.empty()) return 0;
   if (options_.method == Method::reuse && v.depth > windows_.eye) return 0;
-  return std::clamp(max_depth_ - v.depth - 1, 0, int(light.lengths[eye.light_subpath]));
+  return std::clamp(max_depth_ - v.depth - 1, 0, int(light.lengths[light_subpath(v, eye)]));
+}
+
+template <class Vertex>
+size_t BidirectionalIntegrator::light_subpath(const Vertex& v, const Eye<Vertex>& eye) const {
+  // The thesis connects whole sub-paths with each other.
+  if (options_.weights != ReuseWeights::exact) return eye.light_subpath;
+  return sharing_.at_vertex(eye.light_subpath, lights_.vertices().ends.size(), v.depth);
 }
 
 template <class Vertex, class Weights>
@@ -41,23 +48,18 @@ void BidirectionalIntegrator::connect(const Weights& weights, const Vertex& v,
                                       Eye<Vertex>& eye) const {
   const int most = candidates(v, eye);
   if (most == 0) return;
-  std::vector<Vertex>& light_vertices = eye.workspace.light_vertices;
-  if (!eye.has_light_vertices) {
-    light_vertices.clear();
-    for (const LightVertex& l : lights_.vertices().subpath(eye.light_subpath))
-      light_vertices.emplace_back(Unpacked<Vertex>{l, eye.scene});
-    eye.has_light_vertices = true;
-  }
+  const size_t subpath = light_subpath(v, eye);
   Weights own = weights;
+  if constexpr (std::is_same_v<Weights, WindowWeights>) own.set_light(lights_.pdfs(subpath));
   const ConnectionContext<Weights> connections = eye.connections(own, options_.strict_normals);
   int tried = 0;
-  for (const Vertex& l : light_vertices) {
-    if (l.depth > most) break;
+  for (const LightVertex& l : lights_.vertices().subpath(subpath)) {
+    if (int(l.depth) > most) break;
     if constexpr (Vertex::kMedia && std::is_same_v<Weights, WindowWeights>)
-      own.set_light(lights_.pdfs(eye.light_subpath),
-                    &lights_.end_pdfs(eye.light_subpath)[size_t(tried)]);
+      own.set_light(lights_.pdfs(subpath), &lights_.end_pdfs(subpath)[size_t(tried)]);
     ++tried;
-    add(eye, l.depth + 1, v.depth + 1, connect_ends(connections, l, v));
+    add(eye, int(l.depth) + 1, v.depth + 1,
+        connect_ends(connections, l.unpack<Vertex>(eye.scene), v));
   }
   eye.counters.connections.failed_specular += uint64_t(most - tried);
 }

@@ -230,7 +230,6 @@ Spectrum BidirectionalIntegrator::trace(const Scene& scene, const CameraPath& pa
     SubpathPdfs& pdfs = workspace.pdfs;
     pdfs.assign(1, VertexPdfs{1, 0, 1, false});
     WindowWeights weights(windows_, nullptr, &pdfs);
-    if (subpaths > 0) weights.set_light(lights_.pdfs(eye.light_subpath));
     subpath(weights, &pdfs, eye);
   } else if (options_.method == Method::ptracer || options_.method == Method::ppm) {
     subpath(UnitWeights(), nullptr, eye);

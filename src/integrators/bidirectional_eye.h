@@ -8,8 +8,7 @@ namespace duet {
 /// What the eye sub-paths of one tile use one after the other, so that none of them allocates.
 template <class Vertex>
 struct EyeWorkspace {
-  std::vector<Vertex> light_vertices;  ///< of the pixel's light sub-path
-  std::vector<uint32_t> photons;       ///< those near the vertex under way
+  std::vector<uint32_t> photons;  ///< those near the vertex under way
   SubpathPdfs pdfs;
 };
 
@@ -35,9 +34,7 @@ struct BidirectionalIntegrator::Eye {
   EyeWorkspace<Vertex>& workspace;
   bool merging;  ///< in this pixel, if the method merges
   Spectrum sum{};
-  size_t light_subpath = 0;  ///< the one that belongs to the pixel
-  /// Whether the workspace has its vertices: once there is a vertex to connect them with.
-  bool has_light_vertices = false;
+  size_t light_subpath = 0;           ///< the one that belongs to the pixel
   float photon_share = 1;             ///< for how many photons each of them stands
   VertexGrid::Neighborhood around{};  ///< where photons near the vertex under way are looked for
 

@@ -182,9 +182,12 @@ class PilotEyeSubpath {
   ConnectionContext<FamilyWeights> found_light() { return connections(roulette_, counters()); }
 
   void connect(const Vertex& v) {
-    const std::span<const VertexPdfs> pdfs = pilot_.light.pdfs(index_);
-    const size_t first = pilot_.light.first_vertex(index_);
-    for (size_t i = first; i < pilot_.light.vertex_ends[index_]; ++i) {
+    // Another one at each vertex, as in SubpathSharing, and never one of the pixel's other
+    // sub-path.
+    const size_t subpath = (index_ + 2 * size_t(v.depth - 1)) % pilot_.light.vertex_ends.size();
+    const std::span<const VertexPdfs> pdfs = pilot_.light.pdfs(subpath);
+    const size_t first = pilot_.light.first_vertex(subpath);
+    for (size_t i = first; i < pilot_.light.vertex_ends[subpath]; ++i) {
       const LightVertex& packed = pilot_.light.vertices[i];
       if (int(packed.depth) + v.depth + 1 > pilot_.max_depth) break;
       weights_.set_light(pdfs, &pilot_.light.arrivals[i].ends);

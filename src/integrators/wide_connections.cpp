@@ -15,19 +15,27 @@ void WideEye::connect(int n, int depth, WideSamples& samples, RenderCounters& co
   if (plan_.drawn) return connect_drawn(n, depth, samples, counters);
   for (int i = 0; i < n; ++i) {
     if (!carries(i)) continue;
-    const LightSubpath& light = light_[size_t(paths_.id[i])];
-    const PathVertex* const special = special_vertex(i);
-    int count = connects_at(i) ? light.count : 0;
+    LightSubpath light = light_subpath(i, depth);
+    if (!connects_at(i)) light.count = 0;
+    int& count = light.count;
     while (count > 0 && vertices[light.first + uint32_t(count) - 1].depth > most) --count;
     counters.connections.failed_specular += uint64_t(std::min(most, light.length) - count);
-    if (!special)
-      find_pairs(i, count, depth, samples, counters);
+    if (!special_vertex(i))
+      find_pairs(i, light, depth, samples, counters);
     else
       for (int k = 0; k < count; ++k)
-        connect_one_by_one(i, light_vertex(paths_.id[i], k), 0, depth, samples, counters);
+        connect_one_by_one(i, light_vertex(light, k), 0, depth, samples, counters);
   }
   for (size_t list = 0; list < pairs_.size(); ++list) flush_pairs(list, depth, samples, counters);
   flush_single(samples, counters);
+}
+
+WideEye::LightSubpath WideEye::light_subpath(int i, int depth) const {
+  const LightVertices& vertices = plan_.lights->vertices();
+  const size_t index =
+      plan_.sharing->at_vertex(own_light_[size_t(paths_.id[i])], vertices.ends.size(), depth);
+  const uint32_t first = vertices.first(index);
+  return {index, first, int(vertices.ends[index] - first), vertices.lengths[index]};
 }
 
 bool WideEye::connects_at(int i) {
@@ -84,9 +92,8 @@ void WideEye::connect_drawn(int i, int k, uint32_t index, int depth, WideSamples
   list.pairs.drawn[list.count++] = ConnectionRoulette::event(0, 0, k);
 }
 
-void WideEye::find_pairs(int i, int count, int depth, WideSamples& samples,
+void WideEye::find_pairs(int i, const LightSubpath& light, int depth, WideSamples& samples,
                          RenderCounters& counters) {
-  const LightSubpath& light = light_[size_t(paths_.id[i])];
   const ConnectionVertex* const vertices = plan_.lights->connection_vertices().data() + light.first;
   const Point3f position = points_.position.point(i);
   const Vector3f lit = ends_.lit.vector(i);
@@ -94,14 +101,14 @@ void WideEye::find_pairs(int i, int count, int depth, WideSamples& samples,
   const WideShape& shape = wide_.shapes[hits_.shape[i]];
   const auto own = size_t(shape.pair_list());
   const int transmits = shape.transmits;
-  for (int k = 0; k < count; ++k) {
+  for (int k = 0; k < light.count; ++k) {
     const ConnectionVertex& l = vertices[k];
     if (l.material == ConnectionVertex::kOther) {
       const Vector3f d = l.position - position;
       if (l.faces && !((transmits || dot(lit, d) > 0) && dot(l.lit, d) < 0))
         ++counters.connections.failed_zero;
       else
-        connect_one_by_one(i, light_vertex(paths_.id[i], k), 0, depth, samples, counters);
+        connect_one_by_one(i, light_vertex(light, k), 0, depth, samples, counters);
       continue;
     }
     const size_t number = l.material == ConnectionVertex::kDiffuse ? own : pairs_.size() - 1;
@@ -212,15 +219,15 @@ const PathVertex& WideEye::eye_vertex(int i, int depth) {
   return vertices_[size_t(vertex_of_[i])];
 }
 
-const PathVertex& WideEye::light_vertex(int id, int number) {
-  LightSubpath& leader = light_[size_t(light_[size_t(id)].leader)];
-  if (leader.unpacked < 0) {
-    leader.unpacked = int(unpacked_.size());
-    const std::vector<LightVertex>& packed = plan_.lights->vertices().vertices;
-    for (int k = 0; k < leader.count; ++k)
-      unpacked_.emplace_back(Unpacked<PathVertex>{packed[leader.first + uint32_t(k)], wide_.scene});
+const PathVertex& WideEye::light_vertex(const LightSubpath& light, int number) {
+  UnpackedSubpath& known = unpacked_subpaths_[light.index % unpacked_subpaths_.size()];
+  if (known.subpath != light.index) {
+    known = {light.index, int(unpacked_.size())};
+    const LightVertices& vertices = plan_.lights->vertices();
+    for (const LightVertex& v : vertices.subpath(light.index))
+      unpacked_.emplace_back(Unpacked<PathVertex>{v, wide_.scene});
   }
-  return unpacked_[size_t(leader.unpacked + number)];
+  return unpacked_[size_t(known.first + number)];
 }
 
 }  // namespace duet

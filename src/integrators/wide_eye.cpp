@@ -16,8 +16,7 @@ void WideEye::enter(std::span<const uint64_t> pixels) {
     photon_entries_.resize(most);
     photon_points_.resize(most);
   }
-  light_.assign(pixels.size(), {});
-  leaders_.fill({});
+  own_light_.resize(pixels.size());
   const LightVertices& vertices = plan_.lights->vertices();
   const size_t subpaths = vertices.ends.size();
   first_light_ = plan_.drawn ? 0 : ~0u;
@@ -27,22 +26,13 @@ void WideEye::enter(std::span<const uint64_t> pixels) {
     random_[id] = key;
     merging_[id] = plan_.set.merges && plan_.merges_in(pixels[id]);
     if (subpaths == 0 || plan_.drawn) continue;
-    const size_t subpath = plan_.sharing->subpath(pixels[id], subpaths);
-    const uint32_t first = subpath == 0 ? 0 : vertices.ends[subpath - 1];
-    light_[id] = {first, int(vertices.ends[subpath] - first), vertices.lengths[subpath],
-                  leader(subpath, int(id))};
-    first_light_ = std::min(first_light_, first);
+    const size_t own = plan_.sharing->subpath(pixels[id], subpaths);
+    own_light_[id] = uint32_t(own);
+    first_light_ =
+        std::min(first_light_, vertices.first(plan_.sharing->group(own, subpaths).first));
   }
   unpacked_.clear();
-}
-
-int WideEye::leader(size_t subpath, int id) {
-  // Few slots are taken, so that the next free one is near.
-  size_t slot = mix64(subpath) % leaders_.size();
-  while (leaders_[slot].id >= 0 && leaders_[slot].subpath != subpath)
-    slot = (slot + 1) % leaders_.size();
-  if (leaders_[slot].id < 0) leaders_[slot] = {subpath, id};
-  return leaders_[slot].id;
+  unpacked_subpaths_.fill({});
 }
 
 void WideEye::begin(int n) {

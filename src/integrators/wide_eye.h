@@ -26,7 +26,7 @@ struct WideEyePlan {
   const EmissionGuide* guide = nullptr;  ///< or null
   const VertexGrid* photons = nullptr;   ///< if the set merges
   const MergeMask* mask = nullptr;       ///< if it does so in part
-  /// Null if each vertex is connected with all those of its pixel's light sub-path.
+  /// Null if each vertex is connected with all those of a light sub-path of its tile.
   const DrawnVertices* drawn = nullptr;
 
   bool merges_in(uint64_t pixel) const {
@@ -54,13 +54,12 @@ class WideEye final : public WideWalk, private WideSubpathStages {
              RenderCounters& counters) override;
 
  private:
-  /// The light sub-path of a pixel.
+  /// What an eye vertex is connected with.
   struct LightSubpath {
-    uint32_t first = 0;
-    int count = 0;      ///< vertices
-    int length = 0;     ///< the same with those that cannot be connected
-    int leader = 0;     ///< the first pixel of the batch that has it, by id
-    int unpacked = -1;  ///< of a leader: where its vertices are, once they are needed
+    size_t index;
+    uint32_t first;  ///< among all vertices
+    int count;       ///< vertices
+    int length;      ///< the same with those that cannot be connected
   };
 
   void begin(int n);
@@ -69,13 +68,13 @@ class WideEye final : public WideWalk, private WideSubpathStages {
   /// Makes Partials of the points; at the first, where light tracing competes, of their own.
   void arrive_at_points(int n, int depth);
   void sample_lights(int n, int depth, WideSamples& samples, RenderCounters& counters);
-  /// The first pixel of the batch that has the light sub-path, which is this one if there is none.
-  int leader(size_t subpath, int id);
 
   // wide_connections.cpp
   void connect(int n, int depth, WideSamples& samples, RenderCounters& counters);
+  LightSubpath light_subpath(int i, int depth) const;
   /// Of such a point, with the first `count` vertices of its light sub-path.
-  void find_pairs(int i, int count, int depth, WideSamples& samples, RenderCounters& counters);
+  void find_pairs(int i, const LightSubpath& light, int depth, WideSamples& samples,
+                  RenderCounters& counters);
   /// Makes shadow rays of the pairs in a list.
   void weigh(size_t list, int depth);
   /// The same of pairs whose light vertices are glossy.
@@ -93,7 +92,7 @@ class WideEye final : public WideWalk, private WideSubpathStages {
   void flush_pairs(size_t list, int depth, WideSamples& samples, RenderCounters& counters);
   void flush_single(WideSamples& samples, RenderCounters& counters);
   const PathVertex& eye_vertex(int i, int depth);
-  const PathVertex& light_vertex(int id, int number);
+  const PathVertex& light_vertex(const LightSubpath& light, int number);
 
   // wide_merges.cpp
   void merge(int n, int depth, WideSamples& samples, RenderCounters& counters);
@@ -159,13 +158,15 @@ class WideEye final : public WideWalk, private WideSubpathStages {
   std::array<NearPhotons, 2> near_;  ///< photons of diffuse points, and of glossy ones
   BatchTriples near_sums_{};
   BatchArray<int32_t> near_merged_{};
-  std::vector<LightSubpath> light_;  ///< by id
-  struct Leader {
-    size_t subpath = 0;
-    int id = -1;
+  std::vector<uint32_t> own_light_;   ///< SubpathSharing::subpath(), by id
+  std::vector<PathVertex> unpacked_;  ///< light vertices that were needed as such
+  /// Where the vertices of a light sub-path begin among these, of the last one that had this place:
+  /// those of a tile have numbers in succession, unless none is shared.
+  struct UnpackedSubpath {
+    size_t subpath = ~size_t{0};
+    int first = 0;
   };
-  std::array<Leader, 4 * kBatch> leaders_;  ///< a hash table
-  std::vector<PathVertex> unpacked_;        ///< light vertices that were needed as such
+  std::array<UnpackedSubpath, 4 * kBatch> unpacked_subpaths_;
   /// Those of eye vertices of one material with diffuse light vertices: the first list has all
   /// diffuse ones, others have one glossy material each (WideShape::pair_list()). The last list has
   /// the pairs with glossy light vertices.

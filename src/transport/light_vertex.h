@@ -109,9 +109,9 @@ struct LightVertices {
   /// The part of a list with an entry for every vertex that belongs to sub-path i.
   template <class T>
   std::span<const T> part_of(const std::vector<T>& list, size_t i) const {
-    const uint32_t first = i == 0 ? 0 : ends[i - 1];
-    return {list.data() + first, ends[i] - first};
+    return {list.data() + first(i), ends[i] - first(i)};
   }
+  uint32_t first(size_t i) const { return i == 0 ? 0 : ends[i - 1]; }
 };
 
 }  // namespace duet

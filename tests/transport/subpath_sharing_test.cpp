@@ -113,6 +113,42 @@ TEST_CASE("pixels that share a light sub-path lie apart, but near enough for a c
   }
 }
 
+TEST_CASE(
+    "the vertices of an eye sub-path are connected with different light sub-paths of a tile") {
+  for (const Point2i film : {Point2i{64, 48}, Point2i{1, 1}, Point2i{33, 7}, Point2i{50, 37}}) {
+    const size_t pixels = size_t(film.x) * size_t(film.y);
+    PixelPhases phases;
+    phases.start(film, 5);
+    const PixelPhase part{&phases, 1, 4};
+    for (const PixelPhase* phase : {static_cast<const PixelPhase*>(nullptr), &part})
+      for (const double per_pixel : {1 / 16.0, 0.25, 0.7, 1.0, 2.5}) {
+        const size_t all = phase ? size_t(phase->pixels()) : pixels;
+        const size_t subpaths = std::max<size_t>(1, size_t(std::round(per_pixel * double(all))));
+        if (all == 0) continue;
+        SubpathSharing sharing;
+        sharing.start(film, 5, phase);
+        for (const int depth : {1, 2, 3, 7, 1000}) {
+          std::vector<int> met(subpaths);
+          size_t apart = 0, alike = 0;
+          for (size_t own = 0; own < subpaths; ++own) {
+            const size_t here = sharing.at_vertex(own, subpaths, depth),
+                         next = sharing.at_vertex(own, subpaths, depth + 1);
+            const auto [first, count] = sharing.group(own, subpaths);
+            ++met.at(here);
+            apart += here < first || here >= first + count;
+            alike += here == next && count > 1;
+            if (depth == 1) CHECK(here == own);
+          }
+          CAPTURE(film.x);
+          CAPTURE(per_pixel);
+          CHECK(apart == 0);
+          CHECK(alike == 0);
+          CHECK(std::count(met.begin(), met.end(), 1) == int(subpaths));
+        }
+      }
+  }
+}
+
 TEST_CASE("noise has no direction, although pixels share light sub-paths") {
   const TransportScene s(indirect_room());
   const Correlation path = noise_correlation(s, "path", {{"max_depth", "6"}});
