@@ -29,13 +29,13 @@ uint32_t block_size(const LightPassPlan& plan) {
   return plan.tracer ? (size + kBatch - 1) / kBatch * kBatch : size;
 }
 
-/// Makes room at the end of a list for the blocks' parts of it; returns where each begins.
+/// Makes room for the blocks' parts of a list, from entry `end` on; returns where each begins.
+/// Entries that are there already are not made anew, which one thread would have to do.
 template <class T, class Part>
-std::vector<size_t> make_room(std::vector<T>& list, uint32_t blocks, const Part& part) {
+std::vector<size_t> make_room(std::vector<T>& list, size_t end, uint32_t blocks, const Part& part) {
   std::vector<size_t> begins;
-  size_t end = list.size();
   for (uint32_t i = 0; i < blocks; ++i) begins.push_back(std::exchange(end, end + part(i).size()));
-  list.resize(end);
+  if (end > list.size()) list.resize(end);
   return begins;
 }
 
@@ -152,8 +152,8 @@ void LightPass::trace(const Scene& scene, const LightPassPlan& plan, LightRange 
 }
 
 void LightPass::append_blocks(const LightPassPlan& plan, uint32_t count) {
-  const auto append = [&](auto& list, const auto& part, const auto& changed) {
-    const std::vector<size_t> begins = make_room(list, count, part);
+  const auto append_at = [&](size_t end, auto& list, const auto& part, const auto& changed) {
+    const std::vector<size_t> begins = make_room(list, end, count, part);
     parallel_for(count, plan.threads, [&](size_t i) {
       std::transform(part(uint32_t(i)).begin(), part(uint32_t(i)).end(),
                      list.begin() + ptrdiff_t(begins[i]),
@@ -161,19 +161,26 @@ void LightPass::append_blocks(const LightPassPlan& plan, uint32_t count) {
     });
     return begins;
   };
+  const auto append = [&](auto& list, const auto& part, const auto& changed) {
+    return append_at(list.size(), list, part, changed);
+  };
   const auto same = [](const auto& value, size_t) { return value; };
   const auto& blocks = blocks_;
   if (plan.keep_vertices) {
-    const auto begins = append(
-        vertices_.vertices, [&](uint32_t i) -> auto& { return blocks[i].vertices.vertices; }, same);
+    const auto begins = append_at(
+        kept_, vertices_.vertices, [&](uint32_t i) -> auto& { return blocks[i].vertices.vertices; },
+        same);
     append(
         vertices_.ends, [&](uint32_t i) -> auto& { return blocks[i].vertices.ends; },
         [&](uint32_t end, size_t i) { return uint32_t(begins[i]) + end; });
     append(
         vertices_.lengths, [&](uint32_t i) -> auto& { return blocks[i].vertices.lengths; }, same);
-    append(
-        connection_vertices_, [&](uint32_t i) -> auto& { return blocks[i].connection_vertices; },
-        same);
+    if (plan.keep_connection_vertices)
+      append_at(
+          kept_,
+          connection_vertices_, [&](uint32_t i) -> auto& { return blocks[i].connection_vertices; },
+          same);
+    kept_ = begins.back() + blocks[count - 1].vertices.vertices.size();
   }
   if (!plan.windows) return;
   const auto begins = append(
@@ -187,8 +194,9 @@ void LightPass::append_blocks(const LightPassPlan& plan, uint32_t count) {
 
 void LightPass::run(const Scene& scene, const LightPassPlan& plan, const TakeSplats& splats,
                     RenderCounters& counters) {
-  vertices_.clear();
-  connection_vertices_.clear();
+  kept_ = 0;
+  vertices_.ends.clear();
+  vertices_.lengths.clear();
   pdf_lists_.clear();
   pdf_ends_.clear();
   end_pdfs_.clear();
@@ -214,6 +222,8 @@ void LightPass::run(const Scene& scene, const LightPassPlan& plan, const TakeSpl
     for (uint32_t i = 0; i < count; ++i) counters.add(blocks_[i].counters);
     append_blocks(plan, count);
   }
+  vertices_.vertices.resize(kept_);
+  connection_vertices_.resize(plan.keep_connection_vertices ? kept_ : 0);
 }
 
 }  // namespace duet

@@ -123,6 +123,7 @@ class LightPass {
   void append_blocks(const LightPassPlan& plan, uint32_t count);
 
   std::vector<LightBlock> blocks_;
+  size_t kept_ = 0;  ///< vertices of the pass so far
   LightVertices vertices_;
   std::vector<ConnectionVertex> connection_vertices_;
   SubpathPdfs pdf_lists_;
