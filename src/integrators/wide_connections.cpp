@@ -1,4 +1,4 @@
-// Connections of a batch of eye sub-paths with the light sub-paths of their pixels.
+// Connections of a batch of eye sub-paths with light sub-paths of their tile.
 #include <algorithm>
 
 #include "integrators/wide_conductor.h"

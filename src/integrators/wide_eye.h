@@ -72,7 +72,7 @@ class WideEye final : public WideWalk, private WideSubpathStages {
   // wide_connections.cpp
   void connect(int n, int depth, WideSamples& samples, RenderCounters& counters);
   LightSubpath light_subpath(int i, int depth) const;
-  /// Of such a point, with the first `count` vertices of its light sub-path.
+  /// Of a point in lanes, with these light vertices.
   void find_pairs(int i, const LightSubpath& light, int depth, WideSamples& samples,
                   RenderCounters& counters);
   /// Makes shadow rays of the pairs in a list.

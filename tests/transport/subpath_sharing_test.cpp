@@ -161,8 +161,7 @@ TEST_CASE("noise has no direction, although pixels share light sub-paths") {
       {"bdpt", {{"light_paths", "0.4"}}},
       {"bdpt", {{"connections", "2"}}},
       {"reuse", {{"light_paths", "0.25"}}},
-      // With roulette from two segments on neighbours have a little more in common (0.0502).
-      {"vcm", {{"rr_depth", "5"}}},
+      {"vcm", {}},
   };
   for (const auto& method : methods) {
     const std::string name = method.first;
