@@ -11,6 +11,7 @@
 #include "evaluate/batch/csv.h"
 #include "image/image_io.h"
 #include "support/browser.h"
+#include "support/source_path.h"
 
 using namespace duet;
 using namespace duet::test;
@@ -442,8 +443,8 @@ TEST_SUITE("program") {
   TEST_CASE("the examples are rendered") {
     const Workplace place;
     for (const char* name : {"jobs.csv", "jobs.jsonl"}) {
-      const Outcome o = place.run(
-          {"batch", std::string(DUET_SOURCE_DIR "/examples/") + name, "--report", "report.html"});
+      const Outcome o =
+          place.run({"batch", source_path("examples/") + name, "--report", "report.html"});
       CAPTURE(o.err);
       CHECK(o.code == 0);
     }

@@ -6,6 +6,7 @@
 #include "app/workplace.h"
 #include "base/system/run_program.h"
 #include "image/image_io.h"
+#include "support/source_path.h"
 
 using namespace duet;
 using namespace duet::test;
@@ -105,7 +106,7 @@ TEST_SUITE("program") {
   }
 
   TEST_CASE("slurm: --dry-run prints the scripts of examples/ and leaves nothing") {
-    const fs::path root = DUET_SOURCE_DIR;
+    const fs::path root = fs::path(source_path("")).parent_path();
     const fs::path examples = root / "examples" / "slurm";
     const auto example = [&](const char* name) { return read_file((examples / name).string()); };
     const Outcome o = run_duet({"slurm", "scenes/cornell-box", "--tasks", "16", "--time", "0:30:00",

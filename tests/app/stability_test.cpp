@@ -6,6 +6,7 @@
 #include <set>
 
 #include "app/workplace.h"
+#include "support/source_path.h"
 #include "support/stability_catalogue.h"
 
 using namespace duet::test;
@@ -159,8 +160,8 @@ TEST_SUITE("program") {
   TEST_CASE("stability: only what merges may be off by the margin") {
     const Cabinet c;
     for (const char* folder : {"room", "parts"})
-      std::filesystem::create_directory_symlink(
-          std::string(DUET_SOURCE_DIR "/scenes/stability/") + folder, c.path(folder));
+      std::filesystem::create_directory_symlink(source_path("scenes/stability/") + folder,
+                                                c.path(folder));
     // Against the same images of a light that is stronger by 3 %: without noise.
     json row = Cabinet::row();
     row["scene"] = "room/point.xml", row["define"] = {{"intensity", 1}};
@@ -271,7 +272,7 @@ TEST_SUITE("program") {
   TEST_CASE("stability: the catalogue has all 42 failures and can be read") {
     const Workplace place;
     CHECK(place.run({"stability", "--list"}).code == 0);
-    const json rows = json::parse(read_file(DUET_SOURCE_DIR "/scenes/stability/catalogue.json"));
+    const json rows = json::parse(read_file(source_path("scenes/stability/catalogue.json")));
     std::set<int> numbers;
     for (const json& row : rows) numbers.insert(row.value("number", 0));
     for (int n = 1; n <= 42; ++n) {

@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "support/files.h"
+#include "support/source_path.h"
 
 using namespace duet::test;
 
@@ -13,13 +14,13 @@ namespace {
 namespace fs = std::filesystem;
 
 std::string page() {
-  return read_file(DUET_SOURCE_DIR "/docs/building.md");
+  return read_file(source_path("docs/building.md"));
 }
 
 }  // namespace
 
 TEST_CASE("docs/building.md has all presets, and those of other systems are for these alone") {
-  const auto presets = nlohmann::json::parse(read_file(DUET_SOURCE_DIR "/CMakePresets.json"));
+  const auto presets = nlohmann::json::parse(read_file(source_path("CMakePresets.json")));
   size_t others = 0;
   for (const auto& preset : presets["configurePresets"]) {
     const std::string name = preset["name"];
@@ -37,7 +38,7 @@ TEST_CASE("docs/building.md has all presets, and those of other systems are for 
 
 TEST_CASE("docs/building.md has all files that a port has to look at") {
   const std::string text = page();
-  for (const auto& entry : fs::directory_iterator(DUET_SOURCE_DIR "/src/base/system")) {
+  for (const auto& entry : fs::directory_iterator(source_path("src/base/system"))) {
     CAPTURE(entry.path().string());
     CHECK(text.find("`" + entry.path().stem().string() + "`") != std::string::npos);
   }

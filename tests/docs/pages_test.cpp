@@ -9,6 +9,7 @@
 #include <set>
 
 #include "support/files.h"
+#include "support/source_path.h"
 
 using namespace duet::test;
 
@@ -16,7 +17,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-const fs::path kRoot = DUET_SOURCE_DIR;
+const fs::path kRoot = fs::path(source_path("")).parent_path();
 
 std::string page(const std::string& name) {
   return read_file((kRoot / "docs" / name).string());

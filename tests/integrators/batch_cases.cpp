@@ -1,4 +1,5 @@
 #include "integrators/batch_cases.h"
+#include "support/source_path.h"
 
 namespace duet::test {
 
@@ -29,8 +30,9 @@ std::string emitter(const std::string& type, const std::string& transform) {
 }
 
 std::string lumpy_xml(const std::string& center, const std::string& bsdf) {
-  return "<shape type='serialized'><string name='filename' value='" DUET_SOURCE_DIR
-         "/scenes/mesh-lumpy/lumpy.serialized'/><transform name='to_world'><scale value='0.3'/>"
+  return "<shape type='serialized'><string name='filename' value='" +
+         source_path("scenes/mesh-lumpy/lumpy.serialized") +
+         "'/><transform name='to_world'><scale value='0.3'/>"
          "<translate value='" +
          center + "'/></transform>" + bsdf + "</shape>";
 }

@@ -9,6 +9,7 @@
 #include "math/warp.h"
 #include "measured/measured_file.h"
 #include "support/bsdf_checks.h"
+#include "support/source_path.h"
 #include "values/color.h"
 
 using namespace duet;
@@ -19,7 +20,7 @@ namespace {
 const MeasuredBrdf& brdf(bool anisotropic) {
   static const auto load = [](const char* name) {
     return MeasuredBrdf(std::make_shared<MeasuredTable>(
-        read_measured(std::string(DUET_SOURCE_DIR "/scenes/bsdf-measured/") + name)));
+        read_measured(source_path("scenes/bsdf-measured/") + name)));
   };
   static const MeasuredBrdf first = load("isotropic.bsdf"), second = load("anisotropic.bsdf");
   return anisotropic ? second : first;
@@ -50,7 +51,7 @@ const Row* rows() {
 }
 
 std::string bytes_of(const char* name) {
-  ByteReader in(std::string(DUET_SOURCE_DIR "/scenes/bsdf-measured/") + name);
+  ByteReader in(source_path("scenes/bsdf-measured/") + name);
   const size_t size = size_t(in.size());
   return {reinterpret_cast<const char*>(in.take(size, "it")), size};
 }

@@ -10,6 +10,7 @@
 #include "scene/build.h"
 #include "support/files.h"
 #include "support/memory_scene.h"
+#include "support/source_path.h"
 #include "values/text.h"
 
 using namespace duet;
@@ -17,7 +18,7 @@ using namespace duet::test;
 
 namespace {
 
-const std::string kFolder = std::string(DUET_SOURCE_DIR) + "/tests/broken/";
+const std::string kFolder = source_path("tests/broken/");
 
 /// A line of tests/broken/expected.txt: `file | stage | message`.
 struct Expectation {
@@ -188,8 +189,7 @@ TEST_CASE("broken files: huge values from the command line") {
 }
 
 TEST_CASE("broken files: a scene cut anywhere is refused with a place") {
-  const std::string text =
-      read_file(std::string(DUET_SOURCE_DIR) + "/scenes/two-versions/scene-0.6.xml");
+  const std::string text = read_file(source_path("scenes/two-versions/scene-0.6.xml"));
   const size_t whole = text.rfind("</scene>") + 8;
   for (size_t length = 0; length < whole; length += 7) {
     const Attempt attempt = attempt_text(text.substr(0, length));

@@ -8,6 +8,7 @@
 
 #include "pbrt/pbrt.h"
 #include "support/files.h"
+#include "support/source_path.h"
 #include "values/text.h"
 
 using namespace duet;
@@ -15,7 +16,7 @@ using namespace duet::test;
 
 namespace {
 
-const std::string kBrokenPbrt = std::string(DUET_SOURCE_DIR) + "/tests/broken_pbrt/";
+const std::string kBrokenPbrt = source_path("tests/broken_pbrt/");
 
 /// All messages of a file, with the folder taken away.
 std::string pbrt_messages(const std::string& file) {

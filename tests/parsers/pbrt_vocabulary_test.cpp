@@ -7,13 +7,14 @@
 #include <tuple>
 
 #include "support/files.h"
+#include "support/source_path.h"
 
 using namespace duet;
 using namespace duet::test;
 
 TEST_CASE("docs/pbrt.md is what the tables of pbrt say") {
   // Otherwise: duet plugins --pbrt > docs/pbrt.md
-  CHECK(read_file(std::string(DUET_SOURCE_DIR) + "/docs/pbrt.md") == pbrt::vocabulary_markdown());
+  CHECK(read_file(source_path("docs/pbrt.md")) == pbrt::vocabulary_markdown());
 }
 
 TEST_CASE("pbrt tables: names are unique per version, and what is refused says why") {

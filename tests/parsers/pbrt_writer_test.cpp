@@ -4,6 +4,7 @@
 #include <doctest/doctest.h>
 
 #include "support/pbrt_round_trip.h"
+#include "support/source_path.h"
 
 using namespace duet;
 using namespace duet::test;
@@ -146,8 +147,8 @@ TEST_CASE("pbrt writer: materials survive") {
                     "\"float alpha\" 3 \"float eta\" 1.5"),
         std::string("\"subsurface\" \"rgb sigma_a\" [0.25 0.5 0.25] \"rgb sigma_s\" [0.75 0.5 "
                     "0.25]"),
-        std::string("\"measured\" \"string filename\" \"" DUET_SOURCE_DIR
-                    "/scenes/bsdf-measured/isotropic.bsdf\""),
+        "\"measured\" \"string filename\" \"" + source_path("scenes/bsdf-measured/isotropic.bsdf") +
+            "\"",
         std::string("\"interface\""), std::string("\"diffuse\" \"texture displacement\" \"grey\""),
         std::string("\"diffuse\" \"string normalmap\" \"image.exr\"")}) {
     CAPTURE(material);

@@ -7,6 +7,7 @@
 #include "mitsuba/writer.h"
 #include "support/files.h"
 #include "support/memory_scene.h"
+#include "support/source_path.h"
 
 using namespace duet;
 using namespace duet::test;
@@ -52,7 +53,7 @@ void check_equal(const SceneDescription& a, const SceneDescription& b) {
   CHECK(a == b);
 }
 
-const std::filesystem::path kScenes = std::filesystem::path(DUET_SOURCE_DIR) / "scenes";
+const std::filesystem::path kScenes = source_path("scenes");
 
 const CheckerboardTexture& board(const SceneDescription& scene, size_t i = 0) {
   return std::get<CheckerboardTexture>(scene.textures.at(i).model);

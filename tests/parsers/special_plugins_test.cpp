@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "parsers/plugin_checks.h"
+#include "support/source_path.h"
 
 using namespace duet;
 using namespace duet::test;
@@ -12,7 +13,7 @@ using namespace duet::test;
 namespace {
 
 std::string scene_file(const std::string& name) {
-  return "<string name='filename' value='" DUET_SOURCE_DIR "/scenes/" + name + "'/>";
+  return "<string name='filename' value='" + source_path("scenes/") + name + "'/>";
 }
 
 /// A scene with files on the disk.
@@ -20,7 +21,7 @@ ReadResult on_disk(const std::string& version, const std::string& content) {
   MemoryFiles files = image();
   for (const char* name : {"curves/cables.txt", "curves/ellipsoids.ply", "bsdf-fibres/fur.txt",
                            "bsdf-measured/isotropic.bsdf"})
-    files.texts[std::string(DUET_SOURCE_DIR "/scenes/") + name] = "x";
+    files.texts[source_path("scenes/") + name] = "x";
   return read_scene(version, content, files);
 }
 

@@ -13,6 +13,7 @@
 #include "mitsuba/mitsuba.h"
 #include "scene/build.h"
 #include "support/files.h"
+#include "support/source_path.h"
 #include "support/tables.h"
 
 using namespace duet;
@@ -20,7 +21,7 @@ using namespace duet::test;
 
 namespace {
 
-const std::string kSlotsFolder = std::string(DUET_SOURCE_DIR) + "/reference/slots/";
+const std::string kSlotsFolder = source_path("reference/slots/");
 
 void replace(std::string& text, const std::string& what, const std::string& by) {
   const size_t at = text.find(what);

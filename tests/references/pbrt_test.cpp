@@ -7,6 +7,7 @@
 #include "integrators/method_rules.h"
 #include "references/rendering.h"
 #include "support/files.h"
+#include "support/source_path.h"
 
 using namespace duet;
 using namespace duet::test;

@@ -14,14 +14,11 @@
 #include "integrators/pass.h"
 #include "scene/build.h"
 #include "scene/film_layout.h"
+#include "support/source_path.h"
 
 namespace duet::test {
 
 using Defines = std::vector<std::pair<std::string, std::string>>;
-
-inline std::string source_path(const std::string& path) {
-  return std::string(DUET_SOURCE_DIR) + "/" + path;
-}
 
 /// A scene of the folder scenes/, ready to be rendered.
 class PreparedScene {

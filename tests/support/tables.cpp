@@ -1,4 +1,5 @@
 #include "support/tables.h"
+#include "support/source_path.h"
 
 #include <fstream>
 #include <stdexcept>
@@ -6,7 +7,7 @@
 namespace duet::test {
 
 Json read_table(const std::string& name) {
-  std::ifstream in(std::string(DUET_SOURCE_DIR) + "/reference/tables/" + name + ".json");
+  std::ifstream in(source_path("reference/tables/") + name + ".json");
   if (!in) throw std::runtime_error("missing table " + name);
   return Json::parse(in);
 }

@@ -5,6 +5,7 @@
 #include "materials/pbrt_materials.h"
 #include "materials/principled_materials.h"
 #include "materials/special_materials.h"
+#include "support/source_path.h"
 
 #include <fstream>
 #include <stdexcept>
@@ -316,7 +317,7 @@ Vector3f to_vector(const json& j) {
 
 const json& mitsuba_tables() {
   static const json tables = [] {
-    std::ifstream file(DUET_SOURCE_DIR "/reference/bsdf/mitsuba.json");
+    std::ifstream file(source_path("reference/bsdf/mitsuba.json"));
     if (!file) throw std::runtime_error("reference/bsdf/mitsuba.json is missing");
     return json::parse(file);
   }();

@@ -1,4 +1,5 @@
 #include "support/transport_scene.h"
+#include "support/source_path.h"
 
 namespace duet::test {
 
@@ -25,8 +26,7 @@ TransportScene::TransportScene(const std::string& folder, int size) {
   MitsubaOptions options;
   options.defines = {{"size", std::to_string(size)}};
   Diagnostics diagnostics;
-  auto read = read_mitsuba(std::string(DUET_SOURCE_DIR) + "/scenes/" + folder + "/scene.xml",
-                           options, diagnostics);
+  auto read = read_mitsuba(source_path("scenes/") + folder + "/scene.xml", options, diagnostics);
   REQUIRE(read);
   prepare(read->description);
 }

@@ -8,6 +8,7 @@
 
 #include "scene/mitsuba_differences.h"
 #include "support/files.h"
+#include "support/source_path.h"
 #include "support/texts.h"
 #include "values/text.h"
 
@@ -28,7 +29,7 @@ size_t cells(const std::string& row) {
 
 TEST_CASE("docs/compatibility.md is what the tables say") {
   // Otherwise: duet plugins --markdown > docs/compatibility.md
-  CHECK(read_file(std::string(DUET_SOURCE_DIR) + "/docs/compatibility.md") ==
+  CHECK(read_file(source_path("docs/compatibility.md")) ==
         compatibility_markdown() + "\n" + mitsuba_differences_markdown());
 }
 
