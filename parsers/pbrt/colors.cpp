@@ -56,7 +56,7 @@ Spectrum Reader::triple_color(const Parameter& p, ColorMeaning meaning) {
   const bool bounded = meaning == ColorMeaning::reflectance && p.type == Type::rgb;
   bool outside = false;
   for (const double x : p.numbers) {
-    if (!bounded || (x >= 0 && x <= 1)) continue;
+    if (!bounded || (x >= 0 && float(x) <= 1)) continue;  // pbrt reads single precision
     outside = true;
     if (version_ == Version::v3) continue;
     report_.error(p.where, "parameter \"{}\": a reflectance is from 0 to 1, not {}", p.name, x);

@@ -25,7 +25,7 @@ namespace {
 constexpr Spec kSubsurface[] = {
     {"sigma_a", kColorTexture, "0.0011 0.0024 0.014", "absorption"},
     {"sigma_s", kColorTexture, "2.55 3.21 3.77", "scattering"},
-    {"scale", kNumber, "1", "of both"},
+    {"scale", kNumber, "1", "of both, or of the mean free path"},
     {"reflectance", kColorTexture, "", "of a thick layer, with mfp", 1, Status::done, Versions::v4},
     {"mfp", kColorTexture, "1", "mean free path", 1, Status::done, Versions::v4},
     {"name", kString, "", "of a known medium"},
@@ -34,7 +34,7 @@ constexpr Spec kSubsurface[] = {
 
 constexpr Spec kKdSubsurface[] = {{"Kd", kColorTexture, "0.5", "of a thick layer"},
                                   {"mfp", kColorTexture, "1", "mean free path"},
-                                  {"scale", kNumber, "1", "of the inverse of the mean free path"},
+                                  {"scale", kNumber, "1", "of the mean free path"},
                                   {"eta", kIndex, "1.33", "index of refraction"},
                                   DUET_SURFACE_SPECS};
 
@@ -63,7 +63,8 @@ Spectrum constant(Values& v, const char* name, ColorMeaning meaning) {
 /// A medium and what its free paths and albedo are.
 MediumDescription medium_of(Values& v, const Spectrum& extinction, const Spectrum& albedo) {
   SceneDescription& scene = v.reader().scene();
-  const double g = v.number("g");
+  // Known media scatter the same in all directions, whatever "g" says.
+  const double g = v.has("name") ? 0.0 : v.number("g");
   PhaseDescription phase;
   phase.where = v.where();
   if (g == 0)
@@ -105,14 +106,14 @@ Reflectance read_reflectance(Values& v, const char* name) {
   return {most, v.reader().add_texture(FunctionDescription{share, TextureFunction::root}, where)};
 }
 
-/// The medium of which a thick layer has a reflectance.
+/// The medium of which a thick layer has a reflectance; `scale` multiplies its mean free path.
 MediumDescription medium_by_reflectance(Values& v, const Spectrum& reflectance, double eta,
                                         double scale) {
   const Spectrum path = constant(v, "mfp", ColorMeaning::unbounded);
   Spectrum extinction, albedo;
   for (int c = 0; c < 3; ++c) {
     albedo[c] = float(half_space_albedo(double(reflectance[c]), v.number("g"), eta));
-    extinction[c] = float(scale) / std::max(path[c], 1e-6f);
+    extinction[c] = 1 / std::max(float(scale) * path[c], 1e-6f);
   }
   return medium_of(v, extinction, albedo);
 }
@@ -172,7 +173,7 @@ std::optional<MaterialId> read_subsurface(Values& v) {
   const double eta = v.index_of_refraction("eta");
   if (v.reader().version() == Version::v4 && v.has("reflectance")) {
     const Reflectance r = read_reflectance(v, "reflectance");
-    return bounded(v, medium_by_reflectance(v, r.most, eta, 1), eta, r.tint);
+    return bounded(v, medium_by_reflectance(v, r.most, eta, v.positive("scale")), eta, r.tint);
   }
   auto medium = medium_by_coefficients(v);
   if (!medium) return std::nullopt;

@@ -95,11 +95,11 @@ void Values::check(const Parameter& p) {
   }
   for (const Parameter*& other : given_) {
     if (other->name != p.name) continue;
-    if (reader_.version() == Version::v3) {
+    if (reader_.version() == Version::v3 || other->type == p.type) {
       report.warning(p.where, "parameter \"{}\" is given twice: the last one counts", p.name);
       other = &p;
     } else {
-      report.error(p.where, "parameter \"{}\" is given twice", p.name);
+      report.error(p.where, "parameter \"{}\" is given twice, with two types", p.name);
     }
     return;
   }

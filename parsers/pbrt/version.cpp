@@ -117,13 +117,15 @@ class Search {
 
  private:
   /// Of "type name"; also of a value that looks like one.
-  static std::optional<Version> parameter(std::string_view text) {
+  std::optional<Version> parameter(std::string_view text) const {
     const size_t gap = text.find(' ');
     if (gap == text.npos) return std::nullopt;
     for (const Evidence& e : kEvidence)
       if (e.directive.empty() && e.name == text.substr(0, gap)) return e.version;
     const std::string_view name = text.substr(text.rfind(' ') + 1);
     const bool is_known = find_type(text.substr(0, gap)).has_value();
+    // Coats of v4 have samples, too.
+    if (name == "nsamples" && directive_.ends_with("Material")) return std::nullopt;
     if (is_known && std::ranges::find(kParametersOfV3, name) != std::end(kParametersOfV3))
       return v3;
     return std::nullopt;

@@ -16,6 +16,7 @@
 #include "app/program.h"
 #include "base/diagnostics.h"
 #include "base/shell.h"
+#include "base/system/signals.h"
 #include "base/system/standard_streams.h"
 #include "evaluate/report/provenance.h"
 #include "evaluate/report/version.h"
@@ -58,6 +59,26 @@ std::vector<std::string> in_full(std::vector<std::string> arguments, const CLI::
     throw UsageError(fmt::format("there is no command and no scene \"{}\"{}", first, hint));
   arguments.insert(arguments.begin(), "render");
   return arguments;
+}
+
+/// An option without a value is a mistake, often of a script whose variable is empty. CLI11 would
+/// take the next argument for the value of "--option=".
+void refuse_cut_options(const std::vector<std::string>& arguments) {
+  for (const std::string& a : arguments) {
+    if (a == "--") return;
+    if (a.size() > 2 && a.starts_with("--") && a.find('=') == a.size() - 1)
+      throw UsageError(fmt::format("{} has no value", a));
+  }
+}
+
+/// The same of values that are there and empty.
+void refuse_empty_values(CLI::App& app) {
+  for (CLI::App* command : app.get_subcommands([](CLI::App*) { return true; }))
+    for (CLI::Option* option : command->get_options())
+      if (option->get_type_size() > 0 && option->nonpositional())
+        option->check([](const std::string& value) {
+          return value.empty() ? std::string("the value is empty") : std::string();
+        });
 }
 
 /// A line for each thing that the program is made of.
@@ -115,8 +136,10 @@ int run(std::vector<std::string> arguments, Program& program) {
   add_plugins_command(app, program);
   add_stability_command(app, program);
   add_completion_command(app);
+  refuse_empty_values(app);
   try {
     arguments = in_full(std::move(arguments), app);
+    refuse_cut_options(arguments);
     const std::string help = arguments.empty() ? "duet --help" : "duet " + arguments[0] + " --help";
     std::reverse(arguments.begin(), arguments.end());  // as CLI11 wants them
     try {
@@ -144,6 +167,7 @@ int run(std::vector<std::string> arguments, Program& program) {
 
 int main(int argc, char** argv) {
   duet::open_standard_streams();
+  duet::let_large_files_fail();
   try {
     duet::Program program;
     return duet::run({argv + 1, argv + argc}, program);

@@ -22,6 +22,7 @@
 #include <cstring>
 #include <stdexcept>
 
+#include "base/readable.h"
 #include "image/exr_sizes.h"
 #include "image/image_limits.h"
 
@@ -186,6 +187,7 @@ ImageFile decode_exr(const std::string& path, const std::vector<uint8_t>& bytes)
 }
 
 ImageFacts exr_facts(const std::string& path) {
+  refuse_pipe(path);
   ImageFacts facts;
   try {
     Imf::StdIFStream stream(path.c_str());

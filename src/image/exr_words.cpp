@@ -15,6 +15,7 @@
 #include <algorithm>
 
 #include "base/diagnostics.h"
+#include "base/readable.h"
 #include "base/system/atomic_file.h"
 #include "image/exr_sizes.h"
 
@@ -107,6 +108,7 @@ struct WordReader::File {
 };
 
 WordReader::WordReader(const std::string& path) {
+  refuse_pipe(path);
   try {
     file_ = std::make_unique<File>(path);
     check_sizes(file_->stream);

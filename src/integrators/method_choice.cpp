@@ -4,10 +4,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "base/percent.h"
+#include "integrators/group_pilot.h"
 #include "integrators/merge_parts.h"
 #include "integrators/method_candidates.h"
+#include "integrators/method_costs.h"
 #include "integrators/method_risk.h"
 #include "integrators/method_rules.h"
 #include "integrators/sample_budget.h"
@@ -60,15 +63,41 @@ void add_partly_merged(MethodPrices& prices) {
     }
 }
 
+/// Adds path tracing in groups of pixels, which the first candidate is without them.
+void add_grouped(const PathLimits& o, const GroupGain& gain, MethodPrices& prices) {
+  PathIntegratorDescription method{o};
+  method.pixel_group = kAutoPixelGroup;
+  PredictedMethod p = prices.predictions[0];
+  const double noise = p.variance / prices.spp;
+  p.error += noise * (gain.variance - 1);
+  p.variance *= gain.variance;
+  p.cost += pixel_group_cost(gain.shadow_rays);
+  for (PredictedPart& part : p.parts) {
+    part.error += part.variance / prices.spp * (gain.variance - 1);
+    part.variance *= gain.variance, part.least_error *= gain.variance;
+  }
+  prices.candidates.push_back(
+      {.method = method, .name = fmt::format("path pixel_group={}", kAutoPixelGroup)});
+  prices.predictions.push_back(std::move(p));
+}
+
+/// What the pilots have found.
+struct PilotRecords {
+  PricingRecord record;
+  std::optional<GroupGain> groups;
+};
+
 /// For a number of samples, which those of the batches add up to.
-MethodPrices predict_all(const PricingRecord& record, const Scene& scene, const PathLimits& o,
+MethodPrices predict_all(const PilotRecords& pilots, const Scene& scene, const PathLimits& o,
                          int spp, int batches) {
+  const PricingRecord& record = pilots.record;
   MethodPrices prices;
   prices.candidates = method_candidates(scene, o, std::max(1, spp / batches));
   prices.subpaths = record.subpaths();
   prices.spp = spp;
   for (const MethodCandidate& c : prices.candidates)
     prices.predictions.push_back(predict(record, c, spp));
+  if (pilots.groups) add_grouped(o, *pilots.groups, prices);
   return prices;
 }
 
@@ -178,10 +207,11 @@ MethodPrices price_methods(const Scene& scene, const AutoIntegratorDescription& 
     const double pixels = kPilotShare * samples / (2 * kPilotSubpathCost);
     plan.pixels_per_side = std::clamp(int(std::sqrt(pixels)), kFewestPixels, kMostPixels);
   }
-  const PricingRecord record = run_pricing_pilot(scene, plan);
-  MethodPrices prices = predict_all(record, scene, options, guess, outlook.batches);
+  PilotRecords pilots{run_pricing_pilot(scene, plan), std::nullopt};
+  if (suits_pixel_groups(scene, options)) pilots.groups = measure_pixel_groups(scene, plan);
+  MethodPrices prices = predict_all(pilots, scene, options, guess, outlook.batches);
   if (outlook.seconds || outlook.target_error)
-    prices = predict_all(record, scene, options, expected_samples(outlook, cheapest(prices)),
+    prices = predict_all(pilots, scene, options, expected_samples(outlook, cheapest(prices)),
                          outlook.batches);
   add_partly_merged(prices);
   return prices;

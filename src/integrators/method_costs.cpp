@@ -10,6 +10,10 @@ double path_cost(const WorkPerSample& w) {
   return 0.035 + 0.124 * w.eye_rays + 0.09 * w.light_samples;
 }
 
+double pixel_group_cost(double shadow_rays) {
+  return 0.1 + 0.03 * shadow_rays;
+}
+
 double volpath_cost(const WorkPerSample& w) {
   return 0.05 + 0.18 * w.eye_rays + 0.13 * w.light_samples + 0.05 * w.medium_steps;
 }

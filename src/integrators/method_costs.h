@@ -15,6 +15,8 @@ struct WorkPerSample {
 
 /// In units of about a microsecond on the machine of docs/performance.md; only ratios matter.
 double path_cost(const WorkPerSample& work);
+/// What groups of pixels add to a path, with so many shadow rays more.
+double pixel_group_cost(double shadow_rays);
 /// `path` traces paths in batches (wide_tracer.h), `volpath` one by one.
 double volpath_cost(const WorkPerSample& work);
 /// Of the methods that trace sub-paths from both ends: with eye sub-paths one by one (`ppm`, `bpm`,

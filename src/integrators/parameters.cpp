@@ -111,6 +111,7 @@ Parameters path_parameters(PathLimits& d) {
 Parameters parameters(PathIntegratorDescription& d) {
   Parameters p = path_parameters(d);
   p.push_back(boolean("only_specular", d.only_specular));
+  p.push_back(integer("pixel_group", d.pixel_group, 1, PathIntegratorDescription::kMostInGroup));
   return p;
 }
 

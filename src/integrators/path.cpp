@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "base/failures.h"
 #include "integrators/next_event.h"
 #include "integrators/tile_work.h"
 #include "integrators/wide_tiles.h"
@@ -31,7 +32,19 @@ static bool has_shapes_lit_beside(const Scene& scene) {
 
 bool PathIntegrator::takes_batches(const Scene& scene) const {
   return batches_ == PathBatches::where_possible && only_colours() && options_.max_depth != 0 &&
-         !options_.only_specular && suits_batches(scene) && !has_shapes_lit_beside(scene);
+         !options_.only_specular && suits_groups(scene);
+}
+
+bool PathIntegrator::suits_groups(const Scene& scene) {
+  return suits_batches(scene) && !has_shapes_lit_beside(scene);
+}
+
+void PathIntegrator::choose(const Scene& scene, const RenderOutlook&) {
+  if (options_.pixel_group > 1 && !takes_batches(scene))
+    throw SceneFailure(
+        "\"pixel_group\" of the integrator \"path\" is for scenes whose paths are traced in "
+        "batches: not "
+        "where something moves, with opaque ribbons, \"only_specular\" or a \"max_depth\" of 0");
 }
 
 void PathIntegrator::render_samples(const Scene& scene, Film& film, const SampleRange& samples,

@@ -7,14 +7,19 @@
 namespace duet {
 
 /// Unidirectional path tracing from the camera. Light is found by light samples and by BSDF
-/// samples, weighted by the power heuristic (Veach 1997, section 9.2.4).
+/// samples, weighted by the power heuristic (Veach 1997, section 9.2.4). With groups of pixels
+/// paths use one another's second vertices (wide_pixel_groups.h).
 class PathIntegrator final : public CameraIntegrator {
  public:
   PathIntegrator(const PathIntegratorDescription& options, const CameraOutput& output,
                  PathBatches batches = PathBatches::where_possible)
       : CameraIntegrator(output), options_(options), batches_(batches) {}
 
+  /// Whether paths of the scene can be traced in groups of pixels.
+  static bool suits_groups(const Scene& scene);
+
  protected:
+  void choose(const Scene& scene, const RenderOutlook& outlook) override;
   void render_samples(const Scene& scene, Film& film, const SampleRange& samples,
                       const PassControl& control, RenderCounters& counters) override;
   Spectrum radiance(const Scene& scene, const CameraPath& start, Sampler& sampler,

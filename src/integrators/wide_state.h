@@ -1,6 +1,7 @@
 // What the paths of a batch are at: every stage reads and writes arrays.
 #pragma once
 
+#include "cameras/camera.h"
 #include "geometry/ray_batch.h"
 #include "math/batch_sampler.h"
 
@@ -15,6 +16,19 @@ struct WidePaths {
   BatchArray<float> eta;       ///< relative index of refraction along the path
   BatchArray<int32_t> id;      ///< its pixel, which has its sums
   BatchKeys keys;
+
+  /// Begins path `n` with the camera's ray through pixel `pixel`, whose keys these are.
+  void start(int n, int pixel, const CameraRay& from_camera, const BatchKeys& of_pixels) {
+    ray.origin.set(n, from_camera.origin);
+    ray.direction.set(n, from_camera.direction);
+    ray.tmax[n] = from_camera.tmax;
+    from.set(n, from_camera.origin);
+    throughput.set(n, 1, 1, 1);
+    bsdf_pdf[n] = -1;
+    eta[n] = 1;
+    id[n] = pixel;
+    keys.high[n] = of_pixels.high[pixel], keys.low[n] = of_pixels.low[pixel];
+  }
 };
 
 /// Corners of the triangles that were hit; all normals are zero where the mesh has none.

@@ -100,16 +100,7 @@ int WideTiles::Workspace::start_paths(uint32_t index, BatchSampler& sampler) {
       const CameraRay ray = camera.sample_ray({x[id], y[id]}, {lens_x[id], lens_y[id]});
       weight[id] = ray.weight;
       if (ray.weight == 0) continue;
-      paths.ray.origin.set(n, ray.origin);
-      paths.ray.direction.set(n, ray.direction);
-      paths.ray.tmax[n] = ray.tmax;
-      paths.from.set(n, ray.origin);
-      paths.throughput.set(n, 1, 1, 1);
-      paths.bsdf_pdf[n] = -1;
-      paths.eta[n] = 1;
-      paths.id[n] = id;
-      paths.keys.high[n] = keys.high[id], paths.keys.low[n] = keys.low[id];
-      ++n;
+      paths.start(n++, id, ray, keys);
     }
   return n;
 }

@@ -81,20 +81,27 @@ LightPointer EnvironmentMapLight::build(SceneBuilder& b, const LightDescription&
   const auto image = b.pixels(file, decoding, d.where);
   if (!image) return nullptr;
   if (layout == EnvironmentLayout::equal_area) return equal_area_map(b, *this, d, *image);
-  const int width = image->width(), height = image->height();
-  if (height < 2 || width >= BilinearDistribution::kMaxWidth) {
+  const bool centers = layout == EnvironmentLayout::row_centers;
+  // Mitsuba enlarges smaller images to this size, by the nearest pixel.
+  const int least_width = centers ? 1 : 2, least_height = centers ? 1 : 3;
+  const int width = std::max(image->width(), least_width);
+  const int height = std::max(image->height(), least_height);
+  if (width >= BilinearDistribution::kMaxWidth) {
     b.diagnostics().error(d.where,
-                          "an environment map of {}x{} pixels; it needs two rows and fewer than {} "
-                          "columns",
-                          width, height, BilinearDistribution::kMaxWidth);
+                          "an environment map of {}x{} pixels; it needs fewer than {} columns",
+                          image->width(), image->height(), BilinearDistribution::kMaxWidth);
     return nullptr;
   }
+  const auto nearest = [](int i, int size, int enlarged) {
+    return std::clamp(int((2 * int64_t(i) + 1) * size / (2 * int64_t(enlarged))), 0, size - 1);
+  };
   const auto color = [&](int x, int y) {
-    return image->color(x, std::clamp(y, 0, height - 1)) * (tint * float(scale));
+    const int row = std::clamp(y, 0, height - 1);
+    return image->color(nearest(x, image->width(), width), nearest(row, image->height(), height)) *
+           (tint * float(scale));
   };
   // Between the centres of rows there are their means, so that what is linear between rows at the
   // poles and halfway is linear between the centres.
-  const bool centers = layout == EnvironmentLayout::row_centers;
   const int rows = centers ? 2 * height + 1 : height;
   std::vector<Spectrum> texels(size_t(width) * size_t(rows));
   for (int y = 0; y < rows; ++y)

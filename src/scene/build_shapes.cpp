@@ -165,8 +165,10 @@ void SceneBuilder::announce(const Shape& shape, const ShapeDescription& d) {
   // In Mitsuba 0.x a rectangle has no triangles.
   const bool is_mesh = shape.mesh && !std::holds_alternative<RectangleShape>(d.geometry);
   for (ShapeTexture* t : shape_textures_)
-    if (const std::string lack = t->add_shape(shape, is_mesh); !lack.empty())
+    if (const std::string lack = t->add_shape(shape, is_mesh); !lack.empty()) {
       diagnostics_.error(d.where, "this shape has no {}, which a texture on it reads", lack);
+      lacks_texture_data_ = true;
+    }
 }
 
 }  // namespace duet

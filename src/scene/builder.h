@@ -187,6 +187,7 @@ class SceneBuilder {
   ShapeTextureSet shape_textures_;
   std::map<ImageKey, ReadImage> images_;
   std::vector<Emission> emissions_;
+  bool lacks_texture_data_ = false;  ///< some shape, of what a texture on it reads
   std::vector<DescribedLight> described_lights_;
   /// Per light of the scene.
   std::vector<double> sampling_weights_;

@@ -18,6 +18,10 @@ namespace duet {
 struct PathIntegratorDescription : PathLimits {
   /// Paths go on from smooth surfaces only: direct light, and what mirrors and glass show of it.
   bool only_specular = false;
+  /// So many pixels of a tile, other ones in every sample, use one another's paths from their
+  /// second vertices on; 1: each has its own alone.
+  int pixel_group = 1;
+  static constexpr int kMostInGroup = 64;
   static constexpr auto fields() {
     using namespace parameter_words;
     return joined_fields(
@@ -25,12 +29,19 @@ struct PathIntegratorDescription : PathLimits {
         FieldList(field(&PathIntegratorDescription::only_specular,
                         Parameter{"only_specular", boolean, kInitial,
                                   "Duet's own: paths go on from smooth surfaces only"})
+                      .unwritten(),
+                  field(&PathIntegratorDescription::pixel_group,
+                        Parameter{"pixel_group", integer, kInitial,
+                                  "Duet's own: so many pixels of a tile use one another's paths "
+                                  "from the second vertex on (1 to 64)",
+                                  size})
                       .unwritten()));
   }
   static constexpr const char* method_name() { return "path"; }
   std::vector<std::string> losses() const {
     std::vector<std::string> lost = PathLimits::losses();
     if (only_specular) lost.emplace_back("\"only_specular\" does not exist in Mitsuba 3");
+    if (pixel_group > 1) lost.emplace_back("\"pixel_group\" does not exist in Mitsuba 3");
     return lost;
   }
 };

@@ -207,6 +207,14 @@ TEST_SUITE("program") {
     CHECK(nlohmann::json::accept(read_file(place.path("s.json"))));
   }
 
+  TEST_CASE("info of a scene whose method is still to be chosen") {
+    const Workplace place;
+    place.scene();
+    const Outcome o = place.run({"info", "tiny.xml", "-i", "auto"});
+    CHECK(o.code == 0);
+    CHECK(contains(o.out, "about "));
+  }
+
   TEST_CASE("info goes on after a bad scene") {
     const Workplace place;
     place.scene();

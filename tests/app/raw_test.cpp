@@ -1,8 +1,10 @@
 // Renders in parts: slices, checkpoints, raw films and what can be wrong with them.
 #include <doctest/doctest.h>
+#include <sys/stat.h>
 
 #include <csignal>
 #include <cstring>
+#include <filesystem>
 #include <nlohmann/json.hpp>
 #include <random>
 #include <thread>
@@ -303,6 +305,45 @@ TEST_SUITE("program") {
     CHECK(nowhere.code == 1);
     CHECK(contains(nowhere.err, "cannot write /dev/null/film.exr"));
     CHECK(place.run({"merge", "film.exr", "-o", "/dev/null/a.exr"}).code == 1);
+  }
+
+  TEST_CASE("the image is written although the raw film cannot be") {
+    const Workplace place;
+    place.scene();
+    const Arguments render{"tiny.xml", "--spp", "2", "-o", "a.exr", "--raw", "film.exr"};
+    REQUIRE(place.run(render).code == 0);
+    const std::string image = place.path("a.exr"), film = place.path("film.exr");
+    const size_t small = std::filesystem::file_size(image),
+                 large = std::filesystem::file_size(film);
+    REQUIRE(small < large);
+    std::filesystem::remove(image), std::filesystem::remove(film);
+    const Outcome o =
+        run_duet(render, {.directory = place.path(""), .file_limit = (small + large) / 2});
+    CAPTURE(o.err);
+    CHECK(o.code == 1);
+    CHECK(contains(o.err, "film.exr cannot be written"));
+    CHECK(place.has("a.exr"));
+    CHECK(!place.has("film.exr"));
+  }
+
+  TEST_CASE("merge says that a file would be too large, and does not wait for pipes") {
+    const Workplace place;
+    place.scene();
+    REQUIRE(place.run({"tiny.xml", "--spp", "2", "--raw", "film.exr"}).code == 0);
+    const Outcome o = run_duet({"merge", "film.exr", "-o", "a.exr"},
+                               {.directory = place.path(""), .file_limit = 512});
+    CAPTURE(o.err);
+    CHECK(o.code == 1);
+    CHECK(contains(o.err, "a.exr cannot be written"));
+    REQUIRE(mkfifo(place.path("pipe").c_str(), 0600) == 0);
+    for (const Arguments& arguments :
+         {Arguments{"merge", "pipe", "-o", "a.exr"}, Arguments{"tiny.xml", "--resume", "pipe"},
+          Arguments{"compare", "pipe", "pipe"}}) {
+      const Outcome waits = place.run(arguments);
+      CAPTURE(waits.err);
+      CHECK(waits.code == 1);
+      CHECK(contains(waits.err, "pipe"));
+    }
   }
 
   TEST_CASE("raw films: what makes no sense on the command line") {

@@ -2,6 +2,7 @@
 #include <doctest/doctest.h>
 
 #include <algorithm>
+#include <filesystem>
 #include <sstream>
 
 #include "app/workplace.h"
@@ -237,6 +238,23 @@ TEST_SUITE("program") {
     const Outcome version = place.run({"--version"});
     CHECK(version.code == 0);
     CHECK(version.out == "duet " DUET_VERSION "\n");
+  }
+
+  TEST_CASE("an option without a value is refused, and takes no other option for it") {
+    const Workplace place;
+    place.scene();
+    for (const std::vector<std::string>& arguments : std::vector<std::vector<std::string>>{
+             {"render", "tiny.xml", "--log=", "--strict"},
+             {"tiny.xml", "--spp", ""},
+             {"tiny.xml", "-o", "tiny.exr", "--seed", ""},
+             {"batch", "tiny.xml", "-o", "tiny.exr", "--csv=", "--dry-run"},
+             {"compare", "a.exr", "b.exr", "--html", ""}}) {
+      const Outcome o = place.run(arguments);
+      CAPTURE(o.err);
+      CHECK(o.code == 2);
+      CHECK((contains(o.err, "= has no value") || contains(o.err, "the value is empty")));
+      CHECK(!std::filesystem::exists(place.path("--strict")));
+    }
   }
 
   TEST_CASE("help fits the width") {

@@ -62,7 +62,7 @@ TEST_CASE("the parameters of each method, with their presets") {
   const std::string paths = "max_depth=-1 rr_depth=2 hide_emitters=false",
                     own = paths + " strict_normals=false light_selection=auto",
                     lights = " light_paths=0 guide_emission=true", more = own + lights;
-  CHECK(parameters("path") == own + " only_specular=false");
+  CHECK(parameters("path") == own + " only_specular=false pixel_group=1");
   CHECK(parameters("auto") == own);
   CHECK(parameters("ptracer") == paths + lights);
   CHECK(parameters("bdpt") == more + " connections=-1 light_image=true");

@@ -2,10 +2,12 @@
 
 #include <doctest/doctest.h>
 
+#include "image/image_io.h"
 #include "math/sampler.h"
 #include "math/warp.h"
 #include "support/statistics.h"
 #include "support/tables.h"
+#include "support/transport_scene.h"
 
 using namespace duet;
 
@@ -130,4 +132,20 @@ TEST_CASE("a black environment is no trouble") {
   const auto s = light.sample_direct({}, {0.3f, 0.7f});
   REQUIRE(s);
   CHECK(s->weight.is_black());
+}
+
+TEST_CASE("environment maps of few pixels are enlarged by the nearest one, as Mitsuba does it") {
+  const test::TemporaryDirectory folder;
+  Image map(1, 2, {"R", "G", "B"});
+  map.data = {1, 1, 1, 3, 3, 3};
+  write_exr(folder.path("map.exr"), map, {});
+  const test::TransportScene s(folder, test::camera_xml("0,-3,1", "0,0,1", 8) +
+                                           "<emitter type='envmap'><string name='filename' "
+                                           "value='map.exr'/></emitter>");
+  const auto towards = [&](const Vector3f& w) { return s.scene->environment->emitted({}, w).g; };
+  // Of three rows: at the upper pole, the horizon and the lower pole.
+  CHECK(towards({0, 1, 0}) == doctest::Approx(1));
+  CHECK(towards({1, 0, 0}) == doctest::Approx(3));
+  CHECK(towards({0, 0, -1}) == doctest::Approx(3));
+  CHECK(towards({0, -1, 0}) == doctest::Approx(3));
 }

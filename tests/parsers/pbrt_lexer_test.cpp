@@ -93,6 +93,8 @@ TEST_CASE("pbrt versions are found from what a file uses") {
   CHECK(version("LightSource \"infinite\" \"string mapname\" \"x.exr\"") == 3);
   CHECK(version("LightSource \"infinite\" \"integer samples\" 4") == 3);
   CHECK(version("AreaLightSource \"diffuse\" \"integer nsamples\" [4]") == 3);
+  CHECK(version("MakeNamedMaterial \"a\" \"integer nsamples\" 2 \"string type\" "
+                "\"coateddiffuse\"") == 4);
   CHECK(version("Sampler \"halton\" \"integer pixelsamples\" 4") == 4);
   CHECK(version("Texture \"u\" \"color\" \"constant\" \"rgb value\" [.2 .2 .2]") == 3);
   CHECK(version("Texture \"color\" \"spectrum\" \"constant\"") == 4);

@@ -174,13 +174,28 @@ TEST_CASE("pbrt subsurface: a texture of the reflectance tints what enters and l
   CHECK(d.approximations.size() == 4);
 }
 
+TEST_CASE("pbrt subsurface: the scale multiplies the mean free path, known media are even") {
+  const SceneDescription d = v4_file(
+      "Material \"subsurface\" \"rgb reflectance\" [.5 .5 .5] \"rgb mfp\" [.5 .5 .5] \"float "
+      "scale\" 4 \"float g\" .5\nShape \"sphere\"\n"
+      "Material \"subsurface\" \"string name\" \"Ketchup\" \"float g\" .5\nShape \"sphere\"\n");
+  CHECK(std::get<Spectrum>(inside_of(d, 0).sigma_t).r == doctest::Approx(0.5));
+  const auto even = [&](size_t shape) {
+    return std::holds_alternative<IsotropicPhase>(
+        d.phases.at(size_t(inside_of(d, shape).phase)).model);
+  };
+  CHECK(!even(0));
+  CHECK(even(1));
+}
+
 TEST_CASE("pbrt-v3 subsurface: by coefficients, by name and by a diffuse reflectance") {
   const SceneDescription d = v3_file(
       "Material \"subsurface\" \"rgb sigma_a\" [1 1 1] \"rgb sigma_s\" [3 3 3] \"float scale\" 2\n"
       "Shape \"sphere\"\n"
       "Material \"subsurface\" \"string name\" \"Ketchup\" \"rgb Kt\" [.5 .5 .5]\nShape "
       "\"sphere\"\n"
-      "Material \"kdsubsurface\" \"rgb Kd\" [.3 .3 .3] \"rgb mfp\" [.2 .2 .2] \"float eta\" 1.5\n"
+      "Material \"kdsubsurface\" \"rgb Kd\" [.3 .3 .3] \"rgb mfp\" [.1 .1 .1] \"float eta\" 1.5 "
+      "\"float scale\" 2\n"
       "Shape \"sphere\"\n"
       "Material \"subsurface\" \"float uroughness\" .2 \"float vroughness\" .2\nShape "
       "\"sphere\"\n");

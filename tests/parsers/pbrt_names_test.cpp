@@ -127,6 +127,15 @@ TEST_CASE("pbrt-v3 takes no notice of parameters of another type, and of the fir
   CHECK(r.messages.find("given twice: the last one counts") != std::string::npos);
 }
 
+TEST_CASE("pbrt-v4 takes the last of two parameters of a type, and numbers in single precision") {
+  const PbrtFile r = read_pbrt_file_of(
+      "Film \"rgb\"\nWorldBegin\nMaterial \"diffuse\" \"rgb reflectance\" [1.00000001 1 1]\n"
+      "Shape \"sphere\" \"float radius\" 2 \"float radius\" 3\n");
+  REQUIRE_MESSAGE(r.scene.has_value(), r.messages);
+  CHECK(r.scene->shapes.at(0).to_world[0][0] == 3);
+  CHECK(r.messages.find("given twice: the last one counts") != std::string::npos);
+}
+
 TEST_CASE("pbrt-v3 goes on without textures and materials that there are not") {
   const PbrtFile r = v3_scene(
       "Material \"matte\" \"rgb Kd\" [.1 .2 .3]\nNamedMaterial \"none of them\"\nShape \"sphere\"\n"

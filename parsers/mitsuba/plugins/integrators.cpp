@@ -31,6 +31,12 @@ void read_counts(SceneReader&, Properties& p, DirectIntegratorDescription& direc
             "more than {} samples at each hit are too many", most);
 }
 
+void check_group(SceneReader&, Properties& p, PathIntegratorDescription& path) {
+  constexpr int most = PathIntegratorDescription::kMostInGroup;
+  if (path.pixel_group > most)
+    p.error("pixel_group", "more than {} pixels in a group are too many", most);
+}
+
 void limit_rays(SceneReader&, Properties&, OcclusionIntegratorDescription& ao) {
   ao.ray_length = std::max(ao.ray_length, 0.0);
 }
@@ -48,7 +54,7 @@ std::vector<Plugin> integrators() {
   const std::vector<Plugin> from_camera{
       method<AutoIntegratorDescription>(
           {.name = "auto", .note = "Duet's own: whichever method suits the scene (docs/auto.md)"}),
-      method<PathIntegratorDescription>({.name = "path"}),
+      method<PathIntegratorDescription, check_group>({.name = "path"}),
       method<Volpath>({.name = "volpath", .note = "path tracing through participating media"}),
       method<Volpath>({.name = "volpath_simple", .versions = v0, .note = "by volpath"}),
       method<Volpath, keep_name>({.name = "volpathmis",

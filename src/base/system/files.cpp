@@ -1,5 +1,6 @@
 #include "base/system/files.h"
 
+#include <fcntl.h>
 #include <glob.h>
 #include <sys/stat.h>
 #include <unistd.h>
@@ -13,7 +14,12 @@
 namespace duet {
 
 FileStream open_for_reading(const std::string& path) {
-  return FileStream(std::fopen(path.c_str(), "rbe"));
+  // Without blocking: a pipe that nobody writes to would be waited for.
+  const int file = open(path.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC);
+  if (file < 0) return nullptr;
+  FileStream stream(fdopen(file, "rb"));
+  if (!stream) close(file);
+  return stream;
 }
 
 FileStream open_for_writing(const std::string& path) {

@@ -10,8 +10,10 @@
 namespace duet {
 
 /// Takes over SIGINT, SIGTERM and SIGHUP unless they are ignored (as nohup does it), and SIGUSR1.
-/// Writes beyond a size limit, or to a terminal or pipe that has gone, fail rather than kill.
+/// Writes to a terminal or pipe that has gone fail rather than kill.
 void install_signal_handlers();
+/// The same of writes beyond the largest size that a file may have (`ulimit -f`).
+void let_large_files_fail();
 /// Becomes true at the first signal to stop.
 const std::atomic<bool>& interrupt_flag();
 /// 0, or the exit code for the signal that arrived (129, 130 or 143).

@@ -1,6 +1,7 @@
 #include "evaluate/render/render_scene.h"
 
 #include <algorithm>
+#include <exception>
 
 #include "base/failures.h"
 #include "base/memory_limit.h"
@@ -60,11 +61,17 @@ class SceneRenderer {
     if (result.spp == 0) return give_up();
     seconds_.render = watch_.lap();
     std::vector<std::string> written;
-    // Sums first: of those the image can be made again.
-    if (const std::string raw = raw_->finish(state, result.interrupted); !raw.empty())
-      written.push_back(raw);
+    // Sums first: of those the image can be made again. If they cannot be written it still is.
+    std::exception_ptr raw_failure;
+    try {
+      if (const std::string raw = raw_->finish(state, result.interrupted); !raw.empty())
+        written.push_back(raw);
+    } catch (const std::exception&) {
+      raw_failure = std::current_exception();
+    }
     if (options_.writes_images)
       for (const std::string& path : write(result)) written.push_back(path);
+    if (raw_failure) std::rethrow_exception(raw_failure);
     seconds_.write = watch_.lap();
     summarize(result, written);
     statistics_.add(record_, result, seconds_, count_parts(*scene_));

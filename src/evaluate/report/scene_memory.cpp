@@ -144,7 +144,7 @@ double film_bytes(const SceneDescription& scene) {
     return film_bytes(scene, scene.integrator);
   double most = 0;
   for (const IntegratorName& method : integrator_names()) {
-    if (!method_obstacle(scene, method.name).empty()) continue;
+    if (method.name == "auto" || !method_obstacle(scene, method.name).empty()) continue;
     IntegratorDescription integrator = scene.integrator;
     apply_override(integrator, {method.name, {}, {}});
     most = std::max(most, film_bytes(scene, integrator));
