@@ -77,7 +77,13 @@ Differences compare_means(const TransportScene& s, const PathLimits& limits, int
 
 // With these seeds it notices 1 % of the image (usually 0.2 %).
 TEST_CASE("paths in groups of pixels have the mean of paths on their own") {
-  for (const BatchCase& c : kBatchCases) {
+  std::vector<BatchCase> cases = kBatchCases;
+  cases.push_back({"shiny and patterned balls in a diffuse room",
+                   camera() + room_xml(grey("0.7")) + kLamp +
+                       sphere_xml("-0.5,0.2,0.5", "0.5", smooth_plastic("")) +
+                       sphere_xml("0.5,0.2,0.5", "0.45", kPatternedMetal) +
+                       sphere_xml("0,-0.4,1.3", "0.4", kVarnishedCheckers)});
+  for (const BatchCase& c : cases) {
     CAPTURE(std::string(c.name));
     const TransportScene scene = c.scene();
     PathLimits limits;
