@@ -399,4 +399,7 @@ MUTATIONS = [
     ("what is mirrored is shared by groups", "src/integrators/wide_pixel_groups.cpp",
      "if (first_.list[k] < 0 || paths.bsdf_pdf[i] < 0 ||", "if (first_.list[k] < 0 ||",
      "paths in groups of pixels have*"),
+    ("black points of metals could have found what groups share", "src/integrators/wide_pixel_groups.cpp",
+     "max_abs(value) > 0 ? glossy_.value_pdf[k] * geometry : 0.0f", "glossy_.value_pdf[k] * geometry",
+     "paths in groups of pixels have*"),
 ]
