@@ -5,6 +5,7 @@
 
 #include "base/parallel.h"
 #include "image/film.h"
+#include "integrators/method_prediction.h"
 #include "integrators/path.h"
 #include "integrators/wide_tracer.h"
 
@@ -15,13 +16,9 @@ namespace {
 constexpr uint64_t kSeed = 0x67726f757073ull;
 constexpr int kSide = Film::kTileSize;
 constexpr uint32_t kSamples = 2;  ///< of each pixel: as many as a variance needs
-/// Pixels of the pricing pilot for each tile of this one, which takes a third of its time then.
+/// Pixels of the pricing pilot for each tile of this one, which takes a sixth of its time then.
 constexpr int kPilotPixelsPerTile = 128;
 constexpr int kFewestTiles = 4;
-/// Share of the pixels with the largest variances that do not count.
-constexpr double kTrimmed = 0.001;
-/// Of the square of the image's mean, in what variances are relative to.
-constexpr double kDarkShare = 0.1;
 
 /// Of one pixel: the squared differences of its two samples, without and with groups.
 struct PixelPair {
@@ -41,7 +38,7 @@ PathIntegratorDescription description(const PathLimits& limits, int group) {
   return d;
 }
 
-/// The same samples of a tile with either tracer.
+/// The same samples of a tile with both tracers.
 class TileTrial {
  public:
   TileTrial(const WideScene& scene, const PricingPlan& plan)
@@ -61,17 +58,19 @@ class TileTrial {
       numbers.push_back(y * uint64_t(film_.x) + x);
       keys[i] = sampler_.pixel_key(numbers.back());
     }
-    WideSamples samples[2][kSamples]{};
+    own_.enter(numbers), grouped_.enter(numbers);
+    WideSamples own[kSamples]{}, grouped[kSamples]{};
     for (uint32_t s = 0; s < kSamples; ++s) {
-      trace(own_, {corner, width, count, s}, keys, numbers, samples[0][s], out.own);
-      trace(grouped_, {corner, width, count, s}, keys, numbers, samples[1][s], out.grouped);
+      const int n = start({corner, width, count, s}, keys);
+      own_.trace(n, sampler_, own[s], out.own);
+      grouped_.trace(n, sampler_, grouped[s], out.grouped);
     }
     const auto grey = [](const WideSamples& w, int i) {
       return (double(w.r[i]) + double(w.g[i]) + double(w.b[i])) / 3;
     };
     for (int i = 0; i < count; ++i) {
-      const double a = grey(samples[0][0], i), b = grey(samples[0][1], i);
-      const double c = grey(samples[1][0], i), d = grey(samples[1][1], i);
+      const double a = grey(own[0], i), b = grey(own[1], i);
+      const double c = grey(grouped[0], i), d = grey(grouped[1], i);
       out.pixels.push_back({(a - b) * (a - b), (c - d) * (c - d)});
       out.sum += c + d;
     }
@@ -84,22 +83,24 @@ class TileTrial {
     uint32_t sample;
   };
 
-  void trace(WideTracer& tracer, const Tile& t, const BatchArray<uint64_t>& keys,
-             std::span<const uint64_t> numbers, WideSamples& samples, RenderCounters& counters) {
+  /// Begins the paths of a sample in both; returns how many there are.
+  int start(const Tile& t, const BatchArray<uint64_t>& keys) {
+    const Camera& camera = *scene_.camera;
     BatchKeys batch{};
     sampler_.start_sample(t.sample, t.count, keys, batch);
     BatchArray<float> x{}, y{}, lens_x{}, lens_y{};
     sampler_.numbers_2d(t.count, batch, 0, x, y);
-    sampler_.numbers_2d(t.count, batch, kLensDimension, lens_x, lens_y);
-    tracer.enter(numbers);
+    if (camera.has_lens()) sampler_.numbers_2d(t.count, batch, kLensDimension, lens_x, lens_y);
     int n = 0;
     for (int i = 0; i < t.count; ++i) {
       const Point2f film{x[i] + float(t.corner.x + i % t.width),
                          y[i] + float(t.corner.y + i / t.width)};
-      const CameraRay ray = scene_.camera->sample_ray(film, {lens_x[i], lens_y[i]});
-      if (ray.weight != 0) tracer.paths().start(n++, i, ray, batch);
+      const CameraRay ray = camera.sample_ray(film, {lens_x[i], lens_y[i]});
+      if (ray.weight == 0) continue;
+      own_.paths().start(n, i, ray, batch);
+      grouped_.paths().start(n++, i, ray, batch);
     }
-    tracer.trace(n, sampler_, samples, counters);
+    return n;
   }
 
   const Scene& scene_;
@@ -125,12 +126,10 @@ std::vector<Point2i> choose_tiles(const PricingPlan& plan) {
 /// The ratio of the variances, relative to the squared means of the tiles, without the pixels whose
 /// own are largest.
 double variance_ratio(const std::vector<TileResult>& tiles) {
-  double sum = 0;
+  double sum = 0, samples = 0;
+  for (const TileResult& t : tiles) sum += t.sum, samples += double(kSamples * t.pixels.size());
+  const double mean = sum / samples;
   std::vector<PixelPair> pixels;
-  for (const TileResult& t : tiles)
-    sum += t.sum, pixels.insert(pixels.end(), t.pixels.begin(), t.pixels.end());
-  const double mean = sum / double(kSamples * pixels.size());
-  pixels.clear();
   for (const TileResult& t : tiles) {
     const double m = t.sum / double(kSamples * t.pixels.size());
     const double scale = 1 / std::max(m * m + kDarkShare * mean * mean, 1e-60);
@@ -138,7 +137,7 @@ double variance_ratio(const std::vector<TileResult>& tiles) {
   }
   std::sort(pixels.begin(), pixels.end(),
             [](const PixelPair& a, const PixelPair& b) { return a.own < b.own; });
-  const size_t count = pixels.size() - size_t(kTrimmed * double(pixels.size()));
+  const size_t count = pixels.size() - size_t(kTrimmedPixels * double(pixels.size()));
   double own = 0, grouped = 0;
   for (size_t i = 0; i < count; ++i) own += pixels[i].own, grouped += pixels[i].grouped;
   return own > 0 ? grouped / own : 1;

@@ -12,9 +12,6 @@ namespace duet {
 
 namespace {
 
-/// Of the square of the image's mean, in what errors are relative to.
-constexpr double kDarkShare = 0.1;
-
 /// Of the squares of contributions: a pilot cannot tell a smaller variance from none at all.
 constexpr double kLeastVariance = 0.05;
 

@@ -15,6 +15,9 @@ namespace duet {
 /// Share of the pixels that the error leaves out, as `duet compare` does.
 inline constexpr double kTrimmedPixels = 0.001;
 
+/// Of the square of the image's mean, in what errors are relative to.
+inline constexpr double kDarkShare = 0.1;
+
 /// A method that may be chosen, by its multiples of the pilot's numbers of samples.
 struct MethodCandidate {
   decltype(IntegratorDescription::method) method;

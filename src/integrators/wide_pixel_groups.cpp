@@ -82,7 +82,7 @@ void WidePixelGroups::note_second(int n, WidePaths& paths, const Vertices& at) {
     second_.side[k] = side;
     copy_point(at.points, i, second_.points, k);
     const BatchTriples& t = paths.throughput;
-    const float scale = std::max(t.x[i], std::max(t.y[i], t.z[i]));
+    const float scale = Spectrum(t.x[i], t.y[i], t.z[i]).max();
     second_.scale[k] = scale;
     paths.throughput.set(i, scale, scale, scale);
   }
@@ -157,10 +157,7 @@ void WidePixelGroups::evaluate_glossy_pairs() {
 
 void WidePixelGroups::test(int n, RenderCounters& counters) {
   int rays = 0;
-  size_t next = 0;
-  int own = 0;
   for (int k = 0; k < n; ++k) {
-    if (next < shared_.size() && k == shared_[next].pairs) own = shared_[next++].place;
     if (!(pairs_.pdf[k] > 0)) continue;
     const int i = pairs_.first[k];
     if (strict_normals_ && sides_differ(first_.points.ng.vector(i), first_.points.ns.vector(i),
@@ -168,7 +165,7 @@ void WidePixelGroups::test(int n, RenderCounters& counters) {
       pairs_.pdf[k] = 0;
       continue;
     }
-    if (i == own) continue;  // its own path has found it
+    if (i == pairs_.second[k]) continue;  // its own path has found it
     shadows_.ray.origin.set(rays, pairs_.ray.origin.point(k));
     shadows_.ray.direction.set(rays, pairs_.ray.direction.vector(k));
     shadows_.ray.tmax[rays] = pairs_.ray.tmax[k];
@@ -208,7 +205,8 @@ void WidePixelGroups::add_to(WideSamples& samples, RenderCounters& counters) {
     const Span group{group_begin(j), group_size(j)};
     if (n + group.size > kBatch) flush(n, samples, counters), n = 0;
     find_pairs(first_, second_, j, group, n, pairs_);
-    for (int k = 0; k < group.size; ++k) pairs_.first[n + k] = group.begin + k;
+    for (int k = 0; k < group.size; ++k)
+      pairs_.first[n + k] = group.begin + k, pairs_.second[n + k] = j;
     shared_.push_back({j, n});
     n += group.size;
   }

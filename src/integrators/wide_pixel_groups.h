@@ -57,10 +57,10 @@ class WidePixelGroups {
   };
   /// Pairs of a first vertex and the second one of a member of its group.
   struct Pairs {
-    BatchArray<int32_t> first;   ///< place of the first vertex
-    BatchTriples direction;      ///< unit
-    BatchArray<float> cosine;    ///< with the shading normal, on the lit side
-    BatchArray<float> geometry;  ///< area measure over solid angle; 0 where one faces away
+    BatchArray<int32_t> first, second;  ///< places of the vertices
+    BatchTriples direction;             ///< unit
+    BatchArray<float> cosine;           ///< with the shading normal, on the lit side
+    BatchArray<float> geometry;         ///< area measure over solid angle; 0 where one faces away
     RayBatch ray;
     BatchArray<float> pdf;  ///< of the second vertex, per area; 0 if it is not seen
     BatchTriples value;     ///< BSDF, cosine and geometry

@@ -70,6 +70,14 @@ LightPointer equal_area_map(SceneBuilder& b, const EnvironmentMapLight& l,
   return std::make_unique<EnvironmentMap>(width, height, std::move(texels), d.to_world);
 }
 
+/// The pixels of a side of the image that those of the enlarged one show.
+std::vector<int> nearest_pixels(int size, int enlarged) {
+  std::vector<int> pixels;
+  for (int64_t i = 0; i < enlarged; ++i)
+    pixels.push_back(int((2 * i + 1) * size / (2 * int64_t(enlarged))));
+  return pixels;
+}
+
 }  // namespace
 
 void EnvironmentMapLight::count(SceneFeatures& f) const {
@@ -92,12 +100,10 @@ LightPointer EnvironmentMapLight::build(SceneBuilder& b, const LightDescription&
                           image->width(), image->height(), BilinearDistribution::kMaxWidth);
     return nullptr;
   }
-  const auto nearest = [](int i, int size, int enlarged) {
-    return std::clamp(int((2 * int64_t(i) + 1) * size / (2 * int64_t(enlarged))), 0, size - 1);
-  };
+  const std::vector<int> columns = nearest_pixels(image->width(), width),
+                         lines = nearest_pixels(image->height(), height);
   const auto color = [&](int x, int y) {
-    const int row = std::clamp(y, 0, height - 1);
-    return image->color(nearest(x, image->width(), width), nearest(row, image->height(), height)) *
+    return image->color(columns[size_t(x)], lines[size_t(std::clamp(y, 0, height - 1))]) *
            (tint * float(scale));
   };
   // Between the centres of rows there are their means, so that what is linear between rows at the

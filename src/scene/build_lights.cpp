@@ -19,8 +19,9 @@ void SceneBuilder::add_light(std::unique_ptr<Light> light, double sampling_weigh
 
 void SceneBuilder::lights() {
   Scene& scene = *scene_;
+  // Lights look up what their textures read.
+  if (lacks_texture_data_) emissions_.clear();
   for (const Emission& e : emissions_) {
-    if (lacks_texture_data_) break;  // lights would look it up
     Shape& shape = scene.shapes[e.shape];
     if (!(surface_area(shape) > 0)) {
       diagnostics_.error(e.where, "this light's shape has no area");
