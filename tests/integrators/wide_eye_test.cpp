@@ -89,6 +89,34 @@ TEST_CASE("batches of eye sub-paths hide emitters and drop what two normals see 
   }
 }
 
+TEST_CASE("batches of eye sub-paths connect no light that two normals see differently") {
+  // Eight triangles with the normals of a ball: many directions are above one of the two horizons
+  // alone.
+  const TemporaryDirectory folder;
+  folder.write("octahedron.obj",
+               "v 1 0 0\nv -1 0 0\nv 0 1 0\nv 0 -1 0\nv 0 0 1\nv 0 0 -1\n"
+               "vn 1 0 0\nvn -1 0 0\nvn 0 1 0\nvn 0 -1 0\nvn 0 0 1\nvn 0 0 -1\n"
+               "f 1//1 3//3 5//5\nf 3//3 2//2 5//5\nf 2//2 4//4 5//5\nf 4//4 1//1 5//5\n"
+               "f 3//3 1//1 6//6\nf 2//2 3//3 6//6\nf 4//4 2//2 6//6\nf 1//1 4//4 6//6\n");
+  const TransportScene scene(
+      folder,
+      camera_xml("0,-3.2,1", "0,0,1", 24) + room_xml(grey("0.6")) + kLamp +
+          "<shape type='obj'><string name='filename' value='octahedron.obj'/>"
+          "<transform name='to_world'><scale value='0.7'/><translate z='0.9'/></transform>" +
+          grey("0.8") + "</shape>");
+  for (const int connections : {-1, 19}) {
+    CAPTURE(connections);
+    BidirectionalIntegratorDescription options;
+    options.max_depth = 4;
+    options.connections = connections;
+    const RenderRequest r = batch_request(4, SampleSequence::sobol);
+    const RenderResult both = render_bdpt(scene, PathBatches::where_possible, r, options);
+    options.strict_normals = true;
+    const auto [strict, singly] = check_same(scene, r, options);
+    CHECK(strict.connections.contributed < 0.995 * double(both.counters.connections.contributed));
+  }
+}
+
 TEST_CASE("batches of eye sub-paths need no connections") {
   const TransportScene scene(kBatchCases[0].content);
   BidirectionalIntegratorDescription options;
