@@ -1,5 +1,6 @@
 // Shapes as Mitsuba 3 writes them.
 #include "mitsuba/scene_writer.h"
+#include "mitsuba/unstretched.h"
 
 namespace duet {
 
@@ -33,7 +34,10 @@ void SceneWriter::shape(const ShapeDescription& s, const std::string& id, std::s
       if (g.grid && !g.grid->smooth_normals) out_.string("normals", "analytic");
   };
   std::visit(geometry, s.geometry);
-  out_.transform("to_world", s.to_world);
+  const bool is_sphere = std::holds_alternative<SphereShape>(s.geometry);
+  const auto round = is_sphere ? unstretched(s.to_world) : std::nullopt;
+  if (round) lose("spheres stay round in Mitsuba 3: an ellipsoid becomes one");
+  out_.transform("to_world", round.value_or(s.to_world));
   if (const auto* instance = std::get_if<InstanceShape>(&s.geometry)) {
     out_.reference({}, group_ids_[instance->group]);
     out_.close();

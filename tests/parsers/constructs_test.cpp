@@ -185,6 +185,13 @@ std::vector<Construct> values() {
        "the last row 0 0 0 2 of the matrix has no effect in Mitsuba 3"},
       {"a negative radius", ball("3.0.0", "<float name='radius' value='-2'/>"),
        ball("3.0.0", "<transform name='to_world'><scale value='-2'/></transform>")},
+      {"a sphere with a centre and a scale",
+       ball("0.6.0",
+            "<point name='center' x='2' y='0' z='0'/><transform name='to_world'><scale value='3'/>"
+            "<translate y='1'/></transform>"),
+       ball("0.6.0",
+            "<float name='radius' value='3'/><transform name='to_world'><translate x='2' y='1'/>"
+            "</transform>")},
       {"a parameter given twice, of which the last counts",
        ball("0.6.0", "<float name='radius' value='2'/><float name='radius' value='3'/>"),
        ball("0.6.0", "<float name='radius' value='3'/>"),

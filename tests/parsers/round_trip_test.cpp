@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <filesystem>
 
+#include "mitsuba/unstretched.h"
 #include "mitsuba/writer.h"
 #include "support/files.h"
 #include "support/memory_scene.h"
@@ -79,9 +80,15 @@ TEST_CASE("every scene of the project is read without a surprise and survives a 
                                  "(Mitsuba 3 would use \"path\")\n"
                            : "");
     using Losses = std::vector<std::string>;
-    const Losses losses =
-        left_to_duet ? Losses{"only Duet reads the integrator \"auto\""} : Losses{};
-    check_equal(scene, again(scene, losses));
+    Losses losses = left_to_duet ? Losses{"only Duet reads the integrator \"auto\""} : Losses{};
+    SceneDescription kept = scene;
+    if (entry.path().parent_path().filename() == "curves") {
+      losses.push_back("spheres stay round in Mitsuba 3: an ellipsoid becomes one");
+      for (ShapeDescription& s : kept.shapes)
+        if (std::holds_alternative<SphereShape>(s.geometry))
+          s.to_world = unstretched(s.to_world).value_or(s.to_world);
+    }
+    check_equal(kept, again(scene, losses));
   }
   CHECK(count >= 15);
 }

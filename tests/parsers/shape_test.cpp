@@ -125,10 +125,7 @@ TEST_CASE("shape: places and orientation") {
     return good(version, "<shape type='" + type + "'>" + content + "</shape>").shapes.at(0);
   };
   const std::string stretched = "<transform name='to_world'><scale x='2'/></transform>";
-  // Mitsuba 3.9.1: [[4, 0, 0, 2], [0, 2, 0, 1], [0, 0, 2, 1]]
-  CHECK(shape("3.0.0", "sphere",
-              "<point name='center' value='1 1 1'/><float name='radius' value='2'/>" + stretched)
-            .to_world == Matrix4{{{{4, 0, 0, 2}, {0, 2, 0, 1}, {0, 0, 2, 1}, {0, 0, 0, 1}}}});
+  CHECK(shape("3.0.0", "disk", stretched).to_world == Matrix4::scale(2, 1, 1));
   // Mitsuba 3.9.1, p1 = (1, 2, 3), radius 2
   const Matrix4 cylinder =
       shape("3.0.0", "cylinder", "<point name='p1' value='1 2 3'/><float name='radius' value='2'/>")
@@ -152,8 +149,40 @@ TEST_CASE("shape: places and orientation") {
               "must be positive, not -1"));
   CHECK(fails("3.0.0", "<shape type='sphere'><float name='radius' value='0'/></shape>",
               "must be other than 0"));
+  CHECK(fails("0.6.0", "<shape type='cylinder'><float name='radius' value='-1'/></shape>",
+              "must be positive, not -1"));
+  CHECK(shape("3.0.0", "cylinder", "<float name='radius' value='-2'/>").to_world ==
+        shape("3.0.0", "cylinder", "<float name='radius' value='2'/>").to_world *
+            Matrix4::scale(-1, -1, 1));
   CHECK(fails("3.0.0", "<shape type='cylinder'><point name='p1' value='0 0 0'/></shape>",
               "the same point"));
+}
+
+TEST_CASE("shape: spheres stay round") {
+  const auto read = [](const std::string& version, const std::string& transform) {
+    return read_scene(version,
+                      "<shape type='sphere'><point name='center' value='1 1 1'/><float "
+                      "name='radius' value='2'/>\n<transform name='" +
+                          std::string(version == "3.0.0" ? "to_world" : "toWorld") + "'>" +
+                          transform + "</transform></shape>");
+  };
+  const auto place = [&](const std::string& version, const std::string& transform) {
+    const ReadResult result = read(version, transform);
+    CHECK(result.has("/scene/scene.xml:3:1: warning: spheres stay round in Mitsuba"));
+    return result.description().shapes.at(0).to_world;
+  };
+  // Mitsuba 3.9.1: centre (2, 1, 1), radius 4.
+  CHECK(place("3.0.0", "<scale x='2'/>") ==
+        Matrix4{{{{4, 0, 0, 2}, {0, 4, 0, 1}, {0, 0, 4, 1}, {0, 0, 0, 1}}}});
+  // A shear, mirrored. Mitsuba 3.9.1: centre (-2, 1, 1), radius 2.
+  CHECK(place("3.0.0", "<matrix value='-1 -1 0 0 1 0 0 0 1'/>") ==
+        Matrix4{{{{-2, 0, 0, -2}, {0, 2, 0, 1}, {0, 0, 2, 1}, {0, 0, 0, 1}}}});
+  // Mitsuba 0.x scales the centre by the inverse of the radius as well.
+  CHECK(place("0.6.0", "<scale x='2'/>") ==
+        Matrix4{{{{4, 0, 0, 1}, {0, 4, 0, 0.5}, {0, 0, 4, 0.5}, {0, 0, 0, 1}}}});
+  const ReadResult mirrored = read("0.6.0", "<scale x='-2' y='2' z='2'/>");
+  CHECK(!mirrored.has("stay round"));
+  CHECK(mirrored.description().shapes.at(0).flip_normals);
 }
 
 TEST_CASE("shape: meshes") {

@@ -5,6 +5,7 @@
 
 #include "mitsuba/plugins/shape.h"
 #include "mitsuba/plugins/tables.h"
+#include "mitsuba/unstretched.h"
 #include "values/text.h"
 #include "volume/surface_grid.h"
 #include "volume/volume_file.h"
@@ -34,27 +35,46 @@ void read_sdfgrid(SceneReader& s, Properties& p, ShapeDescription& out) {
   out.geometry = SdfGridShape{std::make_shared<SdfGrid>(std::move(*grid)), file};
 }
 
+/// The radius of a sphere or cylinder. In Mitsuba 3 it scales, so that a negative one turns the
+/// surface around.
+double quadric_radius(Properties& p) {
+  const double r = p.number("radius");
+  if (r > 0 || (r < 0 && !p.is_0x())) return r;
+  if (p.is_0x())
+    p.error("radius", "the parameter \"radius\" of {} must be positive, not {}", describe(p.node()),
+            r);
+  else
+    p.error("radius", "the parameter \"radius\" of {} must be other than 0", describe(p.node()));
+  return 1;
+}
+
 void read_sphere(SceneReader& s, Properties& p, ShapeDescription& out) {
   out.geometry = SphereShape{};
-  const Triple c = p.triple("center");
-  double r = p.number("radius");
-  // In Mitsuba 3 it scales, so that a negative one turns the normals.
-  if (r == 0 || (r < 0 && p.is_0x())) {
-    if (p.is_0x())
-      p.error("radius", "the parameter \"radius\" of {} must be positive, not {}",
-              describe(p.node()), r);
-    else
-      p.error("radius", "the parameter \"radius\" of {} must be other than 0", describe(p.node()));
-    r = 1;
-  }
-  out.to_world = Matrix4::translate(c[0], c[1], c[2]) * Matrix4::scale(r, r, r);
+  Triple c = p.triple("center");
+  const double r = quadric_radius(p);
   s.attach_to_surface(p, out);
+  Matrix4 m = out.to_world;
+  if (p.is_0x() && out.motion.empty()) {
+    // Mitsuba 0.x takes the scale out before it places the centre, and leaves the normals of
+    // mirrored spheres as they are.
+    const Triple x = m.turned({1, 0, 0});
+    for (double& v : c) v /= std::hypot(x[0], x[1], x[2]);
+    if (m.determinant3() < 0) out.flip_normals = !out.flip_normals;
+  }
+  m = m * Matrix4::translate(c[0], c[1], c[2]);
+  if (const auto round = unstretched(m)) {
+    s.report().warning(p.where("to_world"),
+                       "spheres stay round in Mitsuba: the radius of this one is scaled as its x "
+                       "axis is, and the rest of the transform only turns and moves it");
+    m = *round;
+  }
+  out.to_world = m * Matrix4::scale(r, r, r);
 }
 
 void read_cylinder(SceneReader& s, Properties& p, ShapeDescription& out) {
   out.geometry = CylinderShape{};
   const Triple p0 = p.triple("p0"), p1 = p.triple("p1");
-  const double radius = p.number("radius");
+  const double radius = quadric_radius(p);
   Triple d{p1[0] - p0[0], p1[1] - p0[1], p1[2] - p0[2]};
   const double length = std::sqrt(d[0] * d[0] + d[1] * d[1] + d[2] * d[2]);
   if (!(length > 0)) {
@@ -201,7 +221,7 @@ std::vector<Plugin> shapes() {
       {"cylinder",
        both,
        {Parameter{"p0", point, "0 0 0"}, Parameter{"p1", point, "0 0 1"},
-        Parameter{"radius", number, "1", "", positive}, flip},
+        Parameter{"radius", number, "1", "in 3.x also a negative one"}, flip},
        &read_cylinder},
       {"sdfgrid",
        v3,
