@@ -348,3 +348,32 @@ TEST_CASE("fields are layers, alone or beside an image") {
   bad("<integrator type='multichannel'/>", "needs an integrator");
   bad("<integrator type='motion'/>", "is refused");
 }
+
+TEST_CASE("environments: scales are left out, and said to be") {
+  const auto has_warning = [](const std::string& type, const std::string& steps) {
+    MemoryFiles files;
+    files.texts["/scene/a.png"] = "x";
+    const std::string file =
+        type == "envmap" ? "<string name='filename' value='a.png'/>" : std::string();
+    const ReadResult r =
+        read_scene("3.0.0",
+                   "<emitter type='" + type + "'>" + file + "<transform name='to_world'>" + steps +
+                       "</transform></emitter>",
+                   files);
+    REQUIRE_MESSAGE(r.scene, r.messages());
+    return r.has("also scales, which is left out");
+  };
+  for (const char* type : {"envmap", "sunsky", "timed_sunsky"}) {
+    CAPTURE(type);
+    CHECK(has_warning(type, "<scale value='2'/>"));
+    CHECK(has_warning(type, "<scale x='2' y='0.5' z='1'/>"));
+    CHECK(!has_warning(type, "<scale x='-1'/><rotate x='1' angle='40'/>"));
+  }
+  CHECK(!has_warning("constant", "<scale value='2'/>"));
+  // The sun stands where the file says, at any distance.
+  const auto [sky, to_world] = light<SkyLight>(
+      "3.0.0", "sunsky",
+      "<vector name='sun_direction' value='1 2 3'/><transform name='to_world'><scale x='2' "
+      "y='0.5' z='1'/></transform>");
+  check_direction(sky.sun, {0.5, 1, 1.5}, 1e-6);
+}

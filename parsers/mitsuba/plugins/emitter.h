@@ -16,6 +16,18 @@ void read_light(SceneReader& s, Properties& p, LightDescription& out) {
   if (const Node* medium = p.child(PluginKind::medium)) out.medium = s.medium(*medium);
 }
 
+/// A warning if the transform of an environment also scales. In Mitsuba, rays that escape look up a
+/// direction that is scaled, and light samples have one that is not of unit length: the two
+/// disagree.
+inline void warn_of_scales(SceneReader& s, Properties& p, const Matrix4& to_world) {
+  if (to_world.is_rigid()) return;
+  s.report().warning(
+      p.where("to_world"),
+      "the transform of {} also scales, which is left out: in Mitsuba, light samples "
+      "and rays that escape do not agree about it",
+      describe(p.node()));
+}
+
 inline constexpr Parameter kMovablePlace{"to_world", transform, "", kMovable};
 
 /// A light whose place is its last parameter.

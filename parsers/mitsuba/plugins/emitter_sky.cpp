@@ -1,8 +1,8 @@
 // Sun and sky of both Mitsubas.
 #include <span>
 
-#include "mitsuba/plugins/plugin.h"
-#include "mitsuba/plugins/tables.h"
+#include "mitsuba/plugins/emitter.h"
+#include "mitsuba/unstretched.h"
 #include "values/sun_position.h"
 #include "values/sun_radiance.h"
 
@@ -57,9 +57,9 @@ std::optional<Triple> given_direction(Properties& p) {
   return std::nullopt;
 }
 
-/// A direction in the world as one in the sky's own space.
+/// A direction in the world as one in the sky's own space, which is turned, but not stretched.
 Triple seen_from_sky(const Triple& direction, const Matrix4& to_world) {
-  const auto to_local = to_world.inverse();
+  const auto to_local = unstretched(to_world).value_or(to_world).inverse();
   return to_local ? to_local->turned(direction) : direction;
 }
 
@@ -82,6 +82,7 @@ void read_sky_3x(SceneReader& s, Properties& p, SkyLight& sky) {
 /// What "sky", "sun" and "sunsky" of 0.6 have in common.
 void read_0x(SceneReader& s, Properties& p, SkyLight& sky, LightDescription& out) {
   out.to_world = p.transform("to_world");
+  warn_of_scales(s, p, out.to_world);
   Triple y_up_sun;
   if (const auto given = given_direction(p)) {
     y_up_sun = seen_from_sky(*given, out.to_world);
@@ -154,6 +155,7 @@ void read_sunsky(SceneReader& s, Properties& p, LightDescription& out) {
   SkyLight sky;
   read_sky_3x(s, p, sky);
   out.to_world = p.transform("to_world");
+  warn_of_scales(s, p, out.to_world);
   read_weight(p, out);
   if (const auto given = given_direction(p)) {
     sky.sun = seen_from_sky(*given, out.to_world);
@@ -168,6 +170,7 @@ void read_timed_sunsky(SceneReader& s, Properties& p, LightDescription& out) {
   SkyLight sky;
   read_sky_3x(s, p, sky);
   out.to_world = p.transform("to_world");
+  warn_of_scales(s, p, out.to_world);
   read_weight(p, out);
   SunTime time;
   time.year = p.integer("start_year");

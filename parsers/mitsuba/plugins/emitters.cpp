@@ -60,6 +60,7 @@ void read_directional(SceneReader& s, Properties& p, LightDescription& out) {
 void read_envmap(SceneReader& s, Properties& p, LightDescription& out) {
   read_light<EnvironmentMapLight>(s, p, out);
   check_gamma(p, std::get<EnvironmentMapLight>(out.model).gamma);
+  warn_of_scales(s, p, out.to_world);
 }
 
 }  // namespace
