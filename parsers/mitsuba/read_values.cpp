@@ -67,7 +67,8 @@ std::optional<ColorInput> SceneReader::color_of(Properties& p, std::string_view 
                                                            : value;
   }
   if (const auto* samples = std::get_if<std::vector<SpectrumSample>>(&v))
-    return spectrum_to_rgb(*samples, meaning);
+    return p.is_0x() ? spectrum_to_rgb(*samples, meaning)
+                     : stepped_spectrum_to_rgb(*samples, meaning);
   if (const Blackbody* body = std::get_if<Blackbody>(&v))
     return spectrum_to_rgb(blackbody_spectrum(body->kelvin, body->scale), meaning);
   if (const Node* const* node = std::get_if<const Node*>(&v)) {

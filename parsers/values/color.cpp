@@ -58,6 +58,35 @@ class Interpolator {
   size_t next_ = 1;
 };
 
+/// Adds up a spectrum's colour, wavelength by wavelength.
+class ColorSum {
+ public:
+  ColorSum(std::span<const SpectrumSample> samples, ColorMeaning meaning)
+      : value_(samples), meaning_(meaning) {}
+
+  /// Wavelengths must increase.
+  void add(double wavelength, double weight) {
+    weight *= value_(wavelength);
+    if (meaning_ != ColorMeaning::emission)
+      weight *= look_up(kD65, wavelength) * kDaylightNormalization;
+    const Triple c = color_matching(wavelength);
+    for (int k = 0; k < 3; ++k) xyz_[k] += weight * c[k];
+  }
+
+  Spectrum rgb(double scale) const {
+    const Triple linear = xyz_to_linear_srgb({xyz_[0] * scale, xyz_[1] * scale, xyz_[2] * scale});
+    const double upper = meaning_ == ColorMeaning::reflectance ? 1 : INFINITY;
+    Spectrum out;
+    for (int k = 0; k < 3; ++k) out[k] = float(std::clamp(linear[k], 0.0, upper));
+    return out;
+  }
+
+ private:
+  Interpolator value_;
+  ColorMeaning meaning_;
+  Triple xyz_{};
+};
+
 }  // namespace
 
 Spectrum spectrum_to_rgb(std::span<const SpectrumSample> samples, ColorMeaning meaning) {
@@ -77,28 +106,26 @@ Spectrum spectrum_to_rgb(std::span<const SpectrumSample> samples, ColorMeaning m
   knots.push_back(last);
   std::sort(knots.begin(), knots.end());
 
-  const bool daylight = meaning != ColorMeaning::emission;
-  Interpolator value(samples);
-  Triple xyz{};
-  const auto add = [&](double wavelength, double weight) {
-    weight *= value(wavelength);
-    if (daylight) weight *= look_up(kD65, wavelength);
-    const Triple c = color_matching(wavelength);
-    for (int k = 0; k < 3; ++k) xyz[k] += weight * c[k];
-  };
+  ColorSum sum(samples, meaning);
   // Simpson's rule is exact for the product of three linear functions.
   for (size_t i = 0; i + 1 < knots.size(); ++i) {
     const double a = knots[i], b = knots[i + 1];
-    add(a, (b - a) / 6), add((a + b) / 2, (b - a) * 4 / 6), add(b, (b - a) / 6);
+    sum.add(a, (b - a) / 6), sum.add((a + b) / 2, (b - a) * 4 / 6), sum.add(b, (b - a) / 6);
   }
-  const double scale = luminance_normalization() * (daylight ? kDaylightNormalization : 1.0);
-  for (double& c : xyz) c *= scale;
+  return sum.rgb(luminance_normalization());
+}
 
-  Spectrum rgb;
-  const Triple linear = xyz_to_linear_srgb(xyz);
-  const double upper = meaning == ColorMeaning::reflectance ? 1 : INFINITY;
-  for (int k = 0; k < 3; ++k) rgb[k] = float(std::clamp(linear[k], 0.0, upper));
-  return rgb;
+Spectrum stepped_spectrum_to_rgb(std::span<const SpectrumSample> samples, ColorMeaning meaning) {
+  if (samples.size() < 2) return Spectrum(0.0f);
+  constexpr int kSteps = 1000;
+  /// Mitsuba 3's integral of ȳ; the weight of a step makes up for what it lacks.
+  constexpr double kLuminance = 106.7502593994140625;
+  ColorSum sum(samples, meaning);
+  for (int i = 0; i < kSteps; ++i) {
+    const double w = kCieFirst + i * (kCieLast - kCieFirst) / (kSteps - 1);
+    if (w >= samples.front().wavelength && w <= samples.back().wavelength) sum.add(w, 1);
+  }
+  return sum.rgb((kCieLast - kCieFirst) / kSteps / kLuminance);
 }
 
 Spectrum equal_energy_rgb(double value) {

@@ -1,8 +1,9 @@
 // Colours given as spectra become linear sRGB.
 //
 // A spectrum given by samples is linear between them and zero outside. It is weighed with the CIE
-// 1931 colour matching functions, exactly as long as those are linear between their samples. This
-// is the conversion that Mitsuba 3 does when it renders in RGB.
+// 1931 colour matching functions, exactly as long as those are linear between their samples.
+// Mitsuba 3, when it renders in RGB, does the same in steps of 0.47 nm, which is the same up to
+// rounding unless a spectrum is narrow or has narrow peaks.
 #pragma once
 
 #include <span>
@@ -27,6 +28,9 @@ struct SpectrumSample {
 
 /// The colour of a spectrum; wavelengths must increase.
 Spectrum spectrum_to_rgb(std::span<const SpectrumSample> samples, ColorMeaning meaning);
+
+/// The same in the steps of Mitsuba 3.
+Spectrum stepped_spectrum_to_rgb(std::span<const SpectrumSample> samples, ColorMeaning meaning);
 
 /// The colour of light with the same power at all wavelengths (illuminant E).
 Spectrum equal_energy_rgb(double value);

@@ -104,6 +104,22 @@ TEST_CASE("tabulated spectra are what Mitsuba 3 makes of them") {
               0.281136, 0.612784, 0.302858);
 }
 
+TEST_CASE("narrow spectra are added up in the steps of Mitsuba 3") {
+  const auto both = [](const char* value, double r, double g, double b, double light_g,
+                       double light_b) {
+    CAPTURE(value);
+    check_color(reflectance("3.0.0", spectrum("reflectance", value)), r, g, b, 1e-5);
+    check_color(radiance("3.0.0", spectrum("radiance", value)), 0, light_g, light_b, 1e-5);
+  };
+  both("500:0, 501:1, 502:0", 0, 0.0066223955, 0.0021194466, 0.006003712, 0.0019213823);
+  both("540:1, 560:1", 0, 0.2817733, 0, 0.27039808, 0);
+  both("500:0.9, 520:0.4", 0, 0.120033555, 0.011961989, 0.110593095, 0.010877395);
+  check_color(radiance("3.0.0", spectrum("radiance", "360:1,830:1")), 1.2048837, 0.9482282,
+              0.9092668, 1e-5);
+  // Mitsuba 0.6 integrates.
+  check_color(radiance("0.6.0", spectrum("radiance", "540:1, 560:1")), 0, 0.267528, 0, 1e-5);
+}
+
 TEST_CASE("spectra of indices of refraction are not limited to 1") {
   const auto m = read_bsdf<ConductorMaterial>(
       "3.0.0", "<bsdf type='conductor'>" + spectrum("eta", "400:0.2 500:1.78, 600:0.3, 700:0.9") +

@@ -52,7 +52,7 @@ void read_irregular(SceneReader&, Properties& p, MeantColor& out) {
   const auto wavelengths = p.numbers("wavelengths"), values = p.numbers("values");
   if (!p.has("wavelengths") || !p.has("values")) return;
   if (const auto list = samples(p, "values", wavelengths, values))
-    out.value = spectrum_to_rgb(*list, out.meaning);
+    out.value = stepped_spectrum_to_rgb(*list, out.meaning);
 }
 
 void read_regular(SceneReader&, Properties& p, MeantColor& out) {
@@ -63,7 +63,7 @@ void read_regular(SceneReader&, Properties& p, MeantColor& out) {
   for (size_t i = 0; i < values.size(); ++i)
     wavelengths.push_back(first + (last - first) * double(i) / double(values.size() - 1));
   if (const auto list = samples(p, "values", wavelengths, values))
-    out.value = spectrum_to_rgb(*list, out.meaning);
+    out.value = stepped_spectrum_to_rgb(*list, out.meaning);
 }
 
 void read_blackbody(SceneReader&, Properties& p, MeantColor& out) {
