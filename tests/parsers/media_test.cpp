@@ -47,6 +47,19 @@ void check_constant(const ColorVolume& volume, double r, double g, double b) {
 
 }  // namespace
 
+TEST_CASE("media say what their ways of sampling change in Mitsuba 3") {
+  const auto messages = [](const std::string& content) {
+    return read("3.0.0", "<medium type='homogeneous'>" + content + "</medium>").messages();
+  };
+  const std::string no_samples = "<boolean name='sample_emitters' value='false'/>",
+                    one_colour = "<boolean name='has_spectral_extinction' value='false'/>",
+                    coloured = "<rgb name='sigma_t' value='1 2 3'/>";
+  CHECK(messages(no_samples).find("light that no ray can hit") != std::string::npos);
+  CHECK(messages(coloured + one_colour).find("every colour has its own") != std::string::npos);
+  CHECK(messages(one_colour).find("every colour") == std::string::npos);
+  CHECK(messages(coloured).find("every colour") == std::string::npos);
+}
+
 TEST_CASE("homogeneous media of Mitsuba 3") {
   const MediumDescription preset = homogeneous("3.0.0", "");
   check_constant(preset.sigma_t, 1, 1, 1);

@@ -114,6 +114,26 @@ VolumeId extinction_box(SceneReader& s, Properties& p, const Spectrum& value) {
   return s.add_volume(std::move(v));
 }
 
+bool is_coloured(SceneReader& s, const ColorVolume& extinction) {
+  if (const Spectrum* c = std::get_if<Spectrum>(&extinction)) return c->g != c->r || c->b != c->r;
+  const auto& grid = s.description().volumes[size_t(std::get<VolumeId>(extinction))].grid;
+  return grid && grid->channels > 1;
+}
+
+/// How Mitsuba 3 samples light and distances, where that changes what it renders.
+void note_sampling(SceneReader& s, Properties& p, const MediumDescription& medium) {
+  if (p.is_0x()) return;
+  if (!p.boolean("sample_emitters"))
+    s.approximate_loudly(p.where("sample_emitters"),
+                         "light that no ray can hit (of point, spot, directional and projecting "
+                         "lights) is scattered by the medium, too, which Mitsuba 3 leaves out if "
+                         "\"sample_emitters\" is false");
+  if (!p.boolean("has_spectral_extinction") && is_coloured(s, medium.sigma_t))
+    s.approximate_loudly(p.where("has_spectral_extinction"),
+                         "every colour has its own extinction, although "
+                         "\"has_spectral_extinction\" is false");
+}
+
 void read_homogeneous(SceneReader& s, Properties& p, MediumDescription& out) {
   out.scale = p.number("scale");
   // Files that use the coefficients of 0.x mean them, whatever their version says.
@@ -125,6 +145,7 @@ void read_homogeneous(SceneReader& s, Properties& p, MediumDescription& out) {
     out.albedo = s.color_volume(p, "albedo");
   }
   out.phase = phase_of(s, p);
+  note_sampling(s, p, out);
 }
 
 void read_heterogeneous(SceneReader& s, Properties& p, MediumDescription& out) {
@@ -139,6 +160,7 @@ void read_heterogeneous(SceneReader& s, Properties& p, MediumDescription& out) {
   out.albedo = s.color_volume(p, "albedo");
   if (p.has("orientation")) s.color_volume(p, "orientation");
   out.phase = phase_of(s, p);
+  note_sampling(s, p, out);
 }
 
 constexpr Parameter kHomogeneous0x[] = {
@@ -147,6 +169,14 @@ constexpr Parameter kHomogeneous0x[] = {
     {"sigma_s", coefficient, "(of the material)", "scattering", any, v0},
     {"material", string, "skin1", "coefficients by the name of a material", any, v0},
     {"g", coefficient, "(of the material)", "scattering counts 1 - g times", any, v0}};
+constexpr Parameter kSampling[] = {
+    {"sample_emitters", boolean, "true",
+     "false: no effect on lights that rays can hit; Mitsuba 3 scatters no light of others then",
+     any, v3, approximated},
+    {"has_spectral_extinction", boolean, "true",
+     "false: no effect on grey extinction; in Mitsuba 3 all then get the mean of the colours' "
+     "transmittances",
+     any, v3, approximated}};
 constexpr Parameter kMonochromatic[] = {
     {"strategy", string, "balance",
      "balance, single, maximum or manual; matters to monochromatic only", any, v0},
@@ -181,19 +211,17 @@ const MediumPreset* medium_preset(Properties& p) {
 
 std::vector<Plugin> media() {
   const auto of_medium = [](std::string_view name) { return parameter<MediumDescription>(name); };
-  // How light is sampled, which does not change what it does.
-  const ParameterList sampling =
-      inert_parameters(boolean, "sample_emitters has_spectral_extinction", v3);
   return {
       {"homogeneous",
        both,
-       {of_material("sigma_t"), of_material("albedo"), kHomogeneous0x, of_medium("scale"), sampling,
-        kMonochromatic, inert_parameters(number, "sampling_density medium_sampling_weight", v0)},
+       {of_material("sigma_t"), of_material("albedo"), kHomogeneous0x, of_medium("scale"),
+        kSampling, kMonochromatic,
+        inert_parameters(number, "sampling_density medium_sampling_weight", v0)},
        &read_homogeneous},
       {"heterogeneous",
        both,
        {of_medium("sigma_t"), kDensity, of_medium("albedo"), kOrientation, of_medium("scale"),
-        sampling, inert_parameters(string, "method", v0),
+        kSampling, inert_parameters(string, "method", v0),
         inert_parameters(number, "step_size", v0)},
        &read_heterogeneous},
   };
