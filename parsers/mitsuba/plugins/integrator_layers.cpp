@@ -121,16 +121,18 @@ Plugin aov() {
           "prim_index shape_index, and duv_dx duv_dy, which are per pixel: Mitsuba 3.9.1 "
           "divides them by the square root of the sample count",
       .required = true};
-  return {"aov",
-          v3,
-          {aovs, inert_parameters(boolean, "hide_emitters")},
-          &read_aov,
-          "may hold an integrator"};
+  return {
+      "aov",
+      v3,
+      {aovs, inert_parameters(boolean, "hide_emitters")},
+      &read_aov,
+      "may hold an integrator; its image is R, G, B, not repeated as name.R and so on, and layers "
+      "of one within it keep their names"};
 }
 
 Plugin moment() {
   return {"moment", v3, inert_parameters(boolean, "hide_emitters"), &read_moment,
-          "holds an integrator"};
+          "holds an integrator; the layer is called m2 with R, G, B, not m2_name with X, Y, Z"};
 }
 
 Plugin field_integrator() {
