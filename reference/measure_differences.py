@@ -1,12 +1,14 @@
 #!/usr/bin/env python3
 """Measures where Mitsuba is off: the figures of the last section of docs/compatibility.md.
 
-    measure_differences.py [NAME...]       blend-delta direct-delta-lights ray-offset-media ray-offset-surfaces sggx-flakes
+    measure_differences.py [NAME...]       blend-delta bump-tangents direct-delta-lights null-paths ray-offset-media
+                                           ray-offset-surfaces sggx-flakes smooth-light-samples
 
 Needs the package mitsuba (3.9.1) with the variant llvm_ad_rgb. Each line is a scene, the mean of its image with its standard
 error from six renders, and the ratio to what is due, where that is known.
 """
 import sys
+import tempfile
 
 import mitsuba as mi
 import numpy as np
@@ -94,8 +96,46 @@ def flakes():
                     cube={'type': 'cube', 'bsdf': {'type': 'null'}, 'interior': medium})
 
 
-ALL = {'blend-delta': blends, 'direct-delta-lights': delta_lights, 'ray-offset-media': offsets_in_media,
-       'ray-offset-surfaces': offsets_of_surfaces, 'sggx-flakes': flakes}
+def null_paths():
+    for opacity in (1.0, 0.5, 0.1):
+        square = {'type': 'rectangle', 'bsdf': {'type': 'mask', 'opacity': opacity, 'nested': grey(0.5)}}
+        scene = {'sensor': camera(), 'light': {'type': 'point', 'position': [0, 0, 3]}, 'square': square}
+        due = measure(f'square of opacity {opacity}, volpath', 256, integrator={**PATH, 'type': 'volpath'}, **scene)
+        measure(f'square of opacity {opacity}, path', 256, due, integrator=PATH, **scene)
+
+
+def smooth_light_samples():
+    square = """v -1 -1 0\nv 1 -1 0\nv 1 1 0\nv -1 1 0\nvn -{0} -{0} 1\nvn {0} -{0} 1\nvn {0} {0} 1\nvn -{0} {0} 1
+f 1//1 2//2 3//3\nf 1//1 3//3 4//4\n"""
+    for spread in (0, 0.2, 0.5):
+        with tempfile.NamedTemporaryFile('w', suffix='.obj') as file:
+            file.write(square.format(spread))
+            file.flush()
+            lamp = {'type': 'obj', 'filename': file.name, 'to_world': T().translate([0, 0, 1]).rotate([1, 0, 0], 180),
+                    'light': {'type': 'area', 'radiance': {'type': 'rgb', 'value': 1.0}}}
+            scene = {'sensor': camera(10, (0, -4, 0.5)), 'lamp': lamp, 'square': {'type': 'rectangle', 'bsdf': grey(0.5)}}
+            due = measure(f'normals spread by {spread}, rays', 4096, **scene,
+                          integrator={'type': 'direct', 'emitter_samples': 0, 'bsdf_samples': 1})
+            measure(f'normals spread by {spread}, light samples', 4096, due, **scene,
+                    integrator={'type': 'direct', 'emitter_samples': 1, 'bsdf_samples': 0})
+
+
+def bump_tangents():
+    heights = mi.Bitmap(np.random.default_rng(1).random((7, 5, 1), np.float32))
+    for angle in (0, 30, 60, 90):
+        turn = T().rotate([0, 0, 1], angle)
+        metal = {'type': 'roughconductor', 'material': 'none', 'alpha_u': 0.05, 'alpha_v': 0.4}
+        bumps = {'type': 'bumpmap', 'scale': 0.3, 'heights': {'type': 'bitmap', 'bitmap': heights, 'raw': True}, 'bsdf': metal}
+        lamp = turn @ T().translate([-1.5, -1, 4]).rotate([1, 0, 0], 160).scale(1.2)
+        measure(f'scene turned by {angle} degrees', 512, integrator={'type': 'path', 'max_depth': 2},
+                sensor={**camera(38), 'to_world': turn @ T().look_at([0, -5, 2.6], [0, 0, 0], [0, 0, 1])},
+                lamp={'type': 'rectangle', 'to_world': lamp, 'light': {'type': 'area'}},
+                square={'type': 'rectangle', 'to_world': turn @ T().scale(1.5), 'bsdf': bumps})
+
+
+ALL = {'blend-delta': blends, 'bump-tangents': bump_tangents, 'direct-delta-lights': delta_lights, 'null-paths': null_paths,
+       'ray-offset-media': offsets_in_media, 'ray-offset-surfaces': offsets_of_surfaces, 'sggx-flakes': flakes,
+       'smooth-light-samples': smooth_light_samples}
 for name in sys.argv[1:] or ALL:
     print(f'{name}:')
     ALL[name]()

@@ -55,6 +55,9 @@ void compute_vertex_normals(TriangleMesh& mesh);
 /// Makes one vertex of those that are equal in every array, and leaves out what no triangle uses.
 void merge_equal_vertices(TriangleMesh& mesh);
 
+/// Whether the vertex normals, which there are, say what the triangles say already.
+bool has_flat_normals(const TriangleMesh& mesh);
+
 /// Replaces the normals by smooth ones with creases: triangles that meet in a vertex share a normal
 /// there only if their planes differ by less than `max_angle` degrees (compared with the first
 /// triangle of each cluster, in file order). Vertices are merged and split as that needs; vertices

@@ -193,4 +193,17 @@ void compute_creased_normals(TriangleMesh& mesh, double max_angle) {
   compute_vertex_normals(mesh);
 }
 
+bool has_flat_normals(const TriangleMesh& mesh) {
+  constexpr float kSame = 1 - 1e-6f;
+  for (const auto& t : mesh.triangles) {
+    const Point3f &a = mesh.positions[t[0]], &b = mesh.positions[t[1]], &c = mesh.positions[t[2]];
+    const Vector3f n = cross(b - a, c - a);
+    const float l = length(n);
+    if (l == 0) continue;
+    for (const uint32_t v : t)
+      if (!(dot(Vector3f(mesh.normals[v]), n) > kSame * l)) return false;
+  }
+  return true;
+}
+
 }  // namespace duet

@@ -6,20 +6,6 @@ namespace duet {
 
 namespace {
 
-/// Forgets vertex normals that say what the triangles say already.
-void drop_flat_normals(TriangleMesh& mesh) {
-  constexpr float kSame = 1 - 1e-6f;
-  for (const auto& t : mesh.triangles) {
-    const Point3f &a = mesh.positions[t[0]], &b = mesh.positions[t[1]], &c = mesh.positions[t[2]];
-    const Vector3f n = cross(b - a, c - a);
-    const float l = length(n);
-    if (l == 0) continue;
-    for (const uint32_t v : t)
-      if (!(dot(Vector3f(mesh.normals[v]), n) > kSame * l)) return;
-  }
-  mesh.normals = {};
-}
-
 bool has_finite_positions(const TriangleMesh& mesh) {
   for (const Point3f& p : mesh.positions)
     if (!std::isfinite(p.x) || !std::isfinite(p.y) || !std::isfinite(p.z)) return false;
@@ -35,7 +21,8 @@ bool has_finite_points(const CurveSet& curves) {
 /// Leaves out what neither the materials and lights nor the layers of the image read.
 void strip(TriangleMesh& mesh, const SurfaceNeeds& needs, const std::set<ShapeTexture*>& textures) {
   if (!needs.uv && !needs.tangents) mesh.uvs = {};
-  if (!mesh.normals.empty()) drop_flat_normals(mesh);
+  // Vertex normals that say what the triangles say already.
+  if (!mesh.normals.empty() && has_flat_normals(mesh)) mesh.normals = {};
   std::erase_if(mesh.attributes, [&](const MeshAttribute& a) {
     for (const ShapeTexture* t : textures)
       if (t->reads_attribute(a.name)) return false;

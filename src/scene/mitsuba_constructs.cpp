@@ -80,7 +80,61 @@ bool blends_delta(const SceneDescription& scene, const SceneFeatures&) {
   });
 }
 
+// ---- Bumps ----
+
+namespace {
+
+bool is_anisotropic(const Roughness& r) {
+  return !(r.alpha_u == r.alpha_v);
+}
+
+/// Whether the BSDF, or one within it, is anisotropic.
+bool is_anisotropic(const SceneDescription& scene, MaterialId id) {
+  const MaterialModel& model = scene.materials[size_t(id)].model;
+  if (const auto* m = model.get_if<ConductorMaterial>())
+    return m->roughness && is_anisotropic(*m->roughness);
+  if (const auto* m = model.get_if<DielectricMaterial>())
+    return m->roughness && is_anisotropic(*m->roughness);
+  if (const auto* m = model.get_if<PrincipledMaterial>()) return m->anisotropic != FloatInput(0.0);
+  if (const auto* m = model.get_if<PrincipledThinMaterial>())
+    return m->anisotropic != FloatInput(0.0);
+  const auto& parts = model.nested();
+  return std::any_of(parts.begin(), parts.end(),
+                     [&](MaterialId part) { return is_anisotropic(scene, part); });
+}
+
+}  // namespace
+
+bool bumps_anisotropic(const SceneDescription& scene, const SceneFeatures&) {
+  const auto ids = used_materials(scene);
+  return std::any_of(ids.begin(), ids.end(), [&](MaterialId id) {
+    const auto* bumps = scene.materials[size_t(id)].model.get_if<BumpMapMaterial>();
+    return bumps && is_anisotropic(scene, bumps->nested);
+  });
+}
+
+// ---- Null lobes ----
+
+bool drops_null_paths(const SceneDescription& scene, const SceneFeatures& f) {
+  const auto* path = std::get_if<PathIntegratorDescription>(&scene.integrator.method);
+  if (!path) return false;
+  if ((f.constant_environment || f.environment_map || f.sky) && !path->hide_emitters) return false;
+  const auto ids = used_materials(scene);
+  return std::any_of(ids.begin(), ids.end(), [&](MaterialId id) {
+    const MaterialModel& model = scene.materials[size_t(id)].model;
+    return model.is<MaskMaterial>() || model.is<NullMaterial>() ||
+           model.is<ThinDielectricMaterial>();
+  });
+}
+
 // ---- Lights ----
+
+bool emits_from_smooth_meshes(const SceneDescription& scene, const SceneFeatures&) {
+  return std::any_of(scene.shapes.begin(), scene.shapes.end(), [](const ShapeDescription& s) {
+    const auto* m = std::get_if<MeshShape>(&s.geometry);
+    return s.emission && m && m->mesh && !m->mesh->normals.empty() && !has_flat_normals(*m->mesh);
+  });
+}
 
 bool repeats_delta_lights(const SceneDescription& scene, const SceneFeatures& f) {
   const auto* direct = std::get_if<DirectIntegratorDescription>(&scene.integrator.method);

@@ -12,6 +12,12 @@ namespace duet {
 bool blends_delta(const SceneDescription& scene, const SceneFeatures& features);
 /// Direct light with several samples of lights that no ray can hit.
 bool repeats_delta_lights(const SceneDescription& scene, const SceneFeatures& features);
+/// Path tracing of surfaces that light goes straight through, before no environment that is seen.
+bool drops_null_paths(const SceneDescription& scene, const SceneFeatures& features);
+/// Meshes that emit light and have vertex normals other than those of their triangles.
+bool emits_from_smooth_meshes(const SceneDescription& scene, const SceneFeatures& features);
+/// A bump map over a BSDF that tells the directions along the surface apart.
+bool bumps_anisotropic(const SceneDescription& scene, const SceneFeatures& features);
 /// A medium whose mean free path is below 50 of Mitsuba 3's ray offsets.
 bool has_short_free_path(const SceneDescription& scene, const SceneFeatures& features);
 /// Surfaces in a sphere whose radius is below 100 ray offsets.

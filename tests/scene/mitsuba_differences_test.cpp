@@ -66,7 +66,7 @@ TEST_CASE("differences from Mitsuba have names and texts of their own") {
       CHECK(mitsuba_differences_markdown().find(text) != std::string::npos);
     }
   }
-  CHECK(ids.size() >= 6);
+  CHECK(ids.size() >= 9);
 }
 
 TEST_CASE("blends are met if one side has a delta lobe and the other does not") {
@@ -76,10 +76,60 @@ TEST_CASE("blends are met if one side has a delta lobe and the other does not") 
         "blend-delta ");
   CHECK(met(ball_at(blend("diffuse", "roughplastic"))).empty());
   CHECK(met(ball_at(blend("conductor", "dielectric"))).empty());
-  CHECK(met(ball_at(blend("diffuse", "null"))).empty());
+  CHECK(met(ball_at(blend("diffuse", "null"))) == "null-paths ");
   CHECK(met(ball_at(blend("diffuse", "conductor", 1))).empty());
   // What no shape has is not rendered.
   CHECK(met(blend("diffuse", "conductor") + ball_at("")).empty());
+}
+
+TEST_CASE("bumps are met over anisotropic BSDFs") {
+  const auto bumpy = [](const std::string& nested) {
+    return met(ball_at("<bsdf type='bumpmap'><texture type='checkerboard'/>" + nested + "</bsdf>"));
+  };
+  const std::string brushed =
+      "<bsdf type='roughconductor'><float name='alpha_u' value='0.1'/><float name='alpha_v' "
+      "value='0.3'/></bsdf>";
+  CHECK(bumpy(brushed) == "bump-tangents ");
+  CHECK(bumpy("<bsdf type='twosided'>" + brushed + "</bsdf>") == "bump-tangents ");
+  CHECK(bumpy("<bsdf type='principled'><float name='anisotropic' value='0.5'/></bsdf>") ==
+        "bump-tangents ");
+  CHECK(bumpy("<bsdf type='roughconductor'/>").empty());
+  CHECK(bumpy("<bsdf type='principled'/>").empty());
+  CHECK(met(ball_at(brushed)).empty());
+}
+
+TEST_CASE("null lobes are met by path tracing without an environment that is seen") {
+  const std::string masked =
+      "<bsdf type='mask'><float name='opacity' value='0.5'/><bsdf type='diffuse'/></bsdf>";
+  const auto with = [](const std::string& method, const std::string& bsdf,
+                       const std::string& light = "") {
+    return met("<integrator type='" + method + "/integrator>" + light + "<shape type='sphere'>" +
+               bsdf + "</shape>");
+  };
+  const std::string sky = "<emitter type='constant'/>",
+                    hidden = "path'><boolean name='hide_emitters' value='true'/><";
+  CHECK(with("path'><", masked) == "null-paths ");
+  CHECK(with("path'><", "<bsdf type='thindielectric'/>") == "null-paths ");
+  CHECK(with("path'><", "<bsdf type='diffuse'/>").empty());
+  CHECK(with("path'><", masked, sky).empty());
+  CHECK(with(hidden, masked, sky) == "null-paths ");
+  CHECK(with("volpath'><", masked).empty());
+}
+
+TEST_CASE("lamps are met that are meshes with other normals than their triangles") {
+  const auto lamp = [](const std::string& light, const Vector3f& normal) {
+    SceneDescription scene = read(kPath + "<shape type='cube'>" + light + "</shape>");
+    auto mesh = std::make_shared<TriangleMesh>(make_rectangle());
+    mesh->normals.assign(mesh->positions.size(), Normal3f(normal));
+    MeshShape shape;
+    shape.mesh = mesh;
+    scene.shapes.at(0).geometry = shape;
+    return names(scene);
+  };
+  const std::string light = "<emitter type='area'/>";
+  CHECK(lamp(light, {0.6f, 0, 0.8f}) == "smooth-light-samples ");
+  CHECK(lamp(light, {0, 0, 1}).empty());
+  CHECK(lamp("", {0.6f, 0, 0.8f}).empty());
 }
 
 TEST_CASE("direct light is met with several samples of lights that no ray hits") {
