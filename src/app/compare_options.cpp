@@ -98,9 +98,27 @@ void CompareOptionParser::check_files() const {
     if (!path->empty() && !is_display_format(*path))
       throw UsageError(
           fmt::format("{} {}: differences are written as .png or .jpg", option, *path));
+  FileUses uses = read_files();
+  for (const auto& [option, path] : pictures) uses.write(option, *path);
+  uses.write("--html", options_.html);
+  uses.write("--junit", options_.junit);
   for (const auto& [option, path] : pictures) check_writable(option, *path);
   check_writable("--html", options_.html);
   check_writable("--junit", options_.junit);
+}
+
+FileUses CompareOptionParser::read_files() const {
+  const CompareSettings& s = options_.settings;
+  FileUses uses;
+  const auto read = [&](const char* use, const std::string& operand) {
+    for (const std::string& path :
+         options_.batches ? images_of_set(operand) : std::vector<std::string>{operand})
+      uses.read(use, path);
+  };
+  read("the image", s.image);
+  read("the reference", s.reference);
+  uses.read("--variance", s.variance);
+  return uses;
 }
 
 /// A figure that needs another option cannot be required without it.

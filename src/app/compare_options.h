@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "evaluate/compare/compare.h"
+#include "evaluate/render/file_uses.h"
 
 namespace CLI {
 class App;
@@ -32,6 +33,8 @@ class CompareOptionParser {
   void check_available(const Requirement& required) const;
   void check() const;
   void check_files() const;
+  /// The files that are compared.
+  FileUses read_files() const;
 
   CompareOptions options_;
   std::string spp_, reference_spp_;

@@ -92,6 +92,7 @@ class RenderCommand {
       const RenderCall call{batch_,
                             statistics_,
                             program_.command_line,
+                            options_.uses,
                             log_,
                             [&](const std::string& scene) { return progress_of(scene); },
                             interrupt_flag(),

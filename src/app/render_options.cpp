@@ -205,6 +205,14 @@ void RenderOptionParser::finish_live() {
       uint16_t(parse_whole("--live-port", live_port_, 1, std::numeric_limits<uint16_t>::max()));
 }
 
+void RenderOptionParser::finish_uses() {
+  RenderCommandLine& o = options_;
+  for (const std::string& scene : o.read.scenes) o.uses.read("the scene", scene);
+  o.uses.read(kResume, o.resume);
+  o.uses.write("--stats", o.stats_file);
+  o.uses.write("--log", o.log_file);
+}
+
 RenderCommandLine RenderOptionParser::finish() {
   RenderCommandLine& o = options_;
   finish_numbers();
@@ -226,7 +234,8 @@ RenderCommandLine RenderOptionParser::finish() {
   finish_format();
   finish_raw();
   check_parts(o);
-  check_outputs(o);
+  finish_uses();
+  check_outputs(o, o.uses);
   check_writable("--stats", o.stats_file);
   return std::move(options_);
 }

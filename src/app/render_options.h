@@ -6,6 +6,7 @@
 
 #include "app/file_options.h"
 #include "app/progress.h"
+#include "evaluate/render/file_uses.h"
 #include "evaluate/render/render_options.h"
 
 namespace CLI {
@@ -19,6 +20,7 @@ struct Program;
 struct RenderCommandLine : RenderOptions {
   bool keep_going = true, require_target = false;
   std::string stats_file, log_file;
+  FileUses uses;  ///< of all files that are named, but for images and raw films
   bool quiet = false, verbose = false;
   ProgressStyle progress = ProgressStyle::automatic;
   std::optional<uint16_t> live_port;  ///< of the page that shows the image; 0: any
@@ -41,6 +43,7 @@ class RenderOptionParser {
   void finish_format();
   void finish_raw();
   void finish_live();
+  void finish_uses();
 
   Program& program_;
   RenderCommandLine options_;

@@ -5,6 +5,7 @@
 #include "app/commands.h"
 #include "app/program.h"
 #include "base/system/atomic_file.h"
+#include "evaluate/render/file_uses.h"
 #include "evaluate/render/output.h"
 #include "evaluate/web/browser.h"
 #include "evaluate/web/image_page.h"
@@ -18,6 +19,9 @@ struct ViewOptions {
 };
 
 int view(const ViewOptions& o, Program& program) {
+  FileUses uses;
+  uses.read("the image", o.image);
+  uses.write("-o", o.page);
   try {
     const std::string html = image_page(o.image, load_linear(o.image));
     if (o.page == "-") {

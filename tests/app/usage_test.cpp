@@ -166,6 +166,36 @@ TEST_SUITE("program") {
     check_refused(place, {"a.xml", "b.xml", "-o", "{seed}.exr"}, "{scene}");
   }
 
+  TEST_CASE("a file with two uses in one call is refused") {
+    const Workplace place;
+    place.scene();
+    place.write("film.exr", "a");
+    place.write("c.png", "a");
+    std::filesystem::create_symlink(place.path("film.exr"), place.path("link.exr"));
+    const char* named = "this file has another use in this call";
+    const Arguments calls[] = {
+        {"tiny.xml", "-o", "a.exr", "--raw", "./a.exr"},
+        {"tiny.xml", "-o", "a.exr", "-o", "a.exr"},
+        {"tiny.xml", "-o", "{spp}.exr", "-o", "4.exr"},
+        {"tiny.xml", "-o", "a.exr", "-o", "a.checkpoint.exr", "--checkpoint", "60s"},
+        {"tiny.xml", "--stats", "tiny.exr"},
+        {"tiny.xml", "--log", "tiny.xml"},
+        {"tiny.xml", "--log", "l", "--stats", "l"},
+        {"tiny.xml", "--resume", "film.exr", "-o", "link.exr"},
+        {"merge", "film.exr", "-o", "a.exr", "--raw", "a.exr"},
+        {"merge", "film.exr", "-o", "link.exr"},
+        {"merge", "film.exr", "-o", "a.png", "--png", "a.png"},
+        {"view", "film.exr", "-o", "link.exr"},
+        {"compare", "c.png", "film.exr", "--diff", "./c.png"},
+        {"compare", "c.png", "film.exr", "--html", "h", "--junit", "h"},
+        {"compare", "--batches", "c.png,film.exr", "c.png,film.exr", "--diff", "c.png"},
+        {"slurm", "tiny.xml", "--tasks", "2", "--dry-run", "-o", "a.exr", "-o", "a.exr"},
+    };
+    for (const Arguments& arguments : calls) check_refused(place, arguments, named);
+    CHECK(read_file(place.path("film.exr")) == "a");
+    CHECK(read_file(place.path("c.png")) == "a");
+  }
+
   TEST_CASE("help is complete and has examples") {
     const Workplace place;
     const std::pair<Arguments, Arguments> cases[] = {

@@ -52,7 +52,4 @@ struct Job {
 void add_to_all(std::vector<Job>& jobs, const std::vector<JobOption>& for_all,
                 const std::vector<RenderOption>& known);
 
-/// An error, with both places, for each output that a job before has already.
-void check_outputs_differ(const std::vector<Job>& jobs, Diagnostics& diagnostics);
-
 }  // namespace duet::batch

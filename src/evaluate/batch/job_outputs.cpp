@@ -4,8 +4,10 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <map>
 
 #include "base/failures.h"
+#include "evaluate/render/file_uses.h"
 #include "evaluate/render/output.h"
 #include "evaluate/render/placeholders.h"
 
@@ -37,6 +39,23 @@ std::string output_of_job(const Job& job, const std::string& pattern, const std:
                      "." + (format.empty() ? "exr" : format));
 }
 
+/// The images and the raw film of a job, as far as the list says their names.
+std::vector<std::string> files_of_job(const Job& job) {
+  std::vector<std::string> files = job.outputs;
+  if (const std::string pattern = job.value("raw"); !pattern.empty()) try {
+      OutputNames names = output_names(job.scene);
+      const auto said = [&](const char* option) {
+        const std::string value = job.value(option);
+        return value.empty() ? fmt::format("{{{}}}", option) : value;
+      };
+      names.integrator = said("integrator"), names.spp = said("spp"), names.seed = said("seed");
+      files.push_back(output_path(pattern, names, kRawExtension));
+    } catch (const UsageError&) {
+      // The check of the job's options says so.
+    }
+  return files;
+}
+
 }  // namespace
 
 void name_outputs(std::vector<Job>& jobs, const std::vector<std::string>& templates,
@@ -51,6 +70,27 @@ void name_outputs(std::vector<Job>& jobs, const std::vector<std::string>& templa
       job.outputs.clear();
     }
   }
+}
+
+void check_outputs_differ(const std::vector<Job>& jobs, Diagnostics& diagnostics) {
+  std::map<std::string, const Job*> readers, writers;
+  for (const Job& job : jobs)
+    for (const std::string& path : {job.scene, job.value("resume")})
+      if (!path.empty()) readers.try_emplace(file_behind(path), &job);
+  for (const Job& job : jobs)
+    for (const std::string& path : files_of_job(job)) {
+      const std::string file = file_behind(path);
+      const auto [writer, is_new] = writers.try_emplace(file, &job);
+      if (!is_new)
+        diagnostics.error(job.where,
+                          "{} is written by two jobs, the other is {}; a template with {{scene}}, "
+                          "{{folder}} or the name of an option tells them apart",
+                          path, writer->second->where.to_string());
+      const auto reader = readers.find(file);
+      if (reader != readers.end() && reader->second != &job)
+        diagnostics.error(job.where, "{} is read by another job, {}", path,
+                          reader->second->where.to_string());
+    }
 }
 
 }  // namespace duet::batch

@@ -15,4 +15,8 @@ namespace duet::batch {
 void name_outputs(std::vector<Job>& jobs, const std::vector<std::string>& templates,
                   const std::string& folder, Diagnostics& diagnostics);
 
+/// An error, with both places, for each image or raw film that a job before writes, too, or that
+/// another job reads.
+void check_outputs_differ(const std::vector<Job>& jobs, Diagnostics& diagnostics);
+
 }  // namespace duet::batch

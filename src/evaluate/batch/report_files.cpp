@@ -1,34 +1,29 @@
-#include <fmt/format.h>
-
-#include <filesystem>
 #include <functional>
-#include <set>
 
-#include "base/failures.h"
 #include "evaluate/batch/reports.h"
+#include "evaluate/render/file_uses.h"
 #include "evaluate/render/output.h"
 #include "evaluate/render/output_checks.h"
 
 namespace duet::batch {
 
-namespace fs = std::filesystem;
-
 void check_files(const std::string& list, const std::vector<Job>& jobs, const ReportPaths& paths,
                  Diagnostics& diagnostics) {
-  std::error_code ignored;
-  std::set<std::string> taken{fs::weakly_canonical(list, ignored)};
-  for (const Job& job : jobs)
+  FileUses uses;
+  uses.read("the list", list);
+  for (const Job& job : jobs) {
+    uses.read("the scene", job.scene);
     for (const std::string& output : job.outputs) {
-      taken.insert(fs::weakly_canonical(output, ignored));
+      uses.read("the image", output);  // that two jobs write it is known already
       if (const std::string why = prepare_file(output); !why.empty())
         diagnostics.error(job.where, "{}", why);
     }
+  }
   const std::pair<const char*, const std::string&> reports[] = {
       {"--report", paths.page}, {"--junit", paths.junit}, {"--csv", paths.csv}};
   for (const auto& [option, path] : reports) {
     if (path.empty()) continue;
-    if (!taken.insert(fs::weakly_canonical(path, ignored)).second)
-      throw UsageError(fmt::format("{} {}: this file has another use in this call", option, path));
+    uses.write(option, path);
     check_writable(option, path);
   }
 }

@@ -5,6 +5,7 @@
 #include <stdexcept>
 
 #include "evaluate/raw/merge.h"
+#include "evaluate/render/file_uses.h"
 #include "evaluate/render/output.h"
 #include "evaluate/report/render_report.h"
 #include "evaluate/report/statistics.h"
@@ -12,6 +13,15 @@
 namespace duet {
 
 namespace {
+
+/// Throws UsageError if a file that is to be written has another use.
+void check_uses(const MergeRequest& r) {
+  FileUses uses;
+  for (const std::string& film : r.films) uses.read("the film", film);
+  for (const std::string& path : r.outputs) uses.write("-o", path);
+  uses.write("--raw", r.raw);
+  uses.write("--stats", r.stats);
+}
 
 /// All files that are to be written; throws std::runtime_error if one cannot be.
 std::vector<std::string> prepared_files(const MergeRequest& r) {
@@ -32,6 +42,7 @@ bool report(const std::vector<std::string>& incomplete, Messages& messages) {
 }  // namespace
 
 bool merge_to_files(MergeRequest r, Messages& messages) {
+  check_uses(r);
   const std::vector<std::string> planned = prepared_files(r);
   r.slices.leave_out_missing(r.films);
   if (r.films.empty()) {

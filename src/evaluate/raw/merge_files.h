@@ -22,7 +22,7 @@ struct MergeRequest {
 
 /// Adds up the films and writes what is asked for. Whether they have all samples that they should:
 /// a message names each slice that is not complete. Throws UsageError for images that cannot hold
-/// the layers, and std::runtime_error, also as merge_raw_films() does.
+/// the layers and files with two uses, and std::runtime_error, also as merge_raw_films() does.
 bool merge_to_files(MergeRequest request, Messages& messages);
 
 }  // namespace duet

@@ -9,6 +9,9 @@
 
 namespace duet {
 
+/// Of a raw film in a directory.
+inline constexpr const char* kRawExtension = ".raw.exr";
+
 /// What the placeholders of a path template stand for.
 struct OutputNames {
   /// The scene file's name without directory and extension; of a scene.xml, whose name says

@@ -38,6 +38,13 @@ void check_raw_films(const RenderOptions& o) {
         "--cryptomatte: raw films hold no mattes, and --raw without -o writes no image");
 }
 
+/// A pattern for each scene's file of one kind.
+struct PlannedOutput {
+  const char* option;
+  std::string pattern, extension;
+  std::string may_replace = "";  ///< a use of its file that does no harm
+};
+
 }  // namespace
 
 void check_parts(const RenderOptions& o) {
@@ -65,28 +72,31 @@ void check_writable(const std::string& option, const std::string& path) {
     throw UsageError(fmt::format("{}: {}", option, why));
 }
 
-void check_outputs(const RenderOptions& o) {
+void check_outputs(const RenderOptions& o, FileUses uses) {
   check_standard_output(o);
-  std::vector<std::string> patterns = o.outputs;
-  if (!o.raw.empty()) patterns.push_back(o.raw);
-  if (patterns.empty()) patterns.emplace_back();
+  std::vector<PlannedOutput> planned;
+  for (const std::string& pattern : o.outputs) planned.push_back({"-o", pattern, o.extension});
+  if (!o.raw.empty()) planned.push_back({"--raw", o.raw, kRawExtension, kResume});
+  if (planned.empty()) planned.push_back({"the image", "", o.extension});
   std::map<std::string, std::string> writers;
   for (const std::string& scene : o.read.scenes)
-    for (const std::string& pattern : patterns) {
+    for (const auto& [option, pattern, extension, may_replace] : planned) {
       if (o.skip_existing && !o.budget.spp && (o.budget.seconds || o.budget.target_error) &&
           pattern.find("{spp}") != std::string::npos)
         throw UsageError(fmt::format(
             "-o {}: --skip-existing cannot know {{spp}} before the scene is rendered", pattern));
       OutputNames names = output_names(scene);
-      // Two scenes that differ only in what they say themselves are too much alike.
-      names.integrator = names.spp = names.seed = "_";
-      const std::string path = output_path(pattern, names, o.extension);
+      // What only the scene can say stays as it is: two scenes that differ only in that are too
+      // much alike.
+      names.integrator = "{integrator}", names.spp = "{spp}", names.seed = "{seed}";
+      const std::string path = output_path(pattern, names, extension);
       const auto [entry, is_new] = writers.try_emplace(path, scene);
       if (!is_new && o.read.scenes.size() > 1)
         throw UsageError(fmt::format(
             "-o {}: {} and {} would be written to one file; use a template with {{scene}} or "
             "{{folder}}",
             pattern.empty() ? path : pattern, entry->second, scene));
+      uses.write(option, path, may_replace);
     }
 }
 

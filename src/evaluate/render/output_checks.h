@@ -1,6 +1,7 @@
 // What can be known of outputs before any scene is read.
 #pragma once
 
+#include "evaluate/render/file_uses.h"
 #include "evaluate/render/render_options.h"
 
 namespace duet {
@@ -13,8 +14,9 @@ void check_parts(const RenderOptions& options);
 /// makes the directories in which it is to be. "" is no file.
 void check_writable(const std::string& option, const std::string& path);
 
-/// Throws UsageError if two scenes would be written to one file, if a name cannot be known, or if
-/// standard output cannot hold what it is to hold.
-void check_outputs(const RenderOptions& options);
+/// Throws UsageError if two images or raw films would be written to one file, or to one of `uses`,
+/// those that the call names otherwise; if a name cannot be known, or if standard output cannot
+/// hold what it is to hold.
+void check_outputs(const RenderOptions& options, FileUses uses);
 
 }  // namespace duet

@@ -23,13 +23,17 @@ RawOutput::RawOutput(const RenderOptions& options, const OutputNames& names,
                      const std::string& image_path, Messages& messages)
     : options_(options), messages_(messages), is_named_(!options.raw.empty()) {
   if (is_named_) {
-    path_ = output_path(options.raw, names, ".raw.exr");
+    path_ = output_path(options.raw, names, kRawExtension);
   } else if (options.checkpoint) {
     if (is_standard_output(image_path))
       throw UsageError("--checkpoint: beside standard output, --raw has to name the file");
     path_ = checkpoint_path(image_path);
   }
   if (options.checkpoint) schedule(0);
+}
+
+void RawOutput::add_to(FileUses& uses) const {
+  uses.write(is_named_ ? "--raw" : "--checkpoint", path_, kResume);
 }
 
 std::string RawOutput::obstacle() const {

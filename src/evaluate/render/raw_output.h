@@ -7,6 +7,7 @@
 
 #include "base/messages.h"
 #include "evaluate/raw/raw_film.h"
+#include "evaluate/render/file_uses.h"
 #include "evaluate/render/output.h"
 #include "evaluate/render/render_options.h"
 
@@ -21,6 +22,8 @@ class RawOutput {
 
   /// Whether the render has to keep a state that it can go on from.
   bool keeps_state() const { return !path_.empty() || !options_.resume.empty(); }
+  /// Throws UsageError if its file has another use.
+  void add_to(FileUses& uses) const;
   /// Why it could not be written; empty if it can.
   std::string obstacle() const;
   /// What the render is to go on from, if there is anything. Throws ReadError for a film that the

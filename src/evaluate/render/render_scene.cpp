@@ -120,6 +120,9 @@ class SceneRenderer {
     images_.emplace(options_, file_, names, settings_, planned_spp_, messages_);
     names.spp = fmt::to_string(planned_spp_);
     raw_.emplace(options_, names, images_->planned()[0], messages_);
+    FileUses uses = call_.uses;
+    if (options_.writes_images) images_->add_to(uses);
+    raw_->add_to(uses);
     request_.keeps_state = raw_->keeps_state();
   }
 

@@ -8,6 +8,7 @@
 #include "base/messages.h"
 #include "evaluate/live/live_page.h"
 #include "evaluate/render/batch.h"
+#include "evaluate/render/file_uses.h"
 #include "evaluate/render/render_options.h"
 #include "evaluate/report/statistics.h"
 #include "integrators/pass.h"
@@ -27,6 +28,7 @@ struct RenderCall {
   const Batch& batch;
   StatisticsFile& statistics;
   const std::string& command_line;  ///< for the header of images
+  const FileUses& uses;             ///< of the files that the call names
   Messages& messages;
   /// What shows the progress of a scene of that name, for as long as it lives.
   std::function<ShowProgress(const std::string& scene)> progress;

@@ -41,6 +41,10 @@ std::vector<std::string> SceneImages::planned() const {
   return all;
 }
 
+void SceneImages::add_to(FileUses& uses) const {
+  for (const std::string& path : planned()) uses.write("-o", path);
+}
+
 std::vector<std::string> SceneImages::partial_paths(Kind kind, int spp) const {
   if (options_.keep_partial_name) return paths(kind, spp);
   // The name of the image that it is a part of.

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "base/messages.h"
+#include "evaluate/render/file_uses.h"
 #include "evaluate/render/output.h"
 #include "evaluate/render/render_options.h"
 #include "evaluate/report/fingerprint.h"
@@ -22,6 +23,8 @@ class SceneImages {
   /// The files of a finished image: those of the image itself first, then those of the denoised
   /// one.
   std::vector<std::string> planned() const;
+  /// Throws UsageError if one of them has another use.
+  void add_to(FileUses& uses) const;
   /// Whether all planned files are finished images of these settings. One line says why one that is
   /// there is not.
   bool are_finished() const;

@@ -6,6 +6,7 @@
 
 #include "base/failures.h"
 #include "evaluate/render/file_settings_text.h"
+#include "evaluate/render/file_uses.h"
 #include "evaluate/render/output.h"
 #include "evaluate/render/scene_method.h"
 #include "evaluate/render/scene_operand.h"
@@ -27,8 +28,13 @@ ImageJob job_of(const ArrayRequest& request, const std::string& file, const Outp
     job.render_options.insert(job.render_options.end(), {"--spp", names.spp});
   std::vector<std::string> patterns = request.outputs;
   if (patterns.empty()) patterns.emplace_back();
-  for (const std::string& pattern : patterns)
-    job.merge_options.insert(job.merge_options.end(), {"-o", output_path(pattern, names)});
+  FileUses uses;
+  uses.read("the scene", file);
+  for (const std::string& pattern : patterns) {
+    const std::string path = output_path(pattern, names);
+    uses.write("-o", path);
+    job.merge_options.insert(job.merge_options.end(), {"-o", path});
+  }
   for (const std::string& argument : file_arguments(request.render.files))
     job.merge_options.push_back(argument);
   name_job(job, job.merge_options[1]);

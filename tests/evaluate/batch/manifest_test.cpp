@@ -7,6 +7,7 @@
 #include <random>
 
 #include "evaluate/batch/job_arguments.h"
+#include "evaluate/batch/job_outputs.h"
 #include "support/files.h"
 
 using namespace duet;
@@ -187,10 +188,15 @@ TEST_CASE("two jobs with one output are an error with both places") {
   jobs[0].outputs = {"a.exr", "out/x.exr"};
   jobs[1].outputs = {"b.exr"};
   jobs[2].outputs = {"./out/../out/x.exr"};
+  jobs[1].scene = "room.xml", jobs[1].options = {{"raw", {"{scene}.exr"}}};
+  jobs[2].scene = "b.exr", jobs[2].options = {{"raw", {"./room.exr"}}};
   Diagnostics diagnostics;
   check_outputs_differ(jobs, diagnostics);
-  REQUIRE(diagnostics.all().size() == 1);
+  REQUIRE(diagnostics.all().size() == 3);
   CHECK(diagnostics.all()[0].to_string() ==
+        "jobs.csv:3: error: b.exr is read by another job, jobs.csv:4");
+  CHECK(diagnostics.all()[2].to_string().starts_with("jobs.csv:4: error: ./room.exr is written"));
+  CHECK(diagnostics.all()[1].to_string() ==
         "jobs.csv:4: error: ./out/../out/x.exr is written by two jobs, the other is jobs.csv:2; "
         "a template with {scene}, {folder} or the name of an option tells them apart");
 }
