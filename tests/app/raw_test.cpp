@@ -324,6 +324,17 @@ TEST_SUITE("program") {
     CHECK(contains(o.err, "film.exr cannot be written"));
     CHECK(place.has("a.exr"));
     CHECK(!place.has("film.exr"));
+
+    // The same of a merge.
+    REQUIRE(place.run(render).code == 0);
+    const Outcome merged =
+        run_duet({"merge", "film.exr", "--raw", "all.exr", "-o", "m.exr"},
+                 {.directory = place.path(""), .file_limit = (small + large) / 2});
+    CAPTURE(merged.err);
+    CHECK(merged.code == 1);
+    CHECK(contains(merged.err, "all.exr cannot be written"));
+    CHECK(place.has("m.exr"));
+    CHECK(!place.has("all.exr"));
   }
 
   TEST_CASE("merge says that a file would be too large, and does not wait for pipes") {

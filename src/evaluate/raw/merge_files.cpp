@@ -2,6 +2,7 @@
 
 #include <fmt/ranges.h>
 
+#include <functional>
 #include <stdexcept>
 
 #include "evaluate/raw/merge.h"
@@ -33,6 +34,17 @@ std::vector<std::string> prepared_files(const MergeRequest& r) {
   return planned;
 }
 
+/// Calls each, whatever becomes of the others; then throws std::runtime_error with all failures.
+void write_all(const std::vector<std::function<void()>>& files) {
+  std::string failures;
+  for (const auto& write : files) try {
+      write();
+    } catch (const std::exception& e) {
+      failures += (failures.empty() ? "" : "; ") + std::string(e.what());
+    }
+  if (!failures.empty()) throw std::runtime_error(failures);
+}
+
 /// Whether there are any.
 bool report(const std::vector<std::string>& incomplete, Messages& messages) {
   for (const std::string& slice : incomplete) messages.error("{}", slice);
@@ -59,15 +71,20 @@ bool merge_to_files(MergeRequest r, Messages& messages) {
   record.threads = r.threads;
   const std::string gaps = to_string(r.slices.gaps(merged));
   if (!gaps.empty()) messages.warning("samples are missing: {}", gaps);
-  if (!r.raw.empty()) write_raw_film(r.raw, merged.image, merged.state);
   const HeaderFields header = header_of(merged, record, gaps);
+  std::vector<std::function<void()>> files;
+  if (!r.raw.empty())
+    files.emplace_back([&] { write_raw_film(r.raw, merged.image, merged.state); });
   for (const std::string& path : r.outputs)
-    write_image(path, merged.result.image, merged.image.form, header, r.files);
-  if (!r.stats.empty()) {
-    StatisticsFile statistics(r.stats);
-    statistics.add(record, merged.result, {.render = merged.result.seconds}, {});
-    statistics.write(false);
-  }
+    files.emplace_back(
+        [&] { write_image(path, merged.result.image, merged.image.form, header, r.files); });
+  if (!r.stats.empty())
+    files.emplace_back([&] {
+      StatisticsFile statistics(r.stats);
+      statistics.add(record, merged.result, {.render = merged.result.seconds}, {});
+      statistics.write(false);
+    });
+  write_all(files);
   messages.info("{} films: {} -> {}", merged.films, describe(record, merged.result),
                 fmt::join(planned, " "));
   return !report(r.slices.incomplete(merged.state.samples), messages);
