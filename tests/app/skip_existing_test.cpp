@@ -2,6 +2,7 @@
 #include <doctest/doctest.h>
 
 #include <csignal>
+#include <filesystem>
 
 #include "app/workplace.h"
 #include "support/show.h"
@@ -22,6 +23,22 @@ TEST_SUITE("program") {
     CHECK(read_file(place.path("a.exr")) == before);
     CHECK(place.has("b.exr"));
     CHECK(contains(place.run(Arguments{"a.xml", "-x", "--spp", "4"} + outputs).err, "skipped"));
+  }
+
+  TEST_CASE("an image whose raw film is gone is rendered again") {
+    const Workplace place;
+    place.scene("a.xml");
+    place.write("jobs.csv", "scene,output,raw\na.xml,a.exr,film.exr\n");
+    const Arguments arguments{"a.xml", "-x", "-o", "a.exr", "--raw", "film.exr"};
+    REQUIRE(place.run(arguments).code == 0);
+    CHECK(contains(place.run(arguments).err, "skipped"));
+    std::filesystem::remove(place.path("film.exr"));
+    CHECK(contains(place.run(arguments).err, "film.exr is not there: it is rendered again"));
+    CHECK(place.has("film.exr"));
+    CHECK(contains(place.run({"batch", "jobs.csv"}).out, "1 kept"));
+    std::filesystem::remove(place.path("film.exr"));
+    CHECK(contains(place.run({"batch", "jobs.csv"}).out, "1 rendered"));
+    CHECK(place.has("film.exr"));
   }
 
   TEST_CASE("images that are not whole are rendered again") {

@@ -36,6 +36,13 @@ void RawOutput::add_to(FileUses& uses) const {
   uses.write(is_named_ ? "--raw" : "--checkpoint", path_, kResume);
 }
 
+bool RawOutput::is_there() const {
+  std::error_code ignored;
+  if (!is_named_ || std::filesystem::exists(path_, ignored)) return true;
+  messages_.info("{} is not there: it is rendered again", path_);
+  return false;
+}
+
 std::string RawOutput::obstacle() const {
   return path_.empty() ? "" : prepare_file(path_);
 }

@@ -24,6 +24,9 @@ class RawOutput {
   bool keeps_state() const { return !path_.empty() || !options_.resume.empty(); }
   /// Throws UsageError if its file has another use.
   void add_to(FileUses& uses) const;
+  /// Whether the film that the user has named is there, or none is named; one line says that it is
+  /// not.
+  bool is_there() const;
   /// Why it could not be written; empty if it can.
   std::string obstacle() const;
   /// What the render is to go on from, if there is anything. Throws ReadError for a film that the

@@ -40,7 +40,7 @@ class SceneRenderer {
   RenderOutcome run() {
     read();
     prepare();
-    if (options_.skip_existing && images_->are_finished()) {
+    if (options_.skip_existing && images_->are_finished() && raw_->is_there()) {
       messages_.info("{}{}: skipped, {} exists", batch_.label(), file_, images_->planned()[0]);
       return RenderOutcome::not_rendered;
     }
