@@ -99,8 +99,9 @@ class RenderCommand {
                             take_snapshot_request,
                             page_ ? &*page_ : nullptr};
       const RenderOutcome outcome = render_scene(file, options_, call);
-      missed_ += outcome == RenderOutcome::target_missed;
-      return outcome != RenderOutcome::not_rendered;
+      missed_ +=
+          outcome == RenderOutcome::target_missed || outcome == RenderOutcome::kept_target_missed;
+      return outcome == RenderOutcome::rendered || outcome == RenderOutcome::target_missed;
     } catch (const UsageError& e) {
       ++misused_;
       fail(file, e.what());

@@ -217,6 +217,7 @@ TEST_SUITE("program") {
     CHECK(stats["error"]["target"] == 0.02);
     CHECK(stats["error"]["target_met"] == true);
     CHECK(place.run({"noisy.xml", "--target-error", "2%", "--require-target"}).code == 0);
+    CHECK(place.run({"noisy.xml", "--target-error", "2%", "--require-target", "-x"}).code == 0);
     // Samples may run out before, or time.
     using Texts = std::vector<std::string>;
     for (const Texts& limit : {Texts{"--spp", "20"}, Texts{"--time", "0.2"}}) {
@@ -235,6 +236,12 @@ TEST_SUITE("program") {
       arguments.push_back("--require-target");
       CHECK(place.run(arguments).code == 4);
       CHECK(place.has("noisy.exr"));
+      // The image is finished, and no better.
+      arguments.emplace_back("-x");
+      const Outcome kept = place.run(arguments);
+      CHECK(kept.code == 4);
+      CHECK(contains(kept.err, "noisy.xml: skipped"));
+      CHECK(contains(kept.err, "--target-error 0.01 % is not met: the estimate is "));
     }
     CHECK(place.run({"noisy.xml", "--require-target"}).code == 2);
   }

@@ -42,7 +42,9 @@ class SceneRenderer {
     prepare();
     if (options_.skip_existing && images_->are_finished() && raw_->is_there()) {
       messages_.info("{}{}: skipped, {} exists", batch_.label(), file_, images_->planned()[0]);
-      return RenderOutcome::not_rendered;
+      return target_outcome(images_->stored_result()) == RenderOutcome::target_missed
+                 ? RenderOutcome::kept_target_missed
+                 : RenderOutcome::not_rendered;
     }
     if (options_.writes_images) check_outputs(images_->planned());
     if (const std::string why = raw_->obstacle(); !why.empty()) throw SceneFailure(why);

@@ -19,6 +19,7 @@ enum class RenderOutcome {
   rendered,       ///< and the image is written, also after an interrupt
   not_rendered,   ///< the images exist already, or an interrupt came too early
   target_missed,  ///< the image is written, but its error is above --target-error, or not known
+  kept_target_missed,  ///< the same of images that exist already
 };
 
 using ShowProgress = std::function<void(const RenderProgress&)>;

@@ -1,14 +1,17 @@
 #include "evaluate/render/scene_images.h"
 
 #include <algorithm>
+#include <cstdlib>
 #include <filesystem>
 #include <stdexcept>
 
+#include "base/diagnostics.h"
 #include "base/system/standard_streams.h"
 #include "evaluate/render/file_settings_text.h"
 #include "evaluate/report/denoised_image.h"
 #include "evaluate/report/partial_image.h"
 #include "evaluate/report/provenance.h"
+#include "image/image_facts.h"
 
 namespace duet {
 
@@ -82,6 +85,19 @@ bool SceneImages::are_finished(Kind kind) const {
     }
   }
   return finished;
+}
+
+RenderResult SceneImages::stored_result() const {
+  RenderResult result;
+  try {
+    const ImageFacts facts = read_image_facts(planned()[0]);
+    result.spp = int(std::strtod(facts.field("spp").c_str(), nullptr));
+    const std::string error = facts.field("relativeStandardError");
+    if (!error.empty()) result.relative_rmse = std::strtod(error.c_str(), nullptr);
+  } catch (const ReadError&) {
+    // It has been moved away meanwhile: nothing is known of its error.
+  }
+  return result;
 }
 
 std::vector<std::string> SceneImages::write_files(Kind kind, const Image& image,

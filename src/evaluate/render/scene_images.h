@@ -28,6 +28,8 @@ class SceneImages {
   /// Whether all planned files are finished images of these settings. One line says why one that is
   /// there is not.
   bool are_finished() const;
+  /// What the first of the planned files says of its samples and its error.
+  RenderResult stored_result() const;
 
   /// Writes the files of a finished image, or of one that is not (`result.interrupted`) under the
   /// names for those; returns the names. Partial images that this makes obsolete are removed.
