@@ -247,7 +247,8 @@ TEST_SUITE("program") {
     CHECK(place.has("b.exr"));
     place.write("b.checkpoint.exr", "no film");
     CHECK(place.run({"tiny.xml", "-o", "b.exr", "--checkpoint", "1s"}).code == 0);
-    CHECK(read_file(place.path("b.checkpoint.old.exr")) == "no film");
+    CHECK(read_file(place.path("b.checkpoint.old.exr")) == film);
+    CHECK(read_file(place.path("b.checkpoint.old-2.exr")) == "no film");
     // The number of samples is not part of the scene, nor is the file's name.
     TinyScene same = exact_scene();
     place.scene("renamed.xml", same);

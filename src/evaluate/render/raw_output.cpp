@@ -17,6 +17,17 @@ std::string checkpoint_path(const std::string& image) {
   return std::filesystem::path(image).replace_extension(".checkpoint.exr").string();
 }
 
+/// "image.checkpoint.old.exr" for "image.checkpoint.exr", or "….old-2.exr" and so on: none that was
+/// kept before is lost.
+std::string free_old_path(const std::string& checkpoint) {
+  const std::string stem = std::filesystem::path(checkpoint).replace_extension(".old").string();
+  std::string path = stem + ".exr";
+  std::error_code ignored;
+  for (int number = 2; std::filesystem::exists(path, ignored); ++number)
+    path = fmt::format("{}-{}.exr", stem, number);
+  return path;
+}
+
 }  // namespace
 
 RawOutput::RawOutput(const RenderOptions& options, const OutputNames& names,
@@ -62,7 +73,7 @@ std::optional<RawFilm> RawOutput::source() const {
 }
 
 void RawOutput::set_aside(const std::string& why) const {
-  const std::string kept = std::filesystem::path(path_).replace_extension(".old.exr").string();
+  const std::string kept = free_old_path(path_);
   std::filesystem::rename(path_, kept);
   messages_.warning("{}; it is kept as {}, and the render begins anew", why, kept);
 }
