@@ -71,7 +71,9 @@ void Log::open_file(const std::string& path) {
   const std::scoped_lock lock(s.mutex);
   s.file = open_for_writing(path);
   s.path = path;
-  if (!s.file) throw std::runtime_error(path + ": " + std::strerror(errno));
+  if (!s.file)
+    throw std::runtime_error(path + ": " +
+                             (errno == ENXIO ? "nobody reads this pipe" : std::strerror(errno)));
 }
 
 void Log::write(Level needed, std::string_view line) noexcept {

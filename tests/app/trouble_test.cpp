@@ -5,6 +5,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <csignal>
 #include <nlohmann/json.hpp>
 
@@ -26,6 +27,24 @@ TEST_SUITE("program") {
     CHECK(contains(o.err, warning));
     CHECK(o.err.find(warning) == o.err.rfind(warning));
     CHECK(place.run({"tiny.xml", "--log", "/dev/null/log.txt"}).code == 2);
+  }
+
+  TEST_CASE("a log may be a pipe, if somebody reads it") {
+    const Workplace place;
+    place.scene();
+    const std::string pipe = place.path("pipe");
+    REQUIRE(mkfifo(pipe.c_str(), 0600) == 0);
+    const Outcome unread = place.run({"tiny.xml", "--log", "pipe"});
+    CHECK(unread.code == 2);
+    CHECK(contains(unread.err, "--log: pipe: nobody reads this pipe"));
+    CHECK(!place.has("tiny.exr"));
+    const int reader = open(pipe.c_str(), O_RDONLY | O_NONBLOCK);
+    REQUIRE(reader >= 0);
+    CHECK(place.run({"tiny.xml", "--log", "pipe"}).code == 0);
+    char text[4096];
+    const ssize_t size = read(reader, text, sizeof text);
+    close(reader);
+    CHECK(contains(std::string(text, size_t(std::max<ssize_t>(size, 0))), "tiny.exr"));
   }
 
   TEST_CASE("streams that are closed do not get into images") {

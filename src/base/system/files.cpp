@@ -23,7 +23,14 @@ FileStream open_for_reading(const std::string& path) {
 }
 
 FileStream open_for_writing(const std::string& path) {
-  return FileStream(std::fopen(path.c_str(), "we"));
+  // Without blocking: a pipe that nobody reads would be waited for.
+  const int file = open(path.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_NONBLOCK | O_CLOEXEC, 0666);
+  if (file < 0) return nullptr;
+  // Its reader may be slower than we are.
+  fcntl(file, F_SETFL, fcntl(file, F_GETFL) & ~O_NONBLOCK);
+  FileStream stream(fdopen(file, "wb"));
+  if (!stream) close(file);
+  return stream;
 }
 
 InputFile::InputFile(const std::string& path) : stream_(open_for_reading(path)) {

@@ -19,7 +19,7 @@ using FileStream = std::unique_ptr<std::FILE, CloseFile>;
 /// Open files that other programs, which are started meanwhile, do not get. Null if that fails, and
 /// errno says why.
 FileStream open_for_reading(const std::string& path);
-/// A file that is there loses what it holds.
+/// A file that is there loses what it holds. A pipe that nobody reads is ENXIO.
 FileStream open_for_writing(const std::string& path);
 
 /// A regular file, open for reading.
