@@ -51,6 +51,12 @@ void ManifestFields::set(Job& job, const std::string& name, OptionKind kind,
                          std::vector<std::string> values) {
   std::erase(values, "");
   if (values.empty()) return;
+  for (const std::string& value : values)
+    if (value.find('\0') != std::string::npos) {
+      // It would end there when it is handed to the process of the job.
+      diagnostics_.error(job.where, "\"{}\" has a character of code 0: {}", name, printable(value));
+      return;
+    }
   if (name == "scene") {
     // Standard input holds one scene; a batch has many.
     if (values[0] == "-") diagnostics_.error(job.where, "\"-\": a job needs a scene file");

@@ -122,7 +122,8 @@ TEST_CASE("all that is wrong with a .jsonl is said with its place") {
                    "{\"scene\": [\"a.xml\"]}\n"
                    "{\"spp\": 3}\n"
                    "{\"scene\": \"a.xml\", \"define\": {\"x\": 1}, \"sede\": 3}\n"
-                   "{\"scene\": \"\xff\"}\n");
+                   "{\"scene\": \"\xff\"}\n"
+                   "{\"scene\": \"a.xml\", \"output\": [\"b\\u0000.exr\"]}\n");
   const std::string errors = m.errors();
   CAPTURE(errors);
   for (const char* part :
@@ -133,7 +134,8 @@ TEST_CASE("all that is wrong with a .jsonl is said with its place") {
         "jobs.jsonl:5: error: this job has no scene\n",
         "jobs.jsonl:6: error: \"define\" is a text, a number or a list of them\n",
         "jobs.jsonl:6: error: a job has no \"sede\" (did you mean \"seed\"?)",
-        "jobs.jsonl:7:12: error: this is no JSON: "}) {
+        "jobs.jsonl:7:12: error: this is no JSON: ",
+        "jobs.jsonl:8: error: \"output\" has a character of code 0: b\uFFFD.exr\n"}) {
     CAPTURE(part);
     CHECK(errors.find(part) != errors.npos);
   }
