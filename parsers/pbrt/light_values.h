@@ -16,6 +16,11 @@ Spectrum scale_of(Values& v);
 /// notice of it then.
 std::optional<double> positive_of(Values& v, std::string_view name);
 
+/// How the images of lights are decoded: v3 takes the numbers of all files as they are.
+inline std::optional<double> gamma_of_lights(Version version) {
+  return version == Version::v3 ? std::optional(1.0) : std::nullopt;
+}
+
 /// Multiplies `scale` so that the light has the power that "power" says, if that is given; `power`
 /// is what it has with the image alone. An image that cannot be read is an error.
 void scale_to_power(Values& v, Spectrum& scale, const BitmapTexture& image,

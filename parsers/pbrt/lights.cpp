@@ -30,21 +30,25 @@ bool differ(Values& v) {
   return false;
 }
 
-void add(Values& v, decltype(LightDescription::model) model, const Matrix4& to_light,
-         const std::optional<Portal>& portal = {}) {
+void add_placed(Values& v, decltype(LightDescription::model) model, const Matrix4& to_world,
+                const std::optional<Portal>& portal = {}) {
   Reader& reader = v.reader();
-  const Matrix4& ctm = reader.state().ctm[0];
-  if (!reader.check_transform(ctm, v.where())) return;
+  if (!reader.check_transform(reader.state().ctm[0], v.where())) return;
   LightDescription light;
   light.where = v.where();
   light.model = std::move(model);
   if (reader.state().ctm[0] != reader.state().ctm[1])
     reader.report().warning(v.where(),
                             "lights do not move in pbrt: this one stands where its way begins");
-  light.to_world = ctm * to_light;
+  light.to_world = to_world;
   light.medium = reader.state().outside;
   light.portal = portal;
   reader.scene().lights.push_back(std::move(light));
+}
+
+void add(Values& v, decltype(LightDescription::model) model, const Matrix4& to_light,
+         const std::optional<Portal>& portal = {}) {
+  add_placed(v, std::move(model), v.reader().state().ctm[0] * to_light, portal);
 }
 
 #define DUET_LIGHT_SPECS                                                              \
@@ -56,13 +60,20 @@ void add(Values& v, decltype(LightDescription::model) model, const Matrix4& to_l
   }
 
 constexpr Spec kPoint[] = {
-    {"I", kColor, "1", "radiant intensity"}, {"from", kPoint3, "0 0 0"}, DUET_LIGHT_SPECS};
+    {"I", kColor, "1", "radiant intensity"},
+    {"from", kPoint3, "0 0 0", "in v3 added to where the transform puts the origin"},
+    DUET_LIGHT_SPECS};
 
 void read_point(Values& v) {
   Spectrum intensity = emitted_color(v, "I") * scale_of(v);
   if (const auto power = positive_of(v, "power")) intensity *= float(*power / (4 * kPi));
   const auto p = v.point("from");
-  add(v, PointLight{intensity}, Matrix4::translate(p[0], p[1], p[2]));
+  const Matrix4 from = Matrix4::translate(p[0], p[1], p[2]);
+  // v3 moves the light in the world.
+  if (v.reader().version() == Version::v3)
+    add_placed(v, PointLight{intensity}, from * v.reader().state().ctm[0]);
+  else
+    add(v, PointLight{intensity}, from);
 }
 
 constexpr Spec kSpot[] = {{"I", kColor, "1", "radiant intensity along the axis"},
@@ -168,6 +179,7 @@ void read_infinite(Values& v) {
   map.colors = v.reader().image_colors(map.file, ColorMeaning::emission, v.where(name));
   if (!v3 && v.has("L"))
     v.reader().report().error(v.where("L"), "a light has either \"L\" or a file");
+  map.gamma = gamma_of_lights(v.reader().version());
   map.tint = v3 ? emitted_color(v, "L") * scale : scale;
   map.layout = v3 ? EnvironmentLayout::row_centers : EnvironmentLayout::equal_area;
   map.illuminance = positive_of(v, "illuminance");
@@ -182,8 +194,9 @@ constexpr Spec kGoniometric[] = {
 
 constexpr Spec kProjection[] = {{"I", kColor, "1", "", 1, done, Versions::v3},
                                 {"filename", kString, "", "", 1, done, Versions::v4},
-                                {"mapname", kString, "", "", 1, done, Versions::v3},
-                                {"fov", kNumber, "90", "degrees, along the image's shorter side"},
+                                {"mapname", kString, "", "none: white", 1, done, Versions::v3},
+                                {"fov", kNumber, "90", "degrees, along the image's shorter side", 1,
+                                 done, Versions::both, "45"},
                                 DUET_LIGHT_SPECS};
 
 void read_goniometric(Values& v) {
@@ -209,33 +222,43 @@ void read_goniometric(Values& v) {
   add(v, light, swap);
 }
 
-void read_projection(Values& v) {
-  const char* name = v.reader().version() == Version::v3 ? "mapname" : "filename";
+/// What a projection light throws, as intensity along its axis; nothing after an error.
+std::optional<ColorInput> thrown_image(Values& v, double fov) {
+  Reader& reader = v.reader();
+  const bool v3 = reader.version() == Version::v3;
+  const char* name = v3 ? "mapname" : "filename";
+  Spectrum scale = scale_of(v);
+  if (v3) scale *= emitted_color(v, "I");
   if (!v.has(name)) {
-    v.reader().report().error(v.where(), "\"string {}\" is needed", name);
-    return;
+    if (v3) return scale;
+    reader.report().error(v.where(), "\"string {}\" is needed", name);
+    return std::nullopt;
   }
   BitmapTexture image;
   image.file = v.file(name);
-  if (image.file.empty()) return;
-  image.colors = v.reader().image_colors(image.file, ColorMeaning::emission, v.where(name));
-  image.filter = TextureFilter::nearest;
-  image.wrap_u = image.wrap_v = WrapMode::clamp;
-  Spectrum scale = scale_of(v);
-  if (v.reader().version() == Version::v3) scale *= emitted_color(v, "I");
-  const double fov = v.number("fov");
+  if (image.file.empty()) return std::nullopt;
+  image.colors = reader.image_colors(image.file, ColorMeaning::emission, v.where(name));
+  image.gamma = gamma_of_lights(reader.version());
+  image.filter = v3 ? TextureFilter::bilinear : TextureFilter::nearest;
+  image.wrap_u = image.wrap_v = v3 ? WrapMode::repeat : WrapMode::clamp;
   scale_to_power(v, scale, image,
                  [&](const TextureTexels& pixels) { return projected_power(pixels, fov); });
+  const TextureId texture = reader.add_texture(image, v.where());
+  return reader.add_texture(ScaledTextureDescription{texture, scale}, v.where());
+}
+
+void read_projection(Values& v) {
   ProjectorLight light;
-  const TextureId texture = v.reader().add_texture(image, v.where());
-  light.irradiance = v.reader().add_texture(ScaledTextureDescription{texture, scale}, v.where());
+  light.fov = v.number("fov");
+  const auto image = thrown_image(v, light.fov);
+  if (!image) return;
+  light.irradiance = *image;
   light.is_intensity = true;
-  light.fov = fov;
   light.fov_axis = FovAxis::smaller;
   if (!(light.fov > 0 && light.fov < 180))
     v.reader().report().error(v.where("fov"), "a field of view lies between 0 and 180 degrees");
-  // Its +x is at the image's right.
-  add(v, light, Matrix4::scale(-1, 1, 1));
+  // Its +x is at the image's right, and its +y at the image's top, in v3 at its bottom.
+  add(v, light, Matrix4::scale(-1, v.reader().version() == Version::v3 ? -1 : 1, 1));
 }
 
 constexpr Record<void (*)(Values&)> kLights[] = {

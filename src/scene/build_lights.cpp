@@ -221,7 +221,10 @@ std::vector<Spectrum> equal_areas(const BitmapPixels& image, int n) {
 }  // namespace
 
 LightPointer GoniometricLight::build(SceneBuilder& b, const LightDescription& d) const {
-  const auto image = b.pixels(file, {}, d.where);
+  // pbrt-v3 takes the numbers of all files as they are.
+  BitmapDecoding decoding;
+  if (latitude_longitude) decoding.gamma = 1;
+  const auto image = b.pixels(file, decoding, d.where);
   if (!image) return nullptr;
   if (latitude_longitude) {
     // So finely that steps between texels are small beside those of images of up to 512 rows.

@@ -1,9 +1,12 @@
 // What the lights of pbrt files become.
 #include <doctest/doctest.h>
 
+#include <cmath>
 #include <vector>
 
+#include "image/image_io.h"
 #include "pbrt/writer.h"
+#include "scene/build.h"
 #include "support/files.h"
 #include "support/pbrt_file.h"
 
@@ -41,6 +44,21 @@ TEST_CASE("pbrt spot lights fade by t⁴ in v3, by t²(3 − 2t) in v4") {
   CHECK(std::get<SpotLight>(v3.scene->lights[0].model).losses().size() == 1);
 }
 
+TEST_CASE(
+    "pbrt-v3: \"from\" of a point light is in the world; spots and v4 have it in their own space") {
+  const auto place = [](const std::string& light, bool v3) {
+    const PbrtFile f = world("Translate 1 2 3\nRotate 90 0 0 1\nScale 2 2 2\nLightSource \"" +
+                                 light + "\" \"point3 from\" [1 0 0]",
+                             v3);
+    REQUIRE_MESSAGE(f.scene, f.messages);
+    const Matrix4& m = f.scene->lights.at(0).to_world;
+    return std::vector<long>{std::lround(m[0][3]), std::lround(m[1][3]), std::lround(m[2][3])};
+  };
+  CHECK(place("point", true) == std::vector<long>{2, 2, 3});
+  CHECK(place("point", false) == std::vector<long>{1, 4, 3});
+  for (const bool v3 : {false, true}) CHECK(place("spot", v3) == std::vector<long>{1, 4, 3});
+}
+
 TEST_CASE("pbrt lights do not move: they stand where their way begins") {
   const std::string away = "ActiveTransform EndTime\nTranslate 0 0 40\nActiveTransform All\n";
   for (const bool v3 : {false, true})
@@ -69,6 +87,57 @@ TEST_CASE("pbrt writer: a light that moves stands still as the shutter opens") {
                               "lights do not move: they stand as they do when the shutter opens"});
   CHECK_MESSAGE(written.text.find("\"point3 from\" [1 2 5]") != std::string::npos, written.text);
   CHECK(written.text.find("ActiveTransform") == std::string::npos);
+}
+
+TEST_CASE("pbrt-v3: images of lights are taken as they are, and a projector may have none") {
+  const TemporaryDirectory folder;
+  write_display_image(folder.path("map.png"), 1, 2, 3, {128, 128, 128, 255, 255, 255});
+  const auto lights = [&](const std::string& film, const std::string& name) {
+    const std::string image = " \"string " + name + "\" \"map.png\"\n";
+    return scene_of(read_pbrt_file(
+        folder.write("scene.pbrt", "Camera \"perspective\" Film \"" + film +
+                                       "\"\nWorldBegin\nLightSource \"infinite\"" + image +
+                                       "LightSource \"projection\"" + image)));
+  };
+  const SceneDescription v3 = lights("image", "mapname"), v4 = lights("rgb", "filename");
+  CHECK(std::get<EnvironmentMapLight>(v3.lights.at(0).model).gamma == 1);
+  CHECK_FALSE(std::get<EnvironmentMapLight>(v4.lights.at(0).model).gamma);
+  const auto projector = [](const SceneDescription& d) {
+    return std::get<ProjectorLight>(d.lights.at(1).model);
+  };
+  CHECK(projector(v3).fov == 45);
+  CHECK(projector(v4).fov == 90);
+  const auto image = [&](const SceneDescription& d) {
+    const TextureId scaled = std::get<TextureId>(projector(d).irradiance);
+    const auto& texture = std::get<ScaledTextureDescription>(d.textures.at(size_t(scaled)).model);
+    return std::get<BitmapTexture>(d.textures.at(size_t(texture.inner)).model);
+  };
+  CHECK(image(v3).gamma == 1);
+  CHECK(image(v3).filter == TextureFilter::bilinear);
+  CHECK_FALSE(image(v4).gamma);
+  CHECK(image(v4).filter == TextureFilter::nearest);
+  // The first row is at the light's -y in v3, at its +y in v4.
+  CHECK(v3.lights[1].to_world[1][1] == -1);
+  CHECK(v4.lights[1].to_world[1][1] == 1);
+  const auto plain = only_light<ProjectorLight>(
+      world("LightSource \"projection\" \"rgb I\" [1 2 3] \"rgb scale\" [2 2 2]", true));
+  CHECK(plain.irradiance == ColorInput(Spectrum(2, 4, 6)));
+  CHECK_FALSE(world("LightSource \"projection\"").scene.has_value());
+}
+
+TEST_CASE("pbrt-v3: goniometric images of 8 bits are taken as they are") {
+  const TemporaryDirectory folder;
+  write_display_image(folder.path("map.png"), 1, 1, 3, {128, 128, 128});
+  Diagnostics diagnostics;
+  const auto scene = build_scene(
+      scene_of(read_pbrt_file(folder.write("scene.pbrt",
+                                           "Film \"image\"\nWorldBegin\nLightSource "
+                                           "\"goniometric\" \"string mapname\" \"map.png\"\n"
+                                           "Shape \"sphere\"\nWorldEnd\n"))),
+      {}, diagnostics);
+  REQUIRE(scene);
+  const Spectrum c = scene->lights.at(0)->sample_direct({0, 0, 3}, {}).value().weight;
+  CHECK(double(c.g) * 9 == doctest::Approx(128.0 / 255));
 }
 
 TEST_CASE("pbrt-v4: a power or illuminance that is not above zero is as none") {
