@@ -20,6 +20,18 @@ std::optional<double> constant_value(const std::vector<SpectrumSample>& samples)
   return samples.front().value;
 }
 
+/// What pbrt-v3 makes of any spectrum when it renders RGB: the colour that it has as light. Its
+/// first and last value hold beyond them, and its sum of 471 values stands for an integral over 470
+/// nm.
+Spectrum color_in_v3(std::vector<SpectrumSample> samples) {
+  constexpr double kFirst = 360, kLast = 830;
+  if (samples.empty()) return Spectrum(0.0f);
+  if (samples.front().wavelength > kFirst)
+    samples.insert(samples.begin(), {kFirst, samples.front().value});
+  if (samples.back().wavelength < kLast) samples.push_back({kLast, samples.back().value});
+  return spectrum_to_rgb(samples, ColorMeaning::emission) * float(470.0 / 471);
+}
+
 /// Whether the light is within so few wavelengths that products of colours mean little: an even
 /// spectrum of the same integrals of its values and of their squares would be narrower than 100 nm.
 bool is_narrow(const std::vector<SpectrumSample>& samples) {
@@ -118,16 +130,17 @@ Spectrum Reader::constant_color(const Parameter& p, ColorMeaning meaning) {
     const std::string path = spectrum_file(name, p.where);
     if (path.empty()) return Spectrum(0.0f);
     try {
-      samples = read_spectrum_file(path);
+      samples = read_spectrum_file(path, version_);
     } catch (const ReadError& e) {
       return fail(e.what());
     }
   } else {
     std::string why;
-    auto pairs = spectrum_samples(p.numbers, why);
+    auto pairs = spectrum_samples(p.numbers, version_, why);
     if (!pairs) return fail(why);
     samples = std::move(*pairs);
   }
+  if (version_ == Version::v3) return in_working_space(color_in_v3(samples), film_color_space);
   if (const auto constant = constant_value(samples))
     return meaning == ColorMeaning::emission
                ? in_working_space(equal_energy_rgb(*constant), film_color_space)
@@ -145,7 +158,9 @@ Spectrum Reader::black_body(double kelvin) {
   const double peak =
       2 * h * c * c / (std::pow(l, 5) * std::expm1(h * c / (l * k * kelvin))) * 1e-9;
   for (SpectrumSample& s : samples) s.value /= peak;
-  return in_working_space(spectrum_to_rgb(samples, ColorMeaning::emission), film_color_space);
+  const Spectrum color = version_ == Version::v3 ? color_in_v3(std::move(samples))
+                                                 : spectrum_to_rgb(samples, ColorMeaning::emission);
+  return in_working_space(color, film_color_space);
 }
 
 std::string Reader::spectrum_file(const std::string& name, const SourceLocation& where) {

@@ -243,7 +243,7 @@ std::vector<std::string> spectrum_names() {
 }
 
 std::optional<std::vector<SpectrumSample>> spectrum_samples(const std::vector<double>& numbers,
-                                                            std::string& why) {
+                                                            Version version, std::string& why) {
   std::vector<SpectrumSample> samples;
   if (numbers.size() < 2 || numbers.size() % 2 != 0) {
     why =
@@ -251,6 +251,7 @@ std::optional<std::vector<SpectrumSample>> spectrum_samples(const std::vector<do
     return std::nullopt;
   }
   for (size_t i = 0; i < numbers.size(); i += 2) samples.push_back({numbers[i], numbers[i + 1]});
+  if (version == Version::v3) std::ranges::stable_sort(samples, {}, &SpectrumSample::wavelength);
   const size_t i = first_not_increasing(samples);
   if (i == 0) return samples;
   why = fmt::format("the wavelengths of a spectrum must increase: {} comes after {}",
@@ -258,7 +259,7 @@ std::optional<std::vector<SpectrumSample>> spectrum_samples(const std::vector<do
   return std::nullopt;
 }
 
-std::vector<SpectrumSample> read_spectrum_file(const std::string& path) {
+std::vector<SpectrumSample> read_spectrum_file(const std::string& path, Version version) {
   try {
     Lexer in(path);
     std::vector<double> numbers;
@@ -266,7 +267,7 @@ std::vector<SpectrumSample> read_spectrum_file(const std::string& path) {
     if (in.peek() != Kind::end)
       throw SyntaxError{in.where(), "a spectrum file holds nothing but numbers"};
     std::string why;
-    const auto samples = spectrum_samples(numbers, why);
+    const auto samples = spectrum_samples(numbers, version, why);
     if (!samples) throw ReadError(path + ": " + why);
     return *samples;
   } catch (const SyntaxError& e) {

@@ -58,10 +58,10 @@ std::optional<Spectrum> find_metal(std::string_view name, Version version);
 bool is_brass(std::string_view spectrum);
 std::vector<std::string> spectrum_names();
 
-/// The pairs of a parameter; nothing, with a message, if they are none.
+/// The pairs of a parameter, which v3 sorts; nothing, with a message, if they are none.
 std::optional<std::vector<SpectrumSample>> spectrum_samples(const std::vector<double>& numbers,
-                                                            std::string& why);
+                                                            Version version, std::string& why);
 /// The pairs in a file of text, with `#` before comments. Throws ReadError.
-std::vector<SpectrumSample> read_spectrum_file(const std::string& path);
+std::vector<SpectrumSample> read_spectrum_file(const std::string& path, Version version);
 
 }  // namespace duet::pbrt

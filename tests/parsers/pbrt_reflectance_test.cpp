@@ -1,4 +1,4 @@
-// What pbrt-v4's surfaces reflect: no more than all light, and metals what pbrt has measured.
+// What pbrt's surfaces reflect: in v4 no more than all light, and metals what pbrt has measured.
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -137,4 +137,28 @@ TEST_CASE("pbrt: named metals have the colours that pbrt has measured under its 
       }
     CHECK(d.approximations.size() == (std::string(row.metal) == "CuZn" ? 2 : 0));
   }
+}
+
+TEST_CASE("pbrt-v3: a spectrum has the colour of light, on surfaces, too") {
+  const auto kd = [](const std::string& value) {
+    const test::TemporaryDirectory folder;
+    folder.write("flat.spd", "# two values\n500 0.5\n600 0.5\n");
+    const SceneDescription d = test::scene_of(test::read_pbrt_file(folder.write(
+        "scene.pbrt", "Camera \"perspective\"\nFilm \"image\"\nWorldBegin\nMaterial \"matte\" " +
+                          value + "\nShape \"disk\"\nWorldEnd\n")));
+    const auto& both =
+        d.materials.at(size_t(d.shapes.at(0).material)).model.get<TwoSidedMaterial>();
+    return std::get<Spectrum>(
+        d.materials.at(size_t(both.front)).model.get<DiffuseMaterial>().reflectance);
+  };
+  // Equal energy, whose sum over 471 wavelengths counts for 470 nm.
+  const double half = 0.5 * 470 / 471, r = 1.20479 * half, g = 0.94829 * half, b = 0.90892 * half;
+  check_reflectance(kd("\"spectrum Kd\" [300 .5 900 .5]"), r, g, b, 1e-3);
+  // The first and last value hold beyond their wavelengths.
+  check_reflectance(kd("\"spectrum Kd\" \"flat.spd\""), r, g, b, 1e-3);
+  check_reflectance(kd("\"spectrum Kd\" [550 .5]"), r, g, b, 1e-3);
+  // Wavelengths are sorted.
+  const Spectrum ramp = kd("\"spectrum Kd\" [400 .2 500 .3 700 .9]");
+  CHECK(kd("\"spectrum Kd\" [700 .9 400 .2 500 .3]") == ramp);
+  CHECK(ramp.r > 2 * ramp.b);
 }
