@@ -100,6 +100,8 @@ class Directives {
   void material(Lexer& in, const Plugin& d);
   void make_named_material(Lexer& in, const Plugin& d);
   void named_material(Lexer& in, const Plugin& d);
+  /// Makes a material that has a name the current one.
+  void use_material(const std::string& name, const SourceLocation& where);
   void texture(Lexer& in, const Plugin& d);
   void make_named_medium(Lexer& in, const Plugin& d);
   void medium_interface(Lexer& in, const Plugin& d);

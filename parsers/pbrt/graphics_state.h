@@ -20,6 +20,8 @@ struct NameTables {
   std::map<std::string, ColorInput, std::less<>> colors;
   std::map<std::string, FloatInput, std::less<>> numbers;
   std::map<std::string, MaterialId, std::less<>> materials;
+  /// What they were made of, as GraphicsState::material_plugin.
+  std::map<std::string, std::shared_ptr<const Plugin>, std::less<>> material_plugins;
 };
 
 /// What `Attribute` sets for plugins of a kind, latest first.
@@ -34,6 +36,8 @@ struct GraphicsState {
   bool reverse_orientation = false;
   uint8_t color_space = 0;
   MaterialId material{};
+  /// What the material was made of, which shapes of v3 may change; null: the default.
+  std::shared_ptr<const Plugin> material_plugin;
   std::shared_ptr<const Plugin> area_light;
   /// Media behind and before surfaces.
   std::optional<MediumId> inside, outside;

@@ -134,7 +134,7 @@ void Directives::of_version_2(Lexer& in, const Plugin& d) {
 void Directives::shape(Lexer& in, const Plugin& d) {
   Plugin plugin = d;
   take_plugin(in, plugin, "shape");
-  read_shape(reader_, plugin);
+  read_shape(reader_, std::move(plugin));
 }
 
 void Directives::area_light(Lexer& in, const Plugin& d) {
@@ -152,7 +152,10 @@ void Directives::light(Lexer& in, const Plugin& d) {
 void Directives::material(Lexer& in, const Plugin& d) {
   Plugin plugin = d;
   take_plugin(in, plugin, "material");
-  if (const auto made = read_material(reader_, plugin)) state().material = *made;
+  const auto made = read_material(reader_, plugin);
+  if (!made) return;
+  state().material = *made;
+  state().material_plugin = std::make_shared<const Plugin>(std::move(plugin));
 }
 
 namespace {
@@ -179,8 +182,17 @@ void Directives::make_named_material(Lexer& in, const Plugin& d) {
   const std::string name = plugin.name;
   plugin.name = take_type(plugin, report());
   if (plugin.name.empty() && plugin.parameters.empty()) return;
-  if (const auto made = read_material(reader_, plugin))
-    reader_.define_material(name, *made, d.where);
+  const auto made = read_material(reader_, plugin);
+  if (!made) return;
+  reader_.define_material(name, *made, d.where);
+  reader_.change_names().material_plugins[name] = std::make_shared<const Plugin>(std::move(plugin));
+}
+
+void Directives::use_material(const std::string& name, const SourceLocation& where) {
+  state().material = reader_.named_material(name, where);
+  const auto& plugins = reader_.names().material_plugins;
+  const auto found = plugins.find(name);
+  state().material_plugin = found == plugins.end() ? nullptr : found->second;
 }
 
 void Directives::named_material(Lexer& in, const Plugin& d) {
@@ -190,7 +202,7 @@ void Directives::named_material(Lexer& in, const Plugin& d) {
                      in_quotes(name),
                      did_you_mean(name, report().names_for_hint(reader_.names().materials)));
   else
-    state().material = reader_.named_material(name, d.where);
+    use_material(name, d.where);
 }
 
 void Directives::texture(Lexer& in, const Plugin& d) {

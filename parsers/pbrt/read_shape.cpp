@@ -1,4 +1,6 @@
 // Shapes by their names.
+#include <algorithm>
+
 #include "pbrt/shape_readers.h"
 #include "pbrt/vocabulary.h"
 
@@ -18,6 +20,14 @@ const std::vector<Record<ReadShape>>& shapes() {
 
 }  // namespace
 
+bool shape_has(std::string_view shape, std::string_view parameter) {
+  const auto is_it = [&](const Spec& s) { return s.name == parameter; };
+  if (std::ranges::any_of(kShapeSpecs, is_it)) return true;
+  return std::ranges::any_of(shapes(), [&](const Record<ReadShape>& r) {
+    return r.name == shape && std::ranges::any_of(r.parameters, is_it);
+  });
+}
+
 void add_mesh(Values& v, TriangleMesh mesh, bool own_normals) {
   if (mesh.triangles.empty()) {
     v.reader().report().warning(v.where(), "this shape has no area and is left out");
@@ -28,11 +38,15 @@ void add_mesh(Values& v, TriangleMesh mesh, bool own_normals) {
                        {.geometry = MeshShape{std::move(shared)}, .has_normals = own_normals});
 }
 
-void read_shape(Reader& reader, const Plugin& plugin) {
+void read_shape(Reader& reader, Plugin plugin) {
+  GraphicsState& state = reader.state();
+  const MaterialId current = state.material;
+  if (const auto own = take_material(reader, plugin)) state.material = *own;
   if (const auto* record = find_record<ReadShape>(reader, plugin, shapes())) {
     Values values(reader, plugin, record->parameters, kShapeSpecs);
     record->read(values);
   }
+  state.material = current;
 }
 
 void list_shapes(std::vector<Row>& rows) {

@@ -208,7 +208,7 @@ class Reader {
 };
 
 // The families of plugins, a file each.
-void read_shape(Reader& reader, const Plugin& plugin);
+void read_shape(Reader& reader, Plugin plugin);
 /// `area` is that of the surface in the world.
 Boxed<AreaEmission> read_area_light(Reader& reader, const Plugin& plugin,
                                     const std::function<double()>& area);
