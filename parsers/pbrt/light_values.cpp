@@ -8,6 +8,7 @@
 namespace duet::pbrt {
 
 Spectrum scale_of(Values& v) {
+  v.drop_others_in_v3("scale", kColor);
   const Parameter* p = v.given("scale");
   if (!p || p->type == Type::number) return Spectrum(float(v.number("scale")));
   if (v.reader().version() == Version::v3)

@@ -156,10 +156,9 @@ std::optional<MaterialId> read_substrate(Values& v) {
   return two_sided(v, v.reader().add_material(m, v.where()));
 }
 
-constexpr Spec kOldMix[] = {
-    {"namedmaterial1", kString},
-    {"namedmaterial2", kString},
-    {"amount", Types(kColorTexture | kNumberTexture), "0.5", "share of the first"}};
+constexpr Spec kOldMix[] = {{"namedmaterial1", kString},
+                            {"namedmaterial2", kString},
+                            {"amount", kColorTexture, "0.5", "share of the first"}};
 
 std::optional<MaterialId> read_old_mix(Values& v) {
   if (!v.has("namedmaterial1") || !v.has("namedmaterial2")) {
@@ -168,7 +167,7 @@ std::optional<MaterialId> read_old_mix(Values& v) {
   }
   BlendMaterial m;
   const Parameter* amount = v.given("amount");
-  if (!amount || amount->type == Type::number) {
+  if (!amount) {
     m.weight = v.number("amount");
   } else {
     const ColorInput input = v.color_input("amount", ColorMeaning::reflectance);

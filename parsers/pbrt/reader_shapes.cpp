@@ -90,7 +90,9 @@ void Reader::add_shape(const Plugin& from, ShapeParts parts) {
                            !is_awaited(state_.material);
     if (object_)
       report_.warning(from.where, "area lights in objects are ignored, as pbrt does");
-    else if (invisible)
+    else if (version_ == Version::v3 && !shape.motion.empty())
+      report_.warning(from.where, "surfaces that move emit no light, as in pbrt-v3");
+    else if (version_ == Version::v4 && invisible)
       report_.warning(from.where, "a surface with the material \"interface\" emits no light");
     else
       shape.emission = read_area_light(*this, *state_.area_light,

@@ -23,6 +23,7 @@ void set(Made& made, TextureId id) {
 }
 
 void read_input(Values& v, const Request& request, std::string_view name, Made& made) {
+  v.drop_others_in_v3(name, request.is_color ? kColorTexture : kNumberTexture);
   const Parameter* p = v.given(name);
   if (request.is_color) {
     if (p && p->type == Type::number)

@@ -37,11 +37,14 @@ std::string names_of(Types types) {
   return last == text.npos ? text : text.replace(last, 2, " or ");
 }
 
+std::string wrong_type(const Parameter& p, Types types) {
+  return fmt::format("parameter \"{}\" must be of type {}, not {}", p.name, names_of(types),
+                     type_name(p.type));
+}
+
 /// Why the parameter is not of the type or count that is known of it; "" if it is.
 std::string mismatch(const Parameter& p, const Spec& known) {
-  if (!(known.types & of(p.type)))
-    return fmt::format("parameter \"{}\" must be of type {}, not {}", p.name, names_of(known.types),
-                       type_name(p.type));
+  if (!(known.types & of(p.type))) return wrong_type(p, known.types);
   const size_t values = p.numbers.size() + p.strings.size();
   const int size = p.type == Type::number && (known.types & of(Type::point2)) ? 2 : size_of(p);
   if (size > 1 && values % size_t(size) != 0)
@@ -50,6 +53,14 @@ std::string mismatch(const Parameter& p, const Spec& known) {
     return fmt::format("parameter \"{}\" has {} value{} instead of {}", p.name,
                        values / size_t(size), values == size_t(size) ? "" : "s", known.count);
   return {};
+}
+
+/// Whether there are values behind the one that is wanted, of which pbrt-v3 takes the first: those
+/// of what may be a texture, unless they are names.
+bool has_surplus(const Parameter& p, const Spec& known) {
+  if (!(known.types & kTexture) || !(known.types & of(p.type)) || known.count != 1) return false;
+  const size_t size = size_t(size_of(p));
+  return p.strings.empty() && size > 0 && p.numbers.size() > size && p.numbers.size() % size == 0;
 }
 
 }  // namespace
@@ -77,7 +88,12 @@ void Values::check(const Parameter& p) {
                    in_quotes(p.name), did_you_mean(p.name, names));
     return;
   }
-  if (const std::string why = mismatch(p, *known); !why.empty()) {
+  const bool first_counts =
+      reader_.version() == Version::v3 && plugin_.directive != "Shape" && has_surplus(p, *known);
+  if (first_counts)
+    report.warning(p.where, "parameter \"{}\" has surplus values: the first counts, as in pbrt-v3",
+                   p.name);
+  if (const std::string why = mismatch(p, *known); !first_counts && !why.empty()) {
     // pbrt-v3 looks for a name with a type and a count, and takes no notice of anything else.
     if (reader_.version() == Version::v3)
       report.warning(p.where, "{}; it is ignored, as pbrt-v3 does", why);
@@ -104,6 +120,13 @@ void Values::check(const Parameter& p) {
     return;
   }
   given_.push_back(&p);
+}
+
+void Values::drop_others_in_v3(std::string_view name, Types types) {
+  const Parameter* p = given(name);
+  if (reader_.version() == Version::v4 || !p || (types & of(p->type))) return;
+  reader_.report().warning(p->where, "{}; it is ignored, as pbrt-v3 does", wrong_type(*p, types));
+  std::erase(given_, p);
 }
 
 const Parameter* Values::given(std::string_view name) const {

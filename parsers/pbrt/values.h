@@ -30,6 +30,10 @@ class Values {
   bool has(std::string_view name) const { return given(name) != nullptr; }
   const Parameter* given(std::string_view name) const;
 
+  /// pbrt-v3 looks for a name with a type: a parameter of another type than these is dropped, with
+  /// a warning. For what several types are known of, of which the plugin takes some.
+  void drop_others_in_v3(std::string_view name, Types types);
+
   // Each is the preset if the parameter is not given; a parameter without preset is zero or empty.
   double number(std::string_view name);
   int integer(std::string_view name) { return int(number(name)); }

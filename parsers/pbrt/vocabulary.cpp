@@ -52,7 +52,7 @@ warning. Names that are in no table are warnings with the nearest known one.
 - Colours are linear RGB in the colour space of the film, and so are those of images once they are read: their own space
   is the one that an OpenEXR file names, or sRGB. Spectra become such colours by the standard observer; a metal has one
   index per channel, a glass that of 587.6 nm. Dispersion, and colours that depend on the spectrum of the light, are
-  lost.
+  lost. In v3 spectra have the colours of light on surfaces, too, and numbers in images of lights are taken as they are.
 - Lights of v4 have the luminance that their scale says, whatever their spectrum; those of v3 are taken as they are.
 - An area light's "power" is that of each triangle of a mesh, and of a quadric before its transform, since pbrt makes a
   light of each. Maps with "illuminance" are twice as bright as it says, as they are in pbrt.
@@ -61,6 +61,7 @@ warning. Names that are in no table are warnings with the nearest known one.
   finely enough not to be seen.
 - Files of v3 may have parameters of another type than the known one, textures and materials that there are not, and
   directives on the wrong side of WorldBegin: pbrt-v3 goes on without them, and so does Duet, with a warning.
+- A shape of v3 may have parameters of its material. What moves emits no light in v3, and what has no material in v4.
 - Several infinite lights add up. Lights do not move, as in pbrt: they stand where their way begins.
 - Curves that are no hair face each ray as pbrt's do; only the methods that follow light from the camera alone can render
   such ribbons. Opaque ones are lit where rays are clear of them: a width in front of them, as in pbrt.

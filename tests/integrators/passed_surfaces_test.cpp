@@ -72,3 +72,21 @@ TEST_CASE("surfaces that light passes straight through count in Mitsuba's scenes
   for (const char* method : {"path", "bdpt"})
     CHECK(scene.render(method, {{"max_depth", "20"}}, 256, 1).image.data[0] == 0);
 }
+
+TEST_CASE("pbrt-v3: lights without material are seen, and seen through") {
+  const TemporaryDirectory folder;
+  const TransportScene scene(scene_of(read_pbrt_file(folder.write(
+      "scene.pbrt",
+      "LookAt 0 0 5 0 0 0 0 1 0\nCamera \"perspective\" \"float fov\" 1\n"
+      "Film \"image\" \"integer xresolution\" 1 \"integer yresolution\" 1\n"
+      "Integrator \"volpath\" \"integer maxdepth\" 3\nWorldBegin\n"
+      "AttributeBegin\nAreaLightSource \"diffuse\" \"rgb L\" [2 2 2]\nMaterial \"none\"\n"
+      "Shape \"disk\" \"float height\" 1\nAttributeEnd\n"
+      "AttributeBegin\nAreaLightSource \"diffuse\" \"rgb L\" [3 3 3]\nShape \"disk\"\n"
+      "AttributeEnd\nWorldEnd\n"))));
+  for (const std::string method : {"volpath", "bdpt", "reuse", "ppm", "vcm"}) {
+    CAPTURE(method);
+    const double mean = double(scene.render(method, {}, 1024, 1).image.data[0]);
+    CHECK(mean == doctest::Approx(5).epsilon(0.01));
+  }
+}
