@@ -18,6 +18,8 @@ using enum Status;
 /// The part of the camera's plane that the film shows.
 struct Window {
   double x0, x1, y0, y1;
+  /// -1 if the picture is turned over: the numbers are those of the mirrored camera then.
+  double mirror_x = 1, mirror_y = 1;
 };
 
 #define DUET_CAMERA_SPECS                                                             \
@@ -41,11 +43,15 @@ constexpr Spec kSpherical[] = {
 
 Window window(Values& v, const FilmDescription& film) {
   if (v.has("screenwindow")) {
-    // pbrt sorts the two of each side.
     const auto w = v.numbers("screenwindow");
-    if (w[0] != w[1] && w[2] != w[3])
-      return {std::min(w[0], w[1]), std::max(w[0], w[1]), std::min(w[2], w[3]),
-              std::max(w[2], w[3])};
+    if (w[0] != w[1] && w[2] != w[3]) {
+      const auto [left, right] = std::minmax(w[0], w[1]);
+      const auto [bottom, top] = std::minmax(w[2], w[3]);
+      if (v.reader().version() == Version::v4) return {left, right, bottom, top};
+      // v3 does not sort the two of each side.
+      const double x = w[0] > w[1] ? -1 : 1, y = w[2] > w[3] ? -1 : 1;
+      return {x * w[0], x * w[1], y * w[2], y * w[3], x, y};
+    }
     v.reader().report().error(v.where("screenwindow"), "the screen window is empty");
   }
   const double aspect =
@@ -89,7 +95,7 @@ void read_perspective(Values& v, SensorDescription& sensor) {
     sensor.aperture_aspect = 1 / stretch;
   }
   no_clipping(sensor);
-  place_camera(sensor, v.reader(), Matrix4::scale(-1, stretch, 1));
+  place_camera(sensor, v.reader(), Matrix4::scale(-w.mirror_x, w.mirror_y * stretch, 1));
 }
 
 void read_orthographic(Values& v, SensorDescription& sensor) {
@@ -104,7 +110,8 @@ void read_orthographic(Values& v, SensorDescription& sensor) {
   }
   no_clipping(sensor);
   place_camera(sensor, v.reader(),
-               Matrix4::translate(0.5 * (w.x0 + w.x1), 0.5 * (w.y0 + w.y1), 0) *
+               Matrix4::scale(w.mirror_x, w.mirror_y, 1) *
+                   Matrix4::translate(0.5 * (w.x0 + w.x1), 0.5 * (w.y0 + w.y1), 0) *
                    Matrix4::scale(-half, half * stretch, 1));
 }
 

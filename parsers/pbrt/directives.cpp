@@ -10,8 +10,6 @@ namespace {
 
 /// Files that include each other; deeper is a mistake, too.
 constexpr size_t kDeepest = 100;
-/// Blocks within blocks.
-constexpr size_t kMostBlocks = 100000;
 
 }  // namespace
 
@@ -71,7 +69,11 @@ void Directives::read_main(const std::string& path) {
   read_file(path, {std::make_shared<const std::string>(path), 0, 0});
   for (const Saved& s : saved_) {
     constexpr const char* names[] = {"Attribute", "Transform", "Object"};
-    report().error(s.where, "{0}Begin without {0}End", names[size_t(s.what)]);
+    const std::string wrong = fmt::format("{0}Begin without {0}End", names[size_t(s.what)]);
+    if (reader_.version() == Version::v3)
+      report().warning(s.where, "{}", wrong);
+    else
+      report().error(s.where, "{}", wrong);
   }
   if (!in_world_ && !report().has_errors())
     report().error({std::make_shared<const std::string>(path), 0, 0}, "there is no WorldBegin");
@@ -207,73 +209,6 @@ void Directives::take_plugin(Lexer& in, Plugin& d, std::string_view defaults) {
   if (found == state().defaults->end()) return;
   for (const Parameter& p : found->second)
     if (!d.find(p.name)) d.parameters.push_back(p);
-}
-
-// ---- Blocks ----
-
-void Directives::push(Begun what, const SourceLocation& where) {
-  if (saved_.size() >= kMostBlocks) throw SyntaxError{where, "too many blocks within blocks"};
-  saved_.push_back({what, where, state()});
-}
-
-void Directives::pop(Begun what, const Plugin& d) {
-  if (saved_.empty()) throw SyntaxError{d.where, d.directive + " without its beginning"};
-  const Saved& last = saved_.back();
-  if (last.what != what)
-    report().error(d.where, "{} does not end what began at {}", d.directive,
-                   last.where.to_string());
-  if (what == Begun::transform && reader_.version() == Version::v3)
-    state().ctm = last.state.ctm, state().active = last.state.active;
-  else
-    state() = last.state;
-  saved_.pop_back();
-}
-
-void Directives::attribute_begin(Lexer&, const Plugin& d) {
-  push(Begun::attribute, d.where);
-}
-
-void Directives::attribute_end(Lexer&, const Plugin& d) {
-  pop(Begun::attribute, d);
-}
-
-void Directives::transform_begin(Lexer&, const Plugin& d) {
-  push(Begun::transform, d.where);
-}
-
-void Directives::transform_end(Lexer&, const Plugin& d) {
-  pop(Begun::transform, d);
-}
-
-void Directives::object_begin(Lexer& in, const Plugin& d) {
-  const std::string name = take_string(in, d);
-  push(Begun::object, d.where);
-  reader_.begin_object(name, d.where);
-}
-
-void Directives::object_end(Lexer&, const Plugin& d) {
-  pop(Begun::object, d);
-  reader_.end_object(d.where);
-}
-
-void Directives::object_instance(Lexer& in, const Plugin& d) {
-  reader_.add_instance(take_string(in, d), d.where);
-}
-
-void Directives::world_begin(Lexer&, const Plugin&) {
-  if (in_world_) return;  // after an error
-  in_world_ = true;
-  coordinate_systems_["world"] = {};
-  state().ctm = {};
-  state().active = 3;
-}
-
-void Directives::world_end(Lexer&, const Plugin& d) {
-  if (reader_.version() == Version::v4)
-    report().error(
-        d.where,
-        "WorldEnd is pbrt-v3's, and this file is read as pbrt-v4 (--pbrt-version 3 reads "
-        "it otherwise)");
 }
 
 void Directives::include(Lexer& in, const Plugin& d) {

@@ -39,8 +39,8 @@ void Directives::color_space(Lexer& in, const Plugin& d) {
   }
   std::vector<std::string> names;
   for (const ColorSpace& c : color_spaces()) names.emplace_back(c.name);
-  report().error(d.where, "there is no colour space {}{}", in_quotes(name),
-                 did_you_mean(name, names));
+  report().warning(d.where, "there is no colour space {}{}; the one before holds, as in pbrt",
+                   in_quotes(name), did_you_mean(name, names));
 }
 
 void Directives::option(Lexer& in, const Plugin& d) {

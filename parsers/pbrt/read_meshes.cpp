@@ -2,6 +2,7 @@
 #include <cmath>
 
 #include "mesh/mesh_file.h"
+#include "pbrt/mesh_arrays.h"
 #include "pbrt/nurbs.h"
 #include "pbrt/shape_readers.h"
 
@@ -10,92 +11,6 @@ namespace duet::pbrt {
 namespace {
 
 using enum Status;
-
-std::vector<Point3f> points(Values& v, std::string_view name) {
-  std::vector<Point3f> result;
-  const Parameter* p = v.given(name);
-  if (!p) return result;
-  result.reserve(p->numbers.size() / 3);
-  for (size_t i = 0; i + 2 < p->numbers.size(); i += 3)
-    result.push_back({float(p->numbers[i]), float(p->numbers[i + 1]), float(p->numbers[i + 2])});
-  return result;
-}
-
-std::vector<Normal3f> normals(Values& v) {
-  std::vector<Normal3f> result;
-  for (const Point3f& p : points(v, "N"))
-    result.push_back(normalized_or_zero(Normal3f(p.x, p.y, p.z)));
-  return result;
-}
-
-std::vector<Point2f> texture_coordinates(Values& v, std::string_view name) {
-  std::vector<Point2f> result;
-  const Parameter* p = v.given(name);
-  if (!p) return result;
-  result.reserve(p->numbers.size() / 2);
-  for (size_t i = 0; i + 1 < p->numbers.size(); i += 2)
-    result.push_back({float(p->numbers[i]), float(p->numbers[i + 1])});
-  return result;
-}
-
-/// Groups of N indices below `count`; nothing, after an error, if they are not.
-template <size_t N>
-std::optional<std::vector<std::array<uint32_t, N>>> indices(Values& v, size_t count) {
-  std::vector<std::array<uint32_t, N>> result;
-  Report& report = v.reader().report();
-  const Parameter* p = v.given("indices");
-  if (!p) {
-    if (count != N) {
-      report.error(v.where(), "\"integer indices\" is needed: there are {} points", count);
-      return std::nullopt;
-    }
-    std::array<uint32_t, N> all;
-    for (size_t i = 0; i < N; ++i) all[i] = uint32_t(i);
-    result.push_back(all);
-    return result;
-  }
-  if (p->numbers.size() % N != 0) {
-    report.error(p->where, "the number of indices, {}, is no multiple of {}", p->numbers.size(), N);
-    return std::nullopt;
-  }
-  result.resize(p->numbers.size() / N);
-  for (size_t i = 0; i < p->numbers.size(); ++i) {
-    const double index = p->numbers[i];
-    if (!(index >= 0 && index < double(count))) {
-      report.error(p->where, "index {} names no point: there are {}", index, count);
-      return std::nullopt;
-    }
-    result[i / N][i % N] = uint32_t(index);
-  }
-  return result;
-}
-
-/// Whether `values` has as many entries as there are points, or none; an error if not.
-template <class T>
-bool matches(Values& v, const std::vector<T>& values, std::string_view name, size_t count) {
-  if (values.empty() || values.size() == count) return true;
-  v.reader().report().error(v.where(name), "there are {} \"{}\", but {} points", values.size(),
-                            name, count);
-  return false;
-}
-
-/// Positions, normals, texture coordinates and `faces` of N points each. False after an error.
-template <class Mesh, size_t N>
-bool read_arrays(Values& v, std::string_view uv, Mesh& mesh,
-                 std::vector<std::array<uint32_t, N>>& faces) {
-  mesh.positions = points(v, "P");
-  if (mesh.positions.empty()) {
-    v.reader().report().error(v.where(), "\"point3 P\" is needed");
-    return false;
-  }
-  auto read = indices<N>(v, mesh.positions.size());
-  if (!read) return false;
-  faces = std::move(*read);
-  mesh.normals = normals(v);
-  mesh.uvs = texture_coordinates(v, uv);
-  return matches(v, mesh.normals, "N", mesh.positions.size()) &&
-         matches(v, mesh.uvs, uv, mesh.positions.size());
-}
 
 constexpr Spec kTriangleMesh[] = {
     {"indices", kInteger, "", "three per triangle; optional for three points", 0},

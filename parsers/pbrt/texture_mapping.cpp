@@ -17,7 +17,10 @@ UvTransform mapping(Values& v) {
     m.m = {
         {{v.number("uscale"), 0, v.number("udelta")}, {0, v.number("vscale"), v.number("vdelta")}}};
   else if (kind != "spherical" && kind != "cylindrical" && kind != "planar")
-    v.reader().report().error(v.where("mapping"), "there is no mapping {}", in_quotes(kind));
+    v.reader().report().warning(v.where("mapping"),
+                                "there is no mapping {}; the surface's coordinates are taken as "
+                                "they are, as in pbrt",
+                                in_quotes(kind));
   return m;
 }
 

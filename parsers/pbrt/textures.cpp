@@ -108,7 +108,11 @@ WrapMode read_wrap(Values& v) {
                            "an image of a sphere as octahedron does not go on behind its edges");
     return WrapMode::clamp;
   }
-  if (wrap != "repeat")
+  if (wrap != "repeat" && v.reader().version() == Version::v3)
+    v.reader().report().warning(v.where("wrap"),
+                                "there is no wrap mode {}; the image repeats, as in pbrt-v3",
+                                in_quotes(wrap));
+  else if (wrap != "repeat")
     v.reader().report().error(v.where("wrap"), "the wrap mode {} is not supported",
                               in_quotes(wrap));
   return WrapMode::repeat;

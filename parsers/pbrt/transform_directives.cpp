@@ -56,6 +56,9 @@ Matrix4 Directives::take_matrix(Lexer& in, const Plugin& d) {
   // Column by column.
   for (int i = 0; i < 4; ++i)
     for (size_t j = 0; j < 4; ++j) m[i][j] = n[j * 4 + size_t(i)];
+  // Other programs write matrices of single precision.
+  constexpr double kRounding = 1e-6;
+  if (m.is_affine(kRounding)) m[3] = {0, 0, 0, 1};
   if (m.is_affine() && m.inverse()) return m;
   report().error(d.where, "the matrix is not affine, or flattens space");
   return {};

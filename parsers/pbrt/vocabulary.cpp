@@ -62,6 +62,8 @@ warning. Names that are in no table are warnings with the nearest known one.
 - Files of v3 may have parameters of another type than the known one, textures and materials that there are not, and
   directives on the wrong side of WorldBegin: pbrt-v3 goes on without them, and so does Duet, with a warning.
 - A shape of v3 may have parameters of its material. What moves emits no light in v3, and what has no material in v4.
+- Arrays of a mesh that do not fit its points, ends of blocks without beginnings, and colour spaces and mappings that there
+  are not, are left out with a warning, as in pbrt.
 - Several infinite lights add up. Lights do not move, as in pbrt: they stand where their way begins.
 - Curves that are no hair face each ray as pbrt's do; only the methods that follow light from the camera alone can render
   such ribbons. Opaque ones are lit where rays are clear of them: a width in front of them, as in pbrt.

@@ -152,7 +152,7 @@ TEST_CASE("pbrt-v3: a spectrum has the colour of light, on surfaces, too") {
         d.materials.at(size_t(both.front)).model.get<DiffuseMaterial>().reflectance);
   };
   // Equal energy, whose sum over 471 wavelengths counts for 470 nm.
-  const double half = 0.5 * 470 / 471, r = 1.20479 * half, g = 0.94829 * half, b = 0.90892 * half;
+  const double mean = 0.5 * 470 / 471, r = 1.20479 * mean, g = 0.94829 * mean, b = 0.90892 * mean;
   check_reflectance(kd("\"spectrum Kd\" [300 .5 900 .5]"), r, g, b, 1e-3);
   // The first and last value hold beyond their wavelengths.
   check_reflectance(kd("\"spectrum Kd\" \"flat.spd\""), r, g, b, 1e-3);
