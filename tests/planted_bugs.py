@@ -265,7 +265,7 @@ MUTATIONS = [
     ("negative indices of OBJ are off by one", "parsers/mesh/obj.cpp",
      "return count + index;", "return count + index - (count + index > 0);", "OBJ: negative indices count back*"),
     ("spectra are not seen in daylight", "parsers/values/color.cpp",
-     "if (daylight) weight *= look_up(kD65, wavelength);", "", "tabulated spectra are what Mitsuba 3*"),
+     "weight *= look_up(kD65, wavelength) * kDaylightNormalization;", "weight *= 1;", "tabulated spectra are what Mitsuba 3*"),
     ("the axis of a rotation is taken as it is in 0.x", "parsers/xml/transform_element.cpp",
      "c_.version.is_0x() || std::abs(length - 1) < 1e-5", "std::abs(length - 1) < 1e-5", "the axis of a rotation*"),
     ("bytes of colours in PLY are decoded twice", "parsers/mesh/ply.cpp",
