@@ -20,7 +20,7 @@ struct NameTables {
   std::map<std::string, ColorInput, std::less<>> colors;
   std::map<std::string, FloatInput, std::less<>> numbers;
   std::map<std::string, MaterialId, std::less<>> materials;
-  /// What they were made of, as GraphicsState::material_plugin.
+  /// What those of v3 were made of, as GraphicsState::material_plugin.
   std::map<std::string, std::shared_ptr<const Plugin>, std::less<>> material_plugins;
 };
 
@@ -36,7 +36,7 @@ struct GraphicsState {
   bool reverse_orientation = false;
   uint8_t color_space = 0;
   MaterialId material{};
-  /// What the material was made of, which shapes of v3 may change; null: the default.
+  /// In v3 what the material was made of, which shapes may change; null: the default.
   std::shared_ptr<const Plugin> material_plugin;
   std::shared_ptr<const Plugin> area_light;
   /// Media behind and before surfaces.

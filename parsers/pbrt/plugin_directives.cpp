@@ -155,7 +155,8 @@ void Directives::material(Lexer& in, const Plugin& d) {
   const auto made = read_material(reader_, plugin);
   if (!made) return;
   state().material = *made;
-  state().material_plugin = std::make_shared<const Plugin>(std::move(plugin));
+  if (reader_.version() == Version::v3)
+    state().material_plugin = std::make_shared<const Plugin>(std::move(plugin));
 }
 
 namespace {
@@ -185,7 +186,9 @@ void Directives::make_named_material(Lexer& in, const Plugin& d) {
   const auto made = read_material(reader_, plugin);
   if (!made) return;
   reader_.define_material(name, *made, d.where);
-  reader_.change_names().material_plugins[name] = std::make_shared<const Plugin>(std::move(plugin));
+  if (reader_.version() == Version::v3)
+    reader_.change_names().material_plugins[name] =
+        std::make_shared<const Plugin>(std::move(plugin));
 }
 
 void Directives::use_material(const std::string& name, const SourceLocation& where) {

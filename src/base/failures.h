@@ -24,4 +24,24 @@ class SceneFailure : public std::runtime_error {
   bool is_printed_;
 };
 
+/// Does several things, each whatever becomes of the others.
+class TryAll {
+ public:
+  template <class Action>
+  void run(const Action& action) {
+    try {
+      action();
+    } catch (const std::exception& e) {
+      failures_ += (failures_.empty() ? "" : "; ") + std::string(e.what());
+    }
+  }
+  /// Throws std::runtime_error with all failures, if there are any.
+  void finish() const {
+    if (!failures_.empty()) throw std::runtime_error(failures_);
+  }
+
+ private:
+  std::string failures_;
+};
+
 }  // namespace duet

@@ -2,9 +2,9 @@
 
 #include <fmt/ranges.h>
 
-#include <functional>
 #include <stdexcept>
 
+#include "base/failures.h"
 #include "evaluate/raw/merge.h"
 #include "evaluate/render/file_uses.h"
 #include "evaluate/render/output.h"
@@ -34,17 +34,6 @@ std::vector<std::string> prepared_files(const MergeRequest& r) {
   return planned;
 }
 
-/// Calls each, whatever becomes of the others; then throws std::runtime_error with all failures.
-void write_all(const std::vector<std::function<void()>>& files) {
-  std::string failures;
-  for (const auto& write : files) try {
-      write();
-    } catch (const std::exception& e) {
-      failures += (failures.empty() ? "" : "; ") + std::string(e.what());
-    }
-  if (!failures.empty()) throw std::runtime_error(failures);
-}
-
 /// Whether there are any.
 bool report(const std::vector<std::string>& incomplete, Messages& messages) {
   for (const std::string& slice : incomplete) messages.error("{}", slice);
@@ -72,19 +61,17 @@ bool merge_to_files(MergeRequest r, Messages& messages) {
   const std::string gaps = to_string(r.slices.gaps(merged));
   if (!gaps.empty()) messages.warning("samples are missing: {}", gaps);
   const HeaderFields header = header_of(merged, record, gaps);
-  std::vector<std::function<void()>> files;
-  if (!r.raw.empty())
-    files.emplace_back([&] { write_raw_film(r.raw, merged.image, merged.state); });
+  TryAll files;
+  if (!r.raw.empty()) files.run([&] { write_raw_film(r.raw, merged.image, merged.state); });
   for (const std::string& path : r.outputs)
-    files.emplace_back(
-        [&] { write_image(path, merged.result.image, merged.image.form, header, r.files); });
+    files.run([&] { write_image(path, merged.result.image, merged.image.form, header, r.files); });
   if (!r.stats.empty())
-    files.emplace_back([&] {
+    files.run([&] {
       StatisticsFile statistics(r.stats);
       statistics.add(record, merged.result, {.render = merged.result.seconds}, {});
       statistics.write(false);
     });
-  write_all(files);
+  files.finish();
   messages.info("{} films: {} -> {}", merged.films, describe(record, merged.result),
                 fmt::join(planned, " "));
   return !report(r.slices.incomplete(merged.state.samples), messages);

@@ -6,6 +6,7 @@
 #include <stdexcept>
 
 #include "base/diagnostics.h"
+#include "base/failures.h"
 #include "base/system/standard_streams.h"
 #include "evaluate/render/file_settings_text.h"
 #include "evaluate/report/denoised_image.h"
@@ -105,18 +106,16 @@ std::vector<std::string> SceneImages::write_files(Kind kind, const Image& image,
                                                   const HeaderFields& header) const {
   const std::vector<std::string> written =
       result.interrupted ? partial_paths(kind, result.spp) : paths(kind, result.spp);
-  std::string failures;
+  TryAll files;
   for (const std::string& path : written) {
     HeaderFields fields = header;
     fields.emplace_back("settingsHash", settings_hash(kind, path));
-    try {
+    files.run([&] {
       write_image(path, image, form, fields, options_.files);
       if (!result.interrupted) remove_partial(path, scene_);
-    } catch (const std::exception& e) {
-      failures += (failures.empty() ? "" : "; ") + std::string(e.what());
-    }
+    });
   }
-  if (!failures.empty()) throw std::runtime_error(failures);
+  files.finish();
   return written;
 }
 
