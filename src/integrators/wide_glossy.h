@@ -102,7 +102,7 @@ struct LocalPoint {
 }
 
 [[gnu::always_inline]] inline Spectrum reflectance_at(const WidePoints& points, int i) {
-  return {points.reflectance.x[i], points.reflectance.y[i], points.reflectance.z[i]};
+  return color_at(points.reflectance, i);
 }
 
 /// `w`, or its mirror image if it is below the horizon, where formulas may divide by zero.

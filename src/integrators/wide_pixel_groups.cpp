@@ -22,6 +22,11 @@ float lit_side(const WidePoints& points, const WidePaths& paths, int i) {
   return PlainDiffuse::lit_side(cosine, points.two_sided[i] != 0);
 }
 
+/// Whether part of what such surfaces scatter is that of a diffuse base.
+template <class Surface>
+inline constexpr bool kHasBase =
+    std::is_same_v<Surface, PlasticSurface> || std::is_same_v<Surface, RoughPlasticSurface>;
+
 void copy_point(const WidePoints& from, int i, WidePoints& to, int k) {
   to.position.set(k, from.position.point(i));
   to.ng.set(k, from.ng.vector(i));
@@ -39,7 +44,11 @@ WidePixelGroups::WidePixelGroups(const WideScene& scene, bool strict_normals, in
       members_(members),
       place_(kBatch),
       pixel_(kBatch),
-      glossy_pairs_(scene.glossy.size()) {}
+      glossy_pairs_(scene.glossy.size()),
+      plastics_(scene.glossy.size()) {
+  for (const WideGlossyMaterial& material : scene.glossy)
+    is_plastic_.push_back(std::visit([]<class M>(const M&) { return kHasBase<M>; }, material));
+}
 
 void WidePixelGroups::start(int count, uint64_t key) {
   count_ = count;
@@ -71,21 +80,57 @@ void WidePixelGroups::note_first(int n, const WidePaths& paths, const Vertices& 
 }
 
 void WidePixelGroups::note_second(int n, WidePaths& paths, const Vertices& at) {
+  for (std::vector<int>& list : plastics_) list.clear();
   for (int i = 0; i < n; ++i) {
     const int k = place_[size_t(paths.id[i])];
     // What is mirrored no other pixel's path could have found.
-    if (first_.list[k] < 0 || paths.bsdf_pdf[i] < 0 ||
-        wide_.shapes[at.hits.shape[i]].model != WideModel::diffuse)
-      continue;
+    if (first_.list[k] < 0 || paths.bsdf_pdf[i] < 0) continue;
+    const WideShape& shape = wide_.shapes[at.hits.shape[i]];
+    const bool plastic = shape.model == WideModel::glossy && is_plastic_[size_t(shape.number)];
+    if (shape.model != WideModel::diffuse && !plastic) continue;
     const float side = lit_side(at.points, paths, i);
     if (side == 0) continue;
+    if (plastic) plastics_[size_t(shape.number)].push_back(i);
     second_.side[k] = side;
+    second_.list[k] = shape.pair_list();
     copy_point(at.points, i, second_.points, k);
-    const BatchTriples& t = paths.throughput;
-    const float scale = Spectrum(t.x[i], t.y[i], t.z[i]).max();
+    const Spectrum t = color_at(paths.throughput, i);
+    const float scale = t.max();
     second_.scale[k] = scale;
+    second_.tint.set(k, t.r / scale, t.g / scale, t.b / scale);
+    second_.share.set(k, 1, 1, 1);
     paths.throughput.set(i, scale, scale, scale);
   }
+}
+
+template <class F>
+void WidePixelGroups::set_base_shares(const WideVertices& at, const BatchTriples& towards,
+                                      F&& value) {
+  for (size_t number = 0; number < plastics_.size(); ++number) {
+    const std::vector<int>& list = plastics_[number];
+    if (list.empty()) continue;
+    const int n = int(list.size());
+    for (int k = 0; k < n; ++k) {
+      const int i = glossy_.at[k] = list[size_t(k)];
+      glossy_.towards.set(k, towards.vector(i));
+      glossy_.value.set(k, value(i));
+    }
+    const auto find = [&]<class Surface>(const Surface& material) {
+      if constexpr (kHasBase<Surface>) find_base_shares(n, material, at, glossy_);
+    };
+    std::visit(find, wide_.glossy[number]);
+    for (int k = 0; k < n; ++k)
+      second_.share.set(place_[size_t(at.paths.id[list[size_t(k)]])], glossy_.value.vector(k));
+  }
+}
+
+void WidePixelGroups::set_shares(const WideVertices& at, const WideLightSamples& samples) {
+  set_base_shares(at, samples.wi, [&](int i) { return samples.value.vector(i); });
+}
+
+void WidePixelGroups::set_shares(const WideVertices& at, const WideScattering& next) {
+  set_base_shares(at, next.wi,
+                  [&](int i) { return next.weight.vector(i) * std::max(next.pdf[i], 0.0f); });
 }
 
 DUET_WIDEST void WidePixelGroups::find_pairs(const First& first, const Second& second, int place,
@@ -106,10 +151,12 @@ DUET_WIDEST void WidePixelGroups::find_pairs(const First& first, const Second& s
     const float side = first.side[i], cosine = dot(first.points.ns.vector(i), d);
     const float lit = side != 0 ? cosine * side : 1.0f;
     const float area = std::abs(dot(ng2, d)) / r2;
-    const bool paired = first.list[i] >= 0 && r2 > 0 && dot(lit2, d) > 0 && lit > 0;
+    const float seen = dot(lit2, d);
+    const bool paired = first.list[i] >= 0 && r2 > 0 && seen > 0 && lit > 0;
     pairs.direction.set(out, d);
     pairs.cosine[out] = lit;
     pairs.geometry[out] = paired ? area : 0.0f;
+    pairs.cosine_seen[out] = seen;
     const Point3f target = moved_off(to, ng2, offset2, -dot(ng2, d));
     const Point3f origin = moved_off(from, ng, first.points.offset[i], dot(ng, target - from));
     pairs.ray.origin.set(out, origin);
@@ -130,6 +177,25 @@ void WidePixelGroups::evaluate(int n) {
     if (paired && first_.list[i] > 0) glossy_pairs_[size_t(first_.list[i] - 1)].push_back(k);
   }
   evaluate_glossy_pairs();
+  see_plastics();
+}
+
+void WidePixelGroups::see_plastics() {
+  for (const Shared& s : shared_) {
+    const int list = second_.list[s.place], n = group_size(s.place);
+    if (list == 0) continue;
+    BatchArray<float>& seen = pairs_.seen;
+    const auto see = [&]<class Surface>(const Surface& material) {
+      if constexpr (kHasBase<Surface>)
+        see_bases(n, material, &pairs_.cosine_seen[s.pairs], &seen[s.pairs]);
+    };
+    std::visit(see, wide_.glossy[size_t(list - 1)]);
+    for (int k = s.pairs; k < s.pairs + n; ++k) {
+      // Paths that see little of the base are weighted less than by their densities alone.
+      pairs_.pdf[k] *= seen[k];
+      pairs_.value.set(k, pairs_.value.vector(k) * seen[k]);
+    }
+  }
 }
 
 void WidePixelGroups::evaluate_glossy_pairs() {

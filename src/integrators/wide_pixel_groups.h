@@ -10,11 +10,12 @@
 namespace duet {
 
 /// Groups of a batch's pixels, drawn anew for every sample. What a diffuse second vertex scatters
-/// is the same in all directions: it is estimated by the path that has found it and counts for all
-/// pixels of the group whose first vertices see it, with the balance heuristic over the paths that
-/// could have found it. Unbiased; the noise of a pixel is that of many paths, and has a part in
-/// common with that of the others. Source: Bekaert, Sbert & Halton, "Accelerating Path Tracing by
-/// Re-Using Paths", 2002; docs/pixel_groups.md.
+/// is the same in all directions, and that of the base of a plastic but for a known factor: it is
+/// estimated by the path that has found it and counts for all pixels of the group whose first
+/// vertices see it, with the balance heuristic over the paths that could have found it. Unbiased;
+/// the noise of a pixel is that of many paths, and has a part in common with that of the others.
+/// Source: Bekaert, Sbert & Halton, "Accelerating Path Tracing by Re-Using Paths", 2002;
+/// docs/pixel_groups.md.
 class WidePixelGroups {
  public:
   /// `members` pixels at most in a group.
@@ -32,9 +33,19 @@ class WidePixelGroups {
   /// Notes the second ones. Those that are shared carry a grey throughput from then on, and what
   /// their paths find beyond is to be given to add().
   void note_second(int n, WidePaths& paths, const Vertices& at);
+  /// Says that what second vertices scatter of light from the directions `towards` is added next.
+  /// Their BSDFs have these values; negative densities are those of delta lobes.
+  void set_shares(const WideVertices& at, const WideLightSamples& samples);
+  void set_shares(const WideVertices& at, const WideScattering& next);
   /// Whether the second vertex of a pixel's path is shared.
   bool shares(int id) const { return second_.side[place_[size_t(id)]] != 0; }
-  void add(int id, const Spectrum& s) { scattered_.add(place_[size_t(id)], s); }
+  /// What only the pixel itself can use of it goes to `own`.
+  void add(int id, const Spectrum& s, WideSamples& own) {
+    const int k = place_[size_t(id)];
+    const Spectrum shared = s * color_at(second_.share, k);
+    scattered_.add(k, shared);
+    own.add(id, (s - shared) * color_at(second_.tint, k));
+  }
   /// Adds to each pixel what the second vertices of its group scatter towards its first.
   void add_to(WideSamples& samples, RenderCounters& counters);
 
@@ -52,8 +63,12 @@ class WidePixelGroups {
   };
   struct Second {
     WidePoints points;
-    BatchArray<float> side;   ///< lit side; 0 if there is no such vertex
-    BatchArray<float> scale;  ///< throughput up to it
+    BatchArray<float> side;    ///< lit side; 0 if there is no such vertex
+    BatchArray<int32_t> list;  ///< as of first ones
+    BatchArray<float> scale;   ///< throughput up to it
+    BatchTriples tint;         ///< the colour of that
+    BatchTriples
+        share;  ///< of what is found beyond the part that is scattered alike in all directions
   };
   /// Pairs of a first vertex and the second one of a member of its group.
   struct Pairs {
@@ -61,6 +76,8 @@ class WidePixelGroups {
     BatchTriples direction;             ///< unit
     BatchArray<float> cosine;           ///< with the shading normal, on the lit side
     BatchArray<float> geometry;         ///< area measure over solid angle; 0 where one faces away
+    BatchArray<float> cosine_seen;      ///< at the second vertex
+    BatchArray<float> seen;             ///< see_bases(); 1 of diffuse surfaces
     RayBatch ray;
     BatchArray<float> pdf;  ///< of the second vertex, per area; 0 if it is not seen
     BatchTriples value;     ///< BSDF, cosine and geometry
@@ -70,6 +87,8 @@ class WidePixelGroups {
     int place, pairs;
   };
 
+  template <class F>
+  void set_base_shares(const WideVertices& at, const BatchTriples& towards, F&& value);
   int group_begin(int place) const { return place / members_ * members_; }
   int group_size(int place) const { return std::min(members_, count_ - group_begin(place)); }
   /// The pairs of a second vertex with all first ones of its group, as pairs `at` and following.
@@ -78,6 +97,8 @@ class WidePixelGroups {
   /// Densities and values of the first `n` pairs.
   void evaluate(int n);
   void evaluate_glossy_pairs();
+  /// Multiplies pairs by how the second vertices are seen from the first ones.
+  void see_plastics();
   void test(int n, RenderCounters& counters);
   /// Adds what the second vertices of the first `n` pairs scatter.
   void flush(int n, WideSamples& samples, RenderCounters& counters);
@@ -96,6 +117,9 @@ class WidePixelGroups {
   WideGlossy glossy_{};
   WideNumbers numbers_{};  ///< of which evaluation needs none
   std::vector<std::vector<int>> glossy_pairs_;
+  /// Paths of the batch whose second vertices are plastics, by WideShape::number.
+  std::vector<std::vector<int>> plastics_;
+  std::vector<bool> is_plastic_;  ///< by WideShape::number
 };
 
 }  // namespace duet

@@ -119,6 +119,37 @@ DUET_WIDEST void reverse_glossy(int n, const RoughPlasticSurface& surface,
       });
 }
 
+DUET_WIDEST void find_base_shares(int n, const RoughPlasticSurface& surface,
+                                  const WideVertices& vertices, WideGlossy& out) {
+  const UniformRoughPlastic plastic = lanes_of(surface);
+  const bool two_sided = surface.two_sided;
+  const WideVertices v = vertices;
+  DUET_LANES
+  for (int k = 0; k < n; ++k) {
+    const int i = out.at[k];
+    const LocalPoint at = local_point(v, i, two_sided);
+    const Vector3f wi = at.to_local(out.towards.vector(k));
+    const Spectrum base = plastic.model(reflectance_at(v.points, i))
+                              .base_above(above_horizon(at.wo), above_horizon(wi));
+    const Vector3f all = out.value.vector(k);
+    const bool above = std::min(at.wo.z, wi.z) > kMinCosine;
+    const float r = base.r / all.x, g = base.g / all.y, b = base.b / all.z;
+    out.value.set(k, above && all.x > 0 ? std::min(r, 1.0f) : 0,
+                  above && all.y > 0 ? std::min(g, 1.0f) : 0,
+                  above && all.z > 0 ? std::min(b, 1.0f) : 0);
+  }
+}
+
+DUET_WIDEST void see_bases(int n, const RoughPlasticSurface& surface, const float* cosines,
+                           float* factors) {
+  const TransmittanceRow transmittance = lanes_of(surface).transmittance;
+  DUET_LANES
+  for (int k = 0; k < n; ++k) {
+    const float seen = transmittance(std::abs(cosines[k]));
+    factors[k] = cosines[k] > kMinCosine ? seen : 0;
+  }
+}
+
 DUET_WIDEST void evaluate_glossy(int n, const PlasticSurface& surface, const WideVertices& vertices,
                                  WideGlossy& out) {
   const UniformPlastic plastic = surface.plastic;
@@ -173,6 +204,24 @@ DUET_WIDEST void reverse_glossy(int n, const PlasticSurface& surface, const Wide
     const ModelEval e = plastic.model(reflectance_at(v.points, i))
                             .eval_above(above_horizon(wi), above_horizon(at.wo));
     out.reverse[k] = std::min(at.wo.z, wi.z) > 0 ? e.pdf : 0;
+  }
+}
+
+DUET_WIDEST void find_base_shares(int n, const PlasticSurface&, const WideVertices&,
+                                  WideGlossy& out) {
+  for (int k = 0; k < n; ++k) {
+    const Vector3f all = out.value.vector(k);
+    out.value.set(k, all.x > 0 ? 1.0f : 0.0f, all.y > 0 ? 1.0f : 0.0f, all.z > 0 ? 1.0f : 0.0f);
+  }
+}
+
+DUET_WIDEST void see_bases(int n, const PlasticSurface& surface, const float* cosines,
+                           float* factors) {
+  const PlasticModel model = surface.plastic.model(Spectrum(0.0f));
+  DUET_LANES
+  for (int k = 0; k < n; ++k) {
+    const float seen = model.seen_through_coat(std::abs(cosines[k]));
+    factors[k] = cosines[k] > 0 ? seen : 0;
   }
 }
 

@@ -17,6 +17,13 @@ void sample_glossy(int n, const RoughPlasticSurface& surface, const WideVertices
 void reverse_glossy(int n, const RoughPlasticSurface& surface, const WideVertices& vertices,
                     WideGlossy& out);
 
+/// The shares that the base has of the values for `out.towards`, which `out.value` has before.
+void find_base_shares(int n, const RoughPlasticSurface& surface, const WideVertices& vertices,
+                      WideGlossy& out);
+/// The factor of what the base scatters by which it depends on the direction it is seen from, for
+/// the cosines of `n` directions.
+void see_bases(int n, const RoughPlasticSurface& surface, const float* cosines, float* factors);
+
 /// The same of smooth plastics, without what the coat mirrors. Of directions that it mirrors the
 /// density is negative.
 void evaluate_glossy(int n, const PlasticSurface& surface, const WideVertices& vertices,
@@ -25,5 +32,9 @@ void sample_glossy(int n, const PlasticSurface& surface, const WideVertices& ver
                    WideGlossy& out);
 void reverse_glossy(int n, const PlasticSurface& surface, const WideVertices& vertices,
                     WideGlossy& out);
+
+void find_base_shares(int n, const PlasticSurface& surface, const WideVertices& vertices,
+                      WideGlossy& out);
+void see_bases(int n, const PlasticSurface& surface, const float* cosines, float* factors);
 
 }  // namespace duet

@@ -60,13 +60,12 @@ class WideStages {
   std::optional<Roulette> roulette_at(int depth, const Roulette& r) const {
     return has_roulette(depth) ? std::optional(r.at(depth)) : std::nullopt;
   }
+  WideVertices vertices() const { return {paths_, points_, numbers_, transport_}; }
   Hit hit(int i) const {
     return {hits_.t[i],         hits_.u[i],     hits_.v[i],
             hits_.primitive[i], hits_.shape[i], hits_.instance[i]};
   }
-  Spectrum throughput(int i) const {
-    return {paths_.throughput.x[i], paths_.throughput.y[i], paths_.throughput.z[i]};
-  }
+  Spectrum throughput(int i) const { return color_at(paths_.throughput, i); }
   /// Plans how the gaps are closed that paths leave which have met nothing; returns how many stay.
   int find_hits(int n) {
     return gaps_.find(n, [&](int i) { return int(hits_.shape[i] != kNone); });
@@ -94,8 +93,7 @@ class WideStages {
     for (int i = 0; i < tested.rays; ++i) {
       if (rays.blocked[i]) continue;
       ++tested.lit;
-      const BatchTriples& c = rays.contribution;
-      sums.add(rays.id[i], Spectrum(c.x[i], c.y[i], c.z[i]));
+      sums.add(rays.id[i], color_at(rays.contribution, i));
     }
     return tested;
   }
@@ -122,7 +120,6 @@ class WideStages {
   std::vector<Surface> surfaces_;
 
  private:
-  WideVertices vertices() const { return {paths_, points_, numbers_, transport_}; }
   /// Calls `f(count, material)` for the points of each material, whose numbers stand in `glossy_`
   /// then.
   template <class Material, class F>

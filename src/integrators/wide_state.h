@@ -4,8 +4,13 @@
 #include "cameras/camera.h"
 #include "geometry/ray_batch.h"
 #include "math/batch_sampler.h"
+#include "math/spectrum.h"
 
 namespace duet {
+
+[[gnu::always_inline]] inline Spectrum color_at(const BatchTriples& t, int i) {
+  return {t.x[i], t.y[i], t.z[i]};
+}
 
 /// The paths that are still growing, without gaps.
 struct WidePaths {

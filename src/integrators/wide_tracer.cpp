@@ -33,7 +33,10 @@ void WideTracer::trace(int n, const BatchSampler& sampler, WideSamples& samples,
     sample_glossy_points(nullptr);
     sample_specular_points(nullptr);
     scatter_one_by_one();
+    const bool splits = groups_ && depth == 2;
+    if (splits) groups_->set_shares(vertices(), lights_);
     add_light(n, sums, counters);
+    if (splits) groups_->set_shares(vertices(), scattering_);
     for (int i = 0; i < n; ++i)
       if (!scattering_.null[i]) samples.alpha[paths_.id[i]] = 1;
     if (limits_.strict_normals) drop_two_sided_directions(n);

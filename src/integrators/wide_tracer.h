@@ -36,7 +36,7 @@ class WideTracer final : public WideWalk, private WideStages {
     WidePixelGroups* groups;
     void add(int id, const Spectrum& s) {
       if (groups && groups->shares(id))
-        groups->add(id, s);
+        groups->add(id, s, samples);
       else
         samples.add(id, s);
     }

@@ -63,6 +63,10 @@ struct PlasticModel {
     return {coated_base * (cosine * (1 - fo) * (1 - fi)),
             cosine * (1 - lobe_probability(fo, specular_weight, diffuse_weight))};
   }
+  /// The factor of what the base scatters by which it depends on the direction it is seen from.
+  [[gnu::always_inline]] float seen_through_coat(float cosine) const {
+    return 1 - fresnel_dielectric(cosine, eta).reflectance;
+  }
   [[gnu::always_inline]] BranchFreeSample sample_branch_free(const Vector3f& wo, float u,
                                                              const Point2f& v, Transport) const {
     const float fo = fresnel_dielectric(wo.z, eta).reflectance;
@@ -124,6 +128,10 @@ struct RoughPlasticModel {
     const float cosine = wi.z * kInvPi;
     return {specular_reflectance * (f * r.value) + coated_base * (cosine * to * ti),
             p * r.density + (1 - p) * cosine};
+  }
+  /// What the base has of that value.
+  [[gnu::always_inline]] Spectrum base_above(const Vector3f& wo, const Vector3f& wi) const {
+    return coated_base * (wi.z * kInvPi * transmittance(wo.z) * transmittance(wi.z));
   }
   [[gnu::always_inline]] float specular_probability(float transmitted) const {
     return lobe_probability(1 - transmitted, specular_weight, diffuse_weight);

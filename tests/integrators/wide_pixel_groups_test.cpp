@@ -1,6 +1,7 @@
 // Paths in groups of pixels have the same mean as paths on their own, and less noise.
 #include "integrators/wide_pixel_groups.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <memory>
@@ -28,6 +29,11 @@ Image render_group(const TransportScene& s, const PathIntegratorDescription& d,
   PathIntegrator path(d, {});
   return render(*s.scene, path, s.layout, r).image;
 }
+
+/// Plastic whose coat reflects more than its base.
+const std::string kDark = ggx_plastic(
+    "<float name='alpha' value='0.25'/><float name='int_ior' value='2.2'/>"
+    "<rgb name='diffuse_reflectance' value='0.3,0.15,0.1'/>");
 
 /// The light in each of the tiles.
 std::array<double, kTiles * kTiles> tile_sums(const Image& image) {
@@ -83,6 +89,10 @@ TEST_CASE("paths in groups of pixels have the mean of paths on their own") {
                        sphere_xml("-0.5,0.2,0.5", "0.5", smooth_plastic("")) +
                        lumpy_xml("0.5,0,0.5", kPatternedMetal) +
                        lumpy_xml("0.1,-0.4,1.2", kPatternedMetal)});
+  cases.push_back({"coloured rough plastics of both kinds of facets, light on their backs",
+                   camera() + room_xml(kDark) + kLamp + lumpy_xml("-0.5,0.2,0.5", kTinted) +
+                       lumpy_xml("0.5,0,0.5", kVarnishedCheckers) +
+                       hollow_xml("0.1,-0.4,1.2", "0.4", kPlastic)});
   for (const BatchCase& c : cases) {
     CAPTURE(std::string(c.name));
     const TransportScene scene = c.scene();
@@ -114,8 +124,53 @@ TEST_CASE("so they have with hidden emitters, strict normals and groups of other
     }
 }
 
-TEST_CASE("groups of pixels have less noise where light comes from diffuse surfaces") {
-  const TransportScene scene(camera() + room_xml(grey("0.7")) + lamp_xml("0.3", "9,8,7"));
+// What the pixels of a group have from one another may be right in sum but in none of them. The
+// figure is 1.05 ± 0.1: half a standard error in every pixel is noticed.
+TEST_CASE("each pixel of a group has the mean of its own paths") {
+  const TransportScene scene(
+      TemporaryDirectory(),
+      camera_xml("0,-3.2,1", "0,0,1", 16) + room_xml(kDark) + kLamp +
+          sphere_xml("-0.5,0.2,0.5", "0.5",
+                     ggx_plastic("<rgb name='diffuse_reflectance' value='0.6,0.5,0.4'/>")) +
+          lumpy_xml("0.5,0,0.5", kVarnishedCheckers));
+  constexpr int kRuns = 40, kPixels = 16 * 16;
+  std::array<double, kPixels> sum{}, squares{};
+  double light = 0;
+  for (int seed = 0; seed < kRuns; ++seed) {
+    RenderRequest r = batch_request(64, SampleSequence::independent);
+    r.seed = uint64_t(seed);
+    const Image own = render_group(scene, in_groups(1), r),
+                grouped = render_group(scene, in_groups(16), r);
+    const size_t channels = size_t(own.channel_count());
+    for (size_t i = 0; i < kPixels; ++i) {
+      double d = 0;
+      for (size_t k = i * channels; k < i * channels + 3; ++k)
+        d += double(grouped.data[k]) - double(own.data[k]), light += double(own.data[k]);
+      sum[i] += d, squares[i] += d * d;
+    }
+  }
+  double z2 = 0, error2 = 0;
+  for (size_t i = 0; i < kPixels; ++i) {
+    const double variance = (squares[i] - sum[i] * sum[i] / kRuns) * kRuns / (kRuns - 1);
+    z2 += sum[i] * sum[i] / variance / kPixels, error2 += variance * kPixels / (light * light);
+  }
+  CHECK(std::sqrt(error2) < 0.005);
+  CHECK(z2 < 1.35);
+}
+
+TEST_CASE("groups of pixels have less noise where light comes from diffuse bases") {
+  const std::string base = "<rgb name='diffuse_reflectance' value='0.7,0.6,0.5'/>";
+  std::string walls;
+  SUBCASE("walls") {
+    walls = grey("0.7");
+  }
+  SUBCASE("smooth plastics") {
+    walls = smooth_plastic(base);
+  }
+  SUBCASE("rough plastics") {
+    walls = ggx_plastic(base);
+  }
+  const TransportScene scene(camera() + room_xml(walls) + lamp_xml("0.3", "9,8,7"));
   const auto noise = [&](int members) {
     PathLimits limits;
     limits.hide_emitters = true;  // whose edges have more noise than all else
@@ -123,11 +178,15 @@ TEST_CASE("groups of pixels have less noise where light comes from diffuse surfa
     const Image a = render_group(scene, in_groups(members, limits), r);
     r.seed = 1;
     const Image b = render_group(scene, in_groups(members, limits), r);
-    double sum = 0;
-    for (size_t i = 0; i < a.data.size(); ++i) sum += std::pow(double(a.data[i] - b.data[i]), 2);
-    return sum;
+    // The median: what coats mirror is as noisy as before.
+    std::vector<double> squares;
+    for (size_t i = 0; i < a.data.size(); ++i)
+      squares.push_back(std::pow(double(a.data[i] - b.data[i]), 2));
+    std::nth_element(squares.begin(), squares.begin() + squares.size() / 2, squares.end());
+    return squares[squares.size() / 2];
   };
-  CHECK(noise(16) < 0.7 * noise(1));
+  CAPTURE(noise(16) / noise(1));
+  CHECK(noise(16) < 0.75 * noise(1));
 }
 
 TEST_CASE("groups of pixels make the same image on any number of threads, in passes and windows") {
