@@ -412,4 +412,8 @@ MUTATIONS = [
     ("what is not shared lacks the colour of the first vertex", "src/integrators/wide_pixel_groups.h",
      "own.add(id, (s - shared) * color_at(second_.tint, k));", "own.add(id, s - shared);",
      "paths in groups of pixels have*"),
+    ("bump maps do not shadow the next direction of a batch", "src/integrators/wide_perturbed.cpp",
+     "scattering_.weight.set(i, scattering_.weight.vector(i) * next);", "", "below bump and normal maps*"),
+    ("backs below maps are fronts in batches", "src/integrators/wide_perturbed.cpp",
+     "surface.two_sided && wo.z < 0 ? -1.0f : 1.0f", "1.0f", "below bump and normal maps*"),
 ]

@@ -17,7 +17,8 @@ bool BidirectionalIntegrator::may_take_eye_batches() const {
 std::unique_ptr<BidirectionalIntegrator::Batches> BidirectionalIntegrator::make_batches(
     const Scene& scene) const {
   if (!may_take_batches() || scene.needs_media_vertices() || !suits_batches(scene)) return nullptr;
-  auto batches = std::make_unique<Batches>(scene, blurs());
+  auto batches =
+      std::make_unique<Batches>(scene, blurs() ? WideUse::merging : WideUse::connections);
   PathLimits limits;
   limits.max_depth = max_depth_, limits.rr_depth = options_.rr_depth;
   limits.hide_emitters = options_.hide_emitters, limits.strict_normals = options_.strict_normals;

@@ -10,7 +10,7 @@ namespace duet {
 
 /// What the batches of all iterations have in common.
 struct BidirectionalIntegrator::Batches {
-  Batches(const Scene& s, bool merges) : scene(s, merges), lights(scene) {}
+  Batches(const Scene& s, WideUse use) : scene(s, use), lights(scene) {}
 
   void begin_eye(const CameraIntegrator& method, const PathLimits& limits) {
     eye.emplace(scene.scene, method,

@@ -152,7 +152,7 @@ bool suits_pixel_groups(const Scene& scene, const PathLimits& limits) {
 }
 
 GroupGain measure_pixel_groups(const Scene& scene, const PricingPlan& plan) {
-  const WideScene wide(scene);
+  const WideScene wide(scene, WideUse::paths);
   const std::vector<Point2i> corners = choose_tiles(plan);
   std::vector<TileResult> tiles(corners.size());
   parallel_for(corners.size(), plan.threads,

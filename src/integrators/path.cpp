@@ -51,7 +51,7 @@ void PathIntegrator::render_samples(const Scene& scene, Film& film, const Sample
                                     const PassControl& control, RenderCounters& counters) {
   if (!takes_batches(scene))
     return CameraIntegrator::render_samples(scene, film, samples, control, counters);
-  const WideScene wide_scene(scene);
+  const WideScene wide_scene(scene, WideUse::paths);
   WideTiles wide(scene, *this, [&] { return std::make_unique<WideTracer>(wide_scene, options_); });
   for_each_tile(film, samples, control, TileSplit::by_samples, counters,
                 [&](FilmTile& tile, const TileSamples& part, RenderCounters& c) {

@@ -1,5 +1,7 @@
 #include "integrators/wide_scene.h"
 
+#include "materials/wrappers.h"
+
 namespace duet {
 
 namespace {
@@ -32,55 +34,92 @@ std::optional<GlossySurface> as_glossy(const Material& material) {
   return std::nullopt;
 }
 
-/// The texture if the processor is likely to wait for its texels, or null.
-const Texture* if_large(const Texture* texture) {
+bool is_small(const Texture* texture) {
   constexpr int64_t kSmall = 1 << 18;  // texels, in a cache near by
-  if (!texture) return nullptr;
   const Point2i size = texture->resolution();
-  return int64_t(size.x) * size.y > kSmall ? texture : nullptr;
+  return int64_t(size.x) * size.y <= kSmall;
 }
 
 }  // namespace
 
-void WideScene::set_model(WideShape& w, const Shape& shape, bool merges) {
-  const Material& material = *scene.materials[shape.material];
-  const auto set_reflectance = [&](const ColorSlot& slot) {
-    w.reflectance = slot.constant;
-    if (slot.is_constant()) return;
-    w.textured = &slot;
-    w.prefetched = if_large(slot.texture);
-  };
-  const auto number_of = [this](uint32_t name, const auto& surface, auto& surfaces) {
-    const auto [known, is_new] = numbers_.try_emplace(name, int32_t(surfaces.size()));
-    if (is_new) surfaces.push_back(surface);
-    return known->second;
-  };
-  const bool by_normal = has_frame_of_normal(shape);
-  if (const auto diffuse = by_normal ? as_diffuse(material) : std::nullopt) {
-    w.model = WideModel::diffuse;
-    w.two_sided = diffuse->two_sided;
-    set_reflectance(diffuse->reflectance);
-  } else if (const auto surface = by_normal ? as_glossy(material) : std::nullopt;
-             surface && !(merges && surface->nearly_specular)) {
-    w.model = WideModel::glossy;
-    w.two_sided = surface->two_sided;
-    w.transmits = std::holds_alternative<RoughDielectricSurface>(surface->material);
-    if (surface->reflectance) set_reflectance(*surface->reflectance);
-    w.number = number_of(shape.material, surface->material, glossy);
-  } else if (const auto delta = by_normal ? as_specular(material) : std::nullopt) {
-    w.model = WideModel::specular;
-    w.number = number_of(shape.material, *delta, specular);
-  } else {
-    w.prefetched = if_large(material.main_texture());
+const WideScene::Textures* WideScene::large_textures(uint32_t material) {
+  const auto [known, is_new] = textures_.try_emplace(material);
+  Textures& list = known->second;
+  if (is_new) {
+    scene.materials[material]->list_textures(list);
+    std::erase_if(list, is_small);
   }
+  return list.empty() ? nullptr : &list;
 }
 
-WideScene::WideScene(const Scene& s, bool merges) : scene(s), lights(s) {
+void WideScene::set_reflectance(WideShape& w, const Shape& shape, const ColorSlot& slot) {
+  w.reflectance = slot.constant;
+  if (slot.is_constant()) return;
+  w.textured = &slot;
+  w.prefetched = large_textures(shape.material);
+}
+
+template <class Surface>
+int32_t WideScene::number_of(const Shape& shape, const Surface& surface,
+                             std::vector<Surface>& surfaces) {
+  const auto [known, is_new] = numbers_.try_emplace(shape.material, int32_t(surfaces.size()));
+  if (is_new) surfaces.push_back(surface);
+  return known->second;
+}
+
+bool WideScene::set_diffuse(WideShape& w, const Shape& shape, const Material& material) {
+  const auto diffuse = as_diffuse(material);
+  if (!diffuse) return false;
+  w.model = WideModel::diffuse;
+  w.two_sided = diffuse->two_sided;
+  set_reflectance(w, shape, diffuse->reflectance);
+  return true;
+}
+
+bool WideScene::set_glossy(WideShape& w, const Shape& shape, const Material& material,
+                           WideUse use) {
+  const auto surface = as_glossy(material);
+  if (!surface || (use == WideUse::merging && surface->nearly_specular)) return false;
+  w.model = WideModel::glossy;
+  w.two_sided = surface->two_sided;
+  w.transmits = std::holds_alternative<RoughDielectricSurface>(surface->material);
+  if (surface->reflectance) set_reflectance(w, shape, *surface->reflectance);
+  w.number = number_of(shape, surface->material, glossy);
+  return true;
+}
+
+void WideScene::set_perturbed(WideShape& w, const Shape& shape) {
+  const auto surface = as_perturbed(*scene.materials[shape.material]);
+  if (!surface) return;
+  const Material& nested = surface->map.nested();
+  // In lanes the frame depends on the normal alone, and light does not pass.
+  if (nested.needs().tangents || nested.transmits()) return;
+  if (!set_diffuse(w, shape, nested) && !set_glossy(w, shape, nested, WideUse::paths)) return;
+  w.perturbed = true;
+  maps.resize(scene.shapes.size());
+  maps[size_t(&shape - scene.shapes.data())].emplace(*surface);
+}
+
+void WideScene::set_model(WideShape& w, const Shape& shape, WideUse use) {
+  const Material& material = *scene.materials[shape.material];
+  if (has_frame_of_normal(shape)) {
+    if (set_diffuse(w, shape, material) || set_glossy(w, shape, material, use)) return;
+    if (const auto delta = as_specular(material)) {
+      w.model = WideModel::specular;
+      w.number = number_of(shape, *delta, specular);
+      return;
+    }
+  }
+  w.prefetched = large_textures(shape.material);
+  if (use == WideUse::paths) set_perturbed(w, shape);
+}
+
+WideScene::WideScene(const Scene& s, WideUse use) : scene(s), lights(s) {
   shapes.reserve(s.shapes.size());
   for (const Shape& shape : s.shapes) {
     WideShape& w = shapes.emplace_back();
     w.emits = shape.light != kNone;
-    set_model(w, shape, merges);
+    set_model(w, shape, use);
     if (shape.kind != ShapeKind::mesh) continue;
     w.mesh = WideMesh(shape);
     has_normals |= w.mesh.normals != nullptr;

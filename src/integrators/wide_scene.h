@@ -34,36 +34,58 @@ struct alignas(64) WideShape {
   /// number, so that all is in one cache line.
   [[no_unique_address]] WideMesh mesh;
   int32_t number = 0;  ///< of the material in WideScene::glossy or WideScene::specular
-  const Texture* prefetched = nullptr;  ///< what is waited for, or null
+  const std::vector<const Texture*>* prefetched = nullptr;  ///< what is waited for, or null
   const ColorSlot* textured = nullptr;  ///< the reflectance if it depends on the point, or null
   Spectrum reflectance;                 ///< otherwise
   WideModel model = WideModel::other;
-  bool two_sided = false;  ///< see DiffuseSurface; not of WideModel::other
-  bool transmits = false;  ///< of WideModel::glossy: scatters to both sides
-  bool emits = false;
+  bool two_sided = false;      ///< see DiffuseSurface; not of WideModel::other
+  bool transmits : 1 = false;  ///< of WideModel::glossy: scatters to both sides
+  bool emits : 1 = false;
+  bool perturbed : 1 = false;  ///< below a map of WideScene::maps
 
   /// The number of the material among those of vertices that are connected in loops: zero for all
   /// that are diffuse.
   int32_t pair_list() const { return model == WideModel::glossy ? 1 + number : 0; }
 };
 
+/// What is done with batches of paths.
+enum class WideUse {
+  paths,        ///< from the camera, with light samples: WideTracer
+  connections,  ///< of sub-paths. Bump and normal maps are WideModel::other
+  /// The same with photons that are merged. Points of nearly specular materials are
+  /// WideModel::other, too: it depends on the path whether they merge.
+  merging,
+};
+
 /// A scene, which must outlive this and stand still, as batches of paths see it.
 struct WideScene {
-  /// If photons are merged, points of nearly specular materials are WideModel::other: it depends on
-  /// the path whether they merge.
-  explicit WideScene(const Scene& scene, bool merges = false);
+  WideScene(const Scene& scene, WideUse use);
 
   const Scene& scene;
   std::vector<WideShape> shapes;
   std::vector<WideGlossyMaterial> glossy;
   std::vector<SpecularSurface> specular;
-  bool has_normals = false;  ///< whether any mesh has shading normals
+  std::vector<std::optional<PerturbedSurface>> maps;  ///< by shapes; empty if no shape has one
+  bool has_normals = false;                           ///< whether any mesh has shading normals
   WideLights lights;
 
  private:
-  void set_model(WideShape& w, const Shape& shape, bool merges);
+  void set_model(WideShape& w, const Shape& shape, WideUse use);
+  /// Of what lies below a map, if that is diffuse or glossy.
+  void set_perturbed(WideShape& w, const Shape& shape);
+  bool set_diffuse(WideShape& w, const Shape& shape, const Material& material);
+  bool set_glossy(WideShape& w, const Shape& shape, const Material& material, WideUse use);
+  void set_reflectance(WideShape& w, const Shape& shape, const ColorSlot& slot);
 
-  std::map<uint32_t, int32_t> numbers_;  ///< WideShape::number by Shape::material
+  template <class Surface>
+  int32_t number_of(const Shape& shape, const Surface& surface, std::vector<Surface>& surfaces);
+
+  using Textures = std::vector<const Texture*>;
+  /// The textures of a material that the processor is likely to wait for; null if there are none.
+  const Textures* large_textures(uint32_t material);
+
+  std::map<uint32_t, int32_t> numbers_;    ///< WideShape::number by Shape::material
+  std::map<uint32_t, Textures> textures_;  ///< likewise
 };
 
 }  // namespace duet

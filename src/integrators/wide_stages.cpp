@@ -9,6 +9,10 @@
 
 namespace duet {
 
+static void prefetch(const std::vector<const Texture*>& textures, const Surface& at) {
+  for (const Texture* texture : textures) texture->prefetch(at);
+}
+
 void WideStages::trace_rays(int n, RenderCounters& counters) {
   counters.closest_rays += uint64_t(n);
   wide_.scene.accel->closest_hits(paths_.ray, n, hits_);
@@ -56,8 +60,10 @@ void WideStages::find_points(int n) {
     points_.ns.set(i, s.shading.n);
     points_.offset[i] = s.offset;
     const WideShape& shape = wide_.shapes[hits_.shape[i]];
-    if (shape.textured) set_reflectance(i, (*shape.textured)(s));
-    if (!shape.textured && shape.prefetched) shape.prefetched->prefetch(s);
+    if (shape.textured && !shape.perturbed)
+      set_reflectance(i, (*shape.textured)(s));
+    else if (shape.prefetched)
+      prefetch(*shape.prefetched, s);
   }
   prefetch_textures();
 }
@@ -89,8 +95,8 @@ void WideStages::prefetch_textures() {
     const uint32_t shape = hits_.shape[i];
     textured_points_[k] =
         textured_point(wide_.scene.shapes[shape], points_.position.point(i), hit(i));
-    const Texture* const texture = wide_.shapes[shape].prefetched;
-    if (texture) texture->prefetch(textured_points_[k]);
+    const auto* const textures = wide_.shapes[shape].prefetched;
+    if (textures) prefetch(*textures, textured_points_[k]);
   }
 }
 
@@ -99,6 +105,7 @@ void WideStages::look_up_textures() {
     const int i = textured_[k];
     set_reflectance(i, (*wide_.shapes[hits_.shape[i]].textured)(textured_points_[k]));
   }
+  if (!wide_.maps.empty()) perturb_normals();
 }
 
 [[gnu::always_inline]] inline void WideStages::list_point(int i, const WideShape& shape) {
@@ -125,7 +132,8 @@ void WideStages::fetch(int n) {
     set_reflectance(i, shape.reflectance);
     points_.two_sided[i] = shape.two_sided;
     list_point(i, shape);
-    if (shape.model == WideModel::other || !shape.mesh.positions || hits_.instance[i] != kNone) {
+    if (shape.model == WideModel::other || shape.perturbed || !shape.mesh.positions ||
+        hits_.instance[i] != kNone) {
       special_.push_back(i);
       continue;
     }

@@ -33,7 +33,8 @@ class WideStages {
   void find_points(int n);
   /// Instead of that where paths end: only finds those of the points that emit.
   void find_emitting(int n);
-  /// Later than find_points(), when what was prefetched has arrived.
+  /// Later than find_points(), when what was prefetched has arrived. Points have the normals then
+  /// that bump and normal maps give them.
   void look_up_textures();
   /// Random numbers of vertices of paths from the camera.
   void draw_numbers(int n, const BatchSampler& sampler, int depth);
@@ -46,6 +47,10 @@ class WideStages {
   void sample_glossy_points(BatchArray<float>* reverse);
   /// The same at points of specular materials.
   void sample_specular_points(BatchArray<float>* reverse);
+  /// After these: what bump and normal maps do to light from directions of `lights_` and from the
+  /// next ones, at points whose BSDFs lanes have in the frame of the perturbed normal. The normals
+  /// of these are those of the surfaces again.
+  void shade_perturbed_points();
   /// Samples a BSDF at a point that has no loop of its own; the sample is empty if the path ends.
   std::optional<BsdfSample> scatter_at(int i, const Bsdf& bsdf);
   /// With strict_normals: no light samples, or next directions, that the two normals of a point see
@@ -131,9 +136,19 @@ class WideStages {
   void prefetch_textures();
   void set_reflectance(int i, const Spectrum& r) { points_.reflectance.set(i, r.r, r.g, r.b); }
 
+  void perturb_normals();
+
+  /// A point below a bump or normal map, and where its surface is in `surfaces_`.
+  struct PerturbedPoint {
+    int point;
+    size_t surface;
+    Tilt tilt;
+  };
+
   WideTriangles triangles_{};
   std::vector<int> textured_;
   std::vector<Surface> textured_points_;  ///< of `textured_`
+  std::vector<PerturbedPoint> perturbed_;
 };
 
 }  // namespace duet

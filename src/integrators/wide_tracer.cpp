@@ -32,6 +32,7 @@ void WideTracer::trace(int n, const BatchSampler& sampler, WideSamples& samples,
     evaluate_glossy_points(nullptr);
     sample_glossy_points(nullptr);
     sample_specular_points(nullptr);
+    shade_perturbed_points();
     scatter_one_by_one();
     const bool splits = groups_ && depth == 2;
     if (splits) groups_->set_shares(vertices(), lights_);

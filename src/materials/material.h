@@ -2,6 +2,7 @@
 #pragma once
 
 #include <optional>
+#include <vector>
 
 #include "materials/bsdf_builder.h"
 
@@ -56,8 +57,8 @@ class Material {
   virtual bool passes_straight() const { return false; }
   /// Whether there is a bump or normal map in it: these cannot be nested in one another.
   virtual bool perturbs() const { return false; }
-  /// The texture that bind() is most likely to wait for, or null.
-  virtual const Texture* main_texture() const { return nullptr; }
+  /// Adds the textures that bind() is most likely to wait for, which are not null.
+  virtual void list_textures(std::vector<const Texture*>&) const {}
   /// How many bump maps, normal maps and coats lie over each other at most.
   virtual int cover_count() const { return 0; }
   /// Reflectance for the albedo layer, seen from the unit world direction `wo`; as in Mitsuba 3

@@ -52,6 +52,9 @@ class Diffuse final : public SingleModelMaterial<Diffuse> {
   Spectrum local_albedo(const Surface& s, const Vector3f&) const override {
     return reflectance_(s);
   }
+  void list_textures(std::vector<const Texture*>& out) const override {
+    reflectance_.list_texture(out);
+  }
   const ColorSlot& reflectance() const { return reflectance_; }
 
  private:
@@ -92,6 +95,9 @@ class RoughConductor final : public SingleModelMaterial<RoughConductor> {
   /// everywhere.
   std::optional<RoughConductorModel> uniform() const;
   const ColorSlot& specular_reflectance() const { return options_.specular_reflectance; }
+  void list_textures(std::vector<const Texture*>& out) const override {
+    options_.specular_reflectance.list_texture(out);
+  }
   SurfaceNeeds needs() const override;
   bool transmits() const override { return false; }
 
@@ -159,7 +165,9 @@ class Plastic final : public SingleModelMaterial<Plastic> {
   Spectrum local_albedo(const Surface& s, const Vector3f&) const override {
     return options_.diffuse_reflectance(s);
   }
-  const Texture* main_texture() const override { return options_.diffuse_reflectance.texture; }
+  void list_textures(std::vector<const Texture*>& out) const override {
+    options_.diffuse_reflectance.list_texture(out);
+  }
 
  private:
   UniformPlastic plastic(const Spectrum& specular_reflectance) const {
@@ -183,7 +191,9 @@ class RoughPlastic final : public SingleModelMaterial<RoughPlastic> {
   Spectrum local_albedo(const Surface& s, const Vector3f&) const override {
     return options_.diffuse_reflectance(s);
   }
-  const Texture* main_texture() const override { return options_.diffuse_reflectance.texture; }
+  void list_textures(std::vector<const Texture*>& out) const override {
+    options_.diffuse_reflectance.list_texture(out);
+  }
 
  private:
   PlasticOptions options_;

@@ -24,6 +24,13 @@ bool has_visible_facets(const Microfacet& m) {
 
 }  // namespace
 
+std::optional<PerturbedSurface> as_perturbed(const Material& material) {
+  const Unwrapped bare = unwrapped(material);
+  const auto* map = dynamic_cast<const Perturbed*>(bare.material);
+  if (!map) return std::nullopt;
+  return PerturbedSurface{*map, bare.two_sided};
+}
+
 std::optional<DiffuseSurface> as_diffuse(const Material& material) {
   const Unwrapped bare = unwrapped(material);
   const auto* diffuse = dynamic_cast<const Diffuse*>(bare.material);

@@ -115,4 +115,14 @@ struct SpecularSurface {
 /// The material as such, if it is one.
 std::optional<SpecularSurface> as_specular(const Material& material);
 
+class Perturbed;
+
+/// A bump or normal map over another material, on one or both sides.
+struct PerturbedSurface {
+  const Perturbed& map;
+  bool two_sided;  ///< the back looks like the front
+};
+/// The material as such, if it is one.
+std::optional<PerturbedSurface> as_perturbed(const Material& material);
+
 }  // namespace duet

@@ -28,6 +28,9 @@ class Principled final : public SingleModelMaterial<Principled> {
   Spectrum local_albedo(const Surface& s, const Vector3f&) const override {
     return options_.base_color(s);
   }
+  void list_textures(std::vector<const Texture*>& out) const override {
+    options_.base_color.list_texture(out);
+  }
 
  private:
   PrincipledOptions options_;

@@ -65,6 +65,8 @@ class Tilt {
     return !drops_leaks_ || v.z * side_ * local.z > 0;
   }
 
+  /// The perturbed normal, in the frame of the surface.
+  Vector3f normal(bool turned) const { return from_local({0, 0, 1}, turned); }
   /// Factor for light from direction `v`: Smith's masking function.
   float shadowing(const Vector3f& v) const {
     const float z = std::abs(v.z);

@@ -79,6 +79,10 @@ bool Mixture::perturbs() const {
                      [](const Part& p) { return p.material->perturbs(); });
 }
 
+void Mixture::list_textures(std::vector<const Texture*>& out) const {
+  for (const Part& p : parts_) p.material->list_textures(out);
+}
+
 int Mixture::cover_count() const {
   int most = 0;
   for (const Part& p : parts_) most = std::max(most, p.material->cover_count());
@@ -96,13 +100,16 @@ void Mixture::add_components(const Surface& surface, BsdfBuilder& builder) const
     builder.with_share(p.weight, [&](BsdfBuilder& b) { p.material->bind(surface, b); });
 }
 
-void Perturbed::add_components(const Surface& surface, BsdfBuilder& builder) const {
-  assert(!nested_.perturbs());
-  Normal3f n = normal(surface);
+Normal3f Perturbed::unit_normal(const Surface& surface) const {
+  const Normal3f n = normal(surface);
   // Where a map says nothing the surface is left as it is.
   const float scale = max_abs(n);
-  n = scale > 0 && is_finite(n) ? normalize(n * (1 / scale)) : Normal3f(0, 0, 1);
-  builder.tilted(n, options_, [&](BsdfBuilder& b) { nested_.bind(surface, b); });
+  return scale > 0 && is_finite(n) ? normalize(n * (1 / scale)) : Normal3f(0, 0, 1);
+}
+
+void Perturbed::add_components(const Surface& surface, BsdfBuilder& builder) const {
+  assert(!nested_.perturbs());
+  builder.tilted(unit_normal(surface), options_, [&](BsdfBuilder& b) { nested_.bind(surface, b); });
 }
 
 SurfaceNeeds BumpMap::needs() const {

@@ -20,7 +20,10 @@ class TwoSided final : public Material {
   bool perturbs() const override { return front_.perturbs() || back_.perturbs(); }
   int cover_count() const override { return std::max(front_.cover_count(), back_.cover_count()); }
   Spectrum local_albedo(const Surface& surface, const Vector3f& wo) const override;
-  const Texture* main_texture() const override { return front_.main_texture(); }
+  void list_textures(std::vector<const Texture*>& out) const override {
+    front_.list_textures(out);
+    if (&back_ != &front_) back_.list_textures(out);
+  }
   /// The material of both sides, or null if they differ.
   const Material* of_both_sides() const { return &front_ == &back_ ? &front_ : nullptr; }
 
@@ -40,6 +43,10 @@ class Mask final : public Material {
   bool transmits() const override;
   bool passes_straight() const override { return true; }
   bool perturbs() const override { return nested_.perturbs(); }
+  void list_textures(std::vector<const Texture*>& out) const override {
+    opacity_.list_texture(out);
+    nested_.list_textures(out);
+  }
   int cover_count() const override { return nested_.cover_count(); }
   Spectrum local_albedo(const Surface& surface, const Vector3f& wo) const override {
     return nested_.local_albedo(surface, wo);
@@ -67,6 +74,11 @@ class Blend final : public Material {
     return first_.passes_straight() || second_.passes_straight();
   }
   bool perturbs() const override { return first_.perturbs() || second_.perturbs(); }
+  void list_textures(std::vector<const Texture*>& out) const override {
+    weight_.list_texture(out);
+    first_.list_textures(out);
+    second_.list_textures(out);
+  }
   int cover_count() const override { return std::max(first_.cover_count(), second_.cover_count()); }
   Spectrum local_albedo(const Surface& surface, const Vector3f& wo) const override;
 
@@ -90,6 +102,7 @@ class Mixture final : public Material {
   int component_count() const override;
   bool transmits() const override;
   bool perturbs() const override;
+  void list_textures(std::vector<const Texture*>& out) const override;
   int cover_count() const override;
   Spectrum local_albedo(const Surface& surface, const Vector3f& wo) const override;
 
@@ -112,6 +125,11 @@ class Perturbed : public Material {
   Spectrum local_albedo(const Surface& surface, const Vector3f& wo) const override {
     return nested_.local_albedo(surface, wo);
   }
+  const Material& nested() const { return nested_; }
+  /// `side` is −1 if the surface's frame is mirrored.
+  Tilt tilt(const Surface& surface, float side) const {
+    return {unit_normal(surface), options_, side};
+  }
 
  protected:
   Perturbed(const TiltOptions& options, const Material& nested)
@@ -119,6 +137,7 @@ class Perturbed : public Material {
   void add_components(const Surface& surface, BsdfBuilder& builder) const override;
   /// The perturbed normal in the shading frame, of any length.
   virtual Normal3f normal(const Surface& surface) const = 0;
+  Normal3f unit_normal(const Surface& surface) const;
 
   TiltOptions options_;
   const Material& nested_;
@@ -137,6 +156,10 @@ class BumpMap final : public Perturbed {
         scale_(scale),
         follows_curvature_(follows_curvature) {}
   SurfaceNeeds needs() const override;
+  void list_textures(std::vector<const Texture*>& out) const override {
+    height_.list_texture(out);
+    nested_.list_textures(out);
+  }
 
  protected:
   Normal3f normal(const Surface& surface) const override;
@@ -153,6 +176,10 @@ class NormalMap final : public Perturbed {
   NormalMap(const ColorSlot& normals, const TiltOptions& options, const Material& nested)
       : Perturbed(options, nested), normals_(normals) {}
   SurfaceNeeds needs() const override;
+  void list_textures(std::vector<const Texture*>& out) const override {
+    normals_.list_texture(out);
+    nested_.list_textures(out);
+  }
 
  protected:
   Normal3f normal(const Surface& surface) const override;

@@ -1,6 +1,8 @@
 // What a material parameter may be: a constant, or a texture looked up at each hit.
 #pragma once
 
+#include <vector>
+
 #include "geometry/surface.h"
 #include "math/spectrum.h"
 
@@ -34,6 +36,9 @@ struct ColorSlot {
   Spectrum operator()(const Surface& s) const { return texture ? texture->color(s) : constant; }
   Spectrum average() const { return texture ? texture->average() : constant; }
   bool is_constant() const { return !texture; }
+  void list_texture(std::vector<const Texture*>& out) const {
+    if (texture) out.push_back(texture);
+  }
   bool needs_uv() const { return texture && texture->needs_uv(); }
 };
 
@@ -46,6 +51,9 @@ struct FloatSlot {
   Point2f gradient(const Surface& s) const { return texture ? texture->gradient(s) : Point2f(); }
   float average() const { return texture ? texture->average().luminance() : constant; }
   bool is_constant() const { return !texture; }
+  void list_texture(std::vector<const Texture*>& out) const {
+    if (texture) out.push_back(texture);
+  }
   bool needs_uv() const { return texture && texture->needs_uv(); }
 };
 

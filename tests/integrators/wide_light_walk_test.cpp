@@ -99,7 +99,7 @@ TEST_CASE("light sub-paths of a batch have the vertices of those that are traced
     for (const auto sequence : {SampleSequence::sobol, SampleSequence::independent}) {
       CAPTURE(std::string(c.name));
       const TransportScene scene = c.scene();
-      const WideScene wide(*scene.scene, true);
+      const WideScene wide(*scene.scene, WideUse::merging);
       WideLightTracer tracer(wide);
       const LightPassPlan plan = plan_of(3000, sequence);
       const Traced batches(*scene.scene, plan, &tracer), singly(*scene.scene, plan, nullptr);

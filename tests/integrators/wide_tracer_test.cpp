@@ -1,6 +1,8 @@
-#include "integrators/path.h"
+#include <cmath>
 
 #include "integrators/batch_cases.h"
+#include "integrators/path.h"
+#include "support/source_path.h"
 
 using namespace duet;
 using namespace duet::test;
@@ -30,6 +32,50 @@ void check_same(const TransportScene& scene, const RenderRequest& r, const PathL
   CHECK(batches.counters.nonfinite_samples == singly.counters.nonfinite_samples);
 }
 
+double sum_of(const Image& image) {
+  double sum = 0;
+  for (const float v : image.data) sum += double(v);
+  return sum;
+}
+
+/// `nested` below a normal map.
+std::string mapped(const std::string& parameters, const std::string& nested) {
+  return "<bsdf type='normalmap'>" + parameters +
+         "<texture name='normalmap' type='checkerboard'><rgb name='color0' value='0.75,0.4,0.8'/>"
+         "<rgb name='color1' value='0.3,0.65,0.85'/><transform name='to_uv'>"
+         "<scale x='6' y='8'/></transform></texture>" +
+         nested + "</bsdf>";
+}
+std::string on_both_sides(const std::string& bsdf) {
+  return "<bsdf type='twosided'>" + bsdf + "</bsdf>";
+}
+/// `nested` below a bump map.
+std::string bumped(const std::string& nested) {
+  return "<bsdf type='bumpmap'><texture name='arbitrary' type='bitmap'><string name='filename' "
+         "value='" +
+         source_path("scenes/bsdf-wrappers/bumps.png") +
+         "'/></texture><float name='scale' value='0.3'/>" + nested + "</bsdf>";
+}
+
+/// A room below maps with such parameters, and balls.
+std::string mapped_room(const std::string& parameters) {
+  return camera() +
+         room_xml(on_both_sides(mapped(parameters, ggx_plastic(kCheckerColours, false)))) +
+         sphere_xml("-0.5,0.2,0.4", "0.35",
+                    mapped(parameters, on_both_sides("<bsdf type='diffuse'/>"))) +
+         hollow_xml("0.5,-0.3,0.5", "0.3",
+                    on_both_sides(mapped(parameters, conductor("", false)))) +
+         sphere_xml("0.5,0.4,1.3", "0.3", bumped(kPlastic)) +
+         sphere_xml("-0.4,-0.2,1.3", "0.25", on_both_sides(bumped(smooth_plastic("", false))));
+}
+
+constexpr const char* kMapParameters[] = {
+    "",
+    "<boolean name='flip_invalid_normals' value='false'/>"
+    "<boolean name='use_shadowing_function' value='false'/>",
+    "<boolean name='drops_leaks' value='false'/>",
+};
+
 }  // namespace
 
 TEST_CASE("paths of a batch are those that are traced one by one") {
@@ -44,6 +90,44 @@ TEST_CASE("paths of a batch are those that are traced one by one") {
         limits.rr_depth = 3;
         check_same(scene, batch_request(4, sequence), limits);
       }
+  }
+}
+
+// There directions are chosen in another frame: what is the same are light samples.
+TEST_CASE("below bump and normal maps batches have the same light samples") {
+  PathLimits limits;
+  limits.max_depth = 2;
+  const std::string lamp =
+      "<emitter type='point'><point name='position' x='0.3' y='-0.6' z='1.2'/>"
+      "<rgb name='intensity' value='3,2,1'/></emitter>";
+  for (const char* const parameters : kMapParameters) {
+    CAPTURE(std::string(parameters));
+    const TransportScene scene(TemporaryDirectory(), mapped_room(parameters) + lamp);
+    const RenderRequest r = batch_request(4, SampleSequence::sobol);
+    const Image batches = render_path(scene, PathBatches::where_possible, r, limits).image;
+    const Image singly = render_path(scene, PathBatches::never, r, limits).image;
+    CHECK(differences(batches, singly) <= int(singly.data.size() / 200));
+  }
+}
+
+// It notices 0.15 % of the image.
+TEST_CASE("below bump and normal maps batches have the same mean") {
+  for (const char* const parameters : kMapParameters) {
+    CAPTURE(std::string(parameters));
+    const TransportScene scene(TemporaryDirectory(), mapped_room(parameters) + kLamp);
+    constexpr int kSeeds = 10;
+    double sum = 0, squares = 0, light = 0;
+    for (int seed = 0; seed < kSeeds; ++seed) {
+      RenderRequest r = batch_request(64, SampleSequence::sobol);
+      r.seed = uint64_t(seed);
+      const double a = sum_of(render_path(scene, PathBatches::where_possible, r).image),
+                   b = sum_of(render_path(scene, PathBatches::never, r).image);
+      sum += a - b, squares += (a - b) * (a - b), light += b;
+    }
+    const double error = std::sqrt((squares - sum * sum / kSeeds) * kSeeds / (kSeeds - 1)) / light;
+    CAPTURE(sum / light);
+    CHECK(error < 0.0004);
+    CHECK(std::abs(sum / light) < 4 * error);
   }
 }
 
