@@ -33,8 +33,8 @@ class WidePixelGroups {
   /// Notes the second ones. Those that are shared carry a grey throughput from then on, and what
   /// their paths find beyond is to be given to add().
   void note_second(int n, WidePaths& paths, const Vertices& at);
-  /// Says that what second vertices scatter of light from the directions `towards` is added next.
-  /// Their BSDFs have these values; negative densities are those of delta lobes.
+  /// Says that what the second vertices scatter of these light samples is to be added next, or of
+  /// light from the next directions: how much of it is scattered by bases.
   void set_shares(const WideVertices& at, const WideLightSamples& samples);
   void set_shares(const WideVertices& at, const WideScattering& next);
   /// Whether the second vertex of a pixel's path is shared.
@@ -67,8 +67,7 @@ class WidePixelGroups {
     BatchArray<int32_t> list;  ///< as of first ones
     BatchArray<float> scale;   ///< throughput up to it
     BatchTriples tint;         ///< the colour of that
-    BatchTriples
-        share;  ///< of what is found beyond the part that is scattered alike in all directions
+    BatchTriples share;        ///< of what is added that the base scatters; 1 of diffuse surfaces
   };
   /// Pairs of a first vertex and the second one of a member of its group.
   struct Pairs {
@@ -87,6 +86,7 @@ class WidePixelGroups {
     int place, pairs;
   };
 
+  /// `value(i)` is the BSDF at point i for its direction, 0 for delta lobes.
   template <class F>
   void set_base_shares(const WideVertices& at, const BatchTriples& towards, F&& value);
   int group_begin(int place) const { return place / members_ * members_; }
