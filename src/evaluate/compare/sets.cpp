@@ -9,6 +9,7 @@
 #include "base/failures.h"
 #include "base/system/files.h"
 #include "evaluate/compare/compare.h"
+#include "evaluate/compare/independence.h"
 #include "image/colours.h"
 
 namespace duet {
@@ -27,6 +28,7 @@ constexpr size_t kFewImagesOfSet = 8;
 struct Side {
   TileBatches batches;
   LinearImage mean;
+  ImagesOfSet images;
 };
 
 Side load_side(const CompareSettings& settings, const std::vector<std::string>& files) {
@@ -40,6 +42,7 @@ Side load_side(const CompareSettings& settings, const std::vector<std::string>& 
     } catch (const std::invalid_argument& e) {
       throw std::runtime_error(fmt::format("{}: {}", file, e.what()));
     }
+    side.images.add(image, file);
     const Colours colours(image.image);
     sums.resize(3 * colours.pixels());
     for (size_t i = 0; i < colours.pixels(); ++i)
@@ -50,6 +53,13 @@ Side load_side(const CompareSettings& settings, const std::vector<std::string>& 
   for (size_t i = 0; i < sums.size(); ++i)
     side.mean.image.data[i] = float(sums[i] / double(files.size()));
   return side;
+}
+
+/// Adds to the warning of a comparison in what the images are not independent.
+void add_warnings(const ImagesOfSet& images, const ImagesOfSet& references, Comparison& c) {
+  for (const std::string& text :
+       {images.seed_warning(), references.seed_warning(), images.shared_warning(references)})
+    if (!text.empty()) c.warning += (c.warning.empty() ? "" : "; ") + text;
 }
 
 /// The images of one name in two directories.
@@ -83,6 +93,7 @@ Comparison compare_sets(const CompareSettings& o, const std::vector<std::string>
   c.name = o.image;
   c.measurements.tiles = compare_tiles(a.batches, b.batches);
   measure(a.mean, b.mean, std::nullopt, o, kLongestOfOne, c);
+  add_warnings(a.images, b.images, c);
   write_differences(o, a.mean.image, b.mean.image, c.measurements.metrics);
   return c;
 }

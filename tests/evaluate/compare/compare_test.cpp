@@ -20,14 +20,16 @@ struct Images : TemporaryDirectory {
   Images() {
     for (const char* d : {"a", "b"}) std::filesystem::create_directory(path(d));
   }
-  /// `spp` stands in the header unless it is 0.
-  std::string image(const std::string& name, float deviation, int spp = 0) const {
+  /// `spp` stands in the header unless it is 0, and `seed` unless it is empty.
+  std::string image(const std::string& name, float deviation, int spp = 0,
+                    const std::string& seed = "") const {
     Image image(16, 16, {"R", "G", "B"});
     for (size_t i = 0; i < image.data.size(); ++i)
       image.data[i] = 1 + (i % 2 == 0 ? deviation : -deviation);
     ExrOptions options;
     options.half = false;
-    if (spp > 0) options.header = {{"spp", spp}};
+    if (spp > 0) options.header.emplace_back("spp", spp);
+    if (!seed.empty()) options.header.emplace_back("seed", seed);
     write_exr(path(name), image, options);
     return path(name);
   }
@@ -115,4 +117,36 @@ TEST_CASE("sets of images are told apart by their spread") {
   REQUIRE(c.measurements.tiles);
   CHECK(c.tells_noise);
   CHECK(c.measurements.tiles->equal());
+}
+
+TEST_CASE("images of a set that are not independent are no set") {
+  const Images files;
+  const std::vector<std::string> other{files.image("b/0.exr", 0.3f), files.image("b/1.exr", 0.4f)};
+  CompareSettings s;
+  s.image = "a", s.reference = "b";
+  const auto set = [&](std::pair<float, const char*> one, std::pair<float, const char*> two) {
+    return std::vector{files.image("a/0.exr", one.first, 0, one.second),
+                       files.image("a/1.exr", two.first, 0, two.second)};
+  };
+  // The same pixels: no spread, unless seeds say that this is all the noise there is.
+  for (const auto& [one, two] : {std::pair{"", ""}, {"7", "7"}, {"7", ""}, {"", "7"}}) {
+    CAPTURE(one);
+    CAPTURE(two);
+    CHECK_THROWS_WITH(compare_sets(s, set({0.1f, one}, {0.1f, two}), other),
+                      doctest::Contains("a/1.exr has the same pixels as "));
+    CHECK_THROWS_WITH(compare_sets(s, other, set({0.1f, one}, {0.1f, two})),
+                      doctest::Contains("render each with another seed (--seed)"));
+  }
+  CHECK(compare_sets(s, set({0.1f, "7"}, {0.1f, "8"}), other).warning.empty());
+  // The same seed: perhaps noise in common.
+  const std::string warning = compare_sets(s, set({0.1f, "7"}, {0.2f, "7"}), other).warning;
+  CAPTURE(warning);
+  CHECK(warning.find("a/1.exr has the seed of ") != std::string::npos);
+  CHECK(comparison_json(s, compare_sets(s, other, set({0.1f, "7"}, {0.2f, "7"})))["warning"]
+            .get<std::string>()
+            .find("a/0.exr, 7: ") != std::string::npos);
+  CHECK(compare_sets(s, set({0.1f, "7"}, {0.2f, "8"}), other).warning.empty());
+  CHECK(compare_sets(s, set({0.1f, ""}, {0.2f, ""}), other).warning.empty());
+  // An image on both sides agrees with itself.
+  CHECK(compare_sets(s, other, other).warning.find("have the same pixels") != std::string::npos);
 }
