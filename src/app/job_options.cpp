@@ -8,6 +8,7 @@
 #include "app/commands.h"
 #include "app/program.h"
 #include "app/render_grammar.h"
+#include "base/readable.h"
 #include "evaluate/batch/job_arguments.h"
 #include "evaluate/batch/job_outputs.h"
 #include "evaluate/batch/manifest.h"
@@ -34,22 +35,31 @@ std::string job_option_name(const CLI::Option& option) {
   return name == "help" || name == "output" || batch::is_given_by_batch(name) ? "" : name;
 }
 
-/// Why `duet render` would refuse a job; "" if it would not.
-std::string refusal(const batch::Job& job, Program& program) {
-  if (const std::string why = no_scene_reason(job.scene, ""); !why.empty())
-    return fmt::format("cannot read {}: {}", job.scene, why);
-  std::vector<std::string> arguments = batch::job_arguments(job);
-  arguments.erase(arguments.begin());  // the command
-  try {
-    RenderGrammar render(program);
-    render.parse(std::move(arguments));
-    render.parser.finish();
-    return "";
-  } catch (const CLI::ParseError& e) {
-    return e.what();
-  } catch (const UsageError& e) {
-    return e.what();
-  }
+/// Takes the option with which a message begins from a job; false if there is none.
+bool drop_option(batch::Job& job, const std::string& message) {
+  return std::erase_if(job.options, [&](const batch::JobOption& option) {
+           return message.starts_with("--" + option.name + ":");
+         }) > 0;
+}
+
+/// Why `duet render` would refuse the options of a job.
+std::vector<std::string> refused_options(batch::Job job, Program& program) {
+  std::vector<std::string> reasons;
+  while (true) try {
+      std::vector<std::string> arguments = batch::job_arguments(job);
+      arguments.erase(arguments.begin());  // the command
+      RenderGrammar render(program);
+      render.parse(std::move(arguments));
+      render.parser.finish();
+      return reasons;
+    } catch (const CLI::ParseError& e) {
+      // The parser stops here; what it says of the other options is found without this one.
+      reasons.emplace_back(e.what());
+      if (!drop_option(job, e.what())) return reasons;
+    } catch (const UsageError& e) {
+      reasons.insert(reasons.end(), e.mistakes().begin(), e.mistakes().end());
+      return reasons;
+    }
 }
 
 /// The options that jobs can have.
@@ -92,9 +102,15 @@ std::vector<batch::JobOption> options_for_all(const std::vector<std::string>& ar
 
 /// Errors for jobs that `duet render` would refuse before it reads the scene.
 void check_jobs(const std::vector<batch::Job>& jobs, Program& program, Diagnostics& diagnostics) {
-  for (const batch::Job& job : jobs)
-    if (const std::string why = refusal(job, program); !why.empty())
+  for (const batch::Job& job : jobs) {
+    if (const std::string why = no_scene_reason(job.scene, ""); !why.empty())
+      diagnostics.error(job.where, "cannot read {}: {}", job.scene, why);
+    const std::string film = job.value("resume");
+    if (const std::string why = film.empty() ? "" : unreadable_reason(film); !why.empty())
+      diagnostics.error(job.where, "--resume: cannot read {}: {}", film, why);
+    for (const std::string& why : refused_options(job, program))
       diagnostics.error(job.where, "{}", why);
+  }
 }
 
 }  // namespace

@@ -151,7 +151,8 @@ void add_render_command(CLI::App& app, Program& program) {
   CLI::App* c = app.add_subcommand("render", "Render scenes to images");
   const auto parser = std::make_shared<RenderOptionParser>(*c, program);
   c->footer(
-      "{scene} is the name of the scene file; that of a scene.xml is the name of its folder.\n"
+      "{scene} is the name of the scene file; that of a scene.xml is the name of its folder. {{ "
+      "means a brace.\n"
       "Examples:\n"
       "  duet cornell.xml                          cornell.exr, as the scene says\n"
       "  duet scenes/kitchen                       kitchen.exr from its scene.xml\n"

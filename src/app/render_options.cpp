@@ -11,9 +11,11 @@
 #include "app/read_options.h"
 #include "app/viewer_option.h"
 #include "base/parallel.h"
+#include "evaluate/render/asked.h"
 #include "evaluate/render/assignment.h"
 #include "evaluate/render/output.h"
 #include "evaluate/render/output_checks.h"
+#include "evaluate/render/scene_method.h"
 #include "evaluate/report/render_limits.h"
 
 namespace duet {
@@ -142,51 +144,56 @@ void RenderOptionParser::add_raw_options(CLI::App& c) {
 void RenderOptionParser::finish_raw() {
   RenderOptions& o = options_;
   o.writes_images = o.raw.empty() || !o.outputs.empty();
-  if (!checkpoint_.empty()) o.checkpoint = parse_seconds("--checkpoint", checkpoint_);
-  if (!samples_.empty()) {
+  read(checkpoint_, [&] { o.checkpoint = parse_seconds("--checkpoint", checkpoint_); });
+  read(samples_, [&] {
     const auto v = parse_integers("--samples", samples_, ':', 2, "A:B");
     if (v[0] < 0 || v[1] <= v[0] || v[1] > kMaxSpp)
       throw UsageError(fmt::format("--samples {}: there are no such samples", samples_));
     o.samples = {uint32_t(v[0]), uint32_t(v[1])};
-  }
-  if (!slice_.empty()) {
+  });
+  read(slice_, [&] {
     const auto v = parse_integers("--slice", slice_, '/', 2, "K/N");
     if (v[0] < 1 || v[1] < v[0])
       throw UsageError(fmt::format("--slice {}: the parts are 1/{} to {}/{}", slice_,
                                    std::max(v[1], 1), std::max(v[1], 1), std::max(v[1], 1)));
     o.slice = {uint32_t(v[0]), uint32_t(v[1])};
-  }
+    if (o.budget.spp) asked_samples(o, *o.budget.spp);
+  });
 }
 
 void RenderOptionParser::finish_numbers() {
   RenderBudget& budget = options_.budget;
-  if (!spp_.empty()) budget.spp = int(parse_whole("--spp", spp_, 1, kMaxSpp));
-  if (!time_.empty()) budget.seconds = parse_seconds("--time", time_);
-  if (!target_.empty())
+  read(spp_, [&] { budget.spp = int(parse_whole("--spp", spp_, 1, kMaxSpp)); });
+  read(time_, [&] { budget.seconds = parse_seconds("--time", time_); });
+  read(target_, [&] {
     budget.target_error = parse_amount("--target-error", target_, {{"", 1}, {"%", 0.01}}, 1e-6, 1);
-  options_.files = parse_file_settings(files_);
+  });
+  checks_.run([&] { options_.files = parse_file_settings(files_); });
   options_.threads = program_.threads();
-  if (!threads_.empty()) {
+  read(threads_, [&] {
     const int wanted = int(parse_whole("--threads", threads_, 1, kMaxThreads));
     options_.threads = startable_threads(wanted);
     if (options_.threads < wanted)
       program_.log.warning("only {} of {} threads can be started", options_.threads, wanted);
-  }
-  if (!seed_.empty())
+  });
+  read(seed_, [&] {
     options_.seed = parse_whole("--seed", seed_, 0, std::numeric_limits<uint64_t>::max());
-  if (!sensor_.empty())
+  });
+  read(sensor_, [&] {
     options_.sensor = parse_whole("--sensor", sensor_, 0, std::numeric_limits<uint32_t>::max());
+  });
 }
 
 void RenderOptionParser::finish_window() {
-  if (!size_.empty()) options_.size = parse_size("--size", size_, 1);
-  if (!crop_.empty()) {
+  read(size_, [&] { options_.size = parse_size("--size", size_, 1); });
+  read(crop_, [&] {
     const auto v = parse_integers("--crop", crop_, ',', 4, "x,y,w,h");
     if (v[0] < 0 || v[1] < 0 || v[2] < 1 || v[3] < 1 || v[0] > kMaxImageSide ||
         v[1] > kMaxImageSide || v[2] > kMaxImageSide || v[3] > kMaxImageSide)
       throw UsageError(fmt::format("--crop: {} is not a window", crop_));
     options_.crop = PixelBounds{v[0], v[1], v[0] + v[2], v[1] + v[3]};
-  }
+    check_window(options_);
+  });
 }
 
 void RenderOptionParser::finish_format() {
@@ -205,6 +212,21 @@ void RenderOptionParser::finish_live() {
       uint16_t(parse_whole("--live-port", live_port_, 1, std::numeric_limits<uint16_t>::max()));
 }
 
+void RenderOptionParser::finish_method() {
+  RenderCommandLine& o = options_;
+  if (!o.integrator.name.empty()) o.read.methods = {o.integrator.name};
+  for (const std::string& p : integrator_parameters_)
+    checks_.run([&] { o.integrator.parameters.push_back(parse_assignment("-I", p)); });
+  for (const std::string& define : o.read.defines)
+    checks_.run([&] { parse_assignment("-D", define); });
+  if (!light_selection_.empty())
+    o.integrator.parameters.emplace_back("light_selection", light_selection_);
+  o.integrator.layers = layers_;
+  o.mattes = matte_kinds(mattes_);
+  if (!techniques_.empty())
+    o.techniques = techniques_ == "raw" ? TechniqueOutput::raw : TechniqueOutput::weighted;
+}
+
 void RenderOptionParser::finish_uses() {
   RenderCommandLine& o = options_;
   for (const std::string& scene : o.read.scenes) o.uses.read("the scene", scene);
@@ -217,26 +239,23 @@ RenderCommandLine RenderOptionParser::finish() {
   RenderCommandLine& o = options_;
   finish_numbers();
   finish_window();
-  if (!o.integrator.name.empty()) o.read.methods = {o.integrator.name};
-  for (const std::string& p : integrator_parameters_)
-    o.integrator.parameters.push_back(parse_assignment("-I", p));
-  if (!light_selection_.empty())
-    o.integrator.parameters.emplace_back("light_selection", light_selection_);
-  o.integrator.layers = layers_;
-  o.mattes = matte_kinds(mattes_);
-  if (!techniques_.empty())
-    o.techniques = techniques_ == "raw" ? TechniqueOutput::raw : TechniqueOutput::weighted;
+  finish_method();
   o.progress = progress_style(progress_);
+  read(viewer_, [&] { o.viewer = parse_viewer(viewer_); });
+  checks_.run([&] { finish_live(); });
+  checks_.run([&] { finish_format(); });
+  finish_raw();
+  // What depends on several options is known once each makes sense.
+  checks_.finish();
   if (o.require_target && !o.budget.target_error)
     throw UsageError("--require-target: there is no --target-error");
-  if (!viewer_.empty()) o.viewer = parse_viewer(viewer_);
-  finish_live();
-  finish_format();
-  finish_raw();
-  check_parts(o);
+  checks_.run([&] { check_parts(o); });
   finish_uses();
-  check_outputs(o, o.uses);
-  check_writable("--stats", o.stats_file);
+  std::vector<std::string> images;
+  checks_.run([&] { images = check_outputs(o, o.uses); });
+  checks_.run([&] { check_method(o, images); });
+  checks_.run([&] { check_writable("--stats", o.stats_file); });
+  checks_.finish();
   return std::move(options_);
 }
 

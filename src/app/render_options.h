@@ -27,7 +27,7 @@ struct RenderCommandLine : RenderOptions {
 };
 
 /// Adds the options to a command; `finish` is to be called once they are parsed and throws
-/// UsageError for values that make no sense.
+/// UsageError for values that make no sense, with all of them.
 class RenderOptionParser {
  public:
   RenderOptionParser(CLI::App& command, Program& program);
@@ -43,9 +43,16 @@ class RenderOptionParser {
   void finish_format();
   void finish_raw();
   void finish_live();
+  void finish_method();
   void finish_uses();
+  /// Reads the value of an option if it is given.
+  template <class Read>
+  void read(const std::string& text, const Read& read) {
+    if (!text.empty()) checks_.run(read);
+  }
 
   Program& program_;
+  Checks checks_;
   RenderCommandLine options_;
   std::string spp_, time_, target_, size_, crop_, threads_, seed_, sensor_,
       progress_ = "auto", techniques_, format_, light_selection_, checkpoint_, samples_, slice_,

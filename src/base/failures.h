@@ -1,15 +1,50 @@
 // Why something that a user asked for is not done.
 #pragma once
 
+#include <new>
 #include <stdexcept>
 #include <string>
+#include <utility>
+#include <vector>
 
 namespace duet {
 
 /// What is asked for makes no sense, or does not exist.
 class UsageError : public std::runtime_error {
  public:
-  using std::runtime_error::runtime_error;
+  explicit UsageError(const std::string& mistake) : UsageError(std::vector{mistake}) {}
+  /// Several mistakes, found together.
+  explicit UsageError(std::vector<std::string> mistakes)
+      : std::runtime_error(joined(mistakes)), mistakes_(std::move(mistakes)) {}
+  const std::vector<std::string>& mistakes() const { return mistakes_; }
+
+ private:
+  static std::string joined(const std::vector<std::string>& texts) {
+    std::string all;
+    for (const std::string& text : texts) all += (all.empty() ? "" : "; ") + text;
+    return all;
+  }
+  std::vector<std::string> mistakes_;
+};
+
+/// Makes several checks and finds the mistakes of all.
+class Checks {
+ public:
+  template <class Check>
+  void run(const Check& check) {
+    try {
+      check();
+    } catch (const UsageError& e) {
+      mistakes_.insert(mistakes_.end(), e.mistakes().begin(), e.mistakes().end());
+    }
+  }
+  /// Throws UsageError if there are mistakes.
+  void finish() const {
+    if (!mistakes_.empty()) throw UsageError(mistakes_);
+  }
+
+ private:
+  std::vector<std::string> mistakes_;
 };
 
 /// The scene cannot be used as asked.
@@ -31,8 +66,10 @@ class TryAll {
   void run(const Action& action) {
     try {
       action();
+    } catch (const std::bad_alloc&) {
+      add("out of memory");
     } catch (const std::exception& e) {
-      failures_ += (failures_.empty() ? "" : "; ") + std::string(e.what());
+      add(e.what());
     }
   }
   /// Throws std::runtime_error with all failures, if there are any.
@@ -41,6 +78,8 @@ class TryAll {
   }
 
  private:
+  void add(const std::string& failure) { failures_ += (failures_.empty() ? "" : "; ") + failure; }
+
   std::string failures_;
 };
 

@@ -100,7 +100,7 @@ TEST_SUITE("program") {
     CHECK(o.code == 2);
     CHECK(contains(o.err,
                    "scenes/jobs.csv:4: error: -o out/{scene}-{spp}-{seed}.exr: only {scene}, "
-                   "{folder} and {seed} are filled in"));
+                   "{folder} and {seed} are filled in; {{ means a brace"));
     CHECK(!place.has("out"));
     place.write("scenes/jobs.csv",
                 "scene,output,spp,integrator\n"
@@ -252,6 +252,70 @@ TEST_SUITE("program") {
       CHECK(contains(refused.err, named));
     }
     CHECK(place.count() == files + 1);
+  }
+
+  TEST_CASE("options that no scene could have are found in all rows before the first job") {
+    const Workplace place;
+    place.scene("a.xml");
+    const std::pair<const char*, const char*> wrong[] = {
+        {R"("integrator": "pth")", "there is no integrator \"pth\" (did you mean \"path\"?)"},
+        {R"("integrator": "path", "parameter": "max_dept=3")", "did you mean \"max_depth\"?"},
+        {R"("integrator": "path", "parameter": "max_depth=x")", "parameter \"max_depth\" needs"},
+        {R"("parameter": "max_depth")", "-I needs NAME=VALUE, not \"max_depth\""},
+        {R"("integrator": "path", "techniques": true)", "\"path\" has no techniques"},
+        {R"("integrator": "aov", "aov": "depth", "target-error": 0.1)",
+         "no colours to estimate it from"},
+        {R"("aov": "albdo")", "there is no layer \"albdo\" (did you mean \"albedo\"?)"},
+        {R"("aov": "albedo", "output": "7.png")", "only .exr files can hold the other layers"},
+        {R"("integrator": "aov", "aov": "depth", "output": "8.png")", "the image has layers only"},
+        {R"("define": "x")", "-D needs NAME=VALUE, not \"x\""},
+        {R"("size": "8x8", "crop": "0,0,9,1")",
+         "--crop: the window reaches beyond the image of 8x8"},
+        {R"("spp": 4, "slice": "1/5", "raw": "9.exr")", "4 samples per pixel have no 5 parts"},
+        {R"("resume": "gone.exr")", "--resume: cannot read gone.exr: No such file"}};
+    std::string list;
+    int line = 0;
+    for (const auto& [options, why] : wrong)
+      list += fmt::format("{{\"scene\": \"a.xml\", \"seed\": {}, {}}}\n", ++line, options);
+    // What only the scene can say is no mistake yet; of one row everything is said.
+    list +=
+        R"({"scene": "a.xml", "seed": 14, "parameter": "radius=1", "define": "x=1", "sensor": 7})";
+    list +=
+        "\n"
+        R"({"scene": "a.xml", "seed": 15, "spp": "x", "size": 3, "format": "bmp", "tonemap": "y"})";
+    place.write("jobs.jsonl", list);
+    const Outcome o = place.run({"batch", "jobs.jsonl", "-o", "{scene}-{seed}.exr"});
+    CAPTURE(o.err);
+    CHECK(o.code == 2);
+    line = 0;
+    for (const auto& [options, why] : wrong) {
+      const std::string place_of_row = fmt::format("jobs.jsonl:{}: error: ", ++line);
+      CAPTURE(why);
+      const size_t at = o.err.find(place_of_row);
+      REQUIRE(at != o.err.npos);
+      CHECK(contains(o.err.substr(at, o.err.find('\n', at) - at), why));
+    }
+    CHECK(!contains(o.err, "jobs.jsonl:14"));
+    for (const char* option : {"--spp: ", "--size: ", "--format: ", "--tonemap: "})
+      CHECK(contains(o.err, std::string("jobs.jsonl:15: error: ") + option));
+  }
+
+  TEST_CASE("names are filled in once, whatever braces they have") {
+    const Workplace place;
+    place.scene("a{spp}.xml");
+    place.write("jobs.csv",
+                "scene,spp,output,define\n"
+                "a{spp}.xml,1,{scene}-{spp}.exr,\n"
+                "a{spp}.xml,1,b{{x}.exr,\n");
+    const Outcome o = place.run({"batch", "jobs.csv"});
+    CAPTURE(o.err);
+    CAPTURE(o.out);
+    CHECK(o.code == 0);
+    CHECK(place.has("a{spp}-1.exr"));
+    CHECK(place.has("b{x}.exr"));
+    CHECK(contains(place.run({"batch", "jobs.csv"}).out, "2 kept"));
+    CHECK(place.run({"a{spp}.xml", "--spp", "1", "-o", "{{{scene}}.exr"}).code == 0);
+    CHECK(place.has("{a{spp}}.exr"));
   }
 
   TEST_CASE("files that cannot be written are named before anything is rendered") {

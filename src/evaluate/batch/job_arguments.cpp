@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <iterator>
 
+#include "evaluate/render/placeholders.h"
+
 namespace duet::batch {
 
 bool is_given_by_batch(const std::string& option) {
@@ -25,7 +27,8 @@ std::vector<std::string> option_arguments(const Job& job) {
 
 std::vector<std::string> job_arguments(const Job& job) {
   std::vector<std::string> arguments{"render"};
-  for (const std::string& output : job.outputs) arguments.push_back("--output=" + output);
+  for (const std::string& output : job.outputs)
+    arguments.push_back("--output=" + as_pattern(output));
   for (std::string& option : option_arguments(job)) arguments.push_back(std::move(option));
   // Whatever it begins with, it is no option.
   arguments.insert(arguments.end(), {"--", job.scene});

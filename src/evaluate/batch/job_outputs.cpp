@@ -35,8 +35,8 @@ std::string output_of_job(const Job& job, const std::string& pattern, const std:
     placeholders.emplace_back(option.name, text);
   }
   const std::string format = job.value("format");
-  return output_path(fill_in("-o", pattern, placeholders), names,
-                     "." + (format.empty() ? "exr" : format));
+  return image_path(fill_in("-o", pattern, placeholders), names,
+                    "." + (format.empty() ? "exr" : format));
 }
 
 /// The images and the raw film of a job, as far as the list says their names.

@@ -3,8 +3,23 @@
 #include <fmt/format.h>
 
 #include "base/failures.h"
+#include "scene/film_layout.h"
 
 namespace duet {
+
+FilmLayout asked_layout(FilmDescription& film, const RenderOptions& options) {
+  try {
+    return film_layout(film, options.size, options.crop);
+  } catch (const std::out_of_range& e) {
+    throw UsageError(fmt::format("--crop: {}", e.what()));
+  }
+}
+
+void check_window(const RenderOptions& options) {
+  if (!options.size || !options.crop) return;
+  FilmDescription any;
+  asked_layout(any, options);
+}
 
 std::optional<SampleInterval> asked_samples(const RenderOptions& options, int spp) {
   if (!options.slice) return options.samples;

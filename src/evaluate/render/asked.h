@@ -11,6 +11,12 @@
 
 namespace duet {
 
+/// The size and the window that are asked for of a film. Throws UsageError for a window that
+/// reaches beyond the image.
+FilmLayout asked_layout(FilmDescription& film, const RenderOptions& options);
+/// The same, as far as it is known of all films.
+void check_window(const RenderOptions& options);
+
 /// The samples that are asked for, of `spp` per pixel; nothing if they are all. Throws UsageError
 /// if they have no such slice.
 std::optional<SampleInterval> asked_samples(const RenderOptions& options, int spp);

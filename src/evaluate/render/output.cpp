@@ -19,6 +19,10 @@ namespace fs = std::filesystem;
 
 namespace {
 
+/// So many bytes of an image's name are in the one that it is rescued by, which must not be too
+/// long.
+constexpr size_t kRescuedStem = 100;
+
 bool is_directory(const std::string& path) {
   std::error_code ignored;
   return path.ends_with('/') || fs::is_directory(path, ignored);
@@ -29,6 +33,7 @@ std::string obstacle_to(const std::string& path) {
   if (is_standard_output(path)) return standard_output_refusal();
   std::error_code error;
   const fs::file_status status = fs::status(path, error);
+  if (error == std::errc::filename_too_long) return "its name is too long";
   if (fs::is_directory(status)) return "it is a directory";
   if (fs::exists(status) && !fs::is_regular_file(status)) return "it is not a regular file";
   const fs::path parent = fs::path(path).has_parent_path() ? fs::path(path).parent_path() : ".";
@@ -93,12 +98,16 @@ std::vector<std::string> settings_without_effect(const std::vector<std::string>&
 std::string output_path(const std::string& pattern, const OutputNames& names,
                         const std::string& extension) {
   if (pattern == "-") return kStandardOutput + extension;
-  std::string path = fill_in("-o", pattern,
-                             {{"scene", names.scene},
-                              {"folder", names.folder},
-                              {"integrator", names.integrator},
-                              {"spp", names.spp},
-                              {"seed", names.seed}});
+  return image_path(fill_in("-o", pattern,
+                            {{"scene", names.scene},
+                             {"folder", names.folder},
+                             {"integrator", names.integrator},
+                             {"spp", names.spp},
+                             {"seed", names.seed}}),
+                    names, extension);
+}
+
+std::string image_path(std::string path, const OutputNames& names, const std::string& extension) {
   if (path.empty())
     path = names.scene + extension;
   else if (is_directory(path))
@@ -139,7 +148,9 @@ void write_image(const std::string& path, const Image& image, const ImageForm& f
     std::error_code ignored;
     fs::path folder = fs::temp_directory_path(ignored);
     if (folder.empty()) folder = "/tmp";
-    const std::string stem = is_standard_output(path) ? "stdout" : fs::path(path).stem().string();
+    const std::string stem = is_standard_output(path)
+                                 ? "stdout"
+                                 : fs::path(path).stem().string().substr(0, kRescuedStem);
     std::string rescue;
     // Scenes of one call may have the same name.
     for (int number = 0; rescue.empty() || fs::exists(rescue, ignored); ++number)

@@ -31,6 +31,9 @@ OutputNames output_names(const std::string& scene_file);
 std::string output_path(const std::string& pattern, const OutputNames& names,
                         const std::string& extension = ".exr");
 
+/// The same of a path in which all is filled in.
+std::string image_path(std::string path, const OutputNames& names, const std::string& extension);
+
 /// Throws UsageError if files cannot hold what an image has: formats for display no image without
 /// colours, and they alone no further layers; EXR files no two channels of one name.
 void check_formats(const std::vector<std::string>& paths, const std::vector<std::string>& channels,

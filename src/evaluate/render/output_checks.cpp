@@ -72,24 +72,26 @@ void check_writable(const std::string& option, const std::string& path) {
     throw UsageError(fmt::format("{}: {}", option, why));
 }
 
-void check_outputs(const RenderOptions& o, FileUses uses) {
+std::vector<std::string> check_outputs(const RenderOptions& o, FileUses uses) {
   check_standard_output(o);
   std::vector<PlannedOutput> planned;
   for (const std::string& pattern : o.outputs) planned.push_back({"-o", pattern, o.extension});
   if (!o.raw.empty()) planned.push_back({"--raw", o.raw, kRawExtension, kResume});
   if (planned.empty()) planned.push_back({"the image", "", o.extension});
   std::map<std::string, std::string> writers;
+  std::vector<std::string> images;
   for (const std::string& scene : o.read.scenes)
     for (const auto& [option, pattern, extension, may_replace] : planned) {
-      if (o.skip_existing && !o.budget.spp && (o.budget.seconds || o.budget.target_error) &&
-          pattern.find("{spp}") != std::string::npos)
-        throw UsageError(fmt::format(
-            "-o {}: --skip-existing cannot know {{spp}} before the scene is rendered", pattern));
       OutputNames names = output_names(scene);
       // What only the scene can say stays as it is: two scenes that differ only in that are too
       // much alike.
       names.integrator = "{integrator}", names.spp = "{spp}", names.seed = "{seed}";
       const std::string path = output_path(pattern, names, extension);
+      names.spp = "another";
+      if (o.skip_existing && !o.budget.spp && (o.budget.seconds || o.budget.target_error) &&
+          path != output_path(pattern, names, extension))
+        throw UsageError(fmt::format(
+            "-o {}: --skip-existing cannot know {{spp}} before the scene is rendered", pattern));
       const auto [entry, is_new] = writers.try_emplace(path, scene);
       if (!is_new && o.read.scenes.size() > 1)
         throw UsageError(fmt::format(
@@ -97,7 +99,9 @@ void check_outputs(const RenderOptions& o, FileUses uses) {
             "{{folder}}",
             pattern.empty() ? path : pattern, entry->second, scene));
       uses.write(option, path, may_replace);
+      if (scene == o.read.scenes[0] && extension != kRawExtension) images.push_back(path);
     }
+  return images;
 }
 
 }  // namespace duet

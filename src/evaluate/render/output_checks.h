@@ -16,7 +16,7 @@ void check_writable(const std::string& option, const std::string& path);
 
 /// Throws UsageError if two images or raw films would be written to one file, or to one of `uses`,
 /// those that the call names otherwise; if a name cannot be known, or if standard output cannot
-/// hold what it is to hold.
-void check_outputs(const RenderOptions& options, FileUses uses);
+/// hold what it is to hold. Returns the names of the first scene's images.
+std::vector<std::string> check_outputs(const RenderOptions& options, FileUses uses);
 
 }  // namespace duet

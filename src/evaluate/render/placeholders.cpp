@@ -16,6 +16,10 @@ std::string fill_in(const std::string& option, const std::string& pattern,
       out += pattern[i];
       continue;
     }
+    if (pattern.compare(i, 2, "{{") == 0) {
+      out += pattern[i++];
+      continue;
+    }
     const size_t end = pattern.find('}', i);
     const std::string key = end == std::string::npos ? "" : pattern.substr(i + 1, end - i - 1);
     const auto meant =
@@ -27,12 +31,19 @@ std::string fill_in(const std::string& option, const std::string& pattern,
                   : &n == &names.back() ? " and "
                                         : ", ") +
                  ("{" + n.first + "}");
-      throw UsageError(fmt::format("{} {}: only {} are filled in", option, pattern, known));
+      throw UsageError(
+          fmt::format("{} {}: only {} are filled in; {{{{ means a brace", option, pattern, known));
     }
     out += meant->second;
     i = end;
   }
   return out;
+}
+
+std::string as_pattern(const std::string& text) {
+  std::string pattern;
+  for (const char c : text) pattern += c == '{' ? "{{" : std::string(1, c);
+  return pattern;
 }
 
 }  // namespace duet

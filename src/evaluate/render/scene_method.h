@@ -17,4 +17,9 @@ SensorDescription& chosen_sensor(SceneDescription& scene, size_t number, const s
 std::unique_ptr<Integrator> chosen_method(SceneDescription& scene, const SensorDescription& sensor,
                                           const RenderOptions& options, Messages& messages);
 
+/// Throws UsageError for what no scene can be rendered with, as far as that is known before one is
+/// read: a method, parameters of a method that is named, layers, and names of images whose formats
+/// cannot hold these.
+void check_method(const RenderOptions& options, const std::vector<std::string>& images);
+
 }  // namespace duet
