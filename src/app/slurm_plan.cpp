@@ -10,6 +10,7 @@
 #include "base/file_names.h"
 #include "base/system/process.h"
 #include "evaluate/batch/job_arguments.h"
+#include "evaluate/render/placeholders.h"
 #include "evaluate/slurm/plan.h"
 #include "evaluate/slurm/sbatch.h"
 
@@ -59,7 +60,9 @@ class TaskOptionParser {
         [](const std::string& operand) { return operand.size() > 1 && operand[0] == '-'; });
     request.render_options.assign(first, options_.operands.end());
     if (first == options_.operands.begin())
-      throw UsageError("slurm: there is no scene before the options of duet render");
+      throw UsageError(
+          "slurm: there is no scene before the options of duet render; a file whose name begins "
+          "with a dash is called ./-name");
     request.render = parse_operands();
     if (!request.render.checkpoint)
       request.render_options.insert(request.render_options.end(), {"--checkpoint", "60s"});
@@ -128,9 +131,10 @@ std::vector<slurm::ImageJob> plan_list(const SlurmOptions& options, Program& pro
   std::vector<slurm::ImageJob> jobs;
   for (const batch::Job& job : listed) try {
       SlurmOptions one = options;
-      one.outputs = job.outputs;
+      one.outputs.clear();
+      for (const std::string& output : job.outputs) one.outputs.push_back(as_pattern(output));
       one.operands = batch::option_arguments(job);
-      one.operands.insert(one.operands.begin(), job.scene);
+      one.operands.insert(one.operands.begin(), as_operand(job.scene));
       jobs.push_back(plan_scenes(one, program).at(0));
     } catch (const UsageError& e) {
       throw UsageError(fmt::format("{}: {}", job.where.to_string(), e.what()));

@@ -13,4 +13,8 @@ std::string extension_of(const std::string& path) {
   return e;
 }
 
+std::string as_operand(const std::string& path) {
+  return path.starts_with('-') ? "./" + path : path;
+}
+
 }  // namespace duet

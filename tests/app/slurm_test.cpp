@@ -228,6 +228,25 @@ TEST_SUITE("program") {
     CHECK(place.has("images/hall-4.slurm/render.sh"));
   }
 
+  TEST_CASE("slurm: names that begin with a dash are no options") {
+    const Cluster place;
+    place.scene("-hall.xml");
+    place.sbatch(kAtOnce);
+    place.write("lost", "");
+    place.write("-jobs.csv", "scene,output\n-hall.xml,-b.exr\n");
+    for (const auto& [operand, image] :
+         {std::pair{"./-hall.xml", "-hall.exr"}, {"./-jobs.csv", "-b.exr"}}) {
+      const Outcome o = place.submit({operand, "--tasks", "2", "--", "--spp", "4"});
+      CHECK_MESSAGE(o.code == 0, o.err);
+      CHECK(place.has(image));
+    }
+    for (const char* option : {" -hall", " -b"})
+      CHECK(!contains(read_file(place.path("calls")), option));
+    const Outcome o = place.submit({"--tasks", "2", "--", "-hall.xml"});
+    CHECK(o.code == 2);
+    CHECK(contains(o.err, "a file whose name begins with a dash is called ./-name"));
+  }
+
   TEST_CASE("slurm: lists of jobs are those of batch") {
     const Cluster place;
     place.sbatch(kAtOnce);

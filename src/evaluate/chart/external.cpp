@@ -3,6 +3,7 @@
 
 #include <filesystem>
 
+#include "base/file_names.h"
 #include "base/system/run_program.h"
 #include "evaluate/chart/renderers.h"
 #include "evaluate/compare/linear_image.h"
@@ -64,8 +65,8 @@ ExternalCommand external_command(const std::string& pattern) {
   return [pattern](const ExternalRun& run) {
     return fill_in("--external", pattern,
                    {{"spp", fmt::to_string(run.spp)},
-                    {"out", run.output},
-                    {"scene", run.scene},
+                    {"out", as_operand(run.output)},
+                    {"scene", as_operand(run.scene)},
                     {"seed", fmt::to_string(run.seed)},
                     {"width", fmt::to_string(run.width)},
                     {"height", fmt::to_string(run.height)}});

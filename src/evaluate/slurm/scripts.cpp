@@ -6,6 +6,7 @@
 #include <filesystem>
 
 #include "base/failures.h"
+#include "base/file_names.h"
 #include "base/shell.h"
 #include "evaluate/slurm/sbatch.h"
 
@@ -20,7 +21,7 @@ std::string film(const ImageJob& job) {
 
 /// What a task does, with kSlice.
 std::vector<std::string> slice_command(const ImageJob& job) {
-  std::vector<std::string> words{job.program, "render", job.scene};
+  std::vector<std::string> words{job.program, "render", as_operand(job.scene)};
   words.insert(words.end(), job.render_options.begin(), job.render_options.end());
   for (const std::string& w : {std::string("--slice"), fmt::format("{}/{}", kSlice, job.tasks),
                                std::string("--raw"), film(job)})
@@ -65,7 +66,7 @@ std::string further_options(const ImageJob& job) {
 void name_job(ImageJob& job, const std::string& image) {
   const std::filesystem::path path = image;
   job.name = path.stem().string();
-  job.folder = std::filesystem::path(path).replace_extension(".slurm").string();
+  job.folder = as_operand(std::filesystem::path(path).replace_extension(".slurm").string());
   const auto is_odd = [](char c) {
     return c == '\\' || c == '{' || c == '}' || static_cast<unsigned char>(c) < ' ';
   };
