@@ -19,6 +19,9 @@ namespace duet {
 
 namespace {
 
+/// Beyond it, libjpeg ends the program (JPEG_MAX_DIMENSION).
+constexpr int kGreatestJpegSide = 65500;
+
 std::vector<uint8_t> read_bytes(const std::string& path) {
   const InputFile file(path);
   try {
@@ -158,6 +161,9 @@ std::vector<uint8_t> display_image_bytes(const std::string& path, int width, int
   if (width <= 0 || height <= 0 || channels < 1 || channels > 4 ||
       values.size() != size_t(width) * size_t(height) * size_t(channels))
     throw std::invalid_argument("write_display_image: size and data do not match");
+  if (jpeg && std::max(width, height) > kGreatestJpegSide)
+    throw std::runtime_error(fmt::format("{} cannot be written: JPEG has at most {} pixels a side",
+                                         path, kGreatestJpegSide));
   if (jpeg && (channels == 2 || channels == 4))
     throw std::runtime_error(fmt::format("{} cannot be written: JPEG has no alpha", path));
   if (jpeg && kBits != 8)
@@ -172,6 +178,12 @@ template std::vector<uint8_t> display_image_bytes(const std::string&, int, int, 
                                                   const std::vector<uint8_t>&, const TextFields&);
 template std::vector<uint8_t> display_image_bytes(const std::string&, int, int, int,
                                                   const std::vector<uint16_t>&, const TextFields&);
+
+void check_display_image(const std::string& path, int width, int height) {
+  // The longest side in one row has the limits of the format, and a row is soon made.
+  const int side = std::max(width, height);
+  display_image_bytes(path, side, 1, 1, std::vector<uint8_t>(size_t(side)));
+}
 
 void write_display_image(const std::string& path, int width, int height, int channels,
                          const std::vector<uint8_t>& bytes, const TextFields& fields) {

@@ -72,6 +72,9 @@ std::vector<uint8_t> display_image_bytes(const std::string& path, int width, int
                                          int channels, const std::vector<Value>& values,
                                          const TextFields& fields = {});
 
+/// Throws what it would throw of any image of this size: asked before there are pixels.
+void check_display_image(const std::string& path, int width, int height);
+
 /// Write such files. The file is replaced as a whole (see base/atomic_file.h). Throw
 /// std::runtime_error with the reason if it cannot be written.
 void write_exr(const std::string& path, const Image& image, const ExrOptions& options);

@@ -97,8 +97,31 @@ TEST_SUITE("program") {
       CHECK(o.code == 1);
       CHECK(contains(o.err, "cannot write"));
     }
+    // A name that is too long for the file system, and for a rescued image.
+    const std::string long_name(250, 'x');
+    const Outcome o =
+        place.run({"tiny.xml", "-o", long_name + ".exrexr.exr", "--spp", "1000000000"});
+    CHECK(o.code == 1);
+    CHECK(contains(o.err, ": its name is too long"));
     CHECK(place.run({"tiny.xml", "-o", "dir.exr"}).code == 0);  // a directory like any other
     CHECK(place.has("dir.exr/tiny.exr"));
+  }
+
+  TEST_CASE("formats that no image can be written in are found out before rendering") {
+    const Workplace place;
+    place.scene();
+    const Outcome wide =
+        place.run({"tiny.xml", "-o", "a.jpg", "--size", "65501x1", "--spp", "1000000000"});
+    CAPTURE(wide.err);
+    CHECK(wide.code == 1);
+    CHECK(contains(wide.err, "a.jpg cannot be written: JPEG has at most 65500 pixels a side"));
+    const Outcome no_library =
+        run_duet({"tiny.xml", "-o", "a.png", "--spp", "1000000000"},
+                 {.directory = place.path(""),
+                  .environment = {{"DUET_IMAGE_MODULE", place.path("none.so")}}});
+    CHECK(no_library.code == 1);
+    CHECK(contains(no_library.err, "this image format needs the library"));
+    CHECK(place.count() == 1);
   }
 
   TEST_CASE("directories of output files are made") {

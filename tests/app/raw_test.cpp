@@ -326,6 +326,14 @@ TEST_SUITE("program") {
     CHECK(place.has("a.exr"));
     CHECK(!place.has("film.exr"));
 
+    // If neither can be, both are named.
+    std::filesystem::remove(image);
+    const Outcome neither = run_duet(render, {.directory = place.path(""), .file_limit = 512});
+    CAPTURE(neither.err);
+    CHECK(neither.code == 1);
+    CHECK(contains(neither.err, "film.exr cannot be written"));
+    CHECK(contains(neither.err, "; a.exr cannot be written"));
+
     // The same of a merge.
     REQUIRE(place.run(render).code == 0);
     const Outcome merged =

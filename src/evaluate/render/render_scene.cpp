@@ -1,7 +1,6 @@
 #include "evaluate/render/render_scene.h"
 
 #include <algorithm>
-#include <exception>
 
 #include "base/failures.h"
 #include "base/memory_limit.h"
@@ -21,7 +20,6 @@
 #include "evaluate/report/scene_render.h"
 #include "scene/build.h"
 #include "scene/features.h"
-#include "scene/film_layout.h"
 
 namespace duet {
 
@@ -64,16 +62,16 @@ class SceneRenderer {
     seconds_.render = watch_.lap();
     std::vector<std::string> written;
     // Sums first: of those the image can be made again. If they cannot be written it still is.
-    std::exception_ptr raw_failure;
-    try {
+    TryAll files;
+    files.run([&] {
       if (const std::string raw = raw_->finish(state, result.interrupted); !raw.empty())
         written.push_back(raw);
-    } catch (const std::exception&) {
-      raw_failure = std::current_exception();
-    }
-    if (options_.writes_images)
-      for (const std::string& path : write(result)) written.push_back(path);
-    if (raw_failure) std::rethrow_exception(raw_failure);
+    });
+    files.run([&] {
+      if (options_.writes_images)
+        for (const std::string& path : write(result)) written.push_back(path);
+    });
+    files.finish();
     seconds_.write = watch_.lap();
     summarize(result, written);
     statistics_.add(record_, result, seconds_, count_parts(*scene_));
@@ -94,11 +92,7 @@ class SceneRenderer {
   /// Everything that can be wrong with the command line for this scene shows here.
   void prepare() {
     SensorDescription& sensor = chosen_sensor(description_, options_.sensor, file_);
-    try {
-      layout_ = film_layout(sensor.film, options_.size, options_.crop);
-    } catch (const std::out_of_range& e) {
-      throw UsageError(fmt::format("--crop: {}", e.what()));
-    }
+    layout_ = asked_layout(sensor.film, options_);
     denoiser_.emplace(options_, description_.integrator);
     integrator_ = chosen_method(description_, sensor, options_, messages_);
     denoiser_->load();
@@ -162,6 +156,9 @@ class SceneRenderer {
   void check_outputs(const std::vector<std::string>& planned) const {
     for (const std::string& path : planned)
       if (const std::string why = prepare_file(path); !why.empty()) throw SceneFailure(why);
+    for (const std::string& path : planned)
+      if (is_display_format(path))
+        check_display_image(path, layout_.crop.width(), layout_.crop.height());
     check_formats(planned, written_channels(), options_.files);
     for (const std::string& text : settings_without_effect(planned, options_.files)) warn(text);
   }
