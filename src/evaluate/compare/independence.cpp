@@ -39,12 +39,17 @@ void ImagesOfSet::add(const LinearImage& image, const std::string& file) {
   const std::string seed = seed_of(image);
   if (const std::optional<uint64_t> hash = hash_of_pixels(image.image)) {
     const auto [equal, is_new] = by_pixels_.try_emplace(*hash, Seen{file, seed});
-    const bool seeds_differ = equal->second.seed != seed && !seed.empty();
-    if (!is_new && (!seeds_differ || equal->second.seed.empty()))
+    const Seen& other = equal->second;
+    if (!is_new && (seed.empty() || other.seed.empty()) && same_pixels_.empty())
+      same_pixels_ = fmt::format(
+          "{} has the same pixels as {}: if that is no scene without noise, the images of a set "
+          "must have noise of their own, each with another seed (--seed)",
+          file, other.file);
+    if (!is_new && !seed.empty() && seed == other.seed)
       throw std::runtime_error(fmt::format(
           "{} has the same pixels as {}: the images of a set must have noise of their own; render "
           "each with another seed (--seed), or compare one image of each side without --batches",
-          file, equal->second.file));
+          file, other.file));
   }
   if (seed.empty()) return;
   const auto [first, is_new] = by_seed_.try_emplace(seed, file);
@@ -52,8 +57,8 @@ void ImagesOfSet::add(const LinearImage& image, const std::string& file) {
   example_ = {{file, seed}, first->second};
 }
 
-std::string ImagesOfSet::seed_warning() const {
-  if (repeated_seeds_ == 0) return "";
+std::string ImagesOfSet::warning() const {
+  if (repeated_seeds_ == 0) return same_pixels_;
   const auto& [repeated, first] = example_;
   return fmt::format(
       "{} has the seed of {}, {}{}: images of one seed may have parts of their noise in common, "

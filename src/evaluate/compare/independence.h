@@ -13,11 +13,12 @@ namespace duet {
 /// The images of a set, by their pixels and their seeds.
 class ImagesOfSet {
  public:
-  /// Throws std::runtime_error for an image with the pixels of another one, unless the seeds in
-  /// their headers differ: an image without noise has the same pixels with every seed.
+  /// Throws std::runtime_error for an image with the pixels and the seed of another one. An image
+  /// without noise has the same pixels with every seed.
   void add(const LinearImage& image, const std::string& file);
-  /// That the pixels differ and seeds do not, or "".
-  std::string seed_warning() const;
+  /// That the pixels differ and seeds do not, or that pixels are the same and seeds are not known,
+  /// or "".
+  std::string warning() const;
   /// That images of this set are also in another one, or "".
   std::string shared_warning(const ImagesOfSet& other) const;
 
@@ -27,6 +28,7 @@ class ImagesOfSet {
   };
   std::map<uint64_t, Seen> by_pixels_;
   std::map<std::string, std::string> by_seed_;  ///< the first file of each
+  std::string same_pixels_;  ///< the warning for the first pair whose seeds are not known
   int repeated_seeds_ = 0;
   std::pair<Seen, std::string> example_;  ///< the first of them, and the file that has its seed
 };

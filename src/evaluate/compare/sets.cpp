@@ -58,7 +58,7 @@ Side load_side(const CompareSettings& settings, const std::vector<std::string>& 
 /// Adds to the warning of a comparison in what the images are not independent.
 void add_warnings(const ImagesOfSet& images, const ImagesOfSet& references, Comparison& c) {
   for (const std::string& text :
-       {images.seed_warning(), references.seed_warning(), images.shared_warning(references)})
+       {images.warning(), references.warning(), images.shared_warning(references)})
     if (!text.empty()) c.warning += (c.warning.empty() ? "" : "; ") + text;
 }
 

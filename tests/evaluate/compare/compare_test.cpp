@@ -129,13 +129,16 @@ TEST_CASE("images of a set that are not independent are no set") {
                        files.image("a/1.exr", two.first, 0, two.second)};
   };
   // The same pixels: no spread, unless seeds say that this is all the noise there is.
-  for (const auto& [one, two] : {std::pair{"", ""}, {"7", "7"}, {"7", ""}, {"", "7"}}) {
+  const auto copies = set({0.1f, "7"}, {0.1f, "7"});
+  CHECK_THROWS_WITH(compare_sets(s, copies, other),
+                    doctest::Contains("a/1.exr has the same pixels as "));
+  CHECK_THROWS_WITH(compare_sets(s, other, copies),
+                    doctest::Contains("render each with another seed (--seed)"));
+  for (const auto& [one, two] : {std::pair{"", ""}, {"7", ""}, {"", "7"}}) {
     CAPTURE(one);
     CAPTURE(two);
-    CHECK_THROWS_WITH(compare_sets(s, set({0.1f, one}, {0.1f, two}), other),
-                      doctest::Contains("a/1.exr has the same pixels as "));
-    CHECK_THROWS_WITH(compare_sets(s, other, set({0.1f, one}, {0.1f, two})),
-                      doctest::Contains("render each with another seed (--seed)"));
+    CHECK(compare_sets(s, set({0.1f, one}, {0.1f, two}), other)
+              .warning.find("a/1.exr has the same pixels as ") != std::string::npos);
   }
   CHECK(compare_sets(s, set({0.1f, "7"}, {0.1f, "8"}), other).warning.empty());
   // The same seed: perhaps noise in common.
