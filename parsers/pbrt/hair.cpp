@@ -1,7 +1,7 @@
 // Hair: the same in both versions.
 #include <algorithm>
-#include <cmath>
 
+#include "materials/hair_absorption.h"
 #include "pbrt/materials.h"
 
 namespace duet::pbrt {
@@ -28,17 +28,12 @@ double hair_number(Values& v, const char* name) {
   return 0.3;
 }
 
-/// Absorption with which many hairs have this colour: Chiang et al., "A Practical and Controllable
-/// Hair and Fur Model for Production Path Tracing", 2016, eq. 9.
-Spectrum absorption_for(const Spectrum& color, double beta_n) {
-  const double b = beta_n;
-  const double d = 5.969 + b * (-0.215 + b * (2.532 + b * (-10.73 + b * (5.574 + b * 0.245))));
-  Spectrum sigma;
-  for (int c = 0; c < 3; ++c) {
-    const double l = std::log(std::max(double(color[c]), 1e-4)) / d;
-    sigma[c] = float(l * l);
-  }
-  return sigma;
+/// The concentration of a pigment.
+FloatInput pigment(Values& v, const char* name) {
+  if (!v.has(name)) return 0.0;
+  const FloatInput input = v.float_input(name);
+  const double* constant = std::get_if<double>(&input);
+  return constant ? FloatInput(std::max(*constant, 0.0)) : input;
 }
 
 }  // namespace
@@ -60,16 +55,15 @@ std::optional<MaterialId> read_hair(Values& v) {
   } else if (v.has(color)) {
     const ColorInput input = v.color_input(color, ColorMeaning::reflectance);
     if (const Spectrum* constant = std::get_if<Spectrum>(&input))
-      m.sigma_a = absorption_for(*constant, m.azimuthal_roughness);
+      m.sigma_a = hair_absorption_for(*constant, float(m.azimuthal_roughness));
     else
-      v.reader().report().error(v.where(color), "textures of \"{}\" are not supported", color);
+      m.reflectance = input;
+  } else if (v.has("eumelanin") || v.has("pheomelanin")) {
+    m.eumelanin = pigment(v, "eumelanin");
+    m.pheomelanin = pigment(v, "pheomelanin");
   } else {
-    const bool given = v.has("eumelanin") || v.has("pheomelanin");
-    const double eu = given ? hair_number(v, "eumelanin") : 1.3,
-                 pheo = given ? hair_number(v, "pheomelanin") : 0;
-    // Absorption of the two pigments per concentration: d'Eon et al. 2011.
-    m.sigma_a =
-        Spectrum(0.419f, 0.697f, 1.37f) * float(eu) + Spectrum(0.187f, 0.4f, 1.05f) * float(pheo);
+    m.eumelanin = 1.3;
+    m.pheomelanin = 0.0;
   }
   return v.reader().add_material(m, v.where());
 }

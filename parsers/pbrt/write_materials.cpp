@@ -162,8 +162,11 @@ void SceneWriter::write(const ThinDielectricMaterial& m, const std::string& name
 
 void SceneWriter::write(const HairMaterial& m, const std::string& name, const Around& around) {
   Statement s = named_material(name, "hair");
-  if (!m.sigma_a) {
-    s.number("eumelanin", m.eumelanin).number("pheomelanin", m.pheomelanin);
+  if (m.reflectance) {
+    put(s, "reflectance", *m.reflectance, true);
+  } else if (!m.sigma_a) {
+    put(s, "eumelanin", m.eumelanin);
+    put(s, "pheomelanin", m.pheomelanin);
   } else if (const Spectrum* constant = std::get_if<Spectrum>(&*m.sigma_a)) {
     s.color("sigma_a", *constant * float(m.scale));
   } else {

@@ -1,6 +1,7 @@
 #include "materials/hair.h"
 
 #include "materials/fresnel.h"
+#include "materials/hair_absorption.h"
 #include "materials/special_materials.h"
 #include "math/warp.h"
 
@@ -193,17 +194,42 @@ std::optional<ModelSample> HairModel::sample(const Vector3f& wo, float u, const 
   return sample_from(eval_both(o, wo, wi, transport), wi);
 }
 
+Spectrum hair_absorption_for(const Spectrum& color, float azimuthal_roughness) {
+  const float a = azimuthal_roughness;
+  const float d = 5.969f + a * (-0.215f + a * (2.532f + a * (-10.73f + a * (5.574f + a * 0.245f))));
+  const auto of = [&](float c) { return sqr(std::log(std::clamp(c, 1e-4f, 1.0f)) / d); };
+  return {of(color.r), of(color.g), of(color.b)};
+}
+
 HairFibre::HairFibre(const HairOptions& options) : options_(options) {
-  if (options.absorption.is_constant()) set_constant(model({}));
+  const HairOptions& o = options;
+  const bool constant = o.reflectance  ? o.reflectance->is_constant()
+                        : o.absorption ? o.absorption->is_constant()
+                                       : o.eumelanin.is_constant() && o.pheomelanin.is_constant();
+  if (constant) set_constant(model({}));
+}
+
+Spectrum HairFibre::absorption(const Surface& s) const {
+  const HairOptions& o = options_;
+  if (o.reflectance) return hair_absorption_for((*o.reflectance)(s), o.azimuthal_roughness);
+  if (o.absorption) {
+    const Spectrum sigma = (*o.absorption)(s)*o.absorption_scale;
+    return {std::max(sigma.r, 0.0f), std::max(sigma.g, 0.0f), std::max(sigma.b, 0.0f)};
+  }
+  return hair_absorption(std::max(o.eumelanin(s), 0.0f), std::max(o.pheomelanin(s), 0.0f));
 }
 
 HairModel HairFibre::model(const Surface& s) const {
   return {options_.longitudinal_roughness, options_.azimuthal_roughness, options_.scale_tilt,
-          options_.eta, options_.absorption(s) * options_.absorption_scale};
+          options_.eta, absorption(s)};
 }
 
 SurfaceNeeds HairFibre::needs() const {
-  return {.uv = options_.absorption.needs_uv(), .tangents = true};
+  const HairOptions& o = options_;
+  const bool uv = o.reflectance  ? o.reflectance->needs_uv()
+                  : o.absorption ? o.absorption->needs_uv()
+                                 : o.eumelanin.needs_uv() || o.pheomelanin.needs_uv();
+  return {.uv = uv, .tangents = true};
 }
 
 }  // namespace duet

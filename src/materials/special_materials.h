@@ -12,8 +12,10 @@ struct HairOptions {
   float longitudinal_roughness = 0.3f, azimuthal_roughness = 0.3f;
   float scale_tilt = 2 * float(kRadians);
   float eta = 1.55f / 1.000277f;
-  ColorSlot absorption{hair_absorption(1.3f, 0.2f)};
+  /// The colour of many hairs, or absorption per radius; without both, concentrations of pigments.
+  std::optional<ColorSlot> reflectance, absorption;
   float absorption_scale = 1;
+  FloatSlot eumelanin{1.3f}, pheomelanin{0.2f};
 };
 
 class HairFibre final : public SingleModelMaterial<HairFibre> {
@@ -24,6 +26,8 @@ class HairFibre final : public SingleModelMaterial<HairFibre> {
   bool transmits() const override { return true; }
 
  private:
+  Spectrum absorption(const Surface& s) const;
+
   HairOptions options_;
 };
 

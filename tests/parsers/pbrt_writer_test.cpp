@@ -145,11 +145,14 @@ TEST_CASE("pbrt writer: materials survive") {
                     "\"texture interface.roughness\" \"grey\""),
         std::string("\"hair\" \"rgb sigma_a\" [0.5 1 2] \"float beta_m\" 0.2 \"float beta_n\" 0.4 "
                     "\"float alpha\" 3 \"float eta\" 1.5"),
+        std::string("\"hair\" \"texture eumelanin\" \"grey\" \"float pheomelanin\" 0.5"),
+        std::string("\"hair\" \"texture reflectance\" \"colour\""),
         std::string("\"subsurface\" \"rgb sigma_a\" [0.25 0.5 0.25] \"rgb sigma_s\" [0.75 0.5 "
                     "0.25]"),
         "\"measured\" \"string filename\" \"" + source_path("scenes/bsdf-measured/isotropic.bsdf") +
             "\"",
-        std::string("\"interface\""), std::string("\"diffuse\" \"texture displacement\" \"grey\""),
+        std::string("\"interface\""),
+        std::string("\"diffuse\" \"texture displacement\" \"grey\""),
         std::string("\"diffuse\" \"string normalmap\" \"image.exr\"")}) {
     CAPTURE(material);
     check_pbrt_round_trip(with_material("Material " + material));

@@ -42,8 +42,8 @@ TEST_CASE("bsdf: hair") {
   CHECK(m.longitudinal_roughness == 0.1);
   CHECK(m.azimuthal_roughness == 0.2);
   CHECK(m.scale_tilt == 3);
-  CHECK(m.eumelanin == 0.4);
-  CHECK(m.pheomelanin == 0.2);
+  CHECK(m.eumelanin == FloatInput(0.4));
+  CHECK(m.pheomelanin == FloatInput(0.2));
   CHECK(m.eta == 1.5);
   CHECK_FALSE(m.sigma_a);
   const auto dyed = bsdf<HairMaterial>(
@@ -54,6 +54,10 @@ TEST_CASE("bsdf: hair") {
               "<bsdf type='hair'><rgb name='sigma_a' value='1, 2, 3'/>"
               "<float name='eumelanin' value='1'/></bsdf>",
               "either \"sigma_a\" or concentrations"));
+  CHECK(fails("3.0.0",
+              "<bsdf type='hair'><rgb name='reflectance' value='.1, .2, .3'/>"
+              "<rgb name='sigma_a' value='1, 2, 3'/></bsdf>",
+              "either \"sigma_a\" or \"reflectance\""));
   CHECK(fails("3.0.0", "<bsdf type='hair'><float name='longitudinal_roughness' value='2'/></bsdf>",
               "longitudinal_roughness"));
 }

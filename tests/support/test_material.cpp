@@ -124,9 +124,9 @@ HairOptions hair(const json& j) {
   set(o.azimuthal_roughness, j, "azimuthal_roughness");
   o.scale_tilt = number(j, "scale_tilt", 2) * kPi / 180;
   o.eta = relative_index(j, 1.55f);
-  o.absorption.constant =
-      hair_absorption(number(j, "eumelanin", 1.3f), number(j, "pheomelanin", 0.2f));
-  set(o.absorption, j, "sigma_a");
+  set(o.eumelanin, j, "eumelanin");
+  set(o.pheomelanin, j, "pheomelanin");
+  if (j.contains("sigma_a")) set(o.absorption.emplace(), j, "sigma_a");
   set(o.absorption_scale, j, "scale");
   return o;
 }

@@ -38,8 +38,11 @@ bool check_coating(SceneReader&, Properties& p, CoatingMaterial& m) {
 
 void check_hair(SceneReader&, Properties& p, HairMaterial& m) {
   if (m.eta == 1) p.error("int_ior", "the indices of refraction of hair must differ");
-  if (m.sigma_a && (p.has("eumelanin") || p.has("pheomelanin")))
-    p.error("sigma_a", "either \"sigma_a\" or concentrations of pigments can be given");
+  const bool pigments = p.has("eumelanin") || p.has("pheomelanin");
+  for (const char* name : {"sigma_a", "reflectance"})
+    if (pigments && p.has(name))
+      p.error(name, "either \"{}\" or concentrations of pigments can be given", name);
+  p.only_one("sigma_a", "reflectance");
 }
 
 void check_pplastic(SceneReader&, Properties& p, PolarizedPlasticMaterial& m) {

@@ -12,10 +12,19 @@ MaterialPointer HairMaterial::build(SceneBuilder& b, const SourceLocation&) cons
   o.azimuthal_roughness = float(azimuthal_roughness);
   o.scale_tilt = float(scale_tilt * kRadians);
   o.eta = float(eta);
-  o.absorption =
-      sigma_a ? b.slot(*sigma_a) : ColorSlot{hair_absorption(float(eumelanin), float(pheomelanin))};
-  if (sigma_a) o.absorption_scale = float(scale);
+  if (reflectance) o.reflectance = b.slot(*reflectance);
+  if (sigma_a) o.absorption = b.slot(*sigma_a);
+  o.absorption_scale = float(scale);
+  o.eumelanin = b.slot(eumelanin);
+  o.pheomelanin = b.slot(pheomelanin);
   return std::make_unique<HairFibre>(o);
+}
+
+const char* HairMaterial::loss() const {
+  if (reflectance) return "the BSDF \"hair\" has no \"reflectance\" in Mitsuba 3";
+  const bool numbers =
+      std::holds_alternative<double>(eumelanin) && std::holds_alternative<double>(pheomelanin);
+  return sigma_a || numbers ? "" : "the pigments of \"hair\" are no textures in Mitsuba 3";
 }
 
 }  // namespace duet
