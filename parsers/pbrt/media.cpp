@@ -130,6 +130,7 @@ constexpr Spec kNanoVdb[] = {
     {"gridname", kString, "density"},
     {"preset", kString},
     {"Lescale", kNumber, "1"},
+    {"LeScale", kNumber, "1", "the same by another name"},
     {"temperaturename", kString, "temperature", "grid of kelvin, if the file has it"},
     DUET_TEMPERATURE_SPECS};
 constexpr Spec kCloud[] = {DUET_SIGMA_SPECS,

@@ -180,7 +180,7 @@ MediumDescription read_nano_vdb(Values& v) {
       const auto& values = kelvin->grid.values;
       const double hottest = double(*std::max_element(values.begin(), values.end()));
       const VolumeId temperature = add_nano_vdb(v, *std::move(kelvin), Spectrum(1.0f));
-      const float scale = float(v.not_negative("Lescale"));
+      const float scale = float(v.not_negative(v.has("LeScale") ? "LeScale" : "Lescale"));
       if (scale > 0) m.emission = emission_by_temperature(v, Spectrum(scale), temperature, hottest);
     } else if (v.has("temperaturename")) {
       v.reader().report().warning(v.where("temperaturename"), "the file has no such grid");

@@ -54,6 +54,7 @@ constexpr Spec kPlyMesh[] = {
      Versions::v4},
     {"edgelength", kNumber, "1", "all edges are shorter than this, in the world", 1, done,
      Versions::v4},
+    {"displacement.edgelength", kNumber, "1", "the same by another name", 1, done, Versions::v4},
 };
 
 /// What a displaced mesh cannot be.
@@ -98,7 +99,9 @@ void read_ply_mesh(Values& v) {
   MeshShape shape{mesh->mesh, source};
   if (displaced) {
     shape.displacement = v.float_input("displacement");
-    shape.edge_length = v.positive("edgelength") * v.reader().displacement_edge_scale;
+    const char* length =
+        v.has("displacement.edgelength") ? "displacement.edgelength" : "edgelength";
+    shape.edge_length = v.positive(length) * v.reader().displacement_edge_scale;
   }
   v.reader().add_shape(v.plugin(), {.geometry = std::move(shape), .has_normals = own_normals});
 }

@@ -52,6 +52,15 @@ std::shared_ptr<const TriangleMesh> built(SceneDescription d) {
 
 }  // namespace
 
+TEST_CASE("pbrt: the length of a displaced mesh's edges has two names") {
+  const Square square;
+  for (const char* name : {"edgelength", "displacement.edgelength"}) {
+    const SceneDescription d = test::scene_of(square.read(
+        "", std::string("\"texture displacement\" \"ramp\" \"float ") + name + "\" 0.25"));
+    CHECK(std::get<MeshShape>(d.shapes.at(0).geometry).edge_length == 0.25);
+  }
+}
+
 TEST_CASE("pbrt: a displaced mesh lies where the texture puts it") {
   const Square square;
   // Edges are measured in the world, where the square is three times as large; its own unit counts

@@ -6,6 +6,7 @@
 #include "scene/build.h"
 #include "support/files.h"
 #include "support/pbrt_file.h"
+#include "support/source_path.h"
 
 using namespace duet;
 
@@ -123,4 +124,16 @@ TEST_CASE("pbrt: the XML of a medium that emits, or of a cloud, says what it lac
         std::string::npos);
   CHECK(losses("\"string type\" \"cloud\"").find("cloud of noise") != std::string::npos);
   CHECK(losses("\"string type\" \"homogeneous\"").find("medium") == std::string::npos);
+}
+
+TEST_CASE("pbrt: the factor of a NanoVDB file's light has two names") {
+  const std::string file = test::source_path("scenes/pbrt-med-nanovdb/blob.nvdb");
+  for (const char* name : {"Lescale", "LeScale"}) {
+    const test::TemporaryDirectory folder;
+    const SceneDescription d = read(
+        folder, "MakeNamedMedium \"m\" \"string type\" \"nanovdb\" \"string filename\" \"" + file +
+                    "\" \"string temperaturename\" \"density\" \"float " + name + "\" 2\n" +
+                    "MediumInterface \"m\" \"\"\nMaterial \"interface\"\nShape \"sphere\"");
+    CHECK(std::get<Spectrum>(d.media.at(0).emission.value().radiance) == Spectrum(2.0f));
+  }
 }
