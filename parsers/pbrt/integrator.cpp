@@ -35,13 +35,16 @@ constexpr Spec kMlt[] = {DUET_PATH_SPECS,
                          {"mutationsperpixel", kInteger, "100", "", 1, inert},
                          {"sigma", kNumber, "0.01", "", 1, inert},
                          {"largestepprobability", kNumber, "0.3", "", 1, inert}};
-constexpr Spec kSppm[] = {DUET_PATH_SPECS,
-                          {"radius", kNumber, "1"},
-                          {"photonsperiteration", kInteger, "-1", "", 1, inert},
-                          {"iterations", kInteger, "64", "", 1, inert},
-                          {"numiterations", kInteger, "64", "", 1, inert},
-                          {"imagewritefrequency", kInteger, "1", "", 1, inert},
-                          {"seed", kInteger, "0", "", 1, inert}};
+constexpr Spec kSppm[] = {
+    DUET_PATH_SPECS,
+    {"radius", kNumber, "1"},
+    {"photonsperiteration", kInteger, "-1", "-1: as many as pixels"},
+    {"iterations", kInteger, "64", "", 1, inert, Versions::v4},
+    {"numiterations", kInteger, "64", "", 1, inert, Versions::v4},
+    {"iterations", kInteger, "", "instead of the sampler's samples", 1, done, Versions::v3},
+    {"numiterations", kInteger, "64", "the same", 1, done, Versions::v3},
+    {"imagewritefrequency", kInteger, "1", "", 1, inert},
+    {"seed", kInteger, "0", "", 1, inert}};
 constexpr Spec kOcclusion[] = {{"maxdistance", kNumber, "", "default: no limit"},
                                {"cossample", kBoolean, "true", "", 1, inert}};
 constexpr Spec kOcclusionV3[] = {{"cossample", kBoolean, "true", "", 1, inert},
@@ -148,10 +151,39 @@ void read_light_path(Values& v, SceneDescription& scene) {
   scene.integrator.method = bidirectional(v, BidirectionalMethod::ptracer);
 }
 
+/// pbrt counts the surfaces that a path from the camera meets until it looks for photons, and those
+/// that a photon meets. The sum is that of `limits()` where the former are one.
+void warn_of_photon_depth(Values& v, const SceneDescription& scene, int max_depth) {
+  constexpr int kNoDifference = 100;
+  if (max_depth < 0 || max_depth > kNoDifference) return;
+  for (const MaterialDescription& m : scene.materials)
+    if (m.model.scattering().has_delta_lobe())
+      return v.reader().approximate(
+          v.where("maxdepth"),
+          fmt::format("in what mirrors and glass show, photons have met fewer surfaces than in "
+                      "pbrt: paths have at most {} segments in all",
+                      max_depth));
+}
+
+/// v3 takes no notice of the sampler.
+void read_iterations(Values& v, SceneDescription& scene) {
+  const char* name = v.has("iterations") ? "iterations" : "numiterations";
+  const int count = v.integer(name);
+  if (count < 1)
+    return v.reader().report().error(v.where(name), "the number of iterations cannot be {}", count);
+  for (SensorDescription& s : scene.sensors) s.sampler.sample_count = count;
+}
+
 void read_sppm(Values& v, SceneDescription& scene) {
   BidirectionalIntegratorDescription b = bidirectional(v, BidirectionalMethod::ppm);
   b.radius = v.positive("radius");
+  const int photons = v.integer("photonsperiteration");
+  for (const SensorDescription& s : scene.sensors)
+    if (photons > 0) b.light_paths = photons / (double(s.film.width) * s.film.height);
   scene.integrator.method = b;
+  if (v.reader().options().replaces_integrator) return;
+  if (v.reader().version() == Version::v3) read_iterations(v, scene);
+  warn_of_photon_depth(v, scene, b.max_depth);
 }
 
 /// Further than any scene is wide.

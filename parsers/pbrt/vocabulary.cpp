@@ -64,6 +64,8 @@ warning. Names that are in no table are warnings with the nearest known one.
 - A shape of v3 may have parameters of its material. What moves emits no light in v3, and what has no material in v4.
 - Arrays of a mesh that do not fit its points, ends of blocks without beginnings, and colour spaces and mappings that there
   are not, are left out with a warning, as in pbrt.
+- What mirrors and glass show has shorter paths under sppm than in pbrt, which counts the surfaces that camera paths meet
+  apart from those of photons.
 - Several infinite lights add up. Lights do not move, as in pbrt: they stand where their way begins.
 - Curves that are no hair face each ray as pbrt's do; only the methods that follow light from the camera alone can render
   such ribbons. Opaque ones are lit where rays are clear of them: a width in front of them, as in pbrt.

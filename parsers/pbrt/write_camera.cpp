@@ -85,6 +85,16 @@ void SceneWriter::camera(const SensorDescription& s) {
   head_text_ += c.text() + "Identity\nMediumInterface \"\" \"\"\n";
 }
 
+namespace {
+
+int photons(const SceneDescription& d, double per_pixel) {
+  if (d.sensors.empty()) return -1;
+  const FilmDescription& film = d.sensors.front().film;
+  return int(std::clamp(std::round(per_pixel * film.width * film.height), 1.0, 2e9));
+}
+
+}  // namespace
+
 void SceneWriter::integrator() {
   const IntegratorDescription& i = d_.integrator;
   if (!i.aovs.layers.empty()) lose("further layers of the image are missing");
@@ -129,6 +139,7 @@ void SceneWriter::integrator() {
       if (m.is(ppm)) {
         Statement s = limits("sppm", m.max_depth, m);
         if (m.radius > 0) s.number("radius", m.radius);
+        if (m.light_paths > 0) s.integer("photonsperiteration", photons(d_, m.light_paths));
         return s;
       }
       if (!m.is(bdpt) && !m.is(ptracer))

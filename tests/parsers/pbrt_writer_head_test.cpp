@@ -103,8 +103,8 @@ TEST_CASE("pbrt writer: integrators survive") {
        {"\"path\" \"integer maxdepth\" 3", "\"volpath\" \"integer maxdepth\" 12",
         "\"path\" \"string lightsampler\" \"power\"", "\"bdpt\" \"string lightsampler\" \"bvh\"",
         "\"bdpt\" \"integer maxdepth\" 4", "\"lightpath\" \"integer maxdepth\" 4",
-        "\"sppm\" \"float radius\" 0.25", "\"ambientocclusion\"",
-        "\"ambientocclusion\" \"float maxdistance\" 3"}) {
+        "\"sppm\" \"float radius\" 0.25", "\"sppm\" \"integer photonsperiteration\" 5000",
+        "\"ambientocclusion\"", "\"ambientocclusion\" \"float maxdistance\" 3"}) {
     CAPTURE(integrator);
     const SceneDescription d = read_pbrt_text(
         "Integrator " + integrator + " Camera \"orthographic\"\nWorldBegin\n", false);
