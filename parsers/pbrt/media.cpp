@@ -21,10 +21,16 @@ Sigma read_sigma(Values& v) {
   Sigma s{v.color("sigma_a", ColorMeaning::unbounded), v.color("sigma_s", ColorMeaning::unbounded)};
   if (!v.has("preset")) return s;
   const std::string name = v.string("preset");
-  if (const MediumPreset* preset = find_medium_preset(name))
-    return {preset->sigma_a, preset->sigma_s};
-  v.reader().report().error(v.where("preset"), "there is no medium {}{}", in_quotes(name),
-                            did_you_mean(name, medium_preset_names()));
+  if (const MediumPreset* preset = find_medium_preset(name)) {
+    // In v3 it is only what coefficients are that are not given.
+    const bool v3 = v.reader().version() == Version::v3;
+    if (!v3 || !v.has("sigma_a")) s.absorption = preset->sigma_a;
+    if (!v3 || !v.has("sigma_s")) s.scattering = preset->sigma_s;
+    return s;
+  }
+  v.reader().report().warning(v.where("preset"),
+                              "there is no medium {}{}; the coefficients hold, as in pbrt",
+                              in_quotes(name), did_you_mean(name, medium_preset_names()));
   return s;
 }
 

@@ -60,11 +60,25 @@ Spectrum constant(Values& v, const char* name, ColorMeaning meaning) {
   return texels->mean();
 }
 
+/// The known medium that is asked for; v3 goes on without one.
+const MediumPreset* known_medium(Values& v) {
+  if (!v.has("name")) return nullptr;
+  const std::string name = v.string("name");
+  const MediumPreset* preset = find_medium_preset(name);
+  if (preset) return preset;
+  const std::string wrong = fmt::format("there is no medium {}{}", in_quotes(name),
+                                        did_you_mean(name, medium_preset_names()));
+  if (v.reader().version() == Version::v3)
+    v.reader().report().warning(v.where("name"), "{}; the coefficients hold, as in pbrt-v3", wrong);
+  else
+    v.reader().report().error(v.where("name"), "{}", wrong);
+  return nullptr;
+}
+
 /// A medium and what its free paths and albedo are.
-MediumDescription medium_of(Values& v, const Spectrum& extinction, const Spectrum& albedo) {
+MediumDescription medium_of(Values& v, const Spectrum& extinction, const Spectrum& albedo,
+                            double g) {
   SceneDescription& scene = v.reader().scene();
-  // Known media scatter the same in all directions, whatever "g" says.
-  const double g = v.has("name") ? 0.0 : v.number("g");
   PhaseDescription phase;
   phase.where = v.where();
   if (g == 0)
@@ -115,31 +129,25 @@ MediumDescription medium_by_reflectance(Values& v, const Spectrum& reflectance, 
     albedo[c] = float(half_space_albedo(double(reflectance[c]), v.number("g"), eta));
     extinction[c] = 1 / std::max(float(scale) * path[c], 1e-6f);
   }
-  return medium_of(v, extinction, albedo);
+  return medium_of(v, extinction, albedo, v.number("g"));
 }
 
-/// Nothing after an error.
-std::optional<MediumDescription> medium_by_coefficients(Values& v) {
+MediumDescription medium_by_coefficients(Values& v) {
   const float scale = float(v.not_negative("scale"));
-  Spectrum absorption, scattering;
-  if (v.has("name")) {
-    const std::string name = v.string("name");
-    const MediumPreset* preset = find_medium_preset(name);
-    if (!preset) {
-      v.reader().report().error(v.where("name"), "there is no medium {}{}", in_quotes(name),
-                                did_you_mean(name, medium_preset_names()));
-      return std::nullopt;
-    }
-    absorption = preset->sigma_a, scattering = preset->sigma_s;
-  } else {
-    absorption = constant(v, "sigma_a", ColorMeaning::unbounded);
-    scattering = constant(v, "sigma_s", ColorMeaning::unbounded);
-  }
+  const MediumPreset* preset = known_medium(v);
+  // In v3 coefficients that are given hold beside the name of a medium.
+  const auto read = [&](const char* name, const Spectrum MediumPreset::*known) {
+    const bool counts = v.reader().version() == Version::v3 && v.has(name);
+    return preset && !counts ? preset->*known : constant(v, name, ColorMeaning::unbounded);
+  };
+  const Spectrum absorption = read("sigma_a", &MediumPreset::sigma_a),
+                 scattering = read("sigma_s", &MediumPreset::sigma_s);
   Spectrum albedo;
   const Spectrum extinction = (absorption + scattering) * scale;
   for (int c = 0; c < 3; ++c)
     albedo[c] = extinction[c] > 0 ? scattering[c] * scale / extinction[c] : 0.0f;
-  return medium_of(v, extinction, albedo);
+  // Known media scatter the same in all directions, whatever "g" says.
+  return medium_of(v, extinction, albedo, preset ? 0.0 : v.number("g"));
 }
 
 /// The surface with the medium behind it.
@@ -175,9 +183,7 @@ std::optional<MaterialId> read_subsurface(Values& v) {
     const Reflectance r = read_reflectance(v, "reflectance");
     return bounded(v, medium_by_reflectance(v, r.most, eta, v.positive("scale")), eta, r.tint);
   }
-  auto medium = medium_by_coefficients(v);
-  if (!medium) return std::nullopt;
-  return bounded(v, std::move(*medium), eta);
+  return bounded(v, medium_by_coefficients(v), eta);
 }
 
 std::optional<MaterialId> read_kd_subsurface(Values& v) {

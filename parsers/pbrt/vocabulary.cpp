@@ -62,8 +62,8 @@ warning. Names that are in no table are warnings with the nearest known one.
 - Files of v3 may have parameters of another type than the known one, textures and materials that there are not, and
   directives on the wrong side of WorldBegin: pbrt-v3 goes on without them, and so does Duet, with a warning.
 - A shape of v3 may have parameters of its material. What moves emits no light in v3, and what has no material in v4.
-- Arrays of a mesh that do not fit its points, ends of blocks without beginnings, and colour spaces and mappings that there
-  are not, are left out with a warning, as in pbrt.
+- Arrays of a mesh that do not fit its points, ends of blocks without beginnings, and colour spaces, mappings and presets
+  of media that there are not, are left out with a warning, as in pbrt.
 - What mirrors and glass show has shorter paths under sppm than in pbrt, which counts the surfaces that camera paths meet
   apart from those of photons.
 - Several infinite lights add up. Lights do not move, as in pbrt: they stand where their way begins.
