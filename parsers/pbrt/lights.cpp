@@ -51,17 +51,18 @@ void add(Values& v, decltype(LightDescription::model) model, const Matrix4& to_l
   add_placed(v, std::move(model), v.reader().state().ctm[0] * to_light, portal);
 }
 
-#define DUET_LIGHT_SPECS                                                              \
-  {"scale", Types(kNumber | kColor), "1", "a colour in v3"},                          \
-      {"power", kNumber, "-1",        "total power, instead of what the colour says", \
-       1,       done,    Versions::v4},                                               \
-      {"nsamples", kInteger, "1", "", 1, inert, Versions::v3}, {                      \
-    "samples", kInteger, "1", "", 1, inert, Versions::v3                              \
+#define DUET_LIGHT_SPECS                                         \
+  {"scale", Types(kNumber | kColor), "1", "a colour in v3"},     \
+      {"nsamples", kInteger, "1", "", 1, inert, Versions::v3}, { \
+    "samples", kInteger, "1", "", 1, inert, Versions::v3         \
   }
+constexpr Spec kPower{"power", kNumber, "-1",        "total power, instead of what the colour says",
+                      1,       done,    Versions::v4};
 
 constexpr Spec kPoint[] = {
     {"I", kColor, "1", "radiant intensity"},
     {"from", kPoint3, "0 0 0", "in v3 added to where the transform puts the origin"},
+    kPower,
     DUET_LIGHT_SPECS};
 
 void read_point(Values& v) {
@@ -81,12 +82,14 @@ constexpr Spec kSpot[] = {{"I", kColor, "1", "radiant intensity along the axis"}
                           {"to", kPoint3, "0 0 1"},
                           {"coneangle", kNumber, "30", "degrees from the axis"},
                           {"conedeltaangle", kNumber, "5", "over which it fades out"},
+                          kPower,
                           DUET_LIGHT_SPECS};
 
 void read_spot(Values& v) {
   if (!differ(v)) return;
   const double cone = std::clamp(v.number("coneangle"), 0.01, 180.0);
-  const double full = std::clamp(cone - v.number("conedeltaangle"), 0.0, cone);
+  // pbrt takes the cosine of the difference, which may be negative.
+  const double full = std::min(std::abs(cone - v.number("conedeltaangle")), cone);
   SpotLight spot;
   spot.cutoff_angle = cone;
   spot.beam_width = full;
@@ -190,6 +193,7 @@ constexpr Spec kGoniometric[] = {
     {"I", kColor, "1", "multiplies the image"},
     {"filename", kString, "", "an equal-area image of the sphere", 1, done, Versions::v4},
     {"mapname", kString, "", "an image by latitude and longitude", 1, done, Versions::v3},
+    kPower,
     DUET_LIGHT_SPECS};
 
 constexpr Spec kProjection[] = {{"I", kColor, "1", "", 1, done, Versions::v3},
@@ -197,6 +201,7 @@ constexpr Spec kProjection[] = {{"I", kColor, "1", "", 1, done, Versions::v3},
                                 {"mapname", kString, "", "none: white", 1, done, Versions::v3},
                                 {"fov", kNumber, "90", "degrees, along the image's shorter side", 1,
                                  done, Versions::both, "45"},
+                                kPower,
                                 DUET_LIGHT_SPECS};
 
 void read_goniometric(Values& v) {

@@ -32,6 +32,27 @@ Model only_light(const PbrtFile& file) {
 
 }  // namespace
 
+TEST_CASE("pbrt spot lights fade from the amount of a negative difference of angles on") {
+  const auto full = [](const std::string& delta) {
+    return only_light<SpotLight>(world("LightSource \"spot\" \"float coneangle\" 20 \"float "
+                                       "conedeltaangle\" " +
+                                       delta))
+        .beam_width;
+  };
+  CHECK(full("5") == 15);
+  CHECK(full("20") == 0);
+  CHECK(full("30") == 10);
+  CHECK(full("50") == 20);
+}
+
+TEST_CASE("pbrt-v4 has no power of lights that are infinitely far away") {
+  for (const std::string light : {"infinite", "distant"}) {
+    const PbrtFile file = world("LightSource \"" + light + "\" \"float power\" 5");
+    CHECK(file.scene);
+    CHECK(file.messages.find("\"" + light + "\" has no parameter \"power\"") != std::string::npos);
+  }
+}
+
 TEST_CASE("pbrt spot lights fade by t⁴ in v3, by t²(3 − 2t) in v4") {
   const std::string spot =
       "LightSource \"spot\" \"float coneangle\" 60 \"float conedeltaangle\" 60";
