@@ -17,7 +17,7 @@ using enum Status;
 #define DUET_FILM_SPECS                                                                             \
   {"xresolution", kInteger, "1280"}, {"yresolution", kInteger, "720"},                              \
       {"cropwindow", kNumber, "", "left, right, top and bottom, as shares", 4},                     \
-      {"pixelbounds", kInteger, "", "the same in pixels", 4},                                       \
+      {"pixelbounds", kInteger, "", "the same in pixels", 4, done, Versions::v4},                   \
       {"filename", kString, "", "", 1, inert},                                                      \
       {"diagonal", kNumber, "35", "in mm; of realistic cameras"},                                   \
       {"maxcomponentvalue", kNumber, "", "what a sample may bring at most", 1, done, Versions::v4}, \

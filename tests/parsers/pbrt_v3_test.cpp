@@ -127,3 +127,10 @@ TEST_CASE("pbrt-v3: a surface without material may emit light, which v4's do not
       "\"\"\nShape \"sphere\"";
   for (const ShapeDescription& s : silent_v3(world).shapes) CHECK(s.emission);
 }
+
+TEST_CASE("pbrt-v3's film has no pixelbounds") {
+  const PbrtFile file = read_pbrt_file_of(
+      "Film \"image\" \"integer pixelbounds\" [0 8 0 8]\nWorldBegin\nShape \"sphere\"\nWorldEnd\n");
+  CHECK_FALSE(scene_of(file).sensors.at(0).film.crop);
+  CHECK(file.messages.find("has no parameter \"pixelbounds\"") != std::string::npos);
+}
