@@ -37,7 +37,7 @@ constexpr Spec kBilinearMesh[] = {
     {"N", kNormal, "", "normals", 0},
     {"uv", kPoint2, "", "texture coordinates", 0},
     {"faceIndices", kInteger, "", "", 0, inert},
-    {"emissionfilename", kString, "", "", 1, ignored},
+    {"emissionfilename", kString, "", "", 1, inert},
 };
 
 void read_bilinear_mesh(Values& v) {

@@ -63,6 +63,14 @@ bool has_surplus(const Parameter& p, const Spec& known) {
   return p.strings.empty() && size > 0 && p.numbers.size() > size && p.numbers.size() % size == 0;
 }
 
+/// Whether the parameter says what holds without it.
+bool is_preset(const Parameter& p, const Spec& known) {
+  if (!p.strings.empty()) return p.strings.size() == 1 && p.strings.front() == known.preset;
+  if (p.numbers.size() != 1) return false;
+  if (known.types & kBoolean) return (p.numbers.front() != 0) == (known.preset == "true");
+  return parse_number(known.preset) == p.numbers.front();
+}
+
 }  // namespace
 
 Values::Values(Reader& reader, const Plugin& plugin, std::span<const Spec> specs,
@@ -101,7 +109,7 @@ void Values::check(const Parameter& p) {
       report.error(p.where, "{}", why);
     return;
   }
-  if (known->status == Status::ignored)
+  if (known->status == Status::ignored && !is_preset(p, *known))
     report.warning(p.where, "parameter \"{}\" is ignored{}{}", p.name,
                    known->note.empty() ? "" : ": ", known->note);
   if (known->status == Status::refused) {

@@ -134,3 +134,15 @@ TEST_CASE("pbrt-v3: a window whose sides are exchanged turns the picture over") 
     CHECK(down.principal_point_offset_y == plain.principal_point_offset_y);
   }
 }
+
+TEST_CASE("pbrt: of parameters without effect those are named that would change something") {
+  const auto messages = [](const std::string& regularize) {
+    return faulty_v4(
+               "Shape \"bilinearmesh\" \"point3 P\" [0 0 0 1 0 0 0 1 0 1 1 0] \"string "
+               "emissionfilename\" \"sampled.exr\"\n",
+               "Camera \"perspective\" Integrator \"path\" \"bool regularize\" " + regularize + " ")
+        .messages;
+  };
+  CHECK(messages("false") == "");
+  CHECK(messages("true").find("parameter \"regularize\" is ignored") != std::string::npos);
+}
