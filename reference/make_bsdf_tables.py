@@ -267,6 +267,17 @@ def cases():
     add("twosided of bumpmap", {"type": "twosided", "nested": [
         {"type": "bumpmap", "slope": [0.7, -0.4], "nested": [metal]}]}, "above", "sides",
         "mirror below 0.3")
+    # Maps within maps: of the outer one's frame Mitsuba 3.9.1 keeps the axes apart from those of the world, which
+    # makes no difference here.
+    bumps, normals = {"type": "bumpmap", "slope": [0.5, -0.3]}, {"type": "normalmap", "normal": [-0.4, 0.3, 0.8]}
+    for outer, inner in ((bumps, normals), (normals, bumps), (bumps, {**bumps, "scale": -0.5}), (normals, normals)):
+        add(f"{outer['type']} of {inner['type']}", {**outer, "nested": [{**inner, "nested": [metal]}]}, "above",
+            "mirror 0.3")
+    add("twosided of bumpmap of blend with normalmap", {"type": "twosided", "nested": [{**bumps, "nested": [
+        {"type": "blendbsdf", "weight": 0.4, "nested": [matt, {**normals, "nested": [metal]}]}]}]}, "above", "sides",
+        "mirror below 0.3")
+    add("bumpmap of twosided of bumpmap", {**bumps, "nested": [{"type": "twosided", "nested": [
+        {**bumps, "flip_invalid_normals": False, "nested": [metal]}]}]}, "above", "sides", "mirror below 0.3")
 
     for name, more in (("", {}), (" smooth", {"longitudinal_roughness": 0.1, "azimuthal_roughness": 0.15}),
                        (" rough", {"longitudinal_roughness": 0.9, "azimuthal_roughness": 0.8}),

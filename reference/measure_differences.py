@@ -1,8 +1,9 @@
 #!/usr/bin/env python3
 """Measures where Mitsuba is off: the figures of the last section of docs/compatibility.md.
 
-    measure_differences.py [NAME...]       blend-delta bump-tangents direct-delta-lights null-paths ray-offset-media
-                                           ray-offset-surfaces sggx-flakes smooth-light-samples
+    measure_differences.py [NAME...]       blend-delta bump-tangents direct-delta-lights elliptic-cylinders endless-media
+                                           null-paths ray-offset-media ray-offset-surfaces sggx-flakes
+                                           smooth-light-samples texture-light-samples
 
 Needs the package mitsuba (3.9.1) with the variant llvm_ad_rgb. Each line is a scene, the mean of its image with its standard
 error from six renders, and the ratio to what is due, where that is known.
@@ -120,22 +121,51 @@ f 1//1 2//2 3//3\nf 1//1 3//3 4//4\n"""
                     integrator={'type': 'direct', 'emitter_samples': 1, 'bsdf_samples': 0})
 
 
+def elliptic_cylinders():
+    placed = T().translate([-.3, .2, .8]).rotate([0, 0, 1], 30).rotate([1, 0, 0], 40).scale([.6, .9, .7])
+    scene = {'sensor': camera(40, (0, -4, 2)), 'floor': {'type': 'rectangle', 'bsdf': grey(0.5), 'to_world': T().scale(3)},
+             'lamp': {'type': 'cylinder', 'to_world': placed, 'light': {'type': 'area', 'radiance': {'type': 'rgb', 'value': 1.0}}}}
+    due = measure('cylinder, rays', 1024, **scene, integrator={'type': 'direct', 'emitter_samples': 0, 'bsdf_samples': 1})
+    measure('cylinder, light samples', 1024, due, **scene,
+            integrator={'type': 'direct', 'emitter_samples': 1, 'bsdf_samples': 0})
+
+
+def texture_light_samples():
+    pixels = mi.Bitmap(np.random.default_rng(1).random((6, 7, 3), np.float32))
+    light = {'type': 'area', 'radiance': {'type': 'bitmap', 'bitmap': pixels, 'raw': True}}
+    scene = {'sensor': camera(40, (0, -4, 2)), 'floor': {'type': 'rectangle', 'bsdf': grey(0.5), 'to_world': T().scale(3)},
+             'lamp': {'type': 'cube', 'to_world': T().translate([0, 0, 1.2]).rotate([1, 0, 0], 30).scale(0.4), 'light': light}}
+    due = measure('textured cube, rays', 1024, **scene, integrator={'type': 'direct', 'emitter_samples': 0, 'bsdf_samples': 1})
+    measure('textured cube, light samples', 1024, due, **scene,
+            integrator={'type': 'direct', 'emitter_samples': 1, 'bsdf_samples': 0})
+
+
 def bump_tangents():
     heights = mi.Bitmap(np.random.default_rng(1).random((7, 5, 1), np.float32))
     for angle in (0, 30, 60, 90):
         turn = T().rotate([0, 0, 1], angle)
-        metal = {'type': 'roughconductor', 'material': 'none', 'alpha_u': 0.05, 'alpha_v': 0.4}
-        bumps = {'type': 'bumpmap', 'scale': 0.3, 'heights': {'type': 'bitmap', 'bitmap': heights, 'raw': True}, 'bsdf': metal}
+        brushed = {'type': 'roughconductor', 'material': 'none', 'alpha_u': 0.05, 'alpha_v': 0.4}
+        bumps = {'type': 'bumpmap', 'scale': 0.3, 'heights': {'type': 'bitmap', 'bitmap': heights, 'raw': True}}
         lamp = turn @ T().translate([-1.5, -1, 4]).rotate([1, 0, 0], 160).scale(1.2)
-        measure(f'scene turned by {angle} degrees', 512, integrator={'type': 'path', 'max_depth': 2},
-                sensor={**camera(38), 'to_world': turn @ T().look_at([0, -5, 2.6], [0, 0, 0], [0, 0, 1])},
-                lamp={'type': 'rectangle', 'to_world': lamp, 'light': {'type': 'area'}},
-                square={'type': 'rectangle', 'to_world': turn @ T().scale(1.5), 'bsdf': bumps})
+        for name, nested in (('brushed metal', brushed), ('bumps', {**bumps, 'bsdf': {**brushed, 'alpha_u': 0.4}})):
+            measure(f'{name}, scene turned by {angle} degrees', 512, integrator={'type': 'path', 'max_depth': 2},
+                    sensor={**camera(38), 'to_world': turn @ T().look_at([0, -5, 2.6], [0, 0, 0], [0, 0, 1])},
+                    lamp={'type': 'rectangle', 'to_world': lamp, 'light': {'type': 'area'}},
+                    square={'type': 'rectangle', 'to_world': turn @ T().scale(1.5), 'bsdf': {**bumps, 'bsdf': nested}})
 
 
-ALL = {'blend-delta': blends, 'bump-tangents': bump_tangents, 'direct-delta-lights': delta_lights, 'null-paths': null_paths,
-       'ray-offset-media': offsets_in_media, 'ray-offset-surfaces': offsets_of_surfaces, 'sggx-flakes': flakes,
-       'smooth-light-samples': smooth_light_samples}
+def endless_media():
+    fog = mi.load_dict({'type': 'homogeneous', 'albedo': 0.5, 'sigma_t': 0.5})
+    for name, x in (('ball behind it', 0), ('ball at a distance of 10', 10)):
+        measure(name, 1024, integrator={**PATH, 'type': 'volpath'}, light=WHITE, sensor={**camera(25), 'medium': fog},
+                square={'type': 'rectangle', 'bsdf': grey(0.5), 'exterior': fog},
+                ball={'type': 'sphere', 'radius': 0.1, 'center': [x, 0, -0.2], 'exterior': fog})
+
+
+ALL = {'blend-delta': blends, 'bump-tangents': bump_tangents, 'direct-delta-lights': delta_lights,
+       'elliptic-cylinders': elliptic_cylinders, 'endless-media': endless_media, 'null-paths': null_paths, 'ray-offset-media': offsets_in_media,
+       'ray-offset-surfaces': offsets_of_surfaces, 'sggx-flakes': flakes, 'smooth-light-samples': smooth_light_samples,
+       'texture-light-samples': texture_light_samples}
 for name in sys.argv[1:] or ALL:
     print(f'{name}:')
     ALL[name]()

@@ -96,6 +96,11 @@ void SceneWriter::write_material(MaterialId id, const std::string& name, Around 
     around.two_sided = true;
     return write_material(m->front, name, around);
   }
+  const bool is_bumpy = around.bumps || around.normals;
+  if (is_bumpy && (model.is<BumpMapMaterial>() || model.is<NormalMapMaterial>())) {
+    lose("a bump or normal map within another one is missing");
+    return write_material(model.nested()[0], name, around);
+  }
   if (const auto* m = model.get_if<BumpMapMaterial>()) {
     around.bumps = m;
     return write_material(m->nested, name, around);

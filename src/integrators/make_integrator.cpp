@@ -205,6 +205,11 @@ void check_support(const SceneDescription& scene, const IntegratorDescription& i
                         "them for the depth of paths, as pbrt does not; \"volpath\" renders this "
                         "scene as pbrt does",
                         integrator_name(integrator));
+  if (const MediumDescription* fog = endless_medium(scene);
+      fog && scene_features(scene).far_lights())
+    diagnostics.warning(fog->where,
+                        "this medium around the sensor has no end: nothing of the light that comes "
+                        "from infinitely far away gets through it");
   const LimitLocations found = find_limits(scene);
   const SceneLimits limits{.media = found.medium != nullptr,
                            .one_way_surfaces = found.one_way_surface != nullptr,

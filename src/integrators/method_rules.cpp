@@ -5,8 +5,6 @@ namespace duet {
 MethodRules method_rules(const SceneFeatures& f) {
   const size_t near_lights =
       f.area_lights + f.point_lights + f.spot_lights + f.projectors + f.beams;
-  const size_t far_lights = f.directional_lights + size_t(f.constant_environment) +
-                            size_t(f.environment_map) + size_t(f.sky);
   const bool delta_lights =
       f.point_lights + f.spot_lights + f.projectors + f.directional_lights > 0;
   MethodRules rules;
@@ -16,7 +14,7 @@ MethodRules method_rules(const SceneFeatures& f) {
   // A surface that lets light pass unchanged stops light samples as glass does where it counts.
   const bool delta_surfaces =
       f.mirrors + f.smooth_glass > 0 || (f.masks > 0 && !rules.skips_passed_surfaces);
-  rules.has_lights = near_lights + far_lights + f.emissive_media > 0;
+  rules.has_lights = near_lights + f.far_lights() + f.emissive_media > 0;
   rules.needs_light_subpaths = (delta_lights && delta_surfaces) || f.beams > 0;
   rules.may_merge =
       rules.has_lights && (delta_surfaces || f.rough_reflection + f.rough_refraction > 0);

@@ -53,6 +53,8 @@ class Bsdf {
  public:
   /// More components in one material are refused when the scene is built.
   static constexpr int kMaxComponents = 6;
+  /// And more covers over these.
+  static constexpr int kMaxCoversInAll = 6;
 
   Bsdf() {}
 
@@ -121,7 +123,7 @@ class Bsdf {
     BsdfComponent components_[kMaxComponents];
   };
   union {
-    Cover covers_[kMaxComponents];
+    Cover covers_[kMaxCoversInAll];
   };
 };
 

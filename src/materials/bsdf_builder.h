@@ -56,7 +56,7 @@ class BsdfBuilder {
     bind_nested(inner);
   }
   /// Runs `bind_nested` in a frame around the unit normal `n`, given in the current frame; see
-  /// Tilt. Not to be nested within another one, nor more than kMaxCovers of these and coats.
+  /// Tilt. Not more than kMaxCovers of these and coats can be nested in one another.
   template <class F>
   void tilted(const Normal3f& n, const TiltOptions& options, F&& bind_nested) {
     BsdfBuilder inner(*this);

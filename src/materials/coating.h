@@ -24,7 +24,7 @@ class Coating final : public Material {
   int component_count() const override { return nested_.component_count() + 1; }
   bool transmits() const override { return nested_.transmits(); }
   bool perturbs() const override { return nested_.perturbs(); }
-  int cover_count() const override { return nested_.cover_count() + 1; }
+  CoverCount cover_count() const override { return nested_.cover_count().covered(); }
   Spectrum local_albedo(const Surface& surface, const Vector3f& wo) const override {
     return nested_.local_albedo(surface, wo);
   }

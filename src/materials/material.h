@@ -55,12 +55,12 @@ class Material {
   virtual bool transmits() const = 0;
   /// Whether light may pass straight through, as if there were no surface.
   virtual bool passes_straight() const { return false; }
-  /// Whether there is a bump or normal map in it: these cannot be nested in one another.
+  /// Whether there is a bump or normal map in it.
   virtual bool perturbs() const { return false; }
   /// Adds the textures that bind() is most likely to wait for, which are not null.
   virtual void list_textures(std::vector<const Texture*>&) const {}
-  /// How many bump maps, normal maps and coats lie over each other at most.
-  virtual int cover_count() const { return 0; }
+  /// How many bump maps, normal maps and coats bind() adds.
+  virtual CoverCount cover_count() const { return {}; }
   /// Reflectance for the albedo layer, seen from the unit world direction `wo`; as in Mitsuba 3
   /// that of the diffuse base, or π f for light along the normal where a model has none.
   Spectrum albedo(const Surface& surface, const Vector3f& wo) const {

@@ -30,12 +30,19 @@ class Tilt {
   Tilt() = default;
   /// `n` has unit length; `side` is −1 if the surface's frame is mirrored.
   Tilt(const Normal3f& n, const TiltOptions& options, float side)
-      : side_(side), faces_eye_(options.faces_eye), drops_leaks_(options.drops_leaks) {
-    // Tangents as Mitsuba chooses them; any will do where that choice is undefined.
-    const Vector3f x = Vector3f(1, 0, 0) - Vector3f(n) * n.x;
-    frame_ = length_squared(x) > 1e-12f ? Frame::from_tangent(n, x) : Frame(n);
+      : frame_(frame_around(n)),
+        side_(side),
+        faces_eye_(options.faces_eye),
+        drops_leaks_(options.drops_leaks) {
     const float z2 = n.z * n.z;
     alpha2_ = options.shadows ? (8 * z2 > 1 - z2 ? 0.125f * (1 - z2) / z2 : 1.0f) : 0.0f;
+  }
+
+  /// The frame around a perturbed normal of unit length, both in the local frame of the surface.
+  static Frame frame_around(const Normal3f& n) {
+    // Tangents as Mitsuba chooses them; any will do where that choice is undefined.
+    const Vector3f x = Vector3f(1, 0, 0) - Vector3f(n) * n.x;
+    return length_squared(x) > 1e-12f ? Frame::from_tangent(n, x) : Frame(n);
   }
 
   /// Whether the normal is turned for an eye in direction `v`.

@@ -1,7 +1,6 @@
 #include "materials/wrappers.h"
 
 #include <algorithm>
-#include <cassert>
 
 #include "geometry/curvature.h"
 
@@ -83,10 +82,10 @@ void Mixture::list_textures(std::vector<const Texture*>& out) const {
   for (const Part& p : parts_) p.material->list_textures(out);
 }
 
-int Mixture::cover_count() const {
-  int most = 0;
-  for (const Part& p : parts_) most = std::max(most, p.material->cover_count());
-  return most;
+CoverCount Mixture::cover_count() const {
+  CoverCount sum;
+  for (const Part& p : parts_) sum = both(sum, p.material->cover_count());
+  return sum;
 }
 
 Spectrum Mixture::local_albedo(const Surface& surface, const Vector3f& wo) const {
@@ -107,9 +106,26 @@ Normal3f Perturbed::unit_normal(const Surface& surface) const {
   return scale > 0 && is_finite(n) ? normalize(n * (1 / scale)) : Normal3f(0, 0, 1);
 }
 
+namespace {
+
+/// The surface with another shading frame, given in the present one.
+Surface turned(const Surface& s, const Frame& local) {
+  Surface out = s;
+  out.shading = {s.shading.to_world(local.s), s.shading.to_world(local.t),
+                 Normal3f(s.shading.to_world(Vector3f(local.n)))};
+  return out;
+}
+
+}  // namespace
+
 void Perturbed::add_components(const Surface& surface, BsdfBuilder& builder) const {
-  assert(!nested_.perturbs());
-  builder.tilted(unit_normal(surface), options_, [&](BsdfBuilder& b) { nested_.bind(surface, b); });
+  const Normal3f n = unit_normal(surface);
+  builder.tilted(n, options_, [&](BsdfBuilder& b) {
+    if (nested_perturbs_) [[unlikely]]
+      nested_.bind(turned(surface, Tilt::frame_around(n)), b);
+    else
+      nested_.bind(surface, b);
+  });
 }
 
 SurfaceNeeds BumpMap::needs() const {

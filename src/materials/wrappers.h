@@ -1,7 +1,6 @@
 // Materials made of other materials, which must outlive them.
 #pragma once
 
-#include <algorithm>
 #include <vector>
 
 #include "materials/material.h"
@@ -18,7 +17,9 @@ class TwoSided final : public Material {
   int component_count() const override;
   bool transmits() const override { return front_.transmits() || back_.transmits(); }
   bool perturbs() const override { return front_.perturbs() || back_.perturbs(); }
-  int cover_count() const override { return std::max(front_.cover_count(), back_.cover_count()); }
+  CoverCount cover_count() const override {
+    return either(front_.cover_count(), back_.cover_count());
+  }
   Spectrum local_albedo(const Surface& surface, const Vector3f& wo) const override;
   void list_textures(std::vector<const Texture*>& out) const override {
     front_.list_textures(out);
@@ -47,7 +48,7 @@ class Mask final : public Material {
     opacity_.list_texture(out);
     nested_.list_textures(out);
   }
-  int cover_count() const override { return nested_.cover_count(); }
+  CoverCount cover_count() const override { return nested_.cover_count(); }
   Spectrum local_albedo(const Surface& surface, const Vector3f& wo) const override {
     return nested_.local_albedo(surface, wo);
   }
@@ -79,7 +80,9 @@ class Blend final : public Material {
     first_.list_textures(out);
     second_.list_textures(out);
   }
-  int cover_count() const override { return std::max(first_.cover_count(), second_.cover_count()); }
+  CoverCount cover_count() const override {
+    return both(first_.cover_count(), second_.cover_count());
+  }
   Spectrum local_albedo(const Surface& surface, const Vector3f& wo) const override;
 
  protected:
@@ -103,7 +106,7 @@ class Mixture final : public Material {
   bool transmits() const override;
   bool perturbs() const override;
   void list_textures(std::vector<const Texture*>& out) const override;
-  int cover_count() const override;
+  CoverCount cover_count() const override;
   Spectrum local_albedo(const Surface& surface, const Vector3f& wo) const override;
 
  protected:
@@ -113,15 +116,16 @@ class Mixture final : public Material {
   std::vector<Part> parts_;
 };
 
-/// A material in a frame whose normal differs from place to place. `nested` must not perturb
-/// normals itself.
+/// A material in a frame whose normal differs from place to place. Where `nested` perturbs normals
+/// itself, it starts from that frame; an eye for which a normal is turned (see TiltOptions) changes
+/// nothing about this.
 class Perturbed : public Material {
  public:
   int component_count() const override { return nested_.component_count(); }
   bool transmits() const override { return nested_.transmits(); }
   bool passes_straight() const override { return nested_.passes_straight(); }
   bool perturbs() const override { return true; }
-  int cover_count() const override { return nested_.cover_count() + 1; }
+  CoverCount cover_count() const override { return nested_.cover_count().covered(); }
   Spectrum local_albedo(const Surface& surface, const Vector3f& wo) const override {
     return nested_.local_albedo(surface, wo);
   }
@@ -133,7 +137,7 @@ class Perturbed : public Material {
 
  protected:
   Perturbed(const TiltOptions& options, const Material& nested)
-      : options_(options), nested_(nested) {}
+      : options_(options), nested_(nested), nested_perturbs_(nested.perturbs()) {}
   void add_components(const Surface& surface, BsdfBuilder& builder) const override;
   /// The perturbed normal in the shading frame, of any length.
   virtual Normal3f normal(const Surface& surface) const = 0;
@@ -141,6 +145,7 @@ class Perturbed : public Material {
 
   TiltOptions options_;
   const Material& nested_;
+  bool nested_perturbs_;
 };
 
 /// Normals of the surface displaced by scale · height. If it `follows_curvature`, as in pbrt, the

@@ -14,11 +14,18 @@ const Material* SceneBuilder::material(MaterialId id) {
                          Bsdf::kMaxComponents);
       return nullptr;
     }
-    if (made->cover_count() > kMaxCovers) {
+    const CoverCount covers = made->cover_count();
+    if (covers.deep > kMaxCovers) {
       diagnostics_.error(d.where,
                          "{} bump maps, normal maps and coatings lie over each other here; "
                          "at most {} can",
-                         made->cover_count(), kMaxCovers);
+                         covers.deep, kMaxCovers);
+      return nullptr;
+    }
+    if (covers.total > Bsdf::kMaxCoversInAll) {
+      diagnostics_.error(d.where,
+                         "{} bump maps, normal maps and coatings are mixed here; at most {} can be",
+                         covers.total, Bsdf::kMaxCoversInAll);
       return nullptr;
     }
     materials_[index].index = uint32_t(scene_->materials.size());

@@ -181,6 +181,21 @@ bool is_one_way(const SceneDescription& scene, const ShapeDescription& s) {
          (tubes->curves->outside_only && transmits(scene, s.material));
 }
 
+const MediumDescription* endless_medium(const SceneDescription& scene) {
+  std::set<MediumId> enclosed;
+  for_each_shape(scene, [&](const ShapeDescription& s) {
+    if (s.interior) enclosed.insert(*s.interior);
+  });
+  for (const SensorDescription& s : scene.sensors) {
+    if (!s.medium || enclosed.contains(*s.medium)) continue;
+    const MediumDescription& m = scene.media[size_t(*s.medium)];
+    const auto* sigma_t = std::get_if<Spectrum>(&m.sigma_t);
+    const bool is_thick = sigma_t && std::min({sigma_t->r, sigma_t->g, sigma_t->b}) > 0;
+    if (is_thick && m.scale > 0 && !m.cloud) return &m;
+  }
+  return nullptr;
+}
+
 SceneFeatures scene_features(const SceneDescription& scene) {
   const size_t moving = count_moving(scene);
   if (moving == 0) return Survey(scene).result();

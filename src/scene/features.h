@@ -8,6 +8,7 @@
 
 namespace duet {
 
+struct MediumDescription;
 struct SceneDescription;
 struct ShapeDescription;
 
@@ -23,6 +24,9 @@ struct SceneFeatures {
   size_t point_lights = 0, spot_lights = 0, projectors = 0, directional_lights = 0;
   size_t beams = 0;  ///< lights that only sub-paths from them find
   bool constant_environment = false, environment_map = false, sky = false;
+  size_t far_lights() const {
+    return directional_lights + constant_environment + environment_map + sky;
+  }
 
   /// Materials on surfaces, by how they scatter. One can count several times: smooth plastic is
   /// diffuse and a mirror.
@@ -48,6 +52,10 @@ struct SceneFeatures {
 
 /// Whether the shape counts as SceneFeatures::one_way_surfaces.
 bool is_one_way(const SceneDescription& scene, const ShapeDescription& shape);
+
+/// A medium around a sensor that extends to infinity, so that nothing of what is infinitely far
+/// away gets through it, or null. One within a shape ends there.
+const MediumDescription* endless_medium(const SceneDescription& scene);
 
 /// Looks at everything that shapes of the scene refer to. What moves is where it is when the
 /// shutter of the first sensor opens.

@@ -88,9 +88,10 @@ bool is_anisotropic(const Roughness& r) {
   return !(r.alpha_u == r.alpha_v);
 }
 
-/// Whether the BSDF, or one within it, is anisotropic.
-bool is_anisotropic(const SceneDescription& scene, MaterialId id) {
+/// Whether the BSDF, or one within it, depends on the tangent.
+bool has_tangent(const SceneDescription& scene, MaterialId id) {
   const MaterialModel& model = scene.materials[size_t(id)].model;
+  if (model.scattering().bumps) return true;
   if (const auto* m = model.get_if<ConductorMaterial>())
     return m->roughness && is_anisotropic(*m->roughness);
   if (const auto* m = model.get_if<DielectricMaterial>())
@@ -100,16 +101,16 @@ bool is_anisotropic(const SceneDescription& scene, MaterialId id) {
     return m->anisotropic != FloatInput(0.0);
   const auto& parts = model.nested();
   return std::any_of(parts.begin(), parts.end(),
-                     [&](MaterialId part) { return is_anisotropic(scene, part); });
+                     [&](MaterialId part) { return has_tangent(scene, part); });
 }
 
 }  // namespace
 
-bool bumps_anisotropic(const SceneDescription& scene, const SceneFeatures&) {
+bool bumps_tangents(const SceneDescription& scene, const SceneFeatures&) {
   const auto ids = used_materials(scene);
   return std::any_of(ids.begin(), ids.end(), [&](MaterialId id) {
     const auto* bumps = scene.materials[size_t(id)].model.get_if<BumpMapMaterial>();
-    return bumps && is_anisotropic(scene, bumps->nested);
+    return bumps && has_tangent(scene, bumps->nested);
   });
 }
 
@@ -136,10 +137,39 @@ bool emits_from_smooth_meshes(const SceneDescription& scene, const SceneFeatures
   });
 }
 
+bool emits_from_elliptic_cylinders(const SceneDescription& scene, const SceneFeatures&) {
+  return std::any_of(scene.shapes.begin(), scene.shapes.end(), [](const ShapeDescription& s) {
+    if (!s.emission || !std::holds_alternative<CylinderShape>(s.geometry)) return false;
+    const Transform to_world(s.to_world);
+    const Vector3f x = to_world(Vector3f(1, 0, 0)), y = to_world(Vector3f(0, 1, 0));
+    return std::abs(dot(x, y)) + std::abs(dot(x, x) - dot(y, y)) > 1e-4f * dot(x, x);
+  });
+}
+
+bool emits_texture_repeatedly(const SceneDescription& scene, const SceneFeatures&) {
+  return std::any_of(scene.shapes.begin(), scene.shapes.end(), [](const ShapeDescription& s) {
+    if (!s.emission || !std::holds_alternative<TextureId>(s.emission->radiance)) return false;
+    const auto mesh = own_triangles(s);
+    if (!mesh || mesh->uvs.empty()) return false;
+    // Triangles that share nothing of the unit square fit into it.
+    double area = 0;
+    for (const auto& t : mesh->triangles) {
+      const Point2f a = mesh->uvs[t[0]], b = mesh->uvs[t[1]], c = mesh->uvs[t[2]];
+      area += 0.5 * std::abs(double(b.x - a.x) * double(c.y - a.y) -
+                             double(c.x - a.x) * double(b.y - a.y));
+    }
+    return area > 1.001;
+  });
+}
+
 bool repeats_delta_lights(const SceneDescription& scene, const SceneFeatures& f) {
   const auto* direct = std::get_if<DirectIntegratorDescription>(&scene.integrator.method);
   return direct && direct->emitter_samples > 1 &&
          f.point_lights + f.spot_lights + f.projectors + f.directional_lights > 0;
+}
+
+bool has_light_behind_fog(const SceneDescription& scene, const SceneFeatures& f) {
+  return f.far_lights() > 0 && endless_medium(scene);
 }
 
 // ---- Offsets of rays ----

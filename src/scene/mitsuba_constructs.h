@@ -16,8 +16,14 @@ bool repeats_delta_lights(const SceneDescription& scene, const SceneFeatures& fe
 bool drops_null_paths(const SceneDescription& scene, const SceneFeatures& features);
 /// Meshes that emit light and have vertex normals other than those of their triangles.
 bool emits_from_smooth_meshes(const SceneDescription& scene, const SceneFeatures& features);
+/// Cylinders that emit light and have no circle as their cross-section.
+bool emits_from_elliptic_cylinders(const SceneDescription& scene, const SceneFeatures& features);
+/// Meshes that emit light by a texture of which a part lies on several triangles.
+bool emits_texture_repeatedly(const SceneDescription& scene, const SceneFeatures& features);
 /// A bump map over a BSDF that tells the directions along the surface apart.
-bool bumps_anisotropic(const SceneDescription& scene, const SceneFeatures& features);
+bool bumps_tangents(const SceneDescription& scene, const SceneFeatures& features);
+/// Light from infinitely far away, and a medium around a sensor that has no end.
+bool has_light_behind_fog(const SceneDescription& scene, const SceneFeatures& features);
 /// A medium whose mean free path is below 50 of Mitsuba 3's ray offsets.
 bool has_short_free_path(const SceneDescription& scene, const SceneFeatures& features);
 /// Surfaces in a sphere whose radius is below 100 ray offsets.

@@ -168,6 +168,10 @@ const Case kCases[] = {
     {"two sides of a bump map",
      R"({"type": "twosided", "nested": [{"type": "bumpmap", "slope": [0.4, 0.6], "nested": [
          {"type": "roughplastic", "alpha": 0.3}]}]})"},
+    {"bump map of a normal map on metal",
+     R"({"type": "bumpmap", "slope": [0.7, -0.4], "nested": [
+         {"type": "normalmap", "normal": [-0.3, 0.5, 0.8], "nested": [
+         {"type": "roughconductor", "alpha_u": 0.4, "alpha_v": 0.2}]}]})"},
 };
 
 const Vector3f kChi2Views[] = {{0.1f, 0.2f, 0.95f},

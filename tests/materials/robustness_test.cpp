@@ -121,7 +121,10 @@ std::vector<json> descriptions() {
                        {"flip_invalid_normals", flip},
                        {"nested", {inner}}});
     for (const float slope : {0.0f, 1e6f, 1e30f})
-      out.push_back({{"type", "bumpmap"}, {"slope", {slope, -slope}}, {"nested", {inner}}});
+      for (const json& base :
+           {inner,
+            json{{"type", "normalmap"}, {"normal", {0.7f, 0.7f, 1e-4f}}, {"nested", {inner}}}})
+        out.push_back({{"type", "bumpmap"}, {"slope", {slope, -slope}}, {"nested", {base}}});
   }
   return out;
 }

@@ -50,6 +50,8 @@ TEST_CASE("pbrt writer: BSDFs, lights, media and sensors that pbrt does not have
       "<bsdf type='bumpmap'><texture type='checkerboard'/><bsdf type='diffuse'/></bsdf>";
   has(on_sphere(bumps), "bumps stretch the surface where it bends, as in pbrt");
   has("<shape type='cube'>" + bumps + "</shape>", "bumps on meshes with normals have the tangents");
+  has(on_sphere("<bsdf type='bumpmap'><texture type='checkerboard'/>" + bumps + "</bsdf>"),
+      "a bump or normal map within another one is missing");
   has(on_sphere("<bsdf type='principled'/>"), "the BSDF \"principled\" does not exist in pbrt");
   has(on_sphere("<bsdf type='roughconductor'/>"), "the microfacets of \"beckmann\"");
   has(on_sphere(

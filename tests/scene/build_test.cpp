@@ -53,6 +53,33 @@ TEST_CASE("lights around nothing emit finite rays") {
   }
 }
 
+TEST_CASE("bump maps can lie within one another, up to a number") {
+  const auto messages = [](const std::string& bsdf) {
+    test::ReadResult r = test::read_scene("3.0.0", "<shape type='sphere'>" + bsdf + "</shape>");
+    REQUIRE_MESSAGE(r.scene, r.messages());
+    const auto scene = build_scene(r.description(), {}, r.diagnostics);
+    CHECK(bool(scene) == r.messages().empty());
+    return r.messages();
+  };
+  const auto bumpy = [](const std::string& nested) {
+    return "<bsdf type='bumpmap'><texture type='checkerboard'/>" + nested + "</bsdf>";
+  };
+  const auto blend = [](const std::string& nested) {
+    return "<bsdf type='blendbsdf'>" + nested + nested + "</bsdf>";
+  };
+  const std::string twice = bumpy(bumpy("<bsdf type='diffuse'/>"));
+  CHECK(messages(twice) == "");
+  CHECK(messages(bumpy(blend(bumpy("<bsdf type='diffuse'/>")))) == "");
+  const std::string deep = messages(bumpy(twice)), many = messages(blend(blend(twice)));
+  CHECK_MESSAGE(deep.find("3 bump maps, normal maps and coatings lie over each other here; at most "
+                          "2 can") != deep.npos,
+                deep);
+  CHECK_MESSAGE(
+      many.find("8 bump maps, normal maps and coatings are mixed here; at most 6 can be") !=
+          many.npos,
+      many);
+}
+
 TEST_CASE("lights are chosen by the weights that the scene gives them") {
   // Two of a kind: without weights each has a probability of one half.
   const auto probability = [](const std::string& first, const std::string& second) {

@@ -5,6 +5,7 @@
 
 #include <set>
 
+#include "integrators/make_integrator.h"
 #include "support/memory_scene.h"
 
 using namespace duet;
@@ -93,6 +94,10 @@ TEST_CASE("bumps are met over anisotropic BSDFs") {
   CHECK(bumpy("<bsdf type='twosided'>" + brushed + "</bsdf>") == "bump-tangents ");
   CHECK(bumpy("<bsdf type='principled'><float name='anisotropic' value='0.5'/></bsdf>") ==
         "bump-tangents ");
+  for (const std::string map : {"bumpmap", "normalmap"})
+    CHECK(bumpy("<bsdf type='twosided'><bsdf type='" + map +
+                "'><texture name='normalmap' type='checkerboard'/><bsdf type='diffuse'/></bsdf>"
+                "</bsdf>") == "bump-tangents ");
   CHECK(bumpy("<bsdf type='roughconductor'/>").empty());
   CHECK(bumpy("<bsdf type='principled'/>").empty());
   CHECK(met(ball_at(brushed)).empty());
@@ -116,6 +121,33 @@ TEST_CASE("null lobes are met by path tracing without an environment that is see
   CHECK(with("volpath'><", masked).empty());
 }
 
+TEST_CASE("light from infinitely far away is met behind a medium without end") {
+  const auto within = [](const std::string& medium, const std::string& more) {
+    return "<medium type='homogeneous' id='fog'>" + medium +
+           "</medium><sensor type='perspective'><ref id='fog'/></sensor>" + more;
+  };
+  const auto warned = [](const std::string& content) {
+    const SceneDescription scene = read(content);
+    Diagnostics diagnostics;
+    check_support(scene, scene.integrator, diagnostics);
+    CHECK(!diagnostics.has_errors());
+    return !diagnostics.all().empty();
+  };
+  const std::string thick = "<float name='sigma_t' value='0.1'/>",
+                    clear = "<float name='sigma_t' value='0'/>",
+                    inside = "<shape type='sphere'><ref name='interior' id='fog'/></shape>";
+  for (const std::string light : {"constant", "directional", "sunsky"}) {
+    const std::string sky = "<emitter type='" + light + "'/>";
+    CHECK(met(within(thick, sky)) == "endless-media ");
+    CHECK(warned(within(thick, sky)));
+    for (const std::string& content :
+         {within(clear, sky), within(thick, sky + inside), within(thick, "")}) {
+      CHECK(met(content).empty());
+      CHECK(!warned(content));
+    }
+  }
+}
+
 TEST_CASE("lamps are met that are meshes with other normals than their triangles") {
   const auto lamp = [](const std::string& light, const Vector3f& normal) {
     SceneDescription scene = read(kPath + "<shape type='cube'>" + light + "</shape>");
@@ -130,6 +162,31 @@ TEST_CASE("lamps are met that are meshes with other normals than their triangles
   CHECK(lamp(light, {0.6f, 0, 0.8f}) == "smooth-light-samples ");
   CHECK(lamp(light, {0, 0, 1}).empty());
   CHECK(lamp("", {0.6f, 0, 0.8f}).empty());
+}
+
+TEST_CASE("lamps are met that are cylinders without round cross-sections") {
+  const auto lamp = [](const std::string& scale, const std::string& light) {
+    return met("<shape type='cylinder'>" + light + "<transform name='to_world'><scale " + scale +
+               "/><rotate x='1' angle='40'/></transform></shape>");
+  };
+  const std::string light = "<emitter type='area'/>";
+  CHECK(lamp("x='0.6' y='0.9' z='1'", light) == "elliptic-cylinders ");
+  CHECK(lamp("x='0.6' y='0.6' z='1'", light).empty());
+  CHECK(lamp("x='0.6' y='-0.6' z='1'", light).empty());
+  CHECK(lamp("x='0.6' y='0.9' z='1'", "").empty());
+}
+
+TEST_CASE("lamps are met whose triangles share a part of a texture") {
+  const auto lamp = [](const std::string& shape, const std::string& radiance) {
+    return met("<shape type='" + shape + "'><emitter type='area'>" + radiance +
+               "</emitter></shape>");
+  };
+  const std::string board = "<texture type='checkerboard' name='radiance'/>",
+                    white = "<rgb name='radiance' value='1'/>";
+  CHECK(lamp("cube", board) == "texture-light-samples ");
+  CHECK(lamp("cube", white).empty());
+  CHECK(lamp("rectangle", board).empty());
+  CHECK(lamp("sphere", board).empty());
 }
 
 TEST_CASE("direct light is met with several samples of lights that no ray hits") {

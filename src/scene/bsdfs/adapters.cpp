@@ -37,30 +37,18 @@ MaterialPointer MixtureMaterial::build(SceneBuilder& b, const SourceLocation&) c
   return std::make_unique<Mixture>(std::move(made));
 }
 
-namespace {
-
-/// The material inside a bump or normal map.
-const Material* perturbed(SceneBuilder& b, MaterialId id, const SourceLocation& where) {
-  const Material* nested = b.material(id);
-  if (!nested || !nested->perturbs()) return nested;
-  b.diagnostics().error(where, "a bump or normal map within another one is not supported");
-  return nullptr;
-}
-
-}  // namespace
-
-MaterialPointer BumpMapMaterial::build(SceneBuilder& b, const SourceLocation& where) const {
+MaterialPointer BumpMapMaterial::build(SceneBuilder& b, const SourceLocation&) const {
   const FloatSlot slot = b.slot(height);
-  const Material* base = perturbed(b, nested, where);
+  const Material* base = b.material(nested);
   if (!base) return nullptr;
   return std::make_unique<BumpMap>(
       slot, float(scale), follows_curvature,
       TiltOptions{flip_invalid_normals, use_shadowing_function, drops_leaks}, *base);
 }
 
-MaterialPointer NormalMapMaterial::build(SceneBuilder& b, const SourceLocation& where) const {
+MaterialPointer NormalMapMaterial::build(SceneBuilder& b, const SourceLocation&) const {
   const ColorSlot slot = b.slot(normals);
-  const Material* base = perturbed(b, nested, where);
+  const Material* base = b.material(nested);
   if (!base) return nullptr;
   return std::make_unique<NormalMap>(
       slot, TiltOptions{flip_invalid_normals, use_shadowing_function, drops_leaks}, *base);
