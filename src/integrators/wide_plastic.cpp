@@ -145,8 +145,9 @@ DUET_WIDEST void see_bases(int n, const RoughPlasticSurface& surface, const floa
   const TransmittanceRow transmittance = lanes_of(surface).transmittance;
   DUET_LANES
   for (int k = 0; k < n; ++k) {
-    const float seen = transmittance(std::abs(cosines[k]));
-    factors[k] = cosines[k] > kMinCosine ? seen : 0;
+    const float cosine = cosines[k] > kMinCosine ? cosines[k] : 0.0f;  // also what is no number
+    const float seen = transmittance(cosine);
+    factors[k] = cosine > 0 ? seen : 0;
   }
 }
 
@@ -220,8 +221,9 @@ DUET_WIDEST void see_bases(int n, const PlasticSurface& surface, const float* co
   const PlasticModel model = surface.plastic.model(Spectrum(0.0f));
   DUET_LANES
   for (int k = 0; k < n; ++k) {
-    const float seen = model.seen_through_coat(std::abs(cosines[k]));
-    factors[k] = cosines[k] > 0 ? seen : 0;
+    const float cosine = cosines[k] > 0 ? cosines[k] : 0.0f;
+    const float seen = model.seen_through_coat(cosine);
+    factors[k] = cosine > 0 ? seen : 0;
   }
 }
 

@@ -282,7 +282,9 @@ TEST_SUITE("program") {
         R"({"scene": "a.xml", "seed": 14, "parameter": "radius=1", "define": "x=1", "sensor": 7})";
     list +=
         "\n"
-        R"({"scene": "a.xml", "seed": 15, "spp": "x", "size": 3, "format": "bmp", "tonemap": "y"})";
+        R"({"scene": "a.xml", "seed": 15, "spp": "x", "size": 3, "format": "bmp", "tonemap": "y"})"
+        "\n"
+        R"({"scene": "a.xml", "seed": 16, "integrator": "bdpt", "techniques": true})";
     place.write("jobs.jsonl", list);
     const Outcome o = place.run({"batch", "jobs.jsonl", "-o", "{scene}-{seed}.exr"});
     CAPTURE(o.err);
@@ -296,6 +298,7 @@ TEST_SUITE("program") {
       CHECK(contains(o.err.substr(at, o.err.find('\n', at) - at), why));
     }
     CHECK(!contains(o.err, "jobs.jsonl:14"));
+    CHECK(!contains(o.err, "jobs.jsonl:16"));
     for (const char* option : {"--spp: ", "--size: ", "--format: ", "--tonemap: "})
       CHECK(contains(o.err, std::string("jobs.jsonl:15: error: ") + option));
   }

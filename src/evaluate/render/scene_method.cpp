@@ -37,8 +37,10 @@ void check_method(const RenderOptions& options, const std::vector<std::string>& 
     if (asked.name.empty()) asked.parameters.clear();  // the method of the scene may have them
     apply_override(method, {asked.name, {}, {}});
     // The scene may already say what other parameters need.
-    if (auto* d = std::get_if<BidirectionalIntegratorDescription>(&method.method))
+    if (auto* d = std::get_if<BidirectionalIntegratorDescription>(&method.method)) {
       d->weights = ReuseWeights::thesis_b;
+      d->max_depth = 1;
+    }
     apply_override(method, asked);
     if (!method.image && asked.layers.empty()) return;  // the scene may have some
     const auto integrator =
