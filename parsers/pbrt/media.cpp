@@ -28,9 +28,8 @@ Sigma read_sigma(Values& v) {
     if (!v3 || !v.has("sigma_s")) s.scattering = preset->sigma_s;
     return s;
   }
-  v.reader().report().warning(v.where("preset"),
-                              "there is no medium {}{}; the coefficients hold, as in pbrt",
-                              in_quotes(name), did_you_mean(name, medium_preset_names()));
+  v.reader().report().warning(v.where("preset"), "{}; the coefficients hold, as in pbrt",
+                              no_medium_preset(name));
   return s;
 }
 

@@ -5,7 +5,6 @@
 #include "scene/texture_texels.h"
 #include "values/half_space.h"
 #include "values/medium_presets.h"
-#include "values/text.h"
 
 namespace duet::pbrt {
 
@@ -66,8 +65,7 @@ const MediumPreset* known_medium(Values& v) {
   const std::string name = v.string("name");
   const MediumPreset* preset = find_medium_preset(name);
   if (preset) return preset;
-  const std::string wrong = fmt::format("there is no medium {}{}", in_quotes(name),
-                                        did_you_mean(name, medium_preset_names()));
+  const std::string wrong = no_medium_preset(name);
   if (v.reader().version() == Version::v3)
     v.reader().report().warning(v.where("name"), "{}; the coefficients hold, as in pbrt-v3", wrong);
   else

@@ -1,5 +1,6 @@
 #include "values/medium_presets.h"
 
+#include "base/diagnostics.h"
 #include "values/text.h"
 
 namespace duet {
@@ -171,6 +172,10 @@ std::vector<std::string> medium_preset_names() {
   std::vector<std::string> names;
   for (const MediumPreset& p : kPresets) names.push_back(to_lower(p.name));
   return names;
+}
+
+std::string no_medium_preset(const std::string& name) {
+  return "there is no medium " + in_quotes(name) + did_you_mean(name, medium_preset_names());
 }
 
 }  // namespace duet

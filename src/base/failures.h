@@ -9,21 +9,22 @@
 
 namespace duet {
 
+inline std::string joined_reasons(const std::vector<std::string>& reasons) {
+  std::string all;
+  for (const std::string& reason : reasons) all += (all.empty() ? "" : "; ") + reason;
+  return all;
+}
+
 /// What is asked for makes no sense, or does not exist.
 class UsageError : public std::runtime_error {
  public:
   explicit UsageError(const std::string& mistake) : UsageError(std::vector{mistake}) {}
   /// Several mistakes, found together.
   explicit UsageError(std::vector<std::string> mistakes)
-      : std::runtime_error(joined(mistakes)), mistakes_(std::move(mistakes)) {}
+      : std::runtime_error(joined_reasons(mistakes)), mistakes_(std::move(mistakes)) {}
   const std::vector<std::string>& mistakes() const { return mistakes_; }
 
  private:
-  static std::string joined(const std::vector<std::string>& texts) {
-    std::string all;
-    for (const std::string& text : texts) all += (all.empty() ? "" : "; ") + text;
-    return all;
-  }
   std::vector<std::string> mistakes_;
 };
 
@@ -67,20 +68,18 @@ class TryAll {
     try {
       action();
     } catch (const std::bad_alloc&) {
-      add("out of memory");
+      failures_.emplace_back("out of memory");
     } catch (const std::exception& e) {
-      add(e.what());
+      failures_.emplace_back(e.what());
     }
   }
   /// Throws std::runtime_error with all failures, if there are any.
   void finish() const {
-    if (!failures_.empty()) throw std::runtime_error(failures_);
+    if (!failures_.empty()) throw std::runtime_error(joined_reasons(failures_));
   }
 
  private:
-  void add(const std::string& failure) { failures_ += (failures_.empty() ? "" : "; ") + failure; }
-
-  std::string failures_;
+  std::vector<std::string> failures_;
 };
 
 }  // namespace duet

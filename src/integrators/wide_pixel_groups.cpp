@@ -112,16 +112,25 @@ void WidePixelGroups::set_base_shares(const WideVertices& at, const BatchTriples
     if (list.empty()) continue;
     const int n = int(list.size());
     for (int k = 0; k < n; ++k) {
-      const int i = glossy_.at[k] = list[size_t(k)];
-      glossy_.towards.set(k, towards.vector(i));
-      glossy_.value.set(k, value(i));
+      glossy_.at[k] = list[size_t(k)];
+      glossy_.towards.set(k, towards.vector(list[size_t(k)]));
     }
-    const auto find = [&]<class Surface>(const Surface& material) {
-      if constexpr (kHasBase<Surface>) find_base_shares(n, material, at, glossy_);
+    const auto evaluate_base = [&]<class Surface>(Surface base) {
+      if constexpr (kHasBase<Surface>) {
+        base.plastic.specular_reflectance = Spectrum(0.0f);
+        evaluate_glossy(n, base, at, glossy_);
+      }
     };
-    std::visit(find, wide_.glossy[number]);
-    for (int k = 0; k < n; ++k)
-      second_.share.set(place_[size_t(at.paths.id[list[size_t(k)]])], glossy_.value.vector(k));
+    std::visit(evaluate_base, wide_.glossy[number]);
+    for (int k = 0; k < n; ++k) {
+      const int i = list[size_t(k)];
+      const Vector3f base = glossy_.value.vector(k), all = value(i);
+      const auto share = [](float part, float whole) {
+        return whole > 0 ? std::min(part / whole, 1.0f) : 0.0f;
+      };
+      second_.share.set(place_[size_t(at.paths.id[i])], share(base.x, all.x), share(base.y, all.y),
+                        share(base.z, all.z));
+    }
   }
 }
 

@@ -93,6 +93,18 @@ template <class Facets>
   }
 }
 
+/// Of directions whose cosines are not above `horizon` zero.
+template <class Model>
+[[gnu::always_inline]] inline void see_all(int n, const Model& model, float horizon,
+                                           const float* cosines, float* factors) {
+  DUET_LANES
+  for (int k = 0; k < n; ++k) {
+    const float cosine = cosines[k] > horizon ? cosines[k] : 0.0f;  // also what is no number
+    const float seen = model.seen_through_coat(cosine);
+    factors[k] = cosine > 0 ? seen : 0;
+  }
+}
+
 }  // namespace
 
 DUET_WIDEST void evaluate_glossy(int n, const RoughPlasticSurface& surface,
@@ -119,36 +131,9 @@ DUET_WIDEST void reverse_glossy(int n, const RoughPlasticSurface& surface,
       });
 }
 
-DUET_WIDEST void find_base_shares(int n, const RoughPlasticSurface& surface,
-                                  const WideVertices& vertices, WideGlossy& out) {
-  const UniformRoughPlastic plastic = lanes_of(surface);
-  const bool two_sided = surface.two_sided;
-  const WideVertices v = vertices;
-  DUET_LANES
-  for (int k = 0; k < n; ++k) {
-    const int i = out.at[k];
-    const LocalPoint at = local_point(v, i, two_sided);
-    const Vector3f wi = at.to_local(out.towards.vector(k));
-    const Spectrum base = plastic.model(reflectance_at(v.points, i))
-                              .base_above(above_horizon(at.wo), above_horizon(wi));
-    const Vector3f all = out.value.vector(k);
-    const bool above = std::min(at.wo.z, wi.z) > kMinCosine;
-    const float r = base.r / all.x, g = base.g / all.y, b = base.b / all.z;
-    out.value.set(k, above && all.x > 0 ? std::min(r, 1.0f) : 0,
-                  above && all.y > 0 ? std::min(g, 1.0f) : 0,
-                  above && all.z > 0 ? std::min(b, 1.0f) : 0);
-  }
-}
-
 DUET_WIDEST void see_bases(int n, const RoughPlasticSurface& surface, const float* cosines,
                            float* factors) {
-  const TransmittanceRow transmittance = lanes_of(surface).transmittance;
-  DUET_LANES
-  for (int k = 0; k < n; ++k) {
-    const float cosine = cosines[k] > kMinCosine ? cosines[k] : 0.0f;  // also what is no number
-    const float seen = transmittance(cosine);
-    factors[k] = cosine > 0 ? seen : 0;
-  }
+  see_all(n, lanes_of(surface).model(Spectrum(0.0f)), kMinCosine, cosines, factors);
 }
 
 DUET_WIDEST void evaluate_glossy(int n, const PlasticSurface& surface, const WideVertices& vertices,
@@ -208,23 +193,9 @@ DUET_WIDEST void reverse_glossy(int n, const PlasticSurface& surface, const Wide
   }
 }
 
-DUET_WIDEST void find_base_shares(int n, const PlasticSurface&, const WideVertices&,
-                                  WideGlossy& out) {
-  for (int k = 0; k < n; ++k) {
-    const Vector3f all = out.value.vector(k);
-    out.value.set(k, all.x > 0 ? 1.0f : 0.0f, all.y > 0 ? 1.0f : 0.0f, all.z > 0 ? 1.0f : 0.0f);
-  }
-}
-
 DUET_WIDEST void see_bases(int n, const PlasticSurface& surface, const float* cosines,
                            float* factors) {
-  const PlasticModel model = surface.plastic.model(Spectrum(0.0f));
-  DUET_LANES
-  for (int k = 0; k < n; ++k) {
-    const float cosine = cosines[k] > 0 ? cosines[k] : 0.0f;
-    const float seen = model.seen_through_coat(cosine);
-    factors[k] = cosine > 0 ? seen : 0;
-  }
+  see_all(n, surface.plastic.model(Spectrum(0.0f)), 0, cosines, factors);
 }
 
 }  // namespace duet

@@ -17,9 +17,6 @@ void sample_glossy(int n, const RoughPlasticSurface& surface, const WideVertices
 void reverse_glossy(int n, const RoughPlasticSurface& surface, const WideVertices& vertices,
                     WideGlossy& out);
 
-/// The shares that the base has of the values for `out.towards`, which `out.value` has before.
-void find_base_shares(int n, const RoughPlasticSurface& surface, const WideVertices& vertices,
-                      WideGlossy& out);
 /// The factor of what the base scatters by which it depends on the direction it is seen from, for
 /// the cosines of `n` directions.
 void see_bases(int n, const RoughPlasticSurface& surface, const float* cosines, float* factors);
@@ -33,8 +30,6 @@ void sample_glossy(int n, const PlasticSurface& surface, const WideVertices& ver
 void reverse_glossy(int n, const PlasticSurface& surface, const WideVertices& vertices,
                     WideGlossy& out);
 
-void find_base_shares(int n, const PlasticSurface& surface, const WideVertices& vertices,
-                      WideGlossy& out);
 void see_bases(int n, const PlasticSurface& surface, const float* cosines, float* factors);
 
 }  // namespace duet

@@ -129,9 +129,9 @@ struct RoughPlasticModel {
     return {specular_reflectance * (f * r.value) + coated_base * (cosine * to * ti),
             p * r.density + (1 - p) * cosine};
   }
-  /// What the base has of that value.
-  [[gnu::always_inline]] Spectrum base_above(const Vector3f& wo, const Vector3f& wi) const {
-    return coated_base * (wi.z * kInvPi * transmittance(wo.z) * transmittance(wi.z));
+  /// See PlasticModel.
+  [[gnu::always_inline]] float seen_through_coat(float cosine) const {
+    return transmittance(cosine);
   }
   [[gnu::always_inline]] float specular_probability(float transmitted) const {
     return lobe_probability(1 - transmitted, specular_weight, diffuse_weight);
