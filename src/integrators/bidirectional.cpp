@@ -5,6 +5,7 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "base/failures.h"
 #include "integrators/bidirectional_batches.h"
 #include "integrators/learn_emission.h"
 #include "integrators/motion_blur.h"
@@ -153,6 +154,7 @@ TechniqueSet BidirectionalIntegrator::techniques(Point2i film, uint32_t iteratio
   set.merges = merges(options_.method);
   set.light_paths = float(light_subpaths(film));
   set.partly_merged = set.merges && set.light_samples && !options_.merge_parts.empty();
+  set.pixel_group = options_.pixel_group;
   if (!pilot_) return set;  // for which it is
   if (set.connections && options_.connections > 0) {
     // Of none there is no share, and so no connection.
@@ -196,6 +198,11 @@ LightPassPlan BidirectionalIntegrator::light_plan(Point2i film) const {
 
 void BidirectionalIntegrator::choose(const Scene& scene, const RenderOutlook& outlook) {
   if (pilot_) return;
+  if (options_.pixel_group > 1 && !takes_groups(scene))
+    throw SceneFailure(
+        "\"pixel_group\" of the integrator \"bdpt\" is for scenes whose sub-paths are traced in "
+        "batches: not where something moves, in media, with an image for each technique, "
+        "\"connections\" above 0 or a \"max_depth\" of 0");
   windows_.light_paths = light_subpaths(outlook.film);
   // What the sensor cannot be connected with, it finds by itself.
   options_.light_image &= scene.camera->connectible();

@@ -59,6 +59,8 @@ class BidirectionalIntegrator final : public CameraIntegrator {
   /// Whether sub-paths may be traced in batches, and whether those from the camera may.
   bool may_take_batches() const;
   bool may_take_eye_batches() const;
+  bool takes_batches(const Scene& scene) const;
+  bool takes_groups(const Scene& scene) const;
   /// Null if they are not in this scene.
   std::unique_ptr<Batches> make_batches(const Scene& scene) const;
   void trace_batches(Film& film, const SampleRange& samples, const PassControl& control,

@@ -14,9 +14,17 @@ bool BidirectionalIntegrator::may_take_eye_batches() const {
          (options_.method == Method::bdpt || options_.method == Method::vcm);
 }
 
+bool BidirectionalIntegrator::takes_groups(const Scene& scene) const {
+  return may_take_eye_batches() && options_.connections <= 0 && takes_batches(scene);
+}
+
+bool BidirectionalIntegrator::takes_batches(const Scene& scene) const {
+  return may_take_batches() && !scene.needs_media_vertices() && suits_batches(scene);
+}
+
 std::unique_ptr<BidirectionalIntegrator::Batches> BidirectionalIntegrator::make_batches(
     const Scene& scene) const {
-  if (!may_take_batches() || scene.needs_media_vertices() || !suits_batches(scene)) return nullptr;
+  if (!takes_batches(scene)) return nullptr;
   auto batches =
       std::make_unique<Batches>(scene, blurs() ? WideUse::merging : WideUse::connections);
   PathLimits limits;

@@ -10,7 +10,7 @@
 #include "integrators/group_pilot.h"
 #include "integrators/merge_parts.h"
 #include "integrators/method_candidates.h"
-#include "integrators/method_costs.h"
+#include "integrators/method_groups.h"
 #include "integrators/method_risk.h"
 #include "integrators/method_rules.h"
 #include "integrators/sample_budget.h"
@@ -50,7 +50,7 @@ void add_partly_merged(MethodPrices& prices) {
     for (size_t without = 0; without < count; ++without) {
       MethodCandidate c = prices.candidates[with];
       const MethodCandidate& plain = prices.candidates[without];
-      if (c.merges == 0 || c.photons_only || plain.merges > 0 ||
+      if (c.merges == 0 || c.photons_only || plain.merges > 0 || in_pixel_groups(plain) ||
           plain.light_paths != c.light_paths || plain.connections != c.connections)
         continue;
       PartlyMerged part =
@@ -61,24 +61,6 @@ void add_partly_merged(MethodPrices& prices) {
       prices.candidates.push_back(std::move(c));
       prices.predictions.push_back(std::move(part.prediction));
     }
-}
-
-/// Adds path tracing in groups of pixels, which the first candidate is without them.
-void add_grouped(const PathLimits& o, const GroupGain& gain, MethodPrices& prices) {
-  PathIntegratorDescription method{o};
-  method.pixel_group = kAutoPixelGroup;
-  PredictedMethod p = prices.predictions[0];
-  const double noise = p.variance / prices.spp;
-  p.error += noise * (gain.variance - 1);
-  p.variance *= gain.variance;
-  p.cost += pixel_group_cost(gain.shadow_rays);
-  for (PredictedPart& part : p.parts) {
-    part.error += part.variance / prices.spp * (gain.variance - 1);
-    part.variance *= gain.variance, part.least_error *= gain.variance;
-  }
-  prices.candidates.push_back(
-      {.method = method, .name = fmt::format("path pixel_group={}", kAutoPixelGroup)});
-  prices.predictions.push_back(std::move(p));
 }
 
 /// What the pilots have found.
@@ -97,7 +79,7 @@ MethodPrices predict_all(const PilotRecords& pilots, const Scene& scene, const P
   prices.spp = spp;
   for (const MethodCandidate& c : prices.candidates)
     prices.predictions.push_back(predict(record, c, spp));
-  if (pilots.groups) add_grouped(o, *pilots.groups, prices);
+  if (pilots.groups) add_pixel_groups(record, *pilots.groups, prices);
   return prices;
 }
 

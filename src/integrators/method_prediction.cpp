@@ -160,7 +160,8 @@ class Prediction {
         if (square / (density * density) > limit_)
           tile.trimmed += value * std::sqrt(norms_[v.cell]), tile.rare += value;
         else
-          tile.squares += copies(v) * square * (squares + seen_twice(v.shares, density));
+          tile.squares += copies(v) * square * (squares + seen_twice(v.shares, density)) *
+                          (v.shared ? candidate_.shared_variance : 1.0);
       }
   }
 
@@ -204,9 +205,10 @@ class Prediction {
       const PilotSample& v = record_.eye[i];
       const double density = ratios(v.shares, candidate_).density;
       if (!(density > kLeast) || !takes(v)) continue;
-      const double scaled = double(v.value) * std::sqrt(norms_[v.cell]) / density;
+      double scaled = double(v.value) * std::sqrt(norms_[v.cell]) / density;
+      if (scaled * scaled > limit_) continue;
+      if (v.shared) scaled *= std::sqrt(candidate_.shared_variance);
       const double square = scaled * scaled;
-      if (square > limit_) continue;
       const bool merged = is_merge(v);
       s.blur += scaled * double(v.blur);
       (merged ? s.merges : s.connections) += scaled;

@@ -27,6 +27,8 @@ struct MethodCandidate {
   double merges = 0;         ///< light paths times merging area, over those of the pilot
   /// Nothing but merges at the first vertex that does not scatter by a delta lobe, and hits before.
   bool photons_only = false;
+  /// Variance of what a group of pixels shares (PilotSample::shared) over that without groups.
+  double shared_variance = 1;
 };
 
 /// What one part of the image adds to the figures of PredictedMethod, as far as they are sums.

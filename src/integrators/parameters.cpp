@@ -111,7 +111,7 @@ Parameters path_parameters(PathLimits& d) {
 Parameters parameters(PathIntegratorDescription& d) {
   Parameters p = path_parameters(d);
   p.push_back(boolean("only_specular", d.only_specular));
-  p.push_back(integer("pixel_group", d.pixel_group, 1, PathIntegratorDescription::kMostInGroup));
+  p.push_back(integer("pixel_group", d.pixel_group, 1, kMostInGroup));
   return p;
 }
 
@@ -152,7 +152,10 @@ Parameters parameters(BidirectionalIntegratorDescription& d) {
   add(real("light_paths", d.light_paths, true, kMost));
   add(boolean("guide_emission", d.guide_emission));
   if (d.method == bdpt || d.method == vcm) add(integer("connections", d.connections, -1, kMost));
-  if (d.method == bdpt) add(boolean("light_image", d.light_image));
+  if (d.method == bdpt) {
+    add(boolean("light_image", d.light_image));
+    add(integer("pixel_group", d.pixel_group, 1, kMostInGroup));
+  }
   if (d.method == ppm || d.method == bpm || d.method == vcm) {
     add(real("radius", d.radius, true, double(std::numeric_limits<float>::max())));
     add(real("alpha", d.alpha, true, 1));

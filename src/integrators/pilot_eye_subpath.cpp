@@ -5,6 +5,7 @@
 
 #include "integrators/camera_integrator.h"
 #include "integrators/merge_blur.h"
+#include "transport/connection_vertex.h"
 
 namespace duet {
 
@@ -141,11 +142,17 @@ class PilotEyeSubpath {
     record_arrival(subpath_, a.d2 / a.transmittance, a.cosine);
   }
 
+  void add(const Spectrum& v, Technique technique, float blur = 0) {
+    const size_t before = out_.eye.size();
+    add_contribution(out_.eye, v, weights_.shares(), technique, cell_, blur);
+    if (out_.eye.size() > before) out_.eye.back().shared = shared_;
+  }
+
   /// Light at the end of the sub-path.
   void add_found(const Connection& connection, float transmittance) {
     const Spectrum v = connection.value * connection.weight;
     if (depth_ > 1 || transmittance < 1)
-      add_contribution(out_.eye, v, weights_.shares(), Technique::unidirectional, cell_);
+      add(v, Technique::unidirectional);
     else if (is_finite(v))
       seen_ += double(v.r + v.g + v.b) / 3;
   }
@@ -153,12 +160,15 @@ class PilotEyeSubpath {
   /// Connects a vertex with all that there is, and scatters; whether the sub-path goes on.
   bool leave_vertex(const Vertex& v) {
     weights_.set_eye(pdfs_);
+    if constexpr (!Vertex::kMedia)
+      if (depth_ == 2)
+        shared_ =
+            !subpath_.from_specular && ConnectionVertex(v).material == ConnectionVertex::kDiffuse;
     if (v.is_smooth() && depth_ < pilot_.max_depth) {
       sampler_.start_dimension(dimension_);
       ConnectionRoulette none(0, 0);  // path tracing has none
       const Connection direct = connect_light(connections(none, counters()), v, sampler_);
-      add_contribution(out_.eye, direct.value * direct.weight, weights_.shares(),
-                       Technique::unidirectional, cell_);
+      add(direct.value * direct.weight, Technique::unidirectional);
       connect(v);
       if (v.merges()) merge(v);
     }
@@ -193,8 +203,7 @@ class PilotEyeSubpath {
       weights_.set_light(pdfs, &pilot_.light.arrivals[i].ends);
       const Connection connection = connect_ends(connections(roulette_, out_.connection_counters),
                                                  packed.template unpack<Vertex>(scene_), v);
-      add_contribution(out_.eye, connection.value * connection.weight, weights_.shares(),
-                       Technique::connection, cell_);
+      add(connection.value * connection.weight, Technique::connection);
     }
   }
 
@@ -220,9 +229,8 @@ class PilotEyeSubpath {
       if (connection.value.is_black()) return;
       ++counters.merges;
       out_.first_counters.merges += first_;
-      add_contribution(
-          out_.eye, connection.value * connection.weight, weights_.shares(),
-          first_ ? Technique::first_merge : Technique::later_merge, cell_,
+      add(connection.value * connection.weight,
+          first_ ? Technique::first_merge : Technique::later_merge,
           merge_blur(scene_, v, photon.position, light.arrivals[i], shift, counters) - missing);
     });
   }
@@ -243,7 +251,8 @@ class PilotEyeSubpath {
   RandomStream shadows_;  ///< for shadow rays through media
   int depth_ = 1;
   uint32_t dimension_ = kFirstVertexDimension;
-  bool first_ = true;  ///< Walk::unmerged
+  bool first_ = true;    ///< Walk::unmerged
+  bool shared_ = false;  ///< PilotSample::shared of what is found from here on
   /// Lights are not to be seen before light has been scattered if emitters are hidden.
   bool sees_lights_;
 };

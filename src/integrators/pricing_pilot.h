@@ -27,7 +27,8 @@ struct PilotSample {
   /// Of a merge: the share of it that is blur, less that of photons that are missing
   /// (merge_blur.h), with the radius of the first iteration.
   float blur;
-  uint16_t cell;  ///< where in the image: row by row of the pilot's pixels
+  uint16_t cell;        ///< where in the image: row by row of the pilot's pixels
+  bool shared = false;  ///< found beyond a second vertex that a group of pixels would share
 };
 
 struct PricingPlan : PathLimits {

@@ -55,17 +55,19 @@ Subpath WideEye::subpath(int i) const {
 
 void WideEye::trace(int n, const BatchSampler& sampler, WideSamples& samples,
                     RenderCounters& counters) {
+  Sums sums{samples, groups_ ? &*groups_ : nullptr};
+  if (groups_) groups_->start(int(keys_.size()), sampler.batch_key(paths_.keys));
   begin(n);
   for (int depth = 1; n > 0; ++depth) {
     trace_rays(n, counters);
     if (depth == 1 && limits_.hide_emitters) pass_emitters(n, counters);
-    n = end_outside(n, samples, counters);
+    n = end_outside(n, sums, counters);
     counters.path_vertices += uint64_t(n);
     find_points(n);
     if (plan_.set.merges) plan_.photons->locate(n, points_.position, around_);
-    add_emission(depth, samples, counters);
+    add_emission(depth, sums, counters);
     if (depth == limits_.max_depth) {
-      for (int i = 0; i < n; ++i) samples.alpha[paths_.id[i]] = 1;
+      for (int i = 0; i < n; ++i) sums.samples.alpha[paths_.id[i]] = 1;
       break;
     }
     arrive_at_points(n, depth);
@@ -73,52 +75,79 @@ void WideEye::trace(int n, const BatchSampler& sampler, WideSamples& samples,
     wide_.lights.sample(n, points_, numbers_, choice_, lights_);
     if (limits_.strict_normals) drop_two_sided_light_samples(n);
     look_up_textures();
+    if (groups_) share_vertices(n, depth);
     make_ends(n, paths_, subpaths_, points_, ends_);
+    if (groups_ && depth == 2) groups_->count_paths(n, paths_, subpaths_, ends_);
     evaluate_diffuse(n, paths_, points_, lights_);
     evaluate_glossy_points(&ends_.reverse);
     sample_diffuse(n, paths_, points_, numbers_, scattering_);
     make_special_vertices(n, depth);
-    sample_lights(n, depth, samples, counters);
-    connect(n, depth, samples, counters);
-    if (plan_.set.merges) merge(n, depth, samples, counters);
+    sample_lights(n, depth, sums, counters);
+    connect(n, depth, sums, counters);
+    if (plan_.set.merges) merge(n, depth, sums, counters);
     sample_glossy_points(&ends_.reverse);
     sample_specular_points(&ends_.reverse);
     scatter_special_vertices();
     for (int i = 0; i < n; ++i)
-      if (!scattering_.null[i]) samples.alpha[paths_.id[i]] = 1;
+      if (!scattering_.null[i]) sums.samples.alpha[paths_.id[i]] = 1;
     if (limits_.strict_normals) drop_two_sided_directions(n);
-    go_on(n, {plan_.set, ends_, points_, roulette_at(depth, kSubpathRoulette)}, scattering_, paths_,
-          subpaths_);
+    // Densities of second vertices know no roulette.
+    const bool may_end = depth > 1 || !groups_;
+    go_on(
+        n,
+        {plan_.set, ends_, points_, may_end ? roulette_at(depth, kSubpathRoulette) : std::nullopt},
+        scattering_, paths_, subpaths_);
     n = find_alive(n);
     fill_gaps();
   }
+  if (groups_) groups_->add_to(samples, counters);
 }
 
-int WideEye::end_outside(int n, WideSamples& samples, RenderCounters& counters) {
+void WideEye::share_vertices(int n, int depth) {
+  if (depth == 1) groups_->note_first(n, paths_, {hits_, points_}, subpaths_);
+  if (depth == 2) groups_->note_second(n, paths_, {hits_, points_});
+}
+
+template <class F>
+void WideEye::add_found(int i, Sums& sums, const F& connect) {
+  const int id = paths_.id[i];
+  Subpath s = subpath(i);
+  const Connection c = connect(s);
+  if (c.value.is_black()) return;
+  float varying = 0;
+  if (sums.shares(id)) {
+    s.partials.vc -= s.partials.vm;
+    varying = 1 - c.weight / connect(s).weight;
+  }
+  sums.add(id, c.value * c.weight, varying);
+}
+
+int WideEye::end_outside(int n, Sums& sums, RenderCounters& counters) {
   const int found = find_hits(n);
   if (found == n) return n;
   if (wide_.scene.environment)
     for (int i = 0; i < n; ++i) {
       const int id = paths_.id[i];
-      if (hits_.shape[i] != kNone || !sees_environment(limits_, id, samples)) continue;
+      if (hits_.shape[i] != kNone || !sees_environment(limits_, id, sums.samples)) continue;
       const ConnectionRoulette own = roulette(id);
-      const Connection c = connect_escape(context(id, own, counters), subpath(i));
-      samples.add(id, c.value * c.weight);
-      samples.alpha[id] = 1;
+      add_found(i, sums, [&](const Subpath& path) {
+        return connect_escape(context(id, own, counters), path);
+      });
+      sums.samples.alpha[id] = 1;
     }
   gaps_.fill(hits_);
   fill_gaps();
   return found;
 }
 
-void WideEye::add_emission(int depth, WideSamples& samples, RenderCounters& counters) {
+void WideEye::add_emission(int depth, Sums& sums, RenderCounters& counters) {
   for (const int i : emitting_) {
     const Surface s = wide_.scene.surface(paths_.ray[i], hit(i));
     const int id = paths_.id[i];
     const ConnectionRoulette own = roulette(id);
-    const Connection c =
-        connect_hit(context(id, own, counters), subpath(i), s, sqr(hits_.t[i]), depth);
-    samples.add(id, c.value * c.weight);
+    add_found(i, sums, [&](const Subpath& path) {
+      return connect_hit(context(id, own, counters), path, s, sqr(hits_.t[i]), depth);
+    });
   }
 }
 
@@ -142,11 +171,11 @@ void WideEye::arrive_at_points(int n, int depth) {
   }
 }
 
-void WideEye::sample_lights(int n, int depth, WideSamples& samples, RenderCounters& counters) {
+void WideEye::sample_lights(int n, int depth, Sums& sums, RenderCounters& counters) {
   if (wide_.scene.lights.empty()) return;
   wide_.lights.find_emission(n, starts_, points_, choice_, lights_);
   weigh_light_samples(n, connections(depth), lights_, shadows_);
-  counters.shadow_rays += uint64_t(test_shadows(n, shadows_, samples).rays);
+  counters.shadow_rays += uint64_t(test_connections(n, shadows_, sums).rays);
 }
 
 }  // namespace duet

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "integrators/wide_end_bsdfs.h"
+#include "integrators/wide_eye_groups.h"
 #include "integrators/wide_eye_kernels.h"
 #include "integrators/wide_merge_kernels.h"
 #include "integrators/wide_subpath_stages.h"
@@ -40,13 +41,16 @@ struct WideEyePlan {
 /// loops over pairs, others one by one; their shadow rays are tested together.
 class WideEye final : public WideWalk, private WideSubpathStages {
  public:
-  /// What is referred to must outlive this; the plan may change between batches.
+  /// What is referred to must outlive this; the plan may change between batches, but for its
+  /// groups of pixels.
   WideEye(const WideScene& scene, const PathLimits& limits, const WideEyePlan& plan)
       : WideSubpathStages(scene, limits, Transport::radiance),
         plan_(plan),
         starts_(scene.scene),
         pairs_(2 + scene.glossy.size()),
-        evaluate_ends_(scene.glossy) {}
+        evaluate_ends_(scene.glossy) {
+    if (plan.set.pixel_group > 1) groups_.emplace(scene, limits.strict_normals, plan.set);
+  }
 
   WidePaths& paths() override { return paths_; }
   void enter(std::span<const uint64_t> pixels) override;
@@ -62,40 +66,63 @@ class WideEye final : public WideWalk, private WideSubpathStages {
     int length;      ///< the same with those that cannot be connected
   };
 
+  /// Where contributions go: to a pixel, or to the second vertex that its group shares, with
+  /// WideShadowRays::varying.
+  struct Sums {
+    WideSamples& samples;
+    WideEyeGroups* groups;
+    bool shares(int id) const { return groups && groups->shares(id); }
+    void add(int id, const Spectrum& s, float varying) {
+      if (shares(id))
+        groups->add(id, s, varying);
+      else
+        samples.add(id, s);
+    }
+  };
+
   void begin(int n);
-  int end_outside(int n, WideSamples& samples, RenderCounters& counters);
-  void add_emission(int depth, WideSamples& samples, RenderCounters& counters);
+  /// Once textures are looked up, before there are ends.
+  void share_vertices(int n, int depth);
+  int end_outside(int n, Sums& sums, RenderCounters& counters);
+  /// What `connect(subpath)` finds at the end of a sub-path.
+  template <class F>
+  void add_found(int i, Sums& sums, const F& connect);
+  void add_emission(int depth, Sums& sums, RenderCounters& counters);
   /// Makes Partials of the points; at the first, where light tracing competes, of their own.
   void arrive_at_points(int n, int depth);
-  void sample_lights(int n, int depth, WideSamples& samples, RenderCounters& counters);
+  void sample_lights(int n, int depth, Sums& sums, RenderCounters& counters);
 
   // wide_connections.cpp
-  void connect(int n, int depth, WideSamples& samples, RenderCounters& counters);
+  void connect(int n, int depth, Sums& sums, RenderCounters& counters);
   LightSubpath light_subpath(int i, int depth) const;
   /// Of a point in lanes, with these light vertices.
-  void find_pairs(int i, const LightSubpath& light, int depth, WideSamples& samples,
+  void find_pairs(int i, const LightSubpath& light, int depth, Sums& sums,
                   RenderCounters& counters);
   /// Makes shadow rays of the pairs in a list.
   void weigh(size_t list, int depth);
   /// The same of pairs whose light vertices are glossy.
   void weigh_glossy_lights(int count, const WidePairs& pairs, int depth);
   /// Connects the points with vertices drawn for each of them.
-  void connect_drawn(int n, int depth, WideSamples& samples, RenderCounters& counters);
+  void connect_drawn(int n, int depth, Sums& sums, RenderCounters& counters);
   /// One point with the light vertex `index`, the k-th that is drawn for it.
-  void connect_drawn(int i, int k, uint32_t index, int depth, WideSamples& samples,
-                     RenderCounters& counters);
+  void connect_drawn(int i, int k, uint32_t index, int depth, Sums& sums, RenderCounters& counters);
   bool connects_at(int i);
   /// One vertex with one light vertex; at least one of them is special. `drawn` is as in
   /// weigh_ends().
-  void connect_one_by_one(int i, const PathVertex& light, int drawn, int depth,
-                          WideSamples& samples, RenderCounters& counters);
-  void flush_pairs(size_t list, int depth, WideSamples& samples, RenderCounters& counters);
-  void flush_single(WideSamples& samples, RenderCounters& counters);
+  void connect_one_by_one(int i, const PathVertex& light, int drawn, int depth, Sums& sums,
+                          RenderCounters& counters);
+  void flush_pairs(size_t list, int depth, Sums& sums, RenderCounters& counters);
+  void flush_single(Sums& sums, RenderCounters& counters);
+  /// WideShadowRays::varying of one connection.
+  float varying_part(const PathVertex& light, const PathVertex& eye,
+                     const EndsConnection& ends) const;
+  /// test_shadows() of rays that have WideShadowRays::varying.
+  Tested test_connections(int n, WideShadowRays& rays, Sums& sums);
   const PathVertex& eye_vertex(int i, int depth);
   const PathVertex& light_vertex(const LightSubpath& light, int number);
 
   // wide_merges.cpp
-  void merge(int n, int depth, WideSamples& samples, RenderCounters& counters);
+  void merge(int n, int depth, Sums& sums, RenderCounters& counters);
   bool merges_at(int i);
   /// Lists the photons that may be near a point; returns for how many each of them stands.
   size_t list_photons(int i, int& count);
@@ -119,7 +146,8 @@ class WideEye final : public WideWalk, private WideSubpathStages {
   }
   float scale() const { return plan_.drawn ? plan_.drawn->scale() : 1.0f; }
   float camera_scale() const { return plan_.set.connection_share / plan_.set.light_paths; }
-  WideConnections connections(int depth) const {
+  /// `eye_paths` is that of pairs.
+  WideConnections connections(int depth, float eye_paths = 1) const {
     return {paths_,
             subpaths_,
             points_,
@@ -129,7 +157,8 @@ class WideEye final : public WideWalk, private WideSubpathStages {
             plan_.roulette_threshold,
             ConnectionRoulette::event(0, depth),
             depth == 1,
-            scale()};
+            scale(),
+            eye_paths};
   }
   /// As the code for one sub-path has it, on its way to the next vertex.
   Subpath subpath(int i) const;
@@ -185,7 +214,9 @@ class WideEye final : public WideWalk, private WideSubpathStages {
     BatchTriples throughput;
   };
   GlossyLightVertices glossy_lights_{};
-  WideShadowRays single_{};  ///< of connections that were weighed one by one
+  std::optional<WideEyeGroups> groups_;  ///< of pixels, if there are any
+  BatchArray<int32_t> tested_ids_{};     ///< pixels of the connections that are tested
+  WideShadowRays single_{};              ///< of connections that were weighed one by one
   int single_count_ = 0;
   uint32_t first_light_ = 0;  ///< the light vertex that pairs count from
 };

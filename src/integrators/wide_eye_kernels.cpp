@@ -55,6 +55,7 @@ DUET_WIDEST void weigh_light_samples(int n, const WideConnections& c,
         all.paths.throughput.z[i] * samples.value.z[i] * samples.weight.z[i] * inverse);
     set_contribution(i, value, weight, all.threshold,
                      ConnectionRoulette::draw(all.eye.roulette[i], all.connection), out);
+    out.varying[i] = all.share * arrival * all.eye.reverse[i] * all.subpaths.vm[i] * weight;
     out.blocked[i] = pdf < 0 ? 1 : out.blocked[i];
     out.id[i] = all.paths.id[i];
     set_shadow_ray(i, all.points, samples, out.ray);
@@ -64,7 +65,7 @@ DUET_WIDEST void weigh_light_samples(int n, const WideConnections& c,
 namespace {
 
 constexpr int kVertexNumbers = sizeof(ConnectionVertex) / sizeof(float);
-static_assert(kVertexNumbers == 21);
+static_assert(kVertexNumbers == 22);
 
 /// See flat_light_at() (wide_lights.cpp).
 struct GatheredVertex {
@@ -129,11 +130,12 @@ template <class F>
     // Both vertices merge, if the pixel does: neither is nearly specular.
     const float merge_term = all.eye.merge_term[i];
     const float light_sum = all.eye.unmerged[i] != 0 ? l.vm : l.vc;
-    const float weight = 1 / (1 +
-                              beyond(f.pdf * std::abs(light_geometric) * inverse_d2, merge_term,
-                                     l.vcm, g.reverse, light_sum) +
-                              beyond(g.pdf * std::abs(eye_geometric) * inverse_d2, merge_term,
-                                     all.subpaths.vcm[i], f.reverse, all.eye.sum[i]));
+    const float light_arrival = f.pdf * std::abs(light_geometric) * inverse_d2 * all.eye_paths,
+                eye_arrival = g.pdf * std::abs(eye_geometric) * inverse_d2;
+    const float weight =
+        1 / (1 + beyond(light_arrival, merge_term, l.vcm, g.reverse, light_sum) +
+             beyond(eye_arrival, merge_term, all.subpaths.vcm[i], f.reverse, all.eye.sum[i]));
+    out.varying[k] = eye_arrival * f.reverse * all.subpaths.vm[i] * weight;
     const float scale = adjoint * inverse_d2 * all.scale;
     const Spectrum value(f.r * g.r * scale, f.g * g.g * scale, f.b * g.b * scale);
     set_contribution(k, value, weight, all.threshold,

@@ -19,6 +19,7 @@ struct WideConnections {
   uint32_t connection;  ///< ConnectionRoulette::event() of the connection with the light itself
   bool first;           ///< they are what the camera sees
   float scale;          ///< what connections of pairs are to be multiplied by
+  float eye_paths = 1;  ///< those that could have gone on to the light vertices of pairs
 };
 
 /// How far from the first light vertex those of pairs may be: numbers of their numbers have 32

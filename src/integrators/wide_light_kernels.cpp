@@ -22,8 +22,9 @@ DUET_WIDEST void weigh_camera(int n, const WideCameraConnections& c,
     const float arrival = importance * std::abs(dot(ng, to_lens));
     const float gain =
         LightSampleVariance::gain(seen.other_lights[i], seen.light_distance[i], 1 / arrival);
-    const float others = all.scale * beyond(arrival, merge_term, gain * all.subpaths.vcm[i],
-                                            all.ends.reverse[i], gain * all.ends.sum[i]);
+    const float others =
+        all.scale * beyond(arrival, merge_term, gain * all.subpaths.vcm[i], all.ends.reverse[i],
+                           gain * all.ends.sum[i] * seen.eye_paths[i]);
     const float weight = 1 / (1 + (weighs != 0 ? others : 0.0f));
     const float scale = adjoint * importance;
     const float r = all.paths.throughput.x[i] * samples.value.x[i] * scale,

@@ -11,6 +11,8 @@ struct WideSeen {
   BatchArray<float> film_x, film_y, importance;      ///< see CameraSample
   BatchArray<int32_t> other_lights, light_distance;  ///< LightSampleVariance of the vertices
   BatchArray<float> weight;                          ///< of the connections
+  /// Eye sub-paths that could have gone on from there to the vertex before.
+  BatchArray<float> eye_paths;
 
   void set_light_sample(int i, const LightSampleVariance& v) {
     other_lights[i] = v.others, light_distance[i] = v.distance;

@@ -35,6 +35,7 @@ int WideLightWalk::start(LightRange range, BatchSampler& sampler) {
   starts_.resize(size_t(count));
   roulette_.resize(size_t(count));
   lengths_.assign(size_t(count), 0);
+  eye_paths_.assign(size_t(count), 1);
   int n = 0;
   for (int id = 0; id < count; ++id) {
     roulette_[size_t(id)] = ConnectionRoulette::seed_of(plan_->key(range.first + uint32_t(id)));
@@ -133,6 +134,8 @@ void WideLightWalk::look_at_lens(int n, const BatchSampler& sampler, uint32_t di
     lights_.target.set(i, seen->target);
     seen_.film_x[i] = seen->film.x, seen_.film_y[i] = seen->film.y;
     seen_.importance[i] = seen->importance;
+    const bool may_be_first = wide_.shapes[hits_.shape[i]].may_be_first();
+    seen_.eye_paths[i] = may_be_first ? eye_paths_[size_t(paths_.id[i])] : 1.0f;
     const bool merges = set.merges && (!set.partly_merged || plan_->mask->merges(seen->film));
     ends_.merge_term[i] = merges ? set.merge_term() : 0.0f;
     ends_.unmerged[i] = set.partly_merged && !merges;
@@ -176,6 +179,10 @@ void WideLightWalk::scatter(int n, const BatchSampler& sampler, uint32_t dimensi
   sample_specular_points(&ends_.reverse);
   scatter_special_vertices();
   weigh_by_adjoint(n, paths_, points_, scattering_);
+  if (plan_->set.pixel_group > 1)
+    for (int i = 0; i < n; ++i)
+      eye_paths_[size_t(paths_.id[i])] =
+          wide_.shapes[hits_.shape[i]].may_be_second() ? float(plan_->set.pixel_group) : 1.0f;
   go_on(n, {plan_->set, ends_, points_, roulette_at(depth, kSubpathRoulette)}, scattering_, paths_,
         subpaths_);
 }
@@ -218,6 +225,7 @@ ConnectionVertex WideLightWalk::connection_vertex(int i, int depth) const {
   const WideShape& shape = wide_.shapes[hits_.shape[i]];
   v.lit = shape.transmits ? points_.ns.normal(i) : ends_.lit.normal(i);
   v.faces = shape.transmits ? 0 : 1;
+  v.shareable = shape.may_be_second() ? 1 : 0;
   const bool glossy = shape.model == WideModel::glossy;
   const BatchTriples& flux = glossy ? points_.reflectance : ends_.flux;
   v.material = glossy ? shape.pair_list() : ConnectionVertex::kDiffuse;

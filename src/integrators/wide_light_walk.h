@@ -46,6 +46,9 @@ class WideLightWalk final : private WideSubpathStages {
   std::vector<std::optional<LightStart>> starts_;  ///< by id, the number in the batch
   std::vector<uint32_t> roulette_;                 ///< seeds of ConnectionRoulette, by id
   std::vector<int> lengths_;                       ///< vertices, by id
+  /// TechniqueSet::pixel_group if an eye sub-path's second vertex would be shared at the last
+  /// vertex of a sub-path, else 1; by id.
+  std::vector<float> eye_paths_;
   WideSeen seen_{};
   /// Vertices of the batch in the order in which they were found, and their ids.
   std::vector<LightVertex> kept_;

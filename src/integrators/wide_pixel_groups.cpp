@@ -22,11 +22,6 @@ float lit_side(const WidePoints& points, const WidePaths& paths, int i) {
   return PlainDiffuse::lit_side(cosine, points.two_sided[i] != 0);
 }
 
-/// Whether part of what such surfaces scatter is that of a diffuse base.
-template <class Surface>
-inline constexpr bool kHasBase =
-    std::is_same_v<Surface, PlasticSurface> || std::is_same_v<Surface, RoughPlasticSurface>;
-
 void copy_point(const WidePoints& from, int i, WidePoints& to, int k) {
   to.position.set(k, from.position.point(i));
   to.ng.set(k, from.ng.vector(i));
@@ -38,16 +33,18 @@ void copy_point(const WidePoints& from, int i, WidePoints& to, int k) {
 
 }  // namespace
 
-WidePixelGroups::WidePixelGroups(const WideScene& scene, bool strict_normals, int members)
+WidePixelGroups::WidePixelGroups(const WideScene& scene, bool strict_normals, int members,
+                                 bool bases)
     : wide_(scene),
-      strict_normals_(strict_normals),
       members_(members),
-      place_(kBatch),
       pixel_(kBatch),
-      glossy_pairs_(scene.glossy.size()),
-      plastics_(scene.glossy.size()) {
+      plastics_(scene.glossy.size()),
+      strict_normals_(strict_normals),
+      place_(kBatch),
+      glossy_pairs_(scene.glossy.size()) {
   for (const WideGlossyMaterial& material : scene.glossy)
-    is_plastic_.push_back(std::visit([]<class M>(const M&) { return kHasBase<M>; }, material));
+    is_shared_plastic_.push_back(
+        bases && std::visit([]<class M>(const M&) { return kHasBase<M>; }, material));
 }
 
 void WidePixelGroups::start(int count, uint64_t key) {
@@ -60,15 +57,13 @@ void WidePixelGroups::start(int count, uint64_t key) {
   for (int i = 0; i < count; ++i) place_[size_t(pixel_[size_t(i)])] = i;
   std::fill_n(first_.list.begin(), count, -1);
   std::fill_n(second_.side.begin(), count, 0.0f);
-  scattered_ = {};
 }
 
 void WidePixelGroups::note_first(int n, const WidePaths& paths, const Vertices& at) {
   for (int i = 0; i < n; ++i) {
     const WideShape& shape = wide_.shapes[at.hits.shape[i]];
     const bool diffuse = shape.model == WideModel::diffuse;
-    // What bump and normal maps do between two points is not known here.
-    if (shape.perturbed || (!diffuse && shape.model != WideModel::glossy)) continue;
+    if (!shape.may_be_first()) continue;
     const float side = diffuse ? lit_side(at.points, paths, i) : 0.0f;
     // No path goes on from what is black, or not lit from the eye's side.
     if (diffuse && (side == 0 || !(reflectance_at(at.points, i).max() > 0))) continue;
@@ -87,60 +82,21 @@ void WidePixelGroups::note_second(int n, WidePaths& paths, const Vertices& at) {
     // What is mirrored no other pixel's path could have found.
     if (first_.list[k] < 0 || paths.bsdf_pdf[i] < 0) continue;
     const WideShape& shape = wide_.shapes[at.hits.shape[i]];
-    const bool plastic = shape.model == WideModel::glossy && is_plastic_[size_t(shape.number)];
-    if (shape.perturbed || (shape.model != WideModel::diffuse && !plastic)) continue;
+    const bool plastic = shape.may_be_first() && shape.model == WideModel::glossy &&
+                         is_shared_plastic_[size_t(shape.number)];
+    if (!shape.may_be_second() && !plastic) continue;
     const float side = lit_side(at.points, paths, i);
-    if (side == 0) continue;
+    const Spectrum t = color_at(paths.throughput, i);
+    const float scale = t.max();
+    if (side == 0 || !(scale > 0)) continue;
     if (plastic) plastics_[size_t(shape.number)].push_back(i);
     second_.side[k] = side;
     second_.list[k] = shape.pair_list();
     copy_point(at.points, i, second_.points, k);
-    const Spectrum t = color_at(paths.throughput, i);
-    const float scale = t.max();
     second_.scale[k] = scale;
     second_.tint.set(k, t.r / scale, t.g / scale, t.b / scale);
-    second_.share.set(k, 1, 1, 1);
     paths.throughput.set(i, scale, scale, scale);
   }
-}
-
-template <class F>
-void WidePixelGroups::set_base_shares(const WideVertices& at, const BatchTriples& towards,
-                                      F&& value) {
-  for (size_t number = 0; number < plastics_.size(); ++number) {
-    const std::vector<int>& list = plastics_[number];
-    if (list.empty()) continue;
-    const int n = int(list.size());
-    for (int k = 0; k < n; ++k) {
-      glossy_.at[k] = list[size_t(k)];
-      glossy_.towards.set(k, towards.vector(list[size_t(k)]));
-    }
-    const auto evaluate_base = [&]<class Surface>(Surface base) {
-      if constexpr (kHasBase<Surface>) {
-        base.plastic.specular_reflectance = Spectrum(0.0f);
-        evaluate_glossy(n, base, at, glossy_);
-      }
-    };
-    std::visit(evaluate_base, wide_.glossy[number]);
-    for (int k = 0; k < n; ++k) {
-      const int i = list[size_t(k)];
-      const Vector3f base = glossy_.value.vector(k), all = value(i);
-      const auto share = [](float part, float whole) {
-        return whole > 0 ? std::min(part / whole, 1.0f) : 0.0f;
-      };
-      second_.share.set(place_[size_t(at.paths.id[i])], share(base.x, all.x), share(base.y, all.y),
-                        share(base.z, all.z));
-    }
-  }
-}
-
-void WidePixelGroups::set_shares(const WideVertices& at, const WideLightSamples& samples) {
-  set_base_shares(at, samples.wi, [&](int i) { return samples.value.vector(i); });
-}
-
-void WidePixelGroups::set_shares(const WideVertices& at, const WideScattering& next) {
-  set_base_shares(at, next.wi,
-                  [&](int i) { return next.weight.vector(i) * std::max(next.pdf[i], 0.0f); });
 }
 
 DUET_WIDEST void WidePixelGroups::find_pairs(const First& first, const Second& second, int place,
@@ -252,41 +208,6 @@ void WidePixelGroups::test(int n, RenderCounters& counters) {
   counters.shadow_rays += uint64_t(rays);
   for (int r = 0; r < rays; ++r)
     if (shadows_.blocked[r]) pairs_.pdf[shadows_.id[r]] = 0;
-}
-
-void WidePixelGroups::flush(int n, WideSamples& samples, RenderCounters& counters) {
-  evaluate(n);
-  test(n, counters);
-  for (const Shared& s : shared_) {
-    const int end = s.pairs + group_size(s.place), j = s.place;
-    float sum = 0;
-    for (int k = s.pairs; k < end; ++k) sum += pairs_.pdf[k];
-    if (!(sum > 0)) continue;
-    const Spectrum scattered = Spectrum(scattered_.r[j], scattered_.g[j], scattered_.b[j]) *
-                               (1 / (sum * second_.scale[j]));
-    for (int k = s.pairs; k < end; ++k) {
-      if (!(pairs_.pdf[k] > 0)) continue;
-      const BatchTriples& f = pairs_.value;
-      samples.add(pixel_[size_t(pairs_.first[k])], scattered * Spectrum(f.x[k], f.y[k], f.z[k]));
-    }
-  }
-  shared_.clear();
-}
-
-void WidePixelGroups::add_to(WideSamples& samples, RenderCounters& counters) {
-  int n = 0;
-  for (int j = 0; j < count_; ++j) {
-    const bool black = scattered_.r[j] == 0 && scattered_.g[j] == 0 && scattered_.b[j] == 0;
-    if (second_.side[j] == 0 || black) continue;
-    const Span group{group_begin(j), group_size(j)};
-    if (n + group.size > kBatch) flush(n, samples, counters), n = 0;
-    find_pairs(first_, second_, j, group, n, pairs_);
-    for (int k = 0; k < group.size; ++k)
-      pairs_.first[n + k] = group.begin + k, pairs_.second[n + k] = j;
-    shared_.push_back({j, n});
-    n += group.size;
-  }
-  flush(n, samples, counters);
 }
 
 }  // namespace duet

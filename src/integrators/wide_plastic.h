@@ -6,6 +6,11 @@
 
 namespace duet {
 
+/// Whether part of what such surfaces scatter is that of a diffuse base.
+template <class Surface>
+inline constexpr bool kHasBase =
+    std::is_same_v<Surface, PlasticSurface> || std::is_same_v<Surface, RoughPlasticSurface>;
+
 /// Values for the directions `out.towards`, at `n` points of one plastic; the reflectance is that
 /// of the base.
 void evaluate_glossy(int n, const RoughPlasticSurface& surface, const WideVertices& vertices,

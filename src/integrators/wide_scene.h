@@ -46,6 +46,13 @@ struct alignas(64) WideShape {
   /// The number of the material among those of vertices that are connected in loops: zero for all
   /// that are diffuse.
   int32_t pair_list() const { return model == WideModel::glossy ? 1 + number : 0; }
+  /// Whether its points can be first vertices that see those of other paths (WidePixelGroups). What
+  /// maps do between two points is not known there.
+  bool may_be_first() const {
+    return !perturbed && (model == WideModel::diffuse || model == WideModel::glossy);
+  }
+  /// Whether its points scatter the same towards all first vertices.
+  bool may_be_second() const { return !perturbed && model == WideModel::diffuse; }
 };
 
 /// What is done with batches of paths.

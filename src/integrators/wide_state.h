@@ -78,6 +78,9 @@ struct WideShadowRays {
   /// What is not 0 need not be tested: something is in the way, or there is nothing to contribute.
   BatchArray<int32_t> blocked;
   static constexpr int32_t kNothing = 2;  ///< in `blocked` of connections: even without roulette
+  /// Of connections of eye vertices, how much of the weight's denominator varies with the pixels
+  /// of a group (WideEyeGroups). Stays where it is when rays are moved to the front.
+  BatchArray<float> varying;
 };
 
 /// How the paths go on.

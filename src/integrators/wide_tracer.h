@@ -3,7 +3,7 @@
 
 #include <memory>
 
-#include "integrators/wide_pixel_groups.h"
+#include "integrators/wide_path_groups.h"
 #include "integrators/wide_stages.h"
 #include "integrators/wide_walk.h"
 #include "scene/description_integrators.h"
@@ -23,7 +23,7 @@ class WideTracer final : public WideWalk, private WideStages {
       : WideStages(scene, options, Transport::radiance) {
     if (options.pixel_group > 1)
       groups_ =
-          std::make_unique<WidePixelGroups>(scene, options.strict_normals, options.pixel_group);
+          std::make_unique<WidePathGroups>(scene, options.strict_normals, options.pixel_group);
   }
 
   WidePaths& paths() override { return paths_; }
@@ -35,7 +35,7 @@ class WideTracer final : public WideWalk, private WideStages {
   /// Where contributions go: to a pixel, or to the second vertex that its group shares.
   struct Sums {
     WideSamples& samples;
-    WidePixelGroups* groups;
+    WidePathGroups* groups;
     void add(int id, const Spectrum& s) {
       if (groups && groups->shares(id))
         groups->add(id, s, samples);
@@ -58,7 +58,7 @@ class WideTracer final : public WideWalk, private WideStages {
     return paths_.bsdf_pdf[i] < 0 ? std::nullopt : std::optional(PdfW{paths_.bsdf_pdf[i]});
   }
 
-  std::unique_ptr<WidePixelGroups> groups_;  ///< null if each pixel has its own paths alone
+  std::unique_ptr<WidePathGroups> groups_;  ///< null if each pixel has its own paths alone
   int pixel_count_ = 0;
 };
 

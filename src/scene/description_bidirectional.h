@@ -27,6 +27,9 @@ struct BidirectionalIntegratorDescription {
   int connections = -1;
   bool light_image = true;     ///< bdpt: connect light vertices to the camera
   bool guide_emission = true;  ///< learn where light sub-paths should begin
+  /// bdpt: so many pixels of a tile, other ones in every sample, use one another's second vertices;
+  /// 1: each has its own alone.
+  int pixel_group = 1;
   double radius = 0;  ///< of merging in the first iteration, world units; 0: from the pixels' size
   double alpha = 0;   ///< how fast the radius shrinks; 0: the method's default
   int max_eye_depth = 4, max_light_depth = 3;  ///< reuse
@@ -105,6 +108,7 @@ struct BidirectionalIntegratorDescription {
             field(&D::light_image, Parameter{"light_image", boolean, kInitial,
                                              "connect light vertices to the camera"})
                 .when([](const D& d) { return d.is(bdpt); }),
+            field(&D::pixel_group, kPixelGroup).terse().when([](const D& d) { return d.is(bdpt); }),
             field(&D::guide_emission,
                   Parameter{"guide_emission", boolean, kInitial,
                             "learn at which light and with which rays light sub-paths begin best"})

@@ -21,7 +21,6 @@ struct PathIntegratorDescription : PathLimits {
   /// So many pixels of a tile, other ones in every sample, use one another's paths from their
   /// second vertices on; 1: each has its own alone.
   int pixel_group = 1;
-  static constexpr int kMostInGroup = 64;
   static constexpr auto fields() {
     using namespace parameter_words;
     return joined_fields(
@@ -30,12 +29,7 @@ struct PathIntegratorDescription : PathLimits {
                         Parameter{"only_specular", boolean, kInitial,
                                   "Duet's own: paths go on from smooth surfaces only"})
                       .unwritten(),
-                  field(&PathIntegratorDescription::pixel_group,
-                        Parameter{"pixel_group", integer, kInitial,
-                                  "Duet's own: so many pixels of a tile use one another's paths "
-                                  "from the second vertex on (1 to 64)",
-                                  size})
-                      .unwritten()));
+                  field(&PathIntegratorDescription::pixel_group, kPixelGroup).unwritten()));
   }
   static constexpr const char* method_name() { return "path"; }
   std::vector<std::string> losses() const {

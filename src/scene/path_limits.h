@@ -29,6 +29,11 @@ inline constexpr Parameter kStrictNormals0x{
 inline constexpr Parameter kLightSelection{
     "light_selection", string, kInitial,
     "by what light samples choose a light: auto, bvh, power or uniform (docs/lights.md)"};
+inline constexpr Parameter kPixelGroup{
+    "pixel_group", integer, kInitial,
+    "Duet's own: so many pixels of a tile use one another's paths from the second vertex on (1 to "
+    "64)",
+    size};
 constexpr Parameter max_depth_parameter(
     std::string_view note = "longest path in segments; -1: no limit") {
   return {"max_depth", integer, kInitial, note, depth};
@@ -37,6 +42,9 @@ constexpr Parameter max_depth_parameter(
 
 /// `rr_depth` unless a scene says otherwise (docs/roulette.md).
 inline constexpr int kUsualRrDepth = 2;
+
+/// Pixels in a group (docs/pixel_groups.md).
+inline constexpr int kMostInGroup = 64;
 
 /// What all methods that trace paths of any length share.
 struct PathLimits {

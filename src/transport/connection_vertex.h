@@ -25,6 +25,7 @@ struct ConnectionVertex {
   int32_t material = kOther;      ///< of kOther only the depth is valid
   int32_t faces = 0;  ///< 1 if all light stays on the lit side: position and `lit` are then valid,
                       ///< also where the rest is not
+  int32_t shareable = 0;  ///< 1 if the group of a pixel would share it as a second eye vertex
 
   ConnectionVertex() = default;
   explicit ConnectionVertex(const PathVertex& v) : depth(v.depth) {

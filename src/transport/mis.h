@@ -31,6 +31,9 @@ struct TechniqueSet {
   /// sums of both methods then: without merges Partials::vm is what vc is, and with them it is vc /
   /// η, which need not be kept.
   bool partly_merged = false;
+  /// Eye sub-paths that use one another's second vertices (WideEyeGroups): as many could have gone
+  /// on to a diffuse vertex from a diffuse or glossy one that the camera sees.
+  int pixel_group = 1;
 
   /// η = n_VM π r² / n_VC: by how much a merge outweighs the connection that it extends.
   float eta() const { return light_paths * merge_area / connection_share; }

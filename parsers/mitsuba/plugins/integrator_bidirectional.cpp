@@ -35,6 +35,7 @@ void read_bidirectional(SceneReader& s, Properties& p, IntegratorDescription& ou
   d.method = kMethod;
   read_values(s, p, d);
   check_most(p, d);
+  check_pixel_group(p, d.pixel_group);
   if (kMethod == BidirectionalMethod::reuse) d.weights = read_reuse_weights(p);
   out.method = d;
 }
@@ -94,7 +95,7 @@ std::vector<Plugin> bidirectional_integrators() {
       {"bdpt",
        v0,
        {eye_paths, of("light_image"), inert_parameters(boolean, "sample_direct"), light_paths,
-        of("connections")},
+        of("connections pixel_group")},
        &read_bidirectional<bdpt>,
        "bidirectional path tracing"},
       {"reuse",

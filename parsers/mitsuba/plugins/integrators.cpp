@@ -32,9 +32,7 @@ void read_counts(SceneReader&, Properties& p, DirectIntegratorDescription& direc
 }
 
 void check_group(SceneReader&, Properties& p, PathIntegratorDescription& path) {
-  constexpr int most = PathIntegratorDescription::kMostInGroup;
-  if (path.pixel_group > most)
-    p.error("pixel_group", "more than {} pixels in a group are too many", most);
+  check_pixel_group(p, path.pixel_group);
 }
 
 void limit_rays(SceneReader&, Properties&, OcclusionIntegratorDescription& ao) {
@@ -46,6 +44,11 @@ constexpr Parameter kShadingSamples{"shading_samples", integer, "", "sets both o
 constexpr Parameter kSpectralMis{"use_spectral_mis", boolean, "true", "", any, v3, inert};
 
 }  // namespace
+
+void check_pixel_group(Properties& p, int pixel_group) {
+  if (pixel_group > kMostInGroup)
+    p.error("pixel_group", "more than {} pixels in a group are too many", kMostInGroup);
+}
 
 std::vector<Plugin> integrators() {
   using Volpath = VolumePathIntegratorDescription;

@@ -15,6 +15,8 @@ Plugin moment();
 Plugin field_integrator();
 Plugin multichannel();
 
+/// An error if a group would have too many pixels.
+void check_pixel_group(Properties& p, int pixel_group);
 /// Says that another method is run instead.
 void note_substitute(SceneReader& s, const Properties& p, std::string_view method,
                      std::string_view why = "");

@@ -1,0 +1,69 @@
+#include "integrators/method_groups.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "integrators/method_costs.h"
+
+namespace duet {
+
+namespace {
+
+constexpr int kMembers = kAutoPixelGroup;
+
+/// MethodCandidate::shared_variance, from the whole variance of `path` and that of what is not
+/// shared.
+double shared_variance(const PricingRecord& record, const GroupGain& gain,
+                       const MethodPrices& prices) {
+  MethodCandidate path = prices.candidates[0];
+  path.shared_variance = 0;
+  const double all = prices.predictions[0].variance,
+               own = predict(record, path, prices.spp).variance;
+  const double least = 1 / double(kMembers);
+  return all > own ? std::clamp((gain.variance * all - own) / (all - own), least, 1.0) : 1.0;
+}
+
+void add_path(const GroupGain& gain, MethodPrices& prices) {
+  auto method = std::get<PathIntegratorDescription>(prices.candidates[0].method);
+  method.pixel_group = kMembers;
+  PredictedMethod p = prices.predictions[0];
+  const double noise = p.variance / prices.spp;
+  p.error += noise * (gain.variance - 1);
+  p.variance *= gain.variance;
+  p.cost += pixel_group_cost(gain.shadow_rays);
+  for (PredictedPart& part : p.parts) {
+    part.error += part.variance / prices.spp * (gain.variance - 1);
+    part.variance *= gain.variance, part.least_error *= gain.variance;
+  }
+  prices.candidates.push_back(
+      {.method = method, .name = fmt::format("path pixel_group={}", kMembers)});
+  prices.predictions.push_back(std::move(p));
+}
+
+}  // namespace
+
+void add_pixel_groups(const PricingRecord& record, const GroupGain& gain, MethodPrices& prices) {
+  const size_t count = prices.candidates.size();
+  const double shared = shared_variance(record, gain, prices);
+  add_path(gain, prices);
+  if (!record.batches) return;
+  for (size_t i = 1; i < count; ++i) {
+    MethodCandidate c = prices.candidates[i];
+    if (c.light_paths == 0 || c.merges > 0) continue;
+    std::get<BidirectionalIntegratorDescription>(c.method).pixel_group = kMembers;
+    c.shared_variance = shared;
+    c.name += fmt::format(" pixel_group={}", kMembers);
+    PredictedMethod p = predict(record, c, prices.spp);
+    p.cost += pixel_group_cost(gain.shadow_rays);
+    prices.candidates.push_back(std::move(c));
+    prices.predictions.push_back(std::move(p));
+  }
+}
+
+bool in_pixel_groups(const MethodCandidate& c) {
+  const auto* const d = std::get_if<BidirectionalIntegratorDescription>(&c.method);
+  return d && d->pixel_group > 1;
+}
+
+}  // namespace duet
