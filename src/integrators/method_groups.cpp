@@ -11,6 +11,9 @@ namespace duet {
 namespace {
 
 constexpr int kMembers = kAutoPixelGroup;
+/// Of the price of `bdpt` without groups, what it has to be with them: a smaller gain than that
+/// cannot be told from none.
+constexpr double kMostOfPrice = 0.85;
 
 /// MethodCandidate::shared_variance, from the whole variance of `path` and that of what is not
 /// shared.
@@ -55,7 +58,9 @@ void add_pixel_groups(const PricingRecord& record, const GroupGain& gain, Method
     c.shared_variance = shared;
     c.name += fmt::format(" pixel_group={}", kMembers);
     PredictedMethod p = predict(record, c, prices.spp);
+    const PredictedMethod& single = prices.predictions[i];
     p.cost += pixel_group_cost(gain.shadow_rays);
+    if (!(p.error * p.cost < kMostOfPrice * single.error * single.cost)) continue;
     prices.candidates.push_back(std::move(c));
     prices.predictions.push_back(std::move(p));
   }

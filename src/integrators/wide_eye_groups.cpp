@@ -46,19 +46,20 @@ void WideEyeGroups::add(int id, const Spectrum& s, float varying) {
   last_found_[j] = int(found_.size()) - 1;
 }
 
-DUET_WIDEST void WideEyeGroups::find_ratios(int n, const Target& target, const Pairs& pairs,
-                                            const First& first, const BatchArray<float>& first_vcm,
-                                            Weighed& out) {
+DUET_WIDEST void WideEyeGroups::begin_weighing(const Shared& s, const Target& target,
+                                               const Pairs& pairs, const Firsts& firsts,
+                                               Weighed& out) {
   const Point3f position = target.position;
   const float own = target.outset > 0 ? 1 / target.outset : 0.0f, connects = target.connects;
-  const int begin = target.pairs;
+  const WidePoints& points = firsts.at.points;
+  const int n = s.group.size, begin = s.group.begin, at = s.pairs;
   DUET_LANES
   for (int m = 0; m < n; ++m) {
-    const int k = begin + m, i = pairs.first[k];
-    const Vector3f d = pairs.direction.vector(k), ng = first.points.ng.vector(i);
-    const float r2 = length_squared(position - first.points.position.point(i));
+    const int k = at + m, i = begin + m;
+    const Vector3f d = pairs.direction.vector(k), ng = points.ng.vector(i);
+    const float r2 = length_squared(position - points.position.point(i));
     const float pdf = pairs.pdf[k];
-    const float before = std::abs(dot(ng, d)) * first_vcm[i] / r2;
+    const float before = std::abs(dot(ng, d)) * firsts.vcm[i] / r2;
     const float outset = (connects + pairs.cosine_seen[k] * kInvPi * before) / pdf;
     const float ratio = std::min(outset, kLargestOutset) * own;
     out.ratio[m] = pdf > 0 ? ratio : 1.0f;
@@ -77,23 +78,31 @@ DUET_WIDEST void WideEyeGroups::add_weighed(int n, const Found& found, Weighed& 
   }
 }
 
+DUET_WIDEST void WideEyeGroups::end_weighing(const Shared& s, float scale, const Pairs& pairs,
+                                             const Weighed& weighed, BatchTriples& sums) {
+  const int n = s.group.size, begin = s.group.begin, at = s.pairs;
+  DUET_LANES
+  for (int m = 0; m < n; ++m) {
+    const float seen = pairs.pdf[at + m] > 0 ? scale : 0.0f;
+    sums.x[begin + m] += seen * weighed.r[m] * pairs.value.x[at + m];
+    sums.y[begin + m] += seen * weighed.g[m] * pairs.value.y[at + m];
+    sums.z[begin + m] += seen * weighed.b[m] * pairs.value.z[at + m];
+  }
+}
+
 void WideEyeGroups::add_to(WideSamples& samples, RenderCounters& counters) {
-  const auto add = [&](int j, int begin, int end, float scale) {
-    const int n = end - begin;
-    const float outset = own_outset_[j] * float(members_);
-    find_ratios(n, {second_.points.position.point(j), outset, begin, connects_}, pairs_, first_,
-                first_vcm_, weighed_);
+  const auto add = [&](const Shared& s, float scale) {
+    const int j = s.place;
+    begin_weighing(s,
+                   {second_.points.position.point(j), own_outset_[j] * float(members_), connects_},
+                   pairs_, {first_, first_vcm_}, weighed_);
     for (int f = last_found_[j]; f >= 0; f = found_[size_t(f)].next)
-      add_weighed(n, found_[size_t(f)], weighed_);
-    for (int m = 0; m < n; ++m) {
-      const int k = begin + m;
-      if (!(pairs_.pdf[k] > 0)) continue;
-      const Spectrum found(weighed_.r[m], weighed_.g[m], weighed_.b[m]);
-      samples.add(pixel_[size_t(pairs_.first[k])], found * scale * color_at(pairs_.value, k));
-    }
+      add_weighed(s.group.size, found_[size_t(f)], weighed_);
+    end_weighing(s, scale, pairs_, weighed_, sums_);
   };
   for_each_shared(
       counters, [&](int j) { return last_found_[j] >= 0; }, add);
+  give_sums(samples);
 }
 
 }  // namespace duet

@@ -41,16 +41,21 @@ class WideEyeGroups final : public WidePixelGroups {
   struct Weighed {
     BatchArray<float> ratio, r, g, b;
   };
-  /// What the pairs of one second vertex have in common.
+  /// What these pairs have in common.
   struct Target {
     Point3f position;
     float outset;  ///< of the path that has found it
-    int pairs;     ///< number of the first
     float connects;
   };
-  static void find_ratios(int n, const Target& target, const Pairs& pairs, const First& first,
-                          const BatchArray<float>& first_vcm, Weighed& out);
+  struct Firsts {
+    const First& at;
+    const BatchArray<float>& vcm;
+  };
+  static void begin_weighing(const Shared& s, const Target& target, const Pairs& pairs,
+                             const Firsts& firsts, Weighed& out);
   static void add_weighed(int n, const Found& found, Weighed& sums);
+  static void end_weighing(const Shared& s, float scale, const Pairs& pairs, const Weighed& weighed,
+                           BatchTriples& sums);
 
   const float connects_;            ///< TechniqueSet::subpath_connections()
   BatchArray<float> first_vcm_{};   ///< Partials::vcm at first vertices, by places

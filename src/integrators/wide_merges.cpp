@@ -19,7 +19,8 @@ void WideEye::merge(int n, int depth, Sums& sums, RenderCounters& counters) {
     kernel_[i] = float(share) / (plan_.set.merge_area * plan_.set.light_paths);
   }
   merge_listed(count, depth, counters);
-  for (int i = 0; i < n; ++i) sums.samples.add(paths_.id[i], {merged_.x[i], merged_.y[i], merged_.z[i]});
+  for (int i = 0; i < n; ++i)
+    sums.samples.add(paths_.id[i], {merged_.x[i], merged_.y[i], merged_.z[i]});
 }
 
 bool WideEye::merges_at(int i) {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "base/instruction_sets.h"
 #include "integrators/wide_plastic.h"
 
 namespace duet {
@@ -55,17 +56,30 @@ void WidePathGroups::set_shares(const WideVertices& at, const WideScattering& ne
                   [&](int i) { return next.weight.vector(i) * std::max(next.pdf[i], 0.0f); });
 }
 
+DUET_WIDEST void WidePathGroups::add_scattered(const Shared& s, const Pairs& pairs,
+                                               const Spectrum& scattered, BatchTriples& sums) {
+  const float r = scattered.r, g = scattered.g, b = scattered.b;
+  const int n = s.group.size, begin = s.group.begin, at = s.pairs;
+  DUET_LANES
+  for (int m = 0; m < n; ++m) {
+    const float seen = pairs.pdf[at + m] > 0 ? 1.0f : 0.0f;
+    sums.x[begin + m] += seen * r * pairs.value.x[at + m];
+    sums.y[begin + m] += seen * g * pairs.value.y[at + m];
+    sums.z[begin + m] += seen * b * pairs.value.z[at + m];
+  }
+}
+
 void WidePathGroups::add_to(WideSamples& samples, RenderCounters& counters) {
   const auto has_found = [&](int j) {
     return scattered_.r[j] != 0 || scattered_.g[j] != 0 || scattered_.b[j] != 0;
   };
-  const auto add = [&](int j, int begin, int end, float scale) {
-    const Spectrum scattered = Spectrum(scattered_.r[j], scattered_.g[j], scattered_.b[j]) * scale;
-    for (int k = begin; k < end; ++k)
-      if (pairs_.pdf[k] > 0)
-        samples.add(pixel_[size_t(pairs_.first[k])], scattered * color_at(pairs_.value, k));
+  const auto add = [&](const Shared& s, float scale) {
+    const int j = s.place;
+    add_scattered(s, pairs_, Spectrum(scattered_.r[j], scattered_.g[j], scattered_.b[j]) * scale,
+                  sums_);
   };
   for_each_shared(counters, has_found, add);
+  give_sums(samples);
 }
 
 }  // namespace duet

@@ -33,6 +33,8 @@ class WidePathGroups final : public WidePixelGroups {
   /// `value(i)` is the BSDF at point i for its direction, 0 for delta lobes.
   template <class F>
   void set_base_shares(const WideVertices& at, const BatchTriples& towards, F&& value);
+  static void add_scattered(const Shared& s, const Pairs& pairs, const Spectrum& scattered,
+                            BatchTriples& sums);
 
   WideSamples scattered_{};  ///< by second vertices, times Second::scale; by places
   BatchTriples share_{};     ///< of what is added that the base scatters; 1 of diffuse surfaces

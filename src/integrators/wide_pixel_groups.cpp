@@ -37,10 +37,10 @@ WidePixelGroups::WidePixelGroups(const WideScene& scene, bool strict_normals, in
                                  bool bases)
     : wide_(scene),
       members_(members),
-      pixel_(kBatch),
       plastics_(scene.glossy.size()),
       strict_normals_(strict_normals),
       place_(kBatch),
+      pixel_(kBatch),
       glossy_pairs_(scene.glossy.size()) {
   for (const WideGlossyMaterial& material : scene.glossy)
     is_shared_plastic_.push_back(
@@ -57,6 +57,8 @@ void WidePixelGroups::start(int count, uint64_t key) {
   for (int i = 0; i < count; ++i) place_[size_t(pixel_[size_t(i)])] = i;
   std::fill_n(first_.list.begin(), count, -1);
   std::fill_n(second_.side.begin(), count, 0.0f);
+  for (int k = 0; k < count; ++k) sums_.set(k, 0, 0, 0);
+  has_glossy_ = false;
 }
 
 void WidePixelGroups::note_first(int n, const WidePaths& paths, const Vertices& at) {
@@ -69,6 +71,7 @@ void WidePixelGroups::note_first(int n, const WidePaths& paths, const Vertices& 
     if (diffuse && (side == 0 || !(reflectance_at(at.points, i).max() > 0))) continue;
     const int k = place_[size_t(paths.id[i])];
     first_.list[k] = shape.pair_list();
+    has_glossy_ |= !diffuse;
     first_.side[k] = side;
     first_.paths.ray.direction.set(k, paths.ray.direction.vector(i));
     copy_point(at.points, i, first_.points, k);
@@ -99,13 +102,13 @@ void WidePixelGroups::note_second(int n, WidePaths& paths, const Vertices& at) {
   }
 }
 
-DUET_WIDEST void WidePixelGroups::find_pairs(const First& first, const Second& second, int place,
-                                             Span group, int at, Pairs& pairs) {
-  const Point3f to = second.points.position.point(place);
-  const Vector3f ng2 = second.points.ng.vector(place);
-  const Vector3f lit2 = second.points.ns.vector(place) * -second.side[place];
-  const float offset2 = second.points.offset[place];
-  const int n = group.size, begin = group.begin;
+DUET_WIDEST void WidePixelGroups::find_pairs(const First& first, const Second& second,
+                                             const Shared& s, Pairs& pairs) {
+  const Point3f to = second.points.position.point(s.place);
+  const Vector3f ng2 = second.points.ng.vector(s.place);
+  const Vector3f lit2 = second.points.ns.vector(s.place) * -second.side[s.place];
+  const float offset2 = second.points.offset[s.place];
+  const int n = s.group.size, begin = s.group.begin, at = s.pairs, place = s.place;
   DUET_LANES
   for (int k = 0; k < n; ++k) {
     const int i = begin + k, out = at + k;
@@ -119,36 +122,30 @@ DUET_WIDEST void WidePixelGroups::find_pairs(const First& first, const Second& s
     const float area = std::abs(dot(ng2, d)) / r2;
     const float seen = dot(lit2, d);
     const bool paired = first.list[i] >= 0 && r2 > 0 && seen > 0 && lit > 0;
+    const float geometry = paired ? area : 0.0f, pdf = paired ? lit * kInvPi * area : 0.0f;
+    pairs.first[out] = i;
+    pairs.second[out] = place;
     pairs.direction.set(out, d);
-    pairs.cosine[out] = lit;
-    pairs.geometry[out] = paired ? area : 0.0f;
+    pairs.geometry[out] = geometry;
     pairs.cosine_seen[out] = seen;
+    pairs.pdf[out] = pdf;
+    pairs.value.set(out, first.points.reflectance.x[i] * pdf, first.points.reflectance.y[i] * pdf,
+                    first.points.reflectance.z[i] * pdf);
     const Point3f target = moved_off(to, ng2, offset2, -dot(ng2, d));
     const Point3f origin = moved_off(from, ng, first.points.offset[i], dot(ng, target - from));
     pairs.ray.origin.set(out, origin);
     pairs.ray.direction.set(out, target - origin);
-    pairs.ray.tmax[out] = 0x1.fffep-1f;
   }
 }
 
 void WidePixelGroups::evaluate(int n) {
-  for (std::vector<int>& list : glossy_pairs_) list.clear();
-  for (int k = 0; k < n; ++k) {
-    const int i = pairs_.first[k];
-    const bool paired = pairs_.geometry[k] > 0;
-    const float pdf = paired ? pairs_.cosine[k] * kInvPi * pairs_.geometry[k] : 0.0f;
-    pairs_.pdf[k] = pdf;
-    const Spectrum value = reflectance_at(first_.points, i) * pdf;
-    pairs_.value.set(k, value.r, value.g, value.b);
-    if (paired && first_.list[i] > 0) glossy_pairs_[size_t(first_.list[i] - 1)].push_back(k);
-  }
-  evaluate_glossy_pairs();
+  if (has_glossy_) evaluate_glossy_pairs(n);
   see_plastics();
 }
 
 void WidePixelGroups::see_plastics() {
   for (const Shared& s : shared_) {
-    const int list = second_.list[s.place], n = group_size(s.place);
+    const int list = second_.list[s.place], n = s.group.size;
     if (list == 0) continue;
     BatchArray<float>& seen = pairs_.seen;
     const auto see = [&]<class Surface>(const Surface& material) {
@@ -164,19 +161,24 @@ void WidePixelGroups::see_plastics() {
   }
 }
 
-void WidePixelGroups::evaluate_glossy_pairs() {
+void WidePixelGroups::evaluate_glossy_pairs(int n) {
+  for (std::vector<int>& list : glossy_pairs_) list.clear();
+  for (int k = 0; k < n; ++k) {
+    const int list = first_.list[pairs_.first[k]];
+    if (list > 0 && pairs_.geometry[k] > 0) glossy_pairs_[size_t(list - 1)].push_back(k);
+  }
   const WideVertices all{first_.paths, first_.points, numbers_};
   for (size_t number = 0; number < glossy_pairs_.size(); ++number) {
     const std::vector<int>& list = glossy_pairs_[number];
     if (list.empty()) continue;
-    const int n = int(list.size());
-    for (int k = 0; k < n; ++k) {
+    const int count = int(list.size());
+    for (int k = 0; k < count; ++k) {
       glossy_.at[k] = pairs_.first[list[size_t(k)]];
       glossy_.towards.set(k, pairs_.direction.vector(list[size_t(k)]));
     }
-    std::visit([&](const auto& material) { evaluate_glossy(n, material, all, glossy_); },
+    std::visit([&](const auto& material) { evaluate_glossy(count, material, all, glossy_); },
                wide_.glossy[number]);
-    for (int k = 0; k < n; ++k) {
+    for (int k = 0; k < count; ++k) {
       const int pair = list[size_t(k)];
       const float geometry = pairs_.geometry[pair];
       const Vector3f value = glossy_.value.vector(k);
@@ -187,27 +189,36 @@ void WidePixelGroups::evaluate_glossy_pairs() {
   }
 }
 
-void WidePixelGroups::test(int n, RenderCounters& counters) {
-  int rays = 0;
+void WidePixelGroups::drop_two_sided(int n) {
   for (int k = 0; k < n; ++k) {
-    if (!(pairs_.pdf[k] > 0)) continue;
     const int i = pairs_.first[k];
-    if (strict_normals_ && sides_differ(first_.points.ng.vector(i), first_.points.ns.vector(i),
-                                        pairs_.direction.vector(k))) {
+    if (sides_differ(first_.points.ng.vector(i), first_.points.ns.vector(i),
+                     pairs_.direction.vector(k)))
       pairs_.pdf[k] = 0;
-      continue;
-    }
-    if (i == pairs_.second[k]) continue;  // its own path has found it
+  }
+}
+
+void WidePixelGroups::test(int n, RenderCounters& counters) {
+  if (strict_normals_) drop_two_sided(n);
+  int rays = 0;
+  // Without branches: which pairs have a density cannot be predicted.
+  for (int k = 0; k < n; ++k) {
     shadows_.ray.origin.set(rays, pairs_.ray.origin.point(k));
     shadows_.ray.direction.set(rays, pairs_.ray.direction.vector(k));
-    shadows_.ray.tmax[rays] = pairs_.ray.tmax[k];
+    shadows_.ray.tmax[rays] = 0x1.fffep-1f;
     shadows_.blocked[rays] = 0;
-    shadows_.id[rays++] = k;
+    shadows_.id[rays] = k;
+    // What its own path has found is seen.
+    rays += int(pairs_.pdf[k] > 0) & int(pairs_.first[k] != pairs_.second[k]);
   }
   wide_.scene.accel->occluded(shadows_.ray, rays, shadows_.blocked);
   counters.shadow_rays += uint64_t(rays);
   for (int r = 0; r < rays; ++r)
     if (shadows_.blocked[r]) pairs_.pdf[shadows_.id[r]] = 0;
+}
+
+void WidePixelGroups::give_sums(WideSamples& samples) const {
+  for (int k = 0; k < count_; ++k) samples.add(pixel_[size_t(k)], color_at(sums_, k));
 }
 
 }  // namespace duet

@@ -39,16 +39,24 @@ class WidePixelGroups {
   void start(int count, uint64_t key);
   /// Where the pixel's vertices are among those of all groups.
   int place(int id) const { return place_[size_t(id)]; }
-  /// Calls `add(j, begin, end, scale)` for the shared vertices j for which `has_found(j)`: the
-  /// pairs from `begin` to `end` are those with the first vertices of the group, of which the ones
-  /// with a density count. What the path of j has found is to be multiplied by `scale` and by the
-  /// value of the pair.
-  template <class Has, class Add>
-  void for_each_shared(RenderCounters& counters, const Has& has_found, const Add& add);
-
   struct Span {
     int begin, size;
   };
+  /// A second vertex, the places of its group, and the number of its pair with the first of them:
+  /// the others follow.
+  struct Shared {
+    int place;
+    Span group;
+    int pairs;
+  };
+  /// Calls `add(s, scale)` for the shared vertices of which `has_found(place)`. To the sums of its
+  /// group is to be added what its path has found, times `scale` and the values of the pairs that
+  /// have a density.
+  template <class Has, class Add>
+  void for_each_shared(RenderCounters& counters, const Has& has_found, const Add& add);
+  /// Adds the sums to the pixels.
+  void give_sums(WideSamples& samples) const;
+
   /// Vertices by their places in groups: those of a group follow each other.
   struct First {
     WidePaths paths;  ///< directions of the camera's rays
@@ -68,7 +76,6 @@ class WidePixelGroups {
   struct Pairs {
     BatchArray<int32_t> first, second;  ///< places of the vertices
     BatchTriples direction;             ///< unit
-    BatchArray<float> cosine;           ///< with the shading normal, on the lit side
     BatchArray<float> geometry;         ///< area measure over solid angle; 0 where one faces away
     BatchArray<float> cosine_seen;      ///< at the second vertex
     BatchArray<float> seen;             ///< see_bases(); 1 of diffuse surfaces
@@ -76,40 +83,40 @@ class WidePixelGroups {
     BatchArray<float> pdf;  ///< of the second vertex, per area; 0 if it is not seen
     BatchTriples value;     ///< BSDF, cosine and geometry
   };
-  /// A second vertex and where its pairs begin.
-  struct Shared {
-    int place, pairs;
-  };
-
   const WideScene& wide_;
   const int members_;
-  int count_ = 0;
-  std::vector<int> pixel_;  ///< at each place
   First first_{};
   Second second_{};
   Pairs pairs_{};
+  BatchTriples sums_{};  ///< what pixels get, by their places
   WideGlossy glossy_{};
   /// Paths of the batch whose second vertices are plastics, by WideShape::number.
   std::vector<std::vector<int>> plastics_;
 
  private:
-  int group_begin(int place) const { return place / members_ * members_; }
-  int group_size(int place) const { return std::min(members_, count_ - group_begin(place)); }
-  /// The pairs of a second vertex with all first ones of its group, as pairs `at` and following.
-  static void find_pairs(const First& first, const Second& second, int place, Span group, int at,
-                         Pairs& pairs);
-  /// Densities and values of the first `n` pairs.
+  Span group_of(int place) const {
+    const int begin = place / members_ * members_;
+    return {begin, std::min(members_, count_ - begin)};
+  }
+  /// The pairs of a second vertex, with the densities and values of diffuse first ones.
+  static void find_pairs(const First& first, const Second& second, const Shared& s, Pairs& pairs);
+  /// Densities and values of the first `n` pairs, whose first vertices may be glossy.
   void evaluate(int n);
-  void evaluate_glossy_pairs();
+  void evaluate_glossy_pairs(int n);
   /// Multiplies pairs by how the second vertices are seen from the first ones.
   void see_plastics();
+  /// With strict normals.
+  void drop_two_sided(int n);
   void test(int n, RenderCounters& counters);
   /// Calls `add` for the vertices of the first `n` pairs.
   template <class Add>
   void flush(int n, RenderCounters& counters, const Add& add);
 
   bool strict_normals_;
-  std::vector<int> place_;  ///< of each pixel
+  int count_ = 0;
+  bool has_glossy_ = false;  ///< among first vertices
+  std::vector<int> place_;   ///< of each pixel
+  std::vector<int> pixel_;   ///< at each place
   std::vector<Shared> shared_;
   WideShadowRays shadows_{};
   WideNumbers numbers_{};  ///< of which evaluation needs none
@@ -122,10 +129,10 @@ void WidePixelGroups::flush(int n, RenderCounters& counters, const Add& add) {
   evaluate(n);
   test(n, counters);
   for (const Shared& s : shared_) {
-    const int end = s.pairs + group_size(s.place);
+    const int end = s.pairs + s.group.size;
     float sum = 0;
     for (int k = s.pairs; k < end; ++k) sum += pairs_.pdf[k];
-    if (sum > 0) add(s.place, s.pairs, end, 1 / (sum * second_.scale[s.place]));
+    if (sum > 0) add(s, 1 / (sum * second_.scale[s.place]));
   }
   shared_.clear();
 }
@@ -136,12 +143,10 @@ void WidePixelGroups::for_each_shared(RenderCounters& counters, const Has& has_f
   int n = 0;
   for (int j = 0; j < count_; ++j) {
     if (second_.side[j] == 0 || !has_found(j)) continue;
-    const Span group{group_begin(j), group_size(j)};
+    const Span group = group_of(j);
     if (n + group.size > kBatch) flush(n, counters, add), n = 0;
-    find_pairs(first_, second_, j, group, n, pairs_);
-    for (int k = 0; k < group.size; ++k)
-      pairs_.first[n + k] = group.begin + k, pairs_.second[n + k] = j;
-    shared_.push_back({j, n});
+    shared_.push_back({j, group, n});
+    find_pairs(first_, second_, shared_.back(), pairs_);
     n += group.size;
   }
   flush(n, counters, add);

@@ -65,7 +65,7 @@ TEST_CASE("the parameters of each method, with their presets") {
   CHECK(parameters("path") == own + " only_specular=false pixel_group=1");
   CHECK(parameters("auto") == own);
   CHECK(parameters("ptracer") == paths + lights);
-  CHECK(parameters("bdpt") == more + " connections=-1 light_image=true");
+  CHECK(parameters("bdpt") == more + " connections=-1 light_image=true pixel_group=1");
   CHECK(parameters("reuse") ==
         more + " max_eye_depth=4 max_light_depth=3 weights=exact continue_probability=1");
   CHECK(parameters("ppm") == more + " radius=0 alpha=0");
