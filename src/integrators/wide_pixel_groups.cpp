@@ -67,8 +67,8 @@ void WidePixelGroups::note_first(int n, const WidePaths& paths, const Vertices& 
   for (int i = 0; i < n; ++i) {
     const WideShape& shape = wide_.shapes[at.hits.shape[i]];
     const bool diffuse = shape.model == WideModel::diffuse;
-    // What bump and normal maps do between two points is not known here.
-    if (shape.perturbed || (!diffuse && shape.model != WideModel::glossy)) continue;
+    // What masks, bump and normal maps do between two points is not known here.
+    if (shape.is_covered() || (!diffuse && shape.model != WideModel::glossy)) continue;
     const float side = diffuse ? lit_side(at.points, paths, i) : 0.0f;
     // No path goes on from what is black, or not lit from the eye's side.
     if (diffuse && (side == 0 || !(reflectance_at(at.points, i).max() > 0))) continue;
@@ -88,7 +88,7 @@ void WidePixelGroups::note_second(int n, WidePaths& paths, const Vertices& at) {
     if (first_.list[k] < 0 || paths.bsdf_pdf[i] < 0) continue;
     const WideShape& shape = wide_.shapes[at.hits.shape[i]];
     const bool plastic = shape.model == WideModel::glossy && is_plastic_[size_t(shape.number)];
-    if (shape.perturbed || (shape.model != WideModel::diffuse && !plastic)) continue;
+    if (shape.is_covered() || (shape.model != WideModel::diffuse && !plastic)) continue;
     const float side = lit_side(at.points, paths, i);
     if (side == 0) continue;
     if (plastic) plastics_[size_t(shape.number)].push_back(i);
