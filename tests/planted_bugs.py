@@ -421,4 +421,6 @@ MUTATIONS = [
     ("what lies below a mask of a batch chooses by the mask's number",
      "src/integrators/wide_masked.cpp", "if (!p.passes) u = std::min(u / p.share, kBelowOne);", "",
      "at masks paths of a batch*"),
+    ("groups of pixels share vertices below masks", "src/integrators/wide_scene.h",
+     "return perturbed || masked;", "return perturbed;", "vertices below masks are not*"),
 ]

@@ -142,6 +142,17 @@ TEST_CASE("at masks paths of a batch are those that are traced one by one") {
   check_same(scene, batch_request(4, SampleSequence::independent), limits);
 }
 
+TEST_CASE("vertices below masks are not shared by groups of pixels") {
+  const TransportScene scene(TemporaryDirectory(), masked_room());
+  const RenderRequest r = batch_request(4, SampleSequence::sobol);
+  PathIntegratorDescription grouped;
+  grouped.pixel_group = 16;
+  PathIntegrator path(grouped, {});
+  const Image groups = render(*scene.scene, path, scene.layout, r).image;
+  const Image alone = render_path(scene, PathBatches::where_possible, r).image;
+  CHECK(differences(groups, alone) <= int(alone.data.size() / 200));
+}
+
 // There directions are chosen in another frame: what is the same are light samples.
 TEST_CASE("below bump and normal maps batches have the same light samples") {
   PathLimits limits;
