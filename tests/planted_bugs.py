@@ -429,4 +429,11 @@ MUTATIONS = [
      "scattering_.weight.set(i, scattering_.weight.vector(i) * next);", "", "below bump and normal maps*"),
     ("backs below maps are fronts in batches", "src/integrators/wide_perturbed.cpp",
      "surface.two_sided && wo.z < 0 ? -1.0f : 1.0f", "1.0f", "below bump and normal maps*"),
+    ("masks do not dim light samples of a batch", "src/integrators/wide_masked.cpp",
+     "lights_.value.set(i, lights_.value.vector(i) * p.share);", "", "at masks paths of a batch*"),
+    ("what lies below a mask of a batch chooses by the mask's number",
+     "src/integrators/wide_masked.cpp", "if (!p.passes) u = std::min(u / p.share, kBelowOne);", "",
+     "at masks paths of a batch*"),
+    ("groups of pixels share vertices below masks", "src/integrators/wide_scene.h",
+     "return perturbed || masked;", "return perturbed;", "vertices below masks are not*"),
 ]

@@ -56,6 +56,7 @@ void WideScene::set_reflectance(WideShape& w, const Shape& shape, const ColorSlo
   w.reflectance = slot.constant;
   if (slot.is_constant()) return;
   w.textured = &slot;
+  w.looks_up = true;
   w.prefetched = large_textures(shape.material);
 }
 
@@ -88,30 +89,46 @@ bool WideScene::set_glossy(WideShape& w, const Shape& shape, const Material& mat
   return true;
 }
 
-void WideScene::set_perturbed(WideShape& w, const Shape& shape) {
-  const auto surface = as_perturbed(*scene.materials[shape.material]);
-  if (!surface) return;
+bool WideScene::set_plain(WideShape& w, const Shape& shape, const Material& material, WideUse use) {
+  if (!has_frame_of_normal(shape)) return false;
+  if (set_diffuse(w, shape, material) || set_glossy(w, shape, material, use)) return true;
+  const auto delta = as_specular(material);
+  if (!delta) return false;
+  w.model = WideModel::specular;
+  w.number = number_of(shape, *delta, specular);
+  return true;
+}
+
+bool WideScene::set_perturbed(WideShape& w, const Shape& shape, const Material& material) {
+  const auto surface = as_perturbed(material);
+  if (!surface) return false;
   const Material& nested = surface->map.nested();
   // In lanes the frame depends on the normal alone, and light does not pass.
-  if (nested.needs().tangents || nested.transmits()) return;
-  if (!set_diffuse(w, shape, nested) && !set_glossy(w, shape, nested, WideUse::paths)) return;
+  if (nested.needs().tangents || nested.transmits()) return false;
+  if (!set_diffuse(w, shape, nested) && !set_glossy(w, shape, nested, WideUse::paths)) return false;
   w.perturbed = true;
   maps.resize(scene.shapes.size());
   maps[size_t(&shape - scene.shapes.data())].emplace(*surface);
+  return true;
+}
+
+bool WideScene::set_masked(WideShape& w, const Shape& shape, const Material& material) {
+  const Mask* const mask = as_mask(material);
+  if (!mask) return false;
+  const Material& nested = mask->nested();
+  if (!set_plain(w, shape, nested, WideUse::paths) && !set_perturbed(w, shape, nested))
+    return false;
+  w.masked = w.looks_up = true;
+  masks.resize(scene.shapes.size());
+  masks[size_t(&shape - scene.shapes.data())] = mask;
+  return true;
 }
 
 void WideScene::set_model(WideShape& w, const Shape& shape, WideUse use) {
   const Material& material = *scene.materials[shape.material];
-  if (has_frame_of_normal(shape)) {
-    if (set_diffuse(w, shape, material) || set_glossy(w, shape, material, use)) return;
-    if (const auto delta = as_specular(material)) {
-      w.model = WideModel::specular;
-      w.number = number_of(shape, *delta, specular);
-      return;
-    }
-  }
+  if (set_plain(w, shape, material, use)) return;
   w.prefetched = large_textures(shape.material);
-  if (use == WideUse::paths) set_perturbed(w, shape);
+  if (use == WideUse::paths && !set_perturbed(w, shape, material)) set_masked(w, shape, material);
 }
 
 WideScene::WideScene(const Scene& s, WideUse use) : scene(s), lights(s) {

@@ -39,26 +39,31 @@ struct alignas(64) WideShape {
   Spectrum reflectance;                 ///< otherwise
   WideModel model = WideModel::other;
   bool two_sided = false;      ///< see DiffuseSurface; not of WideModel::other
+  bool looks_up = false;       ///< at each point: what is `textured`, or how opaque a mask is
   bool transmits : 1 = false;  ///< of WideModel::glossy: scatters to both sides
   bool emits : 1 = false;
   bool perturbed : 1 = false;  ///< below a map of WideScene::maps
+  bool masked : 1 = false;     ///< below a mask of WideScene::masks
+
+  /// Whether more than the model decides how points scatter.
+  bool is_covered() const { return perturbed || masked; }
 
   /// The number of the material among those of vertices that are connected in loops: zero for all
   /// that are diffuse.
   int32_t pair_list() const { return model == WideModel::glossy ? 1 + number : 0; }
   /// Whether its points can be first vertices that see those of other paths (WidePixelGroups). What
-  /// maps do between two points is not known there.
+  /// masks, bump and normal maps do between two points is not known there.
   bool may_be_first() const {
-    return !perturbed && (model == WideModel::diffuse || model == WideModel::glossy);
+    return !is_covered() && (model == WideModel::diffuse || model == WideModel::glossy);
   }
   /// Whether its points scatter the same towards all first vertices.
-  bool may_be_second() const { return !perturbed && model == WideModel::diffuse; }
+  bool may_be_second() const { return !is_covered() && model == WideModel::diffuse; }
 };
 
 /// What is done with batches of paths.
 enum class WideUse {
   paths,        ///< from the camera, with light samples: WideTracer
-  connections,  ///< of sub-paths. Bump and normal maps are WideModel::other
+  connections,  ///< of sub-paths. Masks, bump and normal maps are WideModel::other
   /// The same with photons that are merged. Points of nearly specular materials are
   /// WideModel::other, too: it depends on the path whether they merge.
   merging,
@@ -73,13 +78,18 @@ struct WideScene {
   std::vector<WideGlossyMaterial> glossy;
   std::vector<SpecularSurface> specular;
   std::vector<std::optional<PerturbedSurface>> maps;  ///< by shapes; empty if no shape has one
+  std::vector<const Mask*> masks;                     ///< likewise
   bool has_normals = false;                           ///< whether any mesh has shading normals
   WideLights lights;
 
  private:
   void set_model(WideShape& w, const Shape& shape, WideUse use);
+  /// Whether the material has a loop of its own, which is set then.
+  bool set_plain(WideShape& w, const Shape& shape, const Material& material, WideUse use);
   /// Of what lies below a map, if that is diffuse or glossy.
-  void set_perturbed(WideShape& w, const Shape& shape);
+  bool set_perturbed(WideShape& w, const Shape& shape, const Material& material);
+  /// Of what lies below a mask, if that has a loop.
+  bool set_masked(WideShape& w, const Shape& shape, const Material& material);
   bool set_diffuse(WideShape& w, const Shape& shape, const Material& material);
   bool set_glossy(WideShape& w, const Shape& shape, const Material& material, WideUse use);
   void set_reflectance(WideShape& w, const Shape& shape, const ColorSlot& slot);

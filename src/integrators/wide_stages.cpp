@@ -103,7 +103,8 @@ void WideStages::prefetch_textures() {
 void WideStages::look_up_textures() {
   for (size_t k = 0; k < textured_.size(); ++k) {
     const int i = textured_[k];
-    set_reflectance(i, (*wide_.shapes[hits_.shape[i]].textured)(textured_points_[k]));
+    const ColorSlot* const reflectance = wide_.shapes[hits_.shape[i]].textured;
+    if (reflectance) set_reflectance(i, (*reflectance)(textured_points_[k]));
   }
   if (!wide_.maps.empty()) perturb_normals();
 }
@@ -137,7 +138,7 @@ void WideStages::fetch(int n) {
       special_.push_back(i);
       continue;
     }
-    if (shape.textured) textured_.push_back(i);
+    if (shape.looks_up) textured_.push_back(i);
     shape.mesh.get_corners(i, hits_.primitive[i], wide_.has_normals, triangles_);
   }
 }
@@ -153,7 +154,7 @@ void WideStages::draw_numbers(int n, const BatchSampler& sampler, int depth) {
 void WideStages::draw_scattering(int n, const BatchSampler& sampler, uint32_t dimension,
                                  int depth) {
   sampler.numbers_2d(n, paths_.keys, dimension, numbers_.x, numbers_.y);
-  const bool chooses = !special_.empty() || has_listed_points_;
+  const bool chooses = !special_.empty() || has_listed_points_ || !wide_.masks.empty();
   if (chooses || has_roulette(depth))
     sampler.numbers_1d(n, paths_.keys, dimension + 2, numbers_.first);
   if (chooses && has_roulette(depth))

@@ -47,10 +47,15 @@ class WideStages {
   void sample_glossy_points(BatchArray<float>* reverse);
   /// The same at points of specular materials.
   void sample_specular_points(BatchArray<float>* reverse);
+  /// Before these and after look_up_textures(): which paths pass masks straight. The numbers of the
+  /// others are those of what lies below then.
+  void choose_at_masks();
   /// After these: what bump and normal maps do to light from directions of `lights_` and from the
   /// next ones, at points whose BSDFs lanes have in the frame of the perturbed normal. The normals
   /// of these are those of the surfaces again.
   void shade_perturbed_points();
+  /// After that: what masks do to light from directions of `lights_` and to the next ones.
+  void shade_masked_points();
   /// Samples a BSDF at a point that has no loop of its own; the sample is empty if the path ends.
   std::optional<BsdfSample> scatter_at(int i, const Bsdf& bsdf);
   /// With strict_normals: no light samples, or next directions, that the two normals of a point see
@@ -145,10 +150,20 @@ class WideStages {
     Tilt tilt;
   };
 
+  /// A point below a mask that is not opaque there.
+  struct MaskedPoint {
+    int point;
+    float share;  ///< of what lies below
+    bool passes;  ///< straight
+  };
+
+  void list_masked_points();
+
   WideTriangles triangles_{};
-  std::vector<int> textured_;
+  std::vector<int> textured_;             ///< where something is looked up, but for `special_`
   std::vector<Surface> textured_points_;  ///< of `textured_`
   std::vector<PerturbedPoint> perturbed_;
+  std::vector<MaskedPoint> masked_;
 };
 
 }  // namespace duet

@@ -27,12 +27,14 @@ void WideTracer::trace(int n, const BatchSampler& sampler, WideSamples& samples,
     if (limits_.strict_normals) drop_two_sided_light_samples(n);
     look_up_textures();
     if (groups_) share_vertices(n, depth);
+    choose_at_masks();
     evaluate_diffuse(n, paths_, points_, lights_);
     sample_diffuse(n, paths_, points_, numbers_, scattering_);
     evaluate_glossy_points(nullptr);
     sample_glossy_points(nullptr);
     sample_specular_points(nullptr);
     shade_perturbed_points();
+    shade_masked_points();
     scatter_one_by_one();
     const bool splits = groups_ && depth == 2;
     if (splits) groups_->set_shares(vertices(), lights_);

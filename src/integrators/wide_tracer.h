@@ -13,8 +13,8 @@ namespace duet {
 /// Traces paths in the same way as PathIntegrator traces one path: with the same random numbers
 /// every path is the same bit for bit, unless it meets two surfaces that are equally near or, by
 /// rounding, the edge of one. Usual rough plastics and conductors are scattered in loops, too, and
-/// what lies below bump and normal maps; there directions are chosen in another frame around the
-/// same normal, so that paths differ from there on.
+/// what lies below masks, bump and normal maps; below maps directions are chosen in another frame
+/// around the same normal, so that paths differ from there on.
 /// In groups of pixels, which PathIntegrator does not have one by one, paths are the same up to
 /// their second vertices.
 class WideTracer final : public WideWalk, private WideStages {

@@ -31,6 +31,10 @@ std::optional<PerturbedSurface> as_perturbed(const Material& material) {
   return PerturbedSurface{*map, bare.two_sided};
 }
 
+const Mask* as_mask(const Material& material) {
+  return dynamic_cast<const Mask*>(&material);
+}
+
 std::optional<DiffuseSurface> as_diffuse(const Material& material) {
   const Unwrapped bare = unwrapped(material);
   const auto* diffuse = dynamic_cast<const Diffuse*>(bare.material);

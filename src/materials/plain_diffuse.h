@@ -125,4 +125,9 @@ struct PerturbedSurface {
 /// The material as such, if it is one.
 std::optional<PerturbedSurface> as_perturbed(const Material& material);
 
+class Mask;
+
+/// The material as a mask, or null if it is none.
+const Mask* as_mask(const Material& material);
+
 }  // namespace duet

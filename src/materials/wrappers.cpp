@@ -36,9 +36,9 @@ bool Mask::transmits() const {
 }
 
 void Mask::add_components(const Surface& surface, BsdfBuilder& builder) const {
-  const float opacity = std::clamp(opacity_(surface), 0.0f, 1.0f);
-  builder.with_share(opacity, [&](BsdfBuilder& b) { nested_.bind(surface, b); });
-  builder.with_share(1 - opacity, [&](BsdfBuilder& b) { b.add(NullModel{}); });
+  const float opaque = share(surface);
+  builder.with_share(opaque, [&](BsdfBuilder& b) { nested_.bind(surface, b); });
+  builder.with_share(1 - opaque, [&](BsdfBuilder& b) { b.add(NullModel{}); });
 }
 
 SurfaceNeeds Blend::needs() const {

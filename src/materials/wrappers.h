@@ -1,6 +1,7 @@
 // Materials made of other materials, which must outlive them.
 #pragma once
 
+#include <algorithm>
 #include <vector>
 
 #include "materials/material.h"
@@ -39,6 +40,12 @@ class TwoSided final : public Material {
 class Mask final : public Material {
  public:
   Mask(const FloatSlot& opacity, const Material& nested) : opacity_(opacity), nested_(nested) {}
+  const Material& nested() const { return nested_; }
+  /// The share of the nested material, from 0 to 1; 0 where the opacity is no number.
+  float share(const Surface& surface) const {
+    const float opacity = opacity_(surface);
+    return opacity > 0 ? std::min(opacity, 1.0f) : 0.0f;
+  }
   SurfaceNeeds needs() const override;
   int component_count() const override { return nested_.component_count() + 1; }
   bool transmits() const override;

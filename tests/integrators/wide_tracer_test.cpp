@@ -57,6 +57,40 @@ std::string bumped(const std::string& nested) {
          "'/></texture><float name='scale' value='0.3'/>" + nested + "</bsdf>";
 }
 
+std::string masked(const std::string& opacity, const std::string& nested) {
+  return "<bsdf type='mask'>" + opacity + nested + "</bsdf>";
+}
+/// An opacity, and one that differs from place to place.
+std::string opacity(const char* value) {
+  return std::string("<float name='opacity' value='") + value + "'/>";
+}
+std::string opacities(const char* first, const char* second) {
+  const auto color = [](const char* name, const char* value) {
+    return std::string("<rgb name='") + name + "' value='" + value + "'/>";
+  };
+  return "<texture name='opacity' type='checkerboard'>" + color("color0", first) +
+         color("color1", second) +
+         "<transform name='to_uv'><scale x='6' y='8'/></transform></texture>";
+}
+
+/// Masks over everything that has a loop, on meshes, balls and instances.
+std::string masked_room() {
+  return camera() + kLamp + kEnvironment +
+         room_xml(masked(opacities("0.3", "1"), kVarnishedCheckers)) +
+         lumpy_xml("-0.5,0.2,0.5", masked(opacity("0.7"), kAluminium)) +
+         lumpy_xml("0.1,-0.5,1.4", masked(opacity("0.6"), kGlass)) +
+         sphere_xml("0.5,-0.3,0.4", "0.3", masked(opacity("0.4"), smooth_plastic(""))) +
+         sphere_xml("0.5,0.4,1.3", "0.3", masked(opacity("0.5"), rough_glass(""))) +
+         "<shape type='cube'><transform name='to_world'><scale value='0.2'/>"
+         "<translate x='-0.4' y='-0.4' z='1.1'/></transform>" +
+         masked(opacities("0", "0.8"), grey("0.5")) +
+         "</shape><shape type='shapegroup' id='g'><shape type='cube'>" +
+         masked(opacities("0", "1"), kMirror) +
+         "</shape></shape><shape type='instance'><ref id='g'/><transform name='to_world'>"
+         "<scale value='0.2'/><rotate z='1' angle='30'/><translate y='-0.6' z='0.2'/></transform>"
+         "</shape>";
+}
+
 /// A room below maps with such parameters, and balls.
 std::string mapped_room(const std::string& parameters) {
   return camera() +
@@ -66,6 +100,7 @@ std::string mapped_room(const std::string& parameters) {
          hollow_xml("0.5,-0.3,0.5", "0.3",
                     on_both_sides(mapped(parameters, conductor("", false)))) +
          sphere_xml("0.5,0.4,1.3", "0.3", bumped(kPlastic)) +
+         sphere_xml("0.1,-0.6,0.3", "0.2", masked(opacity("0.6"), bumped(grey("0.7")))) +
          sphere_xml("-0.4,-0.2,1.3", "0.25", on_both_sides(bumped(smooth_plastic("", false))));
 }
 
@@ -91,6 +126,31 @@ TEST_CASE("paths of a batch are those that are traced one by one") {
         check_same(scene, batch_request(4, sequence), limits);
       }
   }
+}
+
+TEST_CASE("at masks paths of a batch are those that are traced one by one") {
+  const TransportScene scene(TemporaryDirectory(), masked_room());
+  for (const int depth : {1, 2, 4, 30}) {
+    CAPTURE(depth);
+    PathLimits limits;
+    limits.max_depth = depth;
+    limits.rr_depth = 3;
+    check_same(scene, batch_request(4, SampleSequence::sobol), limits);
+  }
+  PathLimits limits;
+  limits.hide_emitters = limits.strict_normals = true;
+  check_same(scene, batch_request(4, SampleSequence::independent), limits);
+}
+
+TEST_CASE("vertices below masks are not shared by groups of pixels") {
+  const TransportScene scene(TemporaryDirectory(), masked_room());
+  const RenderRequest r = batch_request(4, SampleSequence::sobol);
+  PathIntegratorDescription grouped;
+  grouped.pixel_group = 16;
+  PathIntegrator path(grouped, {});
+  const Image groups = render(*scene.scene, path, scene.layout, r).image;
+  const Image alone = render_path(scene, PathBatches::where_possible, r).image;
+  CHECK(differences(groups, alone) <= int(alone.data.size() / 200));
 }
 
 // There directions are chosen in another frame: what is the same are light samples.
