@@ -51,7 +51,7 @@ std::optional<MaterialId> read_hair(Values& v) {
   if (v.has("sigma_a")) {
     m.sigma_a = v.color_input("sigma_a", ColorMeaning::unbounded);
   } else if (v.has(color)) {
-    const ColorInput input = v.color_input(color, ColorMeaning::reflectance);
+    const ColorInput input = reflectance_input(v, color);
     const Spectrum* constant = std::get_if<Spectrum>(&input);
     const double* roughness = std::get_if<double>(&m.azimuthal_roughness);
     if (constant && roughness)
