@@ -1,13 +1,14 @@
 #!/usr/bin/env python3
 """Measures where Mitsuba is off: the figures of the last section of docs/compatibility.md.
 
-    measure_differences.py [NAME...]       blend-delta bump-tangents direct-delta-lights elliptic-cylinders endless-media
-                                           null-paths ray-offset-media ray-offset-surfaces sggx-flakes
+    measure_differences.py [NAME...]       attribute-light-samples blend-delta bump-tangents direct-delta-lights
+                                           elliptic-cylinders endless-media null-paths ray-offset-media ray-offset-surfaces sggx-flakes
                                            smooth-light-samples texture-light-samples
 
 Needs the package mitsuba (3.9.1) with the variant llvm_ad_rgb. Each line is a scene, the mean of its image with its standard
 error from six renders, and the ratio to what is due, where that is known.
 """
+import pathlib
 import sys
 import tempfile
 
@@ -140,6 +141,17 @@ def texture_light_samples():
             integrator={'type': 'direct', 'emitter_samples': 1, 'bsdf_samples': 0})
 
 
+def attribute_light_samples():
+    light = {'type': 'area', 'radiance': {'type': 'mesh_attribute', 'name': 'vertex_color'}}
+    scene = {'sensor': camera(40, (0, -4, 2)), 'floor': {'type': 'rectangle', 'bsdf': grey(0.5), 'to_world': T().scale(3)},
+             'lamp': {'type': 'ply', 'filename': str(pathlib.Path(__file__).parent.parent / 'scenes/textures/attributes.ply'),
+                      'to_world': T().translate([0, 0, 1.2]).rotate([1, 0, 0], 180), 'light': light}}
+    due = measure('coloured disk, rays', 1024, **scene, integrator={'type': 'direct', 'emitter_samples': 0, 'bsdf_samples': 1})
+    measure('coloured disk, path', 1024, due, **scene, integrator={'type': 'path', 'max_depth': 2})
+    measure('coloured disk, light samples', 1024, due, **scene,
+            integrator={'type': 'direct', 'emitter_samples': 1, 'bsdf_samples': 0})
+
+
 def bump_tangents():
     heights = mi.Bitmap(np.random.default_rng(1).random((7, 5, 1), np.float32))
     for angle in (0, 30, 60, 90):
@@ -162,7 +174,7 @@ def endless_media():
                 ball={'type': 'sphere', 'radius': 0.1, 'center': [x, 0, -0.2], 'exterior': fog})
 
 
-ALL = {'blend-delta': blends, 'bump-tangents': bump_tangents, 'direct-delta-lights': delta_lights,
+ALL = {'attribute-light-samples': attribute_light_samples, 'blend-delta': blends, 'bump-tangents': bump_tangents, 'direct-delta-lights': delta_lights,
        'elliptic-cylinders': elliptic_cylinders, 'endless-media': endless_media, 'null-paths': null_paths, 'ray-offset-media': offsets_in_media,
        'ray-offset-surfaces': offsets_of_surfaces, 'sggx-flakes': flakes, 'smooth-light-samples': smooth_light_samples,
        'texture-light-samples': texture_light_samples}

@@ -1,5 +1,6 @@
 // Hair: the same in both versions.
 #include <algorithm>
+#include <limits>
 
 #include "materials/hair_absorption.h"
 #include "pbrt/materials.h"
@@ -20,20 +21,17 @@ constexpr Spec kHair[] = {
     {"alpha", kNumberTexture, "2", "tilt of the scales in degrees"},
 };
 
-/// A parameter that Duet's hair has as a number.
-double hair_number(Values& v, const char* name) {
+/// Textures are clamped where they are looked up.
+FloatInput clamped_input(Values& v, const char* name, double low, double high) {
   const FloatInput input = v.float_input(name);
-  if (const double* constant = std::get_if<double>(&input)) return *constant;
-  v.reader().report().error(v.where(name), "textures of \"{}\" are not supported", name);
-  return 0.3;
+  const double* constant = std::get_if<double>(&input);
+  return constant ? FloatInput(std::clamp(*constant, low, high)) : input;
 }
 
 /// The concentration of a pigment.
 FloatInput pigment(Values& v, const char* name) {
   if (!v.has(name)) return 0.0;
-  const FloatInput input = v.float_input(name);
-  const double* constant = std::get_if<double>(&input);
-  return constant ? FloatInput(std::max(*constant, 0.0)) : input;
+  return clamped_input(v, name, 0, std::numeric_limits<double>::max());
 }
 
 }  // namespace
@@ -44,18 +42,20 @@ std::span<const Spec> hair_specs() {
 
 std::optional<MaterialId> read_hair(Values& v) {
   HairMaterial m;
-  m.longitudinal_roughness = std::min(std::max(hair_number(v, "beta_m"), 0.0), 1.0);
-  m.azimuthal_roughness = std::min(std::max(hair_number(v, "beta_n"), 0.0), 1.0);
-  m.scale_tilt = hair_number(v, "alpha");
-  m.eta = hair_number(v, "eta");
+  m.longitudinal_roughness = clamped_input(v, "beta_m", 0, 1);
+  m.azimuthal_roughness = clamped_input(v, "beta_n", 0, 1);
+  m.scale_tilt = v.float_input("alpha");
+  m.eta = v.float_input("eta");
   const bool v4 = v.reader().version() == Version::v4;
   const char* color = v4 && v.has("reflectance") ? "reflectance" : "color";
   if (v.has("sigma_a")) {
     m.sigma_a = v.color_input("sigma_a", ColorMeaning::unbounded);
   } else if (v.has(color)) {
-    const ColorInput input = v.color_input(color, ColorMeaning::reflectance);
-    if (const Spectrum* constant = std::get_if<Spectrum>(&input))
-      m.sigma_a = hair_absorption_for(*constant, float(m.azimuthal_roughness));
+    const ColorInput input = reflectance_input(v, color);
+    const Spectrum* constant = std::get_if<Spectrum>(&input);
+    const double* roughness = std::get_if<double>(&m.azimuthal_roughness);
+    if (constant && roughness)
+      m.sigma_a = hair_absorption_for(*constant, float(*roughness));
     else
       m.reflectance = input;
   } else if (v.has("eumelanin") || v.has("pheomelanin")) {

@@ -28,6 +28,8 @@ std::optional<Roughness> read_roughness(Values& v, std::string_view name = "roug
                                         std::string_view name_v = "vroughness");
 /// v3's for glass, which takes a roughness of zero as it is: smooth. `name` is that of both axes.
 std::optional<Roughness> read_glass_roughness(Values& v, std::string_view name);
+/// A reflectance, in v4 of images that lie within [0, 1] each.
+ColorInput reflectance_input(Values& v, std::string_view name);
 /// A reflectance as v4's materials take it: what lies outside of [0, 1] is its nearest end.
 ColorInput clamped_reflectance(Values& v, std::string_view name);
 /// The same of any input.

@@ -52,7 +52,7 @@ std::optional<MaterialId> read_conductor(Values& v) {
   check_metal(v, "eta", "k");
   ConductorMaterial m;
   if (v.has("reflectance")) {
-    const ColorInput r = v.color_input("reflectance", ColorMeaning::reflectance);
+    const ColorInput r = reflectance_input(v, "reflectance");
     m.eta = Spectrum(1.0f);
     if (const Spectrum* constant = std::get_if<Spectrum>(&r))
       m.k = k_for(*constant);
@@ -93,7 +93,7 @@ constexpr Spec kTransmission[] = {{"reflectance", kColorTexture, "0.25"},
 std::optional<MaterialId> read_transmission(Values& v) {
   const Spectrum scale(float(v.not_negative("scale")));
   const auto part = [&](const char* name) {
-    return clamped(v, scaled(v, v.color_input(name, ColorMeaning::reflectance), scale));
+    return clamped(v, scaled(v, reflectance_input(v, name), scale));
   };
   return diffuse_both_ways(v, part("reflectance"), part("transmittance"));
 }
@@ -112,7 +112,7 @@ void read_coat(Values& v, CoatLayer& coat, const char* eta, const std::optional<
   coat.eta = v.index_of_refraction(eta);
   if (top) coat.alpha_u = top->alpha_u, coat.alpha_v = top->alpha_v;
   coat.thickness = v.float_input("thickness");
-  coat.albedo = v.color_input("albedo", ColorMeaning::reflectance);
+  coat.albedo = reflectance_input(v, "albedo");
   coat.g = v.float_input("g");
   coat.max_depth = std::max(1, v.integer("maxdepth"));
   coat.samples = std::max(1, v.integer("nsamples"));
@@ -127,7 +127,7 @@ constexpr Spec kCoatedDiffuse[] = {{"reflectance", kColorTexture, "0.5", "of the
 
 std::optional<MaterialId> read_coated_diffuse(Values& v) {
   CoatedDiffuseMaterial m;
-  m.reflectance = v.color_input("reflectance", ColorMeaning::reflectance);
+  m.reflectance = reflectance_input(v, "reflectance");
   read_coat(v, m, "eta", read_roughness(v));
   return two_sided(v, v.reader().add_material(m, v.where()));
 }
@@ -151,7 +151,7 @@ std::optional<MaterialId> read_coated_conductor(Values& v) {
       v, m, "interface.eta",
       read_roughness(v, "interface.roughness", "interface.uroughness", "interface.vroughness"));
   if (v.has("reflectance")) {
-    m.reflectance = v.color_input("reflectance", ColorMeaning::reflectance);
+    m.reflectance = reflectance_input(v, "reflectance");
   } else {
     m.conductor_eta = v.color_input("conductor.eta", ColorMeaning::unbounded);
     m.conductor_k = v.color_input("conductor.k", ColorMeaning::unbounded);

@@ -96,7 +96,7 @@ ColorInput clamped(Values& v, const ColorInput& input) {
 }
 
 ColorInput clamped_reflectance(Values& v, std::string_view name) {
-  return clamped(v, v.color_input(name, ColorMeaning::reflectance));
+  return clamped(v, reflectance_input(v, name));
 }
 
 }  // namespace duet::pbrt

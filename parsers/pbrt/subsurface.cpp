@@ -102,7 +102,7 @@ struct Reflectance {
 /// square root of the rest away, twice: so every place that is larger than light wanders has its
 /// own.
 Reflectance read_reflectance(Values& v, const char* name) {
-  const ColorInput input = v.color_input(name, ColorMeaning::reflectance);
+  const ColorInput input = reflectance_input(v, name);
   if (const Spectrum* c = std::get_if<Spectrum>(&input)) return {*c, {}};
   const TextureId id = std::get<TextureId>(input);
   const auto texels = texels_of(v, name, id);

@@ -56,7 +56,8 @@ warning. Names that are in no table are warnings with the nearest known one.
 - Lights of v4 have the luminance that their scale says, whatever their spectrum; those of v3 are taken as they are.
 - An area light's "power" is that of each triangle of a mesh, and of a quadric before its transform, since pbrt makes a
   light of each. Maps with "illuminance" are twice as bright as it says, as they are in pbrt.
-- Diffuse surfaces of v4 reflect from 0 to 1, whatever their textures say.
+- Diffuse surfaces of v4 reflect from 0 to 1, whatever their textures say. So do images in reflectances of v4, once a
+  constant factor has multiplied them and before anything else is made of them.
 - Surfaces that pbrt finds by formulas become meshes where Duet has no such shape; a patch that is not flat is divided
   finely enough not to be seen.
 - Files of v3 may have parameters of another type than the known one, textures and materials that there are not, and

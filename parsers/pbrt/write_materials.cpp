@@ -173,8 +173,10 @@ void SceneWriter::write(const HairMaterial& m, const std::string& name, const Ar
     put(s, "sigma_a", *m.sigma_a, false);
     if (m.scale != 1) lose("the factor of a texture of hair's absorption is missing");
   }
-  s.number("eta", m.eta).number("beta_m", m.longitudinal_roughness);
-  s.number("beta_n", m.azimuthal_roughness).number("alpha", m.scale_tilt);
+  put(s, "eta", m.eta);
+  put(s, "beta_m", m.longitudinal_roughness);
+  put(s, "beta_n", m.azimuthal_roughness);
+  put(s, "alpha", m.scale_tilt);
   end_material(s, around);
 }
 

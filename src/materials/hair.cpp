@@ -56,6 +56,9 @@ float logistic(float x, float scale) {
   return e / (scale * sqr(1 + e));
 }
 
+/// Textures may say indices that no matter has.
+constexpr float kLeastEta = 1e-3f;
+
 /// To [−π, π].
 float wrapped(float angle) {
   return angle - 2 * kPi * std::round(angle * (0.5f * kInvPi));
@@ -202,16 +205,29 @@ Spectrum hair_absorption_for(const Spectrum& color, float azimuthal_roughness) {
 }
 
 HairFibre::HairFibre(const HairOptions& options) : options_(options) {
-  const HairOptions& o = options;
-  const bool constant = o.reflectance  ? o.reflectance->is_constant()
-                        : o.absorption ? o.absorption->is_constant()
-                                       : o.eumelanin.is_constant() && o.pheomelanin.is_constant();
-  if (constant) set_constant(model({}));
+  if (textures().empty()) set_constant(model({}));
 }
 
-Spectrum HairFibre::absorption(const Surface& s) const {
+std::vector<const Texture*> HairFibre::textures() const {
   const HairOptions& o = options_;
-  if (o.reflectance) return hair_absorption_for((*o.reflectance)(s), o.azimuthal_roughness);
+  std::vector<const Texture*> all;
+  for (const FloatSlot* slot :
+       {&o.longitudinal_roughness, &o.azimuthal_roughness, &o.scale_tilt, &o.eta})
+    slot->list_texture(all);
+  if (o.reflectance) {
+    o.reflectance->list_texture(all);
+  } else if (o.absorption) {
+    o.absorption->list_texture(all);
+  } else {
+    o.eumelanin.list_texture(all);
+    o.pheomelanin.list_texture(all);
+  }
+  return all;
+}
+
+Spectrum HairFibre::absorption(const Surface& s, float azimuthal_roughness) const {
+  const HairOptions& o = options_;
+  if (o.reflectance) return hair_absorption_for((*o.reflectance)(s), azimuthal_roughness);
   if (o.absorption) {
     const Spectrum sigma = (*o.absorption)(s)*o.absorption_scale;
     return {std::max(sigma.r, 0.0f), std::max(sigma.g, 0.0f), std::max(sigma.b, 0.0f)};
@@ -220,15 +236,16 @@ Spectrum HairFibre::absorption(const Surface& s) const {
 }
 
 HairModel HairFibre::model(const Surface& s) const {
-  return {options_.longitudinal_roughness, options_.azimuthal_roughness, options_.scale_tilt,
-          options_.eta, absorption(s)};
+  const HairOptions& o = options_;
+  const auto roughness = [&](const FloatSlot& slot) { return std::clamp(slot(s), 0.0f, 1.0f); };
+  const float azimuthal = roughness(o.azimuthal_roughness);
+  return {roughness(o.longitudinal_roughness), azimuthal, o.scale_tilt(s) * float(kRadians),
+          std::max(o.eta(s), kLeastEta), absorption(s, azimuthal)};
 }
 
 SurfaceNeeds HairFibre::needs() const {
-  const HairOptions& o = options_;
-  const bool uv = o.reflectance  ? o.reflectance->needs_uv()
-                  : o.absorption ? o.absorption->needs_uv()
-                                 : o.eumelanin.needs_uv() || o.pheomelanin.needs_uv();
+  bool uv = false;
+  for (const Texture* texture : textures()) uv = uv || texture->needs_uv();
   return {.uv = uv, .tangents = true};
 }
 

@@ -7,11 +7,11 @@
 
 namespace duet {
 
-/// Roughnesses lie in [0, 1]; see HairModel.
+/// See HairModel; roughnesses of textures are taken to [0, 1].
 struct HairOptions {
-  float longitudinal_roughness = 0.3f, azimuthal_roughness = 0.3f;
-  float scale_tilt = 2 * float(kRadians);
-  float eta = 1.55f / 1.000277f;
+  FloatSlot longitudinal_roughness{0.3f}, azimuthal_roughness{0.3f};
+  FloatSlot scale_tilt{2};  ///< in degrees
+  FloatSlot eta{1.55f / 1.000277f};
   /// The colour of many hairs, or absorption per radius; without both, concentrations of pigments.
   std::optional<ColorSlot> reflectance, absorption;
   float absorption_scale = 1;
@@ -26,7 +26,9 @@ class HairFibre final : public SingleModelMaterial<HairFibre> {
   bool transmits() const override { return true; }
 
  private:
-  Spectrum absorption(const Surface& s) const;
+  Spectrum absorption(const Surface& s, float azimuthal_roughness) const;
+  /// Of those that the model is made from.
+  std::vector<const Texture*> textures() const;
 
   HairOptions options_;
 };

@@ -116,7 +116,8 @@ struct ProductDescription {
   std::unique_ptr<Texture> build(SceneBuilder& b, const SourceLocation& where) const;
 };
 
-/// a · first + (1 − a) · second, where a = |cos| of the angle between normal and direction.
+/// a · first + (1 − a) · second, where a = |cos| of the angle between the geometric normal and
+/// the direction.
 struct DirectionMixDescription {
   ColorInput first = Spectrum(0.0f), second = Spectrum(1.0f);
   double x = 0, y = 1, z = 0;  ///< the direction in the world, of any length

@@ -146,6 +146,13 @@ bool emits_from_elliptic_cylinders(const SceneDescription& scene, const SceneFea
   });
 }
 
+bool emits_attributes(const SceneDescription& scene, const SceneFeatures&) {
+  return std::any_of(scene.shapes.begin(), scene.shapes.end(), [&](const ShapeDescription& s) {
+    const auto* id = s.emission ? std::get_if<TextureId>(&s.emission->radiance) : nullptr;
+    return id && std::holds_alternative<MeshAttributeTexture>(scene.textures[size_t(*id)].model);
+  });
+}
+
 bool emits_texture_repeatedly(const SceneDescription& scene, const SceneFeatures&) {
   return std::any_of(scene.shapes.begin(), scene.shapes.end(), [](const ShapeDescription& s) {
     if (!s.emission || !std::holds_alternative<TextureId>(s.emission->radiance)) return false;

@@ -46,7 +46,7 @@ class ProductTexture final : public Texture {
   ColorSlot first_, second_;
 };
 
-/// a · first + (1 − a) · second, where a is the cosine between the shading normal and a unit
+/// a · first + (1 − a) · second, where a is the cosine between the geometric normal and a unit
 /// direction, either way round.
 class DirectionMixTexture final : public Texture {
  public:
@@ -63,7 +63,7 @@ class DirectionMixTexture final : public Texture {
   bool needs_uv() const override { return first_.needs_uv() || second_.needs_uv(); }
 
  private:
-  float weight(const Surface& s) const { return std::abs(dot(Vector3f(s.shading.n), direction_)); }
+  float weight(const Surface& s) const { return std::abs(dot(Vector3f(s.ng), direction_)); }
 
   ColorSlot first_, second_;
   Vector3f direction_;

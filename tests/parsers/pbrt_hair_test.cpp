@@ -1,4 +1,4 @@
-// Hair of pbrt files whose colour a texture says.
+// Hair of pbrt files whose colour, roughness, tilt or index a texture says.
 #include <doctest/doctest.h>
 
 #include "scene/build.h"
@@ -11,6 +11,8 @@ namespace {
 
 constexpr const char* kTextures =
     "Texture \"one\" \"float\" \"checkerboard\" \"float tex1\" 0.75 \"float tex2\" 0.75\n"
+    "Texture \"two\" \"float\" \"checkerboard\" \"float tex1\" 2 \"float tex2\" 2\n"
+    "Texture \"ten\" \"float\" \"checkerboard\" \"float tex1\" 10 \"float tex2\" 10\n"
     "Texture \"red\" \"spectrum\" \"checkerboard\" \"rgb tex1\" [.6 .2 .1] \"rgb tex2\" "
     "[.6 .2 .1]\n";
 
@@ -34,7 +36,7 @@ Spectrum scattered(SceneDescription d) {
 
 }  // namespace
 
-TEST_CASE("pbrt hair: textures of its colour mean what constants mean") {
+TEST_CASE("pbrt hair: textures mean what constants mean") {
   const char* const kPairs[][2] = {
       {"\"texture sigma_a\" \"red\"", "\"rgb sigma_a\" [.6 .2 .1]"},
       {"\"texture color\" \"red\" \"float beta_n\" .5",
@@ -42,7 +44,16 @@ TEST_CASE("pbrt hair: textures of its colour mean what constants mean") {
       {"\"texture reflectance\" \"red\"", "\"rgb reflectance\" [.6 .2 .1]"},
       {"\"texture eumelanin\" \"one\"", "\"float eumelanin\" .75"},
       {"\"texture pheomelanin\" \"one\" \"float eumelanin\" .5",
-       "\"float pheomelanin\" .75 \"float eumelanin\" .5"}};
+       "\"float pheomelanin\" .75 \"float eumelanin\" .5"},
+      {"\"texture beta_m\" \"one\"", "\"float beta_m\" .75"},
+      {"\"texture beta_n\" \"one\"", "\"float beta_n\" .75"},
+      {"\"texture beta_n\" \"one\" \"rgb color\" [.6 .2 .1]",
+       "\"float beta_n\" .75 \"rgb color\" [.6 .2 .1]"},
+      {"\"texture alpha\" \"ten\"", "\"float alpha\" 10"},
+      {"\"texture eta\" \"two\"", "\"float eta\" 2"},
+      // Roughnesses above one are one.
+      {"\"texture beta_m\" \"ten\" \"texture beta_n\" \"ten\"",
+       "\"float beta_m\" 1 \"float beta_n\" 1"}};
   for (const auto& [texture, constant] : kPairs) {
     CAPTURE(texture);
     const Spectrum a = scattered(hair(texture)), b = scattered(hair(constant));

@@ -239,7 +239,7 @@ TEST_CASE("pbrt-v3 hair, and Disney's material on one or both sides") {
   const double f = 5.969 - 0.215 * b + 2.532 * b * b - 10.73 * b * b * b + 5.574 * b * b * b * b +
                    0.245 * b * b * b * b * b;
   CHECK(std::get<Spectrum>(*hair.sigma_a).g == doctest::Approx(std::pow(std::log(0.5) / f, 2)));
-  CHECK(hair.eta == 1.55);
+  CHECK(hair.eta == FloatInput(1.55));
   const auto& both = material_of(d, 1).model.get<TwoSidedMaterial>();
   const auto& plastic = d.materials.at(size_t(both.front)).model.get<PrincipledMaterial>();
   CHECK(std::get<double>(plastic.metallic) == 0.5);

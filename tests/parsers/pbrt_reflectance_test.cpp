@@ -88,6 +88,27 @@ TEST_CASE("pbrt-v4: diffuse surfaces reflect neither more than all light nor les
   CHECK_FALSE(std::get<BitmapTexture>(plain.textures[0].model).clamped);
 }
 
+TEST_CASE(
+    "pbrt-v4: images end at one before anything is made of them, but constant factors count") {
+  const Folder folder;
+  const std::string image =
+      "Texture \"t\" \"spectrum\" \"imagemap\" \"string filename\" \"bright.exr\"\n"
+      "Texture \"half\" \"float\" \"checkerboard\" \"float tex1\" .5 \"float tex2\" .5\n";
+  const auto of = [&](const std::string& texture, const std::string& last = "t2") {
+    return folder.reflectance(image + "Texture \"t2\" \"spectrum\" " + texture +
+                              "\nMaterial \"diffuse\" \"texture reflectance\" \"" + last + "\"\n");
+  };
+  check_reflectance(of("\"mix\" \"texture tex1\" \"t\" \"rgb tex2\" [0 0 0]"), 0.5, 0.25, 0);
+  check_reflectance(of("\"scale\" \"texture tex\" \"t\" \"texture scale\" \"half\""), 0.5, 0.25, 0);
+  check_reflectance(of("\"scale\" \"texture tex\" \"t\" \"float scale\" .5"), 1, 0.25, 0);
+  check_reflectance(of("\"scale\" \"texture tex\" \"t\" \"float scale\" .25"), 0.5, 0.125, 0);
+  check_reflectance(
+      of("\"checkerboard\" \"texture tex1\" \"t\" \"texture tex2\" \"t\"\nTexture \"t3\" "
+         "\"spectrum\" \"scale\" \"texture tex\" \"t2\" \"float scale\" .5",
+         "t3"),
+      0.5, 0.25, 0);
+}
+
 TEST_CASE("pbrt-v4: a texture that is defined later is clamped, too") {
   const Folder folder;
   check_reflectance(

@@ -147,6 +147,9 @@ TEST_CASE("pbrt writer: materials survive") {
                     "\"float alpha\" 3 \"float eta\" 1.5"),
         std::string("\"hair\" \"texture eumelanin\" \"grey\" \"float pheomelanin\" 0.5"),
         std::string("\"hair\" \"texture reflectance\" \"colour\""),
+        std::string("\"hair\" \"rgb reflectance\" [0.5 0.25 0.75] \"texture beta_n\" \"grey\""),
+        std::string("\"hair\" \"texture beta_m\" \"grey\" \"texture alpha\" \"grey\" \"texture "
+                    "eta\" \"grey\""),
         std::string("\"subsurface\" \"rgb sigma_a\" [0.25 0.5 0.25] \"rgb sigma_s\" [0.75 0.5 "
                     "0.25]"),
         "\"measured\" \"string filename\" \"" + source_path("scenes/bsdf-measured/isotropic.bsdf") +

@@ -189,6 +189,16 @@ TEST_CASE("lamps are met whose triangles share a part of a texture") {
   CHECK(lamp("sphere", board).empty());
 }
 
+TEST_CASE("lamps are met whose colours are attributes of a mesh") {
+  const auto lamp = [](const std::string& radiance) {
+    return met("<shape type='cube'><emitter type='area'>" + radiance + "</emitter></shape>");
+  };
+  CHECK(lamp("<texture type='mesh_attribute' name='radiance'><string name='name' "
+             "value='vertex_color'/></texture>") ==
+        "attribute-light-samples texture-light-samples ");
+  CHECK(lamp("<rgb name='radiance' value='1'/>").empty());
+}
+
 TEST_CASE("direct light is met with several samples of lights that no ray hits") {
   const auto direct = [](int samples, const std::string& light) {
     return met(

@@ -122,8 +122,8 @@ HairOptions hair(const json& j) {
   HairOptions o;
   set(o.longitudinal_roughness, j, "longitudinal_roughness");
   set(o.azimuthal_roughness, j, "azimuthal_roughness");
-  o.scale_tilt = number(j, "scale_tilt", 2) * kPi / 180;
-  o.eta = relative_index(j, 1.55f);
+  set(o.scale_tilt, j, "scale_tilt");
+  o.eta.constant = relative_index(j, 1.55f);
   set(o.eumelanin, j, "eumelanin");
   set(o.pheomelanin, j, "pheomelanin");
   if (j.contains("sigma_a")) set(o.absorption.emplace(), j, "sigma_a");

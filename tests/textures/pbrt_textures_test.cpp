@@ -13,6 +13,7 @@ namespace {
 Surface at(const Point3f& p, const Point2f& uv = {0, 0}) {
   Surface s{};
   s.position = p;
+  s.ng = {0, 0, 1};
   s.uv = uv;
   s.shading = Frame({1, 0, 0}, {0, 1, 0}, {0, 0, 1});
   s.dp_du = {2, 0, 0};
@@ -210,10 +211,14 @@ TEST_CASE("sums, products and functions of textures") {
             .epsilon(1e-4));
   CHECK(apply(TextureFunction::v3_roughness, 0) == apply(TextureFunction::v3_roughness, 1e-4f));
   Surface tilted = s;
-  tilted.shading = Frame(Normal3f(0.6f, 0, -0.8f));
+  tilted.ng = Normal3f(0.6f, 0, -0.8f);
   const DirectionMixTexture by_direction({Spectrum(1)}, {Spectrum(0)}, {0, 0, 1});
   CHECK(by_direction.value(s) == doctest::Approx(1));
   CHECK(by_direction.value(tilted) == doctest::Approx(0.8));
+  // As in pbrt, normals of vertices and bumps do not count.
+  Surface smooth = s;
+  smooth.shading = Frame(Normal3f(0.6f, 0, 0.8f));
+  CHECK(by_direction.value(smooth) == doctest::Approx(1));
 }
 
 TEST_CASE("colours between four corners") {

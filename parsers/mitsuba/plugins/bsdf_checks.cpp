@@ -37,7 +37,7 @@ bool check_coating(SceneReader&, Properties& p, CoatingMaterial& m) {
 }
 
 void check_hair(SceneReader&, Properties& p, HairMaterial& m) {
-  if (m.eta == 1) p.error("int_ior", "the indices of refraction of hair must differ");
+  if (m.eta == FloatInput(1.0)) p.error("int_ior", "the indices of refraction of hair must differ");
   const bool pigments = p.has("eumelanin") || p.has("pheomelanin");
   for (const char* name : {"sigma_a", "reflectance"})
     if (pigments && p.has(name))

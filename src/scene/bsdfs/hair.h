@@ -8,9 +8,9 @@ namespace duet {
 
 /// Chiang et al. 2016, as parametrised by Mitsuba 3; absorption is per radius.
 struct HairMaterial {
-  double longitudinal_roughness = 0.3, azimuthal_roughness = 0.3;
-  double scale_tilt = 2;  ///< in degrees
-  double eta = 1.55 / 1.000277;
+  FloatInput longitudinal_roughness = 0.3, azimuthal_roughness = 0.3;
+  FloatInput scale_tilt = 2.0;  ///< in degrees
+  FloatInput eta = 1.55 / 1.000277;
   /// Concentrations, unless one of the next two is given.
   FloatInput eumelanin = 1.3, pheomelanin = 0.2;
   std::optional<ColorInput> sigma_a, reflectance;
@@ -23,13 +23,13 @@ struct HairMaterial {
     constexpr auto pigments = [](const M& m) { return !m.sigma_a && !m.reflectance; };
     return FieldList(
         field(&M::longitudinal_roughness,
-              Parameter{"longitudinal_roughness", number, kInitial, "", fraction})
+              Parameter{"longitudinal_roughness", number_or_texture, kInitial, "", fraction})
             .shown(", roughness "),
         field(&M::azimuthal_roughness,
-              Parameter{"azimuthal_roughness", number, kInitial, "", fraction})
+              Parameter{"azimuthal_roughness", number_or_texture, kInitial, "", fraction})
             .shown(" and "),
-        field(&M::scale_tilt,
-              Parameter{"scale_tilt", number, kInitial, "angle of the scales in degrees"}),
+        field(&M::scale_tilt, Parameter{"scale_tilt", number_or_texture, kInitial,
+                                        "angle of the scales in degrees"}),
         field(&M::eta, Parameter{"int_ior", ior, "amber", "index of refraction inside"}, kExterior),
         field(&M::eumelanin,
               Parameter{"eumelanin", number_or_texture, kInitial, "concentration", not_negative})
