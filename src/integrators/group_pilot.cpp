@@ -20,16 +20,20 @@ constexpr uint32_t kSamples = 2;  ///< of each pixel: as many as a variance need
 constexpr int kPilotPixelsPerTile = 128;
 constexpr int kFewestTiles = 4;
 
+constexpr size_t kSizes = kAutoPixelGroups.size();
+
 /// Of one pixel: the squared differences of its two samples, without and with groups.
-struct PixelPair {
-  double own, grouped;
+struct PixelPairs {
+  double own;
+  std::array<double, kSizes> grouped;
 };
 
 /// Of a tile.
 struct TileResult {
-  std::vector<PixelPair> pixels;
+  std::vector<PixelPairs> pixels;
   double sum = 0;  ///< of the samples
-  RenderCounters own, grouped;
+  RenderCounters own;
+  std::array<RenderCounters, kSizes> grouped;
 };
 
 PathIntegratorDescription description(const PathLimits& limits, int group) {
@@ -38,15 +42,17 @@ PathIntegratorDescription description(const PathLimits& limits, int group) {
   return d;
 }
 
-/// The same samples of a tile with both tracers.
+/// The same samples of a tile with all tracers.
 class TileTrial {
  public:
   TileTrial(const WideScene& scene, const PricingPlan& plan)
       : scene_(scene.scene),
         film_(plan.film),
         sampler_(SampleSequence::independent, kSeed ^ plan.seed, 0),
-        own_(scene, description(plan, 1)),
-        grouped_(scene, description(plan, kAutoPixelGroup)) {}
+        own_(scene, description(plan, 1)) {
+    for (size_t g = 0; g < kSizes; ++g)
+      grouped_[g] = std::make_unique<WideTracer>(scene, description(plan, kAutoPixelGroups[g]));
+  }
 
   void run(Point2i corner, TileResult& out) {
     const int width = std::min(kSide, film_.x - corner.x);
@@ -58,25 +64,33 @@ class TileTrial {
       numbers.push_back(y * uint64_t(film_.x) + x);
       keys[i] = sampler_.pixel_key(numbers.back());
     }
-    own_.enter(numbers), grouped_.enter(numbers);
-    WideSamples own[kSamples]{}, grouped[kSamples]{};
+    own_.enter(numbers);
+    for (auto& tracer : grouped_) tracer->enter(numbers);
+    using Samples = std::array<WideSamples, kSamples>;
+    Samples own{};
+    std::array<Samples, kSizes> grouped{};
     for (uint32_t s = 0; s < kSamples; ++s) {
       const int n = start({corner, width, count, s}, keys);
       own_.trace(n, sampler_, own[s], out.own);
-      grouped_.trace(n, sampler_, grouped[s], out.grouped);
+      for (size_t g = 0; g < kSizes; ++g)
+        grouped_[g]->trace(n, sampler_, grouped[g][s], out.grouped[g]);
     }
-    const auto grey = [](const WideSamples& w, int i) {
-      return (double(w.r[i]) + double(w.g[i]) + double(w.b[i])) / 3;
-    };
     for (int i = 0; i < count; ++i) {
-      const double a = grey(own[0], i), b = grey(own[1], i);
-      const double c = grey(grouped[0], i), d = grey(grouped[1], i);
-      out.pixels.push_back({(a - b) * (a - b), (c - d) * (c - d)});
-      out.sum += c + d;
+      PixelPairs pixel{squared_difference(own, i), {}};
+      for (size_t g = 0; g < kSizes; ++g) pixel.grouped[g] = squared_difference(grouped[g], i);
+      out.pixels.push_back(pixel);
+      for (const WideSamples& w : grouped.back()) out.sum += grey(w, i);
     }
   }
 
  private:
+  static double grey(const WideSamples& w, int i) {
+    return (double(w.r[i]) + double(w.g[i]) + double(w.b[i])) / 3;
+  }
+  static double squared_difference(const std::array<WideSamples, kSamples>& samples, int i) {
+    return std::pow(grey(samples[0], i) - grey(samples[1], i), 2);
+  }
+
   struct Tile {
     Point2i corner;
     int width, count;
@@ -98,7 +112,8 @@ class TileTrial {
       const CameraRay ray = camera.sample_ray(film, {lens_x[i], lens_y[i]});
       if (ray.weight == 0) continue;
       own_.paths().start(n, i, ray, batch);
-      grouped_.paths().start(n++, i, ray, batch);
+      for (auto& tracer : grouped_) tracer->paths().start(n, i, ray, batch);
+      ++n;
     }
     return n;
   }
@@ -106,7 +121,8 @@ class TileTrial {
   const Scene& scene_;
   Point2i film_;
   BatchSampler sampler_;
-  WideTracer own_, grouped_;
+  WideTracer own_;
+  std::array<std::unique_ptr<WideTracer>, kSizes> grouped_;
 };
 
 /// Corners of tiles that cover the image evenly.
@@ -123,24 +139,33 @@ std::vector<Point2i> choose_tiles(const PricingPlan& plan) {
   return corners;
 }
 
-/// The ratio of the variances, relative to the squared means of the tiles, without the pixels whose
-/// own are largest.
-double variance_ratio(const std::vector<TileResult>& tiles) {
+/// The ratios of the variances, relative to the squared means of the tiles, without the pixels
+/// whose own are largest.
+std::array<double, kSizes> variance_ratios(const std::vector<TileResult>& tiles) {
   double sum = 0, samples = 0;
   for (const TileResult& t : tiles) sum += t.sum, samples += double(kSamples * t.pixels.size());
   const double mean = sum / samples;
-  std::vector<PixelPair> pixels;
+  std::vector<PixelPairs> pixels;
   for (const TileResult& t : tiles) {
     const double m = t.sum / double(kSamples * t.pixels.size());
     const double scale = 1 / std::max(m * m + kDarkShare * mean * mean, 1e-60);
-    for (const PixelPair& p : t.pixels) pixels.push_back({p.own * scale, p.grouped * scale});
+    for (PixelPairs p : t.pixels) {
+      p.own *= scale;
+      for (double& v : p.grouped) v *= scale;
+      pixels.push_back(p);
+    }
   }
   std::sort(pixels.begin(), pixels.end(),
-            [](const PixelPair& a, const PixelPair& b) { return a.own < b.own; });
+            [](const PixelPairs& a, const PixelPairs& b) { return a.own < b.own; });
   const size_t count = pixels.size() - size_t(kTrimmedPixels * double(pixels.size()));
-  double own = 0, grouped = 0;
-  for (size_t i = 0; i < count; ++i) own += pixels[i].own, grouped += pixels[i].grouped;
-  return own > 0 ? grouped / own : 1;
+  double own = 0;
+  std::array<double, kSizes> ratios{};
+  for (size_t i = 0; i < count; ++i) {
+    own += pixels[i].own;
+    for (size_t g = 0; g < kSizes; ++g) ratios[g] += pixels[i].grouped[g];
+  }
+  for (double& r : ratios) r = own > 0 ? r / own : 1;
+  return ratios;
 }
 
 }  // namespace
@@ -151,18 +176,23 @@ bool suits_pixel_groups(const Scene& scene, const PathLimits& limits) {
          PathIntegrator::suits_groups(scene);
 }
 
-GroupGain measure_pixel_groups(const Scene& scene, const PricingPlan& plan) {
+GroupGains measure_pixel_groups(const Scene& scene, const PricingPlan& plan) {
   const WideScene wide(scene, WideUse::paths);
   const std::vector<Point2i> corners = choose_tiles(plan);
   std::vector<TileResult> tiles(corners.size());
   parallel_for(corners.size(), plan.threads,
                [&](size_t i) { TileTrial(wide, plan).run(corners[i], tiles[i]); });
-  double more = 0, paths = 0;
-  for (const TileResult& t : tiles) {
-    more += double(t.grouped.shadow_rays) - double(t.own.shadow_rays);
-    paths += double(kSamples * t.pixels.size());
+  const std::array<double, kSizes> ratios = variance_ratios(tiles);
+  GroupGains gains;
+  for (size_t g = 0; g < kSizes; ++g) {
+    double more = 0, paths = 0;
+    for (const TileResult& t : tiles) {
+      more += double(t.grouped[g].shadow_rays) - double(t.own.shadow_rays);
+      paths += double(kSamples * t.pixels.size());
+    }
+    gains[g] = {kAutoPixelGroups[g], ratios[g], std::max(0.0, more / paths)};
   }
-  return {variance_ratio(tiles), std::max(0.0, more / paths)};
+  return gains;
 }
 
 }  // namespace duet

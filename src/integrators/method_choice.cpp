@@ -66,7 +66,7 @@ void add_partly_merged(MethodPrices& prices) {
 /// What the pilots have found.
 struct PilotRecords {
   PricingRecord record;
-  std::optional<GroupGain> groups;
+  std::optional<GroupGains> groups;
 };
 
 /// For a number of samples, which those of the batches add up to.

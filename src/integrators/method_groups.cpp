@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
+#include <iterator>
 
 #include "integrators/method_costs.h"
 
@@ -10,9 +12,8 @@ namespace duet {
 
 namespace {
 
-constexpr int kMembers = kAutoPixelGroup;
-/// Of the price of `bdpt` without groups, what it has to be with them: a smaller gain than that
-/// cannot be told from none.
+/// Of the least price of `bdpt` without groups, what that with them may be: a smaller gain cannot
+/// be told from none.
 constexpr double kMostOfPrice = 0.85;
 
 /// MethodCandidate::shared_variance, from the whole variance of `path` and that of what is not
@@ -23,13 +24,13 @@ double shared_variance(const PricingRecord& record, const GroupGain& gain,
   path.shared_variance = 0;
   const double all = prices.predictions[0].variance,
                own = predict(record, path, prices.spp).variance;
-  const double least = 1 / double(kMembers);
+  const double least = 1 / double(gain.members);
   return all > own ? std::clamp((gain.variance * all - own) / (all - own), least, 1.0) : 1.0;
 }
 
 void add_path(const GroupGain& gain, MethodPrices& prices) {
   auto method = std::get<PathIntegratorDescription>(prices.candidates[0].method);
-  method.pixel_group = kMembers;
+  method.pixel_group = gain.members;
   PredictedMethod p = prices.predictions[0];
   const double noise = p.variance / prices.spp;
   p.error += noise * (gain.variance - 1);
@@ -40,29 +41,44 @@ void add_path(const GroupGain& gain, MethodPrices& prices) {
     part.variance *= gain.variance, part.least_error *= gain.variance;
   }
   prices.candidates.push_back(
-      {.method = method, .name = fmt::format("path pixel_group={}", kMembers)});
+      {.method = method, .name = fmt::format("path pixel_group={}", gain.members)});
   prices.predictions.push_back(std::move(p));
+}
+
+/// Of the first `count` candidates those that are `bdpt`.
+void add_bdpt(const PricingRecord& record, const GroupGain& gain, size_t count,
+              MethodPrices& prices) {
+  const auto price = [](const PredictedMethod& p) { return p.error * p.cost; };
+  const double shared = shared_variance(record, gain, prices);
+  MethodPrices grouped;
+  double least = INFINITY, least_grouped = INFINITY;
+  for (size_t i = 1; i < count; ++i) {
+    MethodCandidate c = prices.candidates[i];
+    if (c.light_paths == 0 || c.merges > 0) continue;
+    std::get<BidirectionalIntegratorDescription>(c.method).pixel_group = gain.members;
+    c.shared_variance = shared;
+    c.name += fmt::format(" pixel_group={}", gain.members);
+    PredictedMethod p = predict(record, c, prices.spp);
+    p.cost += pixel_group_cost(gain.shadow_rays);
+    least = std::min(least, price(prices.predictions[i]));
+    least_grouped = std::min(least_grouped, price(p));
+    grouped.candidates.push_back(std::move(c));
+    grouped.predictions.push_back(std::move(p));
+  }
+  if (!(least_grouped < kMostOfPrice * least)) return;
+  std::move(grouped.candidates.begin(), grouped.candidates.end(),
+            std::back_inserter(prices.candidates));
+  std::move(grouped.predictions.begin(), grouped.predictions.end(),
+            std::back_inserter(prices.predictions));
 }
 
 }  // namespace
 
-void add_pixel_groups(const PricingRecord& record, const GroupGain& gain, MethodPrices& prices) {
+void add_pixel_groups(const PricingRecord& record, const GroupGains& gains, MethodPrices& prices) {
   const size_t count = prices.candidates.size();
-  const double shared = shared_variance(record, gain, prices);
-  add_path(gain, prices);
-  if (!record.batches) return;
-  for (size_t i = 1; i < count; ++i) {
-    MethodCandidate c = prices.candidates[i];
-    if (c.light_paths == 0 || c.merges > 0) continue;
-    std::get<BidirectionalIntegratorDescription>(c.method).pixel_group = kMembers;
-    c.shared_variance = shared;
-    c.name += fmt::format(" pixel_group={}", kMembers);
-    PredictedMethod p = predict(record, c, prices.spp);
-    const PredictedMethod& single = prices.predictions[i];
-    p.cost += pixel_group_cost(gain.shadow_rays);
-    if (!(p.error * p.cost < kMostOfPrice * single.error * single.cost)) continue;
-    prices.candidates.push_back(std::move(c));
-    prices.predictions.push_back(std::move(p));
+  for (const GroupGain& gain : gains) {
+    add_path(gain, prices);
+    if (record.batches) add_bdpt(record, gain, count, prices);
   }
 }
 

@@ -106,8 +106,8 @@ std::string mapped_room(const std::string& parameters) {
 
 constexpr const char* kMapParameters[] = {
     "",
-    "<boolean name='flip_invalid_normals' value='false'/>"
-    "<boolean name='use_shadowing_function' value='false'/>",
+    ("<boolean name='flip_invalid_normals' value='false'/>"
+     "<boolean name='use_shadowing_function' value='false'/>"),
     "<boolean name='drops_leaks' value='false'/>",
 };
 
