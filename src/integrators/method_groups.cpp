@@ -15,6 +15,9 @@ namespace {
 /// Of the least price of `bdpt` without groups, what that with them may be: a smaller gain cannot
 /// be told from none.
 constexpr double kMostOfPrice = 0.85;
+/// How much larger the variance of `path` may be than that of `bdpt`: beyond that it is that of
+/// paths which `bdpt` finds in other ways, and what groups make of it says nothing about `bdpt`.
+constexpr double kMostVariance = 16;
 
 /// MethodCandidate::shared_variance, from the whole variance of `path` and that of what is not
 /// shared.
@@ -55,6 +58,7 @@ void add_bdpt(const PricingRecord& record, const GroupGain& gain, size_t count,
   for (size_t i = 1; i < count; ++i) {
     MethodCandidate c = prices.candidates[i];
     if (c.light_paths == 0 || c.merges > 0) continue;
+    if (prices.predictions[0].variance > kMostVariance * prices.predictions[i].variance) continue;
     std::get<BidirectionalIntegratorDescription>(c.method).pixel_group = gain.members;
     c.shared_variance = shared;
     c.name += fmt::format(" pixel_group={}", gain.members);
