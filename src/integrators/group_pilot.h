@@ -7,8 +7,9 @@
 
 namespace duet {
 
-/// Members of the groups that `auto` has.
-inline constexpr std::array kAutoPixelGroups{16, 64};
+/// Members of the groups that `auto` has. Of larger ones one sees the tiles, whose pixels have
+/// their noise in common then (docs/pixel_groups.md).
+inline constexpr std::array kAutoPixelGroups{16, 32};
 
 /// Groups of pixels over single ones, with the same paths.
 struct GroupGain {
