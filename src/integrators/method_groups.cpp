@@ -19,16 +19,18 @@ constexpr double kMostOfPrice = 0.85;
 /// paths which `bdpt` finds in other ways, and what groups make of it says nothing about `bdpt`.
 constexpr double kMostVariance = 16;
 
-/// MethodCandidate::shared_variance, from the whole variance of `path` and that of what is not
-/// shared.
-double shared_variance(const PricingRecord& record, const GroupGain& gain,
-                       const MethodPrices& prices) {
+/// The variance that `path` would have without what groups share.
+double unshared_variance(const PricingRecord& record, const MethodPrices& prices) {
   MethodCandidate path = prices.candidates[0];
   path.shared_variance = 0;
-  const double all = prices.predictions[0].variance,
-               own = predict(record, path, prices.spp).variance;
-  const double least = 1 / double(gain.members);
-  return all > own ? std::clamp((gain.variance * all - own) / (all - own), least, 1.0) : 1.0;
+  return predict(record, path, prices.spp).variance;
+}
+
+/// MethodCandidate::shared_variance, from the variance of `path` and that without what is shared.
+double shared_variance(const GroupGain& gain, double all, double unshared) {
+  if (!(all > unshared)) return 1;
+  const double ratio = (gain.variance * all - unshared) / (all - unshared);
+  return std::clamp(ratio, 1 / double(gain.members), 1.0);
 }
 
 void add_path(const GroupGain& gain, MethodPrices& prices) {
@@ -48,11 +50,12 @@ void add_path(const GroupGain& gain, MethodPrices& prices) {
   prices.predictions.push_back(std::move(p));
 }
 
-/// Of the first `count` candidates those that are `bdpt`.
-void add_bdpt(const PricingRecord& record, const GroupGain& gain, size_t count,
+/// Of the first `count` candidates those that are `bdpt`; `unshared` is the variance of `path`
+/// without what groups share.
+void add_bdpt(const PricingRecord& record, const GroupGain& gain, double unshared, size_t count,
               MethodPrices& prices) {
   const auto price = [](const PredictedMethod& p) { return p.error * p.cost; };
-  const double shared = shared_variance(record, gain, prices);
+  const double shared = shared_variance(gain, prices.predictions[0].variance, unshared);
   MethodPrices grouped;
   double least = INFINITY, least_grouped = INFINITY;
   for (size_t i = 1; i < count; ++i) {
@@ -80,9 +83,10 @@ void add_bdpt(const PricingRecord& record, const GroupGain& gain, size_t count,
 
 void add_pixel_groups(const PricingRecord& record, const GroupGains& gains, MethodPrices& prices) {
   const size_t count = prices.candidates.size();
+  const double unshared = record.batches ? unshared_variance(record, prices) : 0;
   for (const GroupGain& gain : gains) {
     add_path(gain, prices);
-    if (record.batches) add_bdpt(record, gain, count, prices);
+    if (record.batches) add_bdpt(record, gain, unshared, count, prices);
   }
 }
 

@@ -80,14 +80,9 @@ DUET_WIDEST void WideEyeGroups::add_weighed(int n, const Found& found, Weighed& 
 
 DUET_WIDEST void WideEyeGroups::end_weighing(const Shared& s, float scale, const Pairs& pairs,
                                              const Weighed& weighed, BatchTriples& sums) {
-  const int n = s.group.size, begin = s.group.begin, at = s.pairs;
-  DUET_LANES
-  for (int m = 0; m < n; ++m) {
-    const float seen = pairs.pdf[at + m] > 0 ? scale : 0.0f;
-    sums.x[begin + m] += seen * weighed.r[m] * pairs.value.x[at + m];
-    sums.y[begin + m] += seen * weighed.g[m] * pairs.value.y[at + m];
-    sums.z[begin + m] += seen * weighed.b[m] * pairs.value.z[at + m];
-  }
+  add_values(s, pairs, sums, [&](int m) {
+    return Spectrum(weighed.r[m] * scale, weighed.g[m] * scale, weighed.b[m] * scale);
+  });
 }
 
 void WideEyeGroups::add_to(WideSamples& samples, RenderCounters& counters) {

@@ -58,15 +58,8 @@ void WidePathGroups::set_shares(const WideVertices& at, const WideScattering& ne
 
 DUET_WIDEST void WidePathGroups::add_scattered(const Shared& s, const Pairs& pairs,
                                                const Spectrum& scattered, BatchTriples& sums) {
-  const float r = scattered.r, g = scattered.g, b = scattered.b;
-  const int n = s.group.size, begin = s.group.begin, at = s.pairs;
-  DUET_LANES
-  for (int m = 0; m < n; ++m) {
-    const float seen = pairs.pdf[at + m] > 0 ? 1.0f : 0.0f;
-    sums.x[begin + m] += seen * r * pairs.value.x[at + m];
-    sums.y[begin + m] += seen * g * pairs.value.y[at + m];
-    sums.z[begin + m] += seen * b * pairs.value.z[at + m];
-  }
+  const Spectrum color = scattered;
+  add_values(s, pairs, sums, [&](int) { return color; });
 }
 
 void WidePathGroups::add_to(WideSamples& samples, RenderCounters& counters) {

@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include "base/instruction_sets.h"
 #include "integrators/wide_glossy.h"
 #include "integrators/wide_scene.h"
 #include "integrators/wide_walk.h"
@@ -83,6 +84,11 @@ class WidePixelGroups {
     BatchArray<float> pdf;  ///< of the second vertex, per area; 0 if it is not seen
     BatchTriples value;     ///< BSDF, cosine and geometry
   };
+  /// Adds to the sums, for the m-th pair of `s` that has a density, its value times `color(m)`.
+  template <class F>
+  [[gnu::always_inline]] static void add_values(const Shared& s, const Pairs& pairs,
+                                                BatchTriples& sums, const F& color);
+
   const WideScene& wide_;
   const int members_;
   First first_{};
@@ -123,6 +129,20 @@ class WidePixelGroups {
   std::vector<std::vector<int>> glossy_pairs_;
   std::vector<bool> is_shared_plastic_;  ///< by WideShape::number
 };
+
+template <class F>
+inline void WidePixelGroups::add_values(const Shared& s, const Pairs& pairs, BatchTriples& sums,
+                                        const F& color) {
+  const int n = s.group.size, begin = s.group.begin, at = s.pairs;
+  DUET_LANES
+  for (int m = 0; m < n; ++m) {
+    const Spectrum c = color(m);
+    const float seen = pairs.pdf[at + m] > 0 ? 1.0f : 0.0f;
+    sums.x[begin + m] += seen * c.r * pairs.value.x[at + m];
+    sums.y[begin + m] += seen * c.g * pairs.value.y[at + m];
+    sums.z[begin + m] += seen * c.b * pairs.value.z[at + m];
+  }
+}
 
 template <class Add>
 void WidePixelGroups::flush(int n, RenderCounters& counters, const Add& add) {

@@ -18,8 +18,9 @@ bool drops_null_paths(const SceneDescription& scene, const SceneFeatures& featur
 bool emits_from_smooth_meshes(const SceneDescription& scene, const SceneFeatures& features);
 /// Cylinders that emit light and have no circle as their cross-section.
 bool emits_from_elliptic_cylinders(const SceneDescription& scene, const SceneFeatures& features);
-/// Meshes that emit light by a texture of which a part lies on several triangles.
+/// Shapes whose radiance is an attribute of their mesh.
 bool emits_attributes(const SceneDescription& scene, const SceneFeatures& features);
+/// Meshes that emit light by a texture of which a part lies on several triangles.
 bool emits_texture_repeatedly(const SceneDescription& scene, const SceneFeatures& features);
 /// A bump map over a BSDF that tells the directions along the surface apart.
 bool bumps_tangents(const SceneDescription& scene, const SceneFeatures& features);

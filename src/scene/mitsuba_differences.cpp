@@ -13,8 +13,7 @@ constexpr MitsubaDifference kDifferences[] = {
      "Mitsuba 3.9.1's light samples bring no light, but rays that meet the lamp are weighted as if "
      "they did",
      "a coloured disk above a floor, `path`: 0.1023 ± 0.0004 of what rays alone find; `direct` "
-     "with light "
-     "samples alone: 0",
+     "with light samples alone: 0",
      "light samples and rays have to agree, and Mitsuba's rays agree with Duet", &emits_attributes},
     {"blend-delta",
      "`blendbsdf` of a side with a delta lobe (mirror, glass, smooth plastic) and one without",
