@@ -107,8 +107,9 @@ void check_failing_viewer(const std::string& address, const TinyScene& scene) {
   CHECK(contains(o.err, "does not show shown.exr"));
   CHECK(read_image(place.path("shown.exr")).image.data ==
         read_image(place.path("plain.exr")).image.data);
-  // Two seconds for the last image, and as much again for a machine that has others to serve.
-  CHECK(o.seconds < plain.seconds + 4);
+  // Two seconds for the last image. The rest is for a machine that has others to serve; a viewer
+  // that holds the render up does so until the test ends.
+  CHECK(o.seconds < 3 * plain.seconds + 10);
 }
 
 }  // namespace
