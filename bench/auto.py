@@ -6,8 +6,8 @@
 
 The fitted set are scenes of scenes/ that have been looked at when the rules and constants of `auto` were found; the hold-out
 set is made by bench/holdout_scenes.py, and nothing is fitted on it. Each round renders every scene with auto and with
-path, bdpt, vcm and ppm as they come (volpath instead of ppm where there is a medium), one after the other, as whole
-processes, each round with a seed of its own. Efficiency is 1 / (error · CPU s), with user + system seconds of the
+path, path in groups of 16 pixels, bdpt, vcm and ppm (volpath, bdpt and vcm where there is a medium), one after the
+other, as whole processes, each round with a seed of its own. Efficiency is 1 / (error · CPU s), with user + system seconds of the
 process, the pilot included, and error the mean over the pixels of ((a − b)² − v) / (b² + 0.01) without the worst 0.1 %
 of them: a image, b reference, v the variance of the reference. Figures are medians over the rounds.
 
@@ -49,6 +49,8 @@ FITTED = ['thesis-empty', 'thesis-modified', 'box-point', 'box-spheres', 'door-a
 SDS = {'sun-glass', 'room-1', 'room-2'}
 UNBIASED = ['bdpt', '-I', 'light_paths=1']
 MERGING = ['vcm', '-I', 'light_paths=1', '-I', 'alpha=0.1']
+GROUPS = 'path in groups'
+FIXED = {'path': '`path`', GROUPS: '… in groups', 'bdpt': '`bdpt`', 'vcm': '`vcm`', 'ppm': '`ppm`'}  # columns
 MITSUBA = 'Mitsuba'
 TILES, MEAN_LIMIT, TILE_LIMIT, ERRORS, DARK = 8, 0.005, 0.02, 4, 0.05
 
@@ -73,7 +75,7 @@ def size_of(name):
 class Scene:
     def __init__(self, name, file, size, made=None):
         self.name, self.file, self.size, self.made = name, file, f'{size[0]}x{size[1]}', made
-        self.fixed = ['path', 'bdpt', 'vcm', 'ppm']
+        self.fixed = list(FIXED)
         if '<medium' in Path(file).read_text():
             self.fixed = ['volpath', 'bdpt', 'vcm']
 
@@ -159,7 +161,8 @@ def judge(scene, o, folder):
             if m == MITSUBA:
                 cpu = scene.render_with_mitsuba(o, image, o.spp, r + 1)
             else:
-                cpu = scene.render(o, image, [m], o.spp, r + 1, '--stats', str(stats))
+                method = ['path', '-I', 'pixel_group=16'] if m == GROUPS else [m]
+                cpu = scene.render(o, image, method, o.spp, r + 1, '--stats', str(stats))
             if m == 'auto':
                 chosen = json.loads(stats.read_text())['chosen']['reason'].split(':')[0]
             images[m].append(read(image))
@@ -178,7 +181,8 @@ def judge(scene, o, folder):
 
 def row(scene, t):
     mark = lambda m: f'{t["relative"][m]:.3g}' + '*' * (m in t['off'])
-    cells = [mark(m) for m in scene.fixed] + [''] * (4 - len(scene.fixed)) + [mark('auto'), f'{t["of_best"]:.2f}']
+    columns = [m if m in scene.fixed else {'path': 'volpath'}.get(m) for m in FIXED]
+    cells = [mark(m) if m in scene.fixed else '' for m in columns] + [mark('auto'), f'{t["of_best"]:.2f}']
     if t['over_mitsuba']:
         cells += [mark(MITSUBA), f'{t["over_mitsuba"]:.2f}']
     cells += [t['chosen'], f'{t["reference"]}: {", ".join(t["confirmed"]) or "none"}']
@@ -204,7 +208,7 @@ def main():
     o = p.parse_args()
     table = {}
     theirs = ['Mitsuba', '`auto` / it'] if o.mitsuba else []
-    head = ['', '`path`', '`bdpt`', '`vcm`', '`ppm`', '`auto`', 'of the best', *theirs, '`auto` chose', 'reference, confirmed by']
+    head = ['', *FIXED.values(), '`auto`', 'of the best', *theirs, '`auto` chose', 'reference, confirmed by']
     print('| ' + ' | '.join(head) + ' |')
     print('|---' * len(head) + '|')
     with tempfile.TemporaryDirectory() as folder:

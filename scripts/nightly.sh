@@ -121,7 +121,7 @@ run_tsan() {
 
 run_statistics() {
   scripts/build.sh asan duet_tests
-  ctest --test-dir build-asan --output-on-failure -R '^statistics$'
+  ctest --test-dir build-asan --output-on-failure -R '^statistics'
   summary build-asan
 }
 

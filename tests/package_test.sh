@@ -20,13 +20,15 @@ package=/$(basename "$package")
 # A scene with PNG textures.
 rm -rf "$folder"/scene "$folder"/image.* && mkdir "$folder/scene"
 cp -rL scenes/textures/. "$folder/scene/"
+# An image of a kind that the module for image formats reads.
+{ printf 'P6\n32 32\n255\n' && head -c 3072 /dev/zero; } >"$folder/image.ppm"
 inside() { chroot "$folder" env DEBIAN_FRONTEND=noninteractive "$@"; }
 inside apt-get update -qq
 
 test_debian_package() {
   inside apt-get install -y -qq --reinstall --no-install-recommends "$package" >/dev/null
-  # PNG files are written by the module for image formats, which is found, too.
   inside duet /scene/scene.xml --spp 4 --size 32x32 -o /image.exr -o /image.png -q
+  inside duet compare /image.ppm /image.ppm >/dev/null
   inside duet stability --list | grep -q point-light-mirror
   inside bash -n /usr/share/bash-completion/completions/duet
   local file
@@ -51,6 +53,7 @@ image = duet.render(scene, spp=4, size=(32, 32))
 image.save("/image.exr")
 image.save("/image.png")
 assert duet.compare("/image.exr", image)["rmse"] < 0.001  # halves
+assert duet.compare("/image.ppm", "/image.ppm")["rmse"] == 0
 assert numpy.asarray(image)[..., :3].mean() > 0.01
 END
   # The libraries are its own: of the system it has those of the compiler alone.

@@ -18,7 +18,7 @@ inline constexpr EnvironmentVariable kEnvironment[] = {
     {kThreadsVariable, "number of threads where no option says it"},
     {kPathVariable, "further folders to look for files of scenes, between colons"},
     {kMemoryLimitVariable, "bytes of memory that a render may take"},
-    {kImageModuleVariable, "duet_oiio.so, for image files but .exr and plain .png"},
+    {kImageModuleVariable, "duet_oiio.so, for images that are neither EXR nor JPEG nor plain PNG"},
     {kDenoiserVariable, "libOpenImageDenoise.so, for --denoise"}};
 
 }  // namespace duet

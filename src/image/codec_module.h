@@ -10,7 +10,7 @@ extern "C" {
 #endif
 
 /// Changes whenever anything below does.
-#define DUET_CODEC_VERSION 3
+#define DUET_CODEC_VERSION 4
 #define DUET_CODEC_SYMBOL "duet_codecs"
 
 /// An image handed out by the module. `pixels` are uint8_t or float, rows from the top, channels
@@ -22,26 +22,11 @@ struct DuetDecodedImage {
   void* pixels;
 };
 
-/// An image for the module: integers of 8 or 16 bits, rows from the top, channels interleaved.
-struct DuetPixels {
-  int width, height, channels;
-  int bits;  ///< 8: `values` are uint8_t; 16: uint16_t
-  const void* values;
-};
-
-/// Bytes handed out by the module, to be given back to `release`.
-struct DuetEncodedImage {
-  size_t size;
-  uint8_t* bytes;
-};
-
-/// Functions return 0 and fill `error` (zero-terminated) if they fail. `kind` is OpenImageIO's name
+/// `decode` returns 0 and fills `error` (zero-terminated) if it fails. `kind` is OpenImageIO's name
 /// of a format: png, jpeg, bmp, targa, hdr, tiff, pnm.
 struct DuetCodecs {
   int version;
   int (*decode)(const char* kind, const uint8_t* bytes, size_t size, struct DuetDecodedImage* image,
-                char* error, size_t error_size);
-  int (*encode)(const char* kind, const struct DuetPixels* pixels, struct DuetEncodedImage* image,
                 char* error, size_t error_size);
   void (*release)(void* memory);
 };

@@ -90,13 +90,4 @@ ImageFile decode_with_module(const char* kind, const std::vector<uint8_t>& bytes
   return file;
 }
 
-std::vector<uint8_t> encode_with_module(const char* kind, const DuetPixels& pixels) {
-  DuetEncodedImage encoded{};
-  char error[1024] = "";
-  if (!codecs().encode(kind, &pixels, &encoded, error, sizeof(error)))
-    throw std::runtime_error(error);
-  const std::unique_ptr<void, Release> memory(encoded.bytes);
-  return {encoded.bytes, encoded.bytes + encoded.size};
-}
-
 }  // namespace duet

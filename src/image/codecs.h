@@ -16,6 +16,5 @@ inline constexpr const char* kImageModuleVariable = "DUET_IMAGE_MODULE";
 
 /// `kind` as in codec_module.h. Throws std::runtime_error, also if the library is not found.
 ImageFile decode_with_module(const char* kind, const std::vector<uint8_t>& bytes);
-std::vector<uint8_t> encode_with_module(const char* kind, const DuetPixels& pixels);
 
 }  // namespace duet

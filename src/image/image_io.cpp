@@ -11,6 +11,7 @@
 #include "base/system/atomic_file.h"
 #include "base/system/files.h"
 #include "image/codecs.h"
+#include "image/display_writers.h"
 #include "image/exr_io.h"
 #include "image/plain_jpeg.h"
 #include "image/plain_png.h"
@@ -18,9 +19,6 @@
 namespace duet {
 
 namespace {
-
-/// Beyond it, libjpeg ends the program (JPEG_MAX_DIMENSION).
-constexpr int kGreatestJpegSide = 65500;
 
 std::vector<uint8_t> read_bytes(const std::string& path) {
   const InputFile file(path);
@@ -168,8 +166,9 @@ std::vector<uint8_t> display_image_bytes(const std::string& path, int width, int
     throw std::runtime_error(fmt::format("{} cannot be written: JPEG has no alpha", path));
   if (jpeg && kBits != 8)
     throw std::runtime_error(fmt::format("{} cannot be written: JPEG has 8 bits", path));
+  const DisplayPixels pixels{width, height, channels, kBits, values.data()};
   std::vector<uint8_t> file =
-      encode_with_module(png ? "png" : "jpeg", {width, height, channels, kBits, values.data()});
+      encoded(path, [&] { return png ? encode_png(pixels) : encode_jpeg(pixels); });
   png ? add_png_text(file, fields) : add_jpeg_comment(file, fields);
   return file;
 }

@@ -125,30 +125,6 @@ int decode(const char* kind, const uint8_t* bytes, size_t size, DuetDecodedImage
   });
 }
 
-int encode(const char* kind, const DuetPixels* pixels, DuetEncodedImage* image, char* error,
-           size_t error_size) {
-  return guarded(error, error_size, [&] {
-    std::vector<unsigned char> buffer;
-    OIIO::Filesystem::IOVecOutput target(buffer);
-    auto output = OIIO::ImageOutput::create(kind);
-    if (!output || !output->set_ioproxy(&target)) fail(output);
-    const int channels = pixels->channels;
-    const OIIO::TypeDesc type = pixels->bits == 16 ? OIIO::TypeDesc::UINT16 : OIIO::TypeDesc::UINT8;
-    OIIO::ImageSpec spec(pixels->width, pixels->height, channels, type);
-    spec.alpha_channel = channels == 2 || channels == 4 ? channels - 1 : -1;
-    spec.attribute("oiio:UnassociatedAlpha", 1);
-    spec.attribute("oiio:ColorSpace", "sRGB");
-    spec.attribute("compression", std::string(kind) == "jpeg" ? "jpeg:95" : "zip");
-    spec.attribute("jpeg:subsampling", "4:4:4");
-    if (!output->open(std::string("memory.") + kind, spec) ||
-        !output->write_image(type, pixels->values) || !output->close())
-      fail(output);
-    auto bytes = allocate(buffer.size());
-    std::memcpy(bytes.get(), buffer.data(), buffer.size());
-    *image = {buffer.size(), static_cast<uint8_t*>(bytes.release())};
-  });
-}
-
 void release(void* memory) {
   std::free(memory);
 }
@@ -156,6 +132,6 @@ void release(void* memory) {
 }  // namespace
 
 extern "C" __attribute__((visibility("default"))) const DuetCodecs* duet_codecs() {
-  static const DuetCodecs codecs{DUET_CODEC_VERSION, decode, encode, release};
+  static const DuetCodecs codecs{DUET_CODEC_VERSION, decode, release};
   return &codecs;
 }

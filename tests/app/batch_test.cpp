@@ -115,12 +115,6 @@ TEST_SUITE("program") {
     CAPTURE(wide.err);
     CHECK(wide.code == 1);
     CHECK(contains(wide.err, "a.jpg cannot be written: JPEG has at most 65500 pixels a side"));
-    const Outcome no_library =
-        run_duet({"tiny.xml", "-o", "a.png", "--spp", "1000000000"},
-                 {.directory = place.path(""),
-                  .environment = {{"DUET_IMAGE_MODULE", place.path("none.so")}}});
-    CHECK(no_library.code == 1);
-    CHECK(contains(no_library.err, "this image format needs the library"));
     CHECK(place.count() == 1);
   }
 
