@@ -11,6 +11,7 @@
 #include "evaluate/batch/csv.h"
 #include "image/image_io.h"
 #include "support/browser.h"
+#include "support/show.h"
 #include "support/source_path.h"
 
 using namespace duet;
@@ -292,7 +293,7 @@ TEST_SUITE("program") {
     line = 0;
     for (const auto& [options, why] : wrong) {
       const std::string place_of_row = fmt::format("jobs.jsonl:{}: error: ", ++line);
-      CAPTURE(why);
+      SHOW(why);
       const size_t at = o.err.find(place_of_row);
       REQUIRE(at != o.err.npos);
       CHECK(contains(o.err.substr(at, o.err.find('\n', at) - at), why));

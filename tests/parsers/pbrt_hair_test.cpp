@@ -3,6 +3,7 @@
 
 #include "scene/build.h"
 #include "support/pbrt_file.h"
+#include "support/show.h"
 #include "support/test_material.h"
 
 using namespace duet;
@@ -55,7 +56,7 @@ TEST_CASE("pbrt hair: textures mean what constants mean") {
       {"\"texture beta_m\" \"ten\" \"texture beta_n\" \"ten\"",
        "\"float beta_m\" 1 \"float beta_n\" 1"}};
   for (const auto& [texture, constant] : kPairs) {
-    CAPTURE(texture);
+    SHOW(texture);
     const Spectrum a = scattered(hair(texture)), b = scattered(hair(constant));
     CHECK(b.r != b.b);
     for (int c = 0; c < 3; ++c) CHECK(a[c] == doctest::Approx(b[c]).epsilon(1e-5));

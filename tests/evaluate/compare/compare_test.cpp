@@ -9,6 +9,7 @@
 #include "evaluate/compare/text.h"
 #include "image/image_io.h"
 #include "support/files.h"
+#include "support/show.h"
 
 using namespace duet;
 using namespace duet::test;
@@ -135,8 +136,8 @@ TEST_CASE("images of a set that are not independent are no set") {
   CHECK_THROWS_WITH(compare_sets(s, other, copies),
                     doctest::Contains("render each with another seed (--seed)"));
   for (const auto& [one, two] : {std::pair{"", ""}, {"7", ""}, {"", "7"}}) {
-    CAPTURE(one);
-    CAPTURE(two);
+    SHOW(one);
+    SHOW(two);
     CHECK(compare_sets(s, set({0.1f, one}, {0.1f, two}), other)
               .warning.find("a/1.exr has the same pixels as ") != std::string::npos);
   }
