@@ -79,6 +79,11 @@ void find_relative_error(std::vector<double> relative, ImageMetrics& m) {
   m.worst = total_sum > 0 ? 1 - kept_sum / total_sum : 0;
 }
 
+/// a / b, where what there is none of on either side is the same on both.
+double ratio_of(double a, double b, double if_both_zero) {
+  return a == 0 && b == 0 ? if_both_zero : a / b;
+}
+
 /// The difference of the means over its standard error, the worst channel; `per_sample` is the
 /// noise of both images in units of the variance of one sample.
 double bias_of(const PixelSums& sums, double systematic_error, double per_sample) {
@@ -86,7 +91,7 @@ double bias_of(const PixelSums& sums, double systematic_error, double per_sample
   for (size_t c = 0; c < 3; ++c) {
     const double systematic = systematic_error * sums.reference[c];
     const double error = std::sqrt(sums.variance[c] * per_sample + systematic * systematic);
-    const double z = error > 0 ? (sums.image[c] - sums.reference[c]) / error : 0;
+    const double z = ratio_of(sums.image[c] - sums.reference[c], error, 0);
     if (std::abs(z) > std::abs(bias)) bias = z;
   }
   return bias;
@@ -105,7 +110,8 @@ void find_z(const Colours& a, const Colours& b, const Colours& variance, double 
       if (!std::isfinite(b(i, c))) continue;
       ++counted;
       if (!std::isfinite(d)) continue;
-      const double z = std::abs(d) / std::sqrt(std::max(variance(i, c), floor) * per_sample);
+      const double error = std::sqrt(std::max(variance(i, c), floor) * per_sample);
+      const double z = ratio_of(std::abs(d), error, 0);
       good += std::erfc(z / std::sqrt(2.0)) > level;
       z_squares += z * z;
     }
@@ -132,9 +138,9 @@ ImageMetrics compare_images(const Image& image, const Image& reference,
   if (sums.relative.empty()) return m;
   const double values = 3.0 * double(sums.relative.size()), mean_b = sums.mean_reference();
   m.rmse = std::sqrt(sums.squares / values);
-  m.relative_rmse = m.rmse / mean_b;
+  m.relative_rmse = ratio_of(m.rmse, mean_b, 0);
   m.mae = sums.absolute / values;
-  for (size_t c = 0; c < 3; ++c) m.mean_ratio[c] = sums.image[c] / sums.reference[c];
+  for (size_t c = 0; c < 3; ++c) m.mean_ratio[c] = ratio_of(sums.image[c], sums.reference[c], 1);
   find_relative_error(std::move(sums.relative), m);
   m.firefly = brightest_share(std::move(sums.luminances));
   if (!variance) return m;

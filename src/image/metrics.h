@@ -22,13 +22,14 @@ struct NoiseModel {
 /// All over the channels R, G and B of all pixels.
 struct ImageMetrics {
   double rmse = 0;            ///< root of the mean of (a − b)²
-  double relative_rmse = 0;   ///< rmse / mean(b)
+  double relative_rmse = 0;   ///< rmse / mean(b); 0 of two black images
   double relmse = 0;          ///< mean of (a − b)² / (b² + 0.01)
   double relmse_trimmed = 0;  ///< the same without the worst 0.1 % of the pixels
   double mae = 0;             ///< mean of |a − b|
   double firefly = 0;  ///< share of the image's luminance that is in its brightest 0.1 % of pixels
   double worst = 0;    ///< share of relmse that is in the worst 0.1 % of the pixels
-  std::array<double, 3> mean_ratio{};                             ///< mean(a) / mean(b) per channel
+  /// mean(a) / mean(b) per channel; 1 where both are zero.
+  std::array<double, 3> mean_ratio{};
   long nan_pixels = 0, infinite_pixels = 0, negative_pixels = 0;  ///< of the image
   /// Difference of the means over its standard error, the worst channel; with a noise model only.
   std::optional<double> bias;

@@ -5,6 +5,7 @@
 #include "integrators/wide_dielectric.h"
 #include "integrators/wide_eye.h"
 #include "integrators/wide_plastic.h"
+#include "integrators/wide_principled.h"
 
 namespace duet {
 

@@ -8,6 +8,7 @@
 #include "integrators/wide_dielectric.h"
 #include "integrators/wide_kernels.h"
 #include "integrators/wide_plastic.h"
+#include "integrators/wide_principled.h"
 #include "materials/plain_diffuse.h"
 #include "math/hash.h"
 #include "math/warp.h"

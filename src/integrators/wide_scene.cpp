@@ -16,21 +16,27 @@ bool has_frame_of_normal(const Shape& shape) {
 struct GlossySurface {
   WideGlossyMaterial material;
   bool two_sided, nearly_specular;
+  bool always_smooth;            ///< see WideShape
   const ColorSlot* reflectance;  ///< which may depend on the point; null if there is none
 };
 
 std::optional<GlossySurface> as_glossy(const Material& material) {
   if (const auto plastic = as_rough_plastic(material))
     return GlossySurface{*plastic, plastic->two_sided,
-                         plastic->plastic.microfacet.is_nearly_specular(), &plastic->base};
+                         plastic->plastic.microfacet.is_nearly_specular(), true, &plastic->base};
   if (const auto conductor = as_rough_conductor(material))
     return GlossySurface{*conductor, conductor->two_sided,
-                         conductor->conductor.microfacet.is_nearly_specular(),
+                         conductor->conductor.microfacet.is_nearly_specular(), false,
                          &conductor->reflectance};
   if (const auto plastic = as_plastic(material))
-    return GlossySurface{*plastic, plastic->two_sided, false, &plastic->base};
+    return GlossySurface{*plastic, plastic->two_sided, false, false, &plastic->base};
+  if (const auto principled = as_principled(material))
+    return GlossySurface{*principled, principled->two_sided,
+                         principled->model.facets.is_nearly_specular(), true,
+                         &principled->base_color};
   if (const auto glass = as_rough_dielectric(material))
-    return GlossySurface{*glass, false, glass->dielectric.microfacet.is_nearly_specular(), nullptr};
+    return GlossySurface{*glass, false, glass->dielectric.microfacet.is_nearly_specular(), true,
+                         nullptr};
   return std::nullopt;
 }
 
@@ -83,6 +89,7 @@ bool WideScene::set_glossy(WideShape& w, const Shape& shape, const Material& mat
   if (!surface || (use == WideUse::merging && surface->nearly_specular)) return false;
   w.model = WideModel::glossy;
   w.two_sided = surface->two_sided;
+  w.always_smooth = surface->always_smooth;
   w.transmits = std::holds_alternative<RoughDielectricSurface>(surface->material);
   if (surface->reflectance) set_reflectance(w, shape, *surface->reflectance);
   w.number = number_of(shape, surface->material, glossy);

@@ -27,7 +27,7 @@ enum class WideModel : uint8_t {
 
 /// A material whose points are scattered in a loop of their own.
 using WideGlossyMaterial = std::variant<RoughPlasticSurface, RoughConductorSurface, PlasticSurface,
-                                        RoughDielectricSurface>;
+                                        PrincipledSurface, RoughDielectricSurface>;
 
 struct alignas(64) WideShape {
   /// Empty if points are made by Scene::surface() alone. What it leaves free at its end has the
@@ -41,6 +41,8 @@ struct alignas(64) WideShape {
   bool two_sided = false;      ///< see DiffuseSurface; not of WideModel::other
   bool looks_up = false;       ///< at each point: what is `textured`, or how opaque a mask is
   bool transmits : 1 = false;  ///< of WideModel::glossy: scatters to both sides
+  /// Of WideModel::glossy: has smooth lobes even where the reflectance is black.
+  bool always_smooth : 1 = false;
   bool emits : 1 = false;
   bool perturbed : 1 = false;  ///< below a map of WideScene::maps
   bool masked : 1 = false;     ///< below a mask of WideScene::masks

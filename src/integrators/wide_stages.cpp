@@ -3,6 +3,7 @@
 #include "integrators/wide_conductor.h"
 #include "integrators/wide_dielectric.h"
 #include "integrators/wide_plastic.h"
+#include "integrators/wide_principled.h"
 #include "integrators/wide_specular.h"
 #include "transport/light_choice.h"
 #include "transport/shadow_transmittance.h"

@@ -12,10 +12,7 @@ void WideSubpathStages::fill_gaps() {
 
 bool WideSubpathStages::is_smooth(int i) const {
   const WideShape& shape = wide_.shapes[hits_.shape[i]];
-  if (shape.transmits ||
-      (shape.model == WideModel::glossy &&
-       std::holds_alternative<RoughPlasticSurface>(wide_.glossy[size_t(shape.number)])))
-    return true;
+  if (shape.always_smooth) return true;
   return std::max({ends_.flux.x[i], ends_.flux.y[i], ends_.flux.z[i]}) > 0;
 }
 

@@ -13,7 +13,7 @@ constexpr double kMaxCells = 1 << 17;
 constexpr double kCellsPerTexel = 16;
 constexpr int kMinPoints = 4, kMaxPoints = 64;
 /// Share of the probability that is spread evenly over the area.
-constexpr double kEvenShare = 0.02;
+constexpr double kEvenCellShare = 0.02;
 
 /// Points of the unit square that fill it evenly.
 /// Source: Roberts, "The Unreasonable Effectiveness of Quasirandom Sequences", 2018.
@@ -50,7 +50,7 @@ TriangleCells::TriangleCells(const Shape& shape, const ColorSlot& radiance) : sh
       integral_ += weight;
     }
   }
-  const double even = kEvenShare / (1 - kEvenShare) * integral_ / area;
+  const double even = kEvenCellShare / (1 - kEvenCellShare) * integral_ / area;
   for (uint32_t t = 0; t < triangles; ++t) {
     const float cell_area = triangle_area(mesh, t) / float(per_triangle);
     for (uint32_t c = 0; c < per_triangle; ++c) {

@@ -33,8 +33,7 @@ struct DielectricFresnel {
 }
 
 /// The same with the direction of refraction. With eta = 1 nothing is reflected.
-[[gnu::always_inline]] [[gnu::always_inline]] inline DielectricFresnel fresnel_dielectric(
-    float cos_i, float eta) {
+[[gnu::always_inline]] inline DielectricFresnel fresnel_dielectric(float cos_i, float eta) {
   const float g = safe_sqrt(eta * eta - (1 - cos_i * cos_i));  // η cos θ_t
   const float reflectance = dielectric_reflectance(cos_i, eta), cos_t = g / eta;
   return {eta == 1 ? 0.0f : reflectance, eta == 1 ? cos_i : cos_t};
@@ -91,14 +90,15 @@ inline float fresnel_diffuse_reflectance(float eta) {
 
 /// Schlick's (1 − cos)⁵.
 /// Source: Schlick, "An Inexpensive BRDF Model for Physically-based Rendering", 1994.
-inline float schlick_weight(float cosine) {
-  const float m = std::clamp(1 - cosine, 0.0f, 1.0f);
+[[gnu::always_inline]] inline float schlick_weight(float cosine) {
+  const float m = std::min(std::max(1 - cosine, 0.0f), 1.0f);
   return sqr(sqr(m)) * m;
 }
 
 /// schlick_weight() of the angle in the rarer medium, where the approximation holds.
-inline float schlick_weight(float cos_i, float eta) {
-  return schlick_weight(eta > 1 ? cos_i : safe_sqrt(1 - (1 - cos_i * cos_i) / (eta * eta)));
+[[gnu::always_inline]] inline float schlick_weight(float cos_i, float eta) {
+  const float inside = safe_sqrt(1 - (1 - cos_i * cos_i) / (eta * eta));
+  return schlick_weight(eta > 1 ? cos_i : inside);
 }
 
 /// Reflectance of a dielectric at normal incidence.

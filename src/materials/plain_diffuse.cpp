@@ -1,6 +1,7 @@
 #include "materials/plain_diffuse.h"
 
 #include "materials/materials.h"
+#include "materials/principled_materials.h"
 #include "materials/wrappers.h"
 
 namespace duet {
@@ -65,6 +66,14 @@ std::optional<RoughConductorSurface> as_rough_conductor(const Material& material
   const auto uniform = conductor ? conductor->uniform() : std::nullopt;
   if (!uniform || !has_visible_facets(uniform->microfacet)) return std::nullopt;
   return RoughConductorSurface{conductor->specular_reflectance(), *uniform, bare.two_sided};
+}
+
+std::optional<PrincipledSurface> as_principled(const Material& material) {
+  const Unwrapped bare = unwrapped(material);
+  const auto* principled = dynamic_cast<const Principled*>(bare.material);
+  const auto model = principled ? principled->uniform_reflection() : std::nullopt;
+  if (!model) return std::nullopt;
+  return PrincipledSurface{principled->base_color(), *model, bare.two_sided};
 }
 
 std::optional<RoughDielectricSurface> as_rough_dielectric(const Material& material) {

@@ -98,6 +98,16 @@ struct RoughConductorSurface {
 /// The material as such, if it is one.
 std::optional<RoughConductorSurface> as_rough_conductor(const Material& material);
 
+/// A material that is nothing but Burley's without transmission, clear coat and anisotropy, on one
+/// or both sides, which is the same everywhere but for its colour.
+struct PrincipledSurface {
+  const ColorSlot& base_color;
+  PrincipledModel model;  ///< its base colour is 1
+  bool two_sided;
+};
+/// The material as such, if it is one.
+std::optional<PrincipledSurface> as_principled(const Material& material);
+
 /// A material that is nothing but a rough dielectric that is the same everywhere, with such facets
 /// and an index that is not 1.
 struct RoughDielectricSurface {

@@ -19,23 +19,6 @@ Microfacet principled_facets(float roughness, float anisotropic) {
           std::max(alpha * aspect, 1e-3f), true};
 }
 
-float principled_diffuse(float cos_o, float cos_i, float cos_d, float roughness, float flatness) {
-  const float fo = schlick_weight(cos_o), fi = schlick_weight(cos_i);
-  const float rr = 2 * roughness * cos_d * cos_d;
-  const float base = (1 - 0.5f * fo) * (1 - 0.5f * fi);
-  const float retro = rr * (fo + fi + fo * fi * (rr - 1));
-  if (flatness == 0) return base + retro;
-  const float fss90 = 0.5f * rr;
-  const float fss = lerp(1.0f, fss90, fo) * lerp(1.0f, fss90, fi);
-  const float subsurface = 1.25f * (fss * (1 / (cos_o + cos_i) - 0.5f) + 0.5f);
-  return lerp(base + retro, subsurface, flatness);
-}
-
-Spectrum tint_of(const Spectrum& color) {
-  const float l = color.luminance();
-  return l > 0 ? color / l : Spectrum(1);
-}
-
 float PrincipledModel::nearly_specular_share() const {
   const bool sharp = facets.is_nearly_specular(),
              sharp_coat = clearcoat_alpha2 < float(sqr(kNearlySpecular));
@@ -56,39 +39,19 @@ PrincipledModel::Choice PrincipledModel::choice() const {
   return {c.diffuse / sum, c.clearcoat / sum, c.specular / sum};
 }
 
-/// Metals and tinted reflections follow Schlick, the rest the exact equations.
-Spectrum PrincipledModel::front_fresnel(float dielectric, float cosine) const {
-  Spectrum f((1 - metallic) * (1 - spec_tint) * dielectric);
-  if (metallic > 0 || spec_tint > 0) {
-    const float w = schlick_weight(cosine, eta);
-    f += lerp(base_color, Spectrum(1), w) * metallic;
-    f += lerp(tint * normal_reflectance(eta), Spectrum(1), w) * ((1 - metallic) * spec_tint);
-  }
-  return f;
-}
-
 /// Reflection seen from above.
-ModelEval PrincipledModel::eval_front(const Vector3f& o, const Vector3f& i, const Vector3f& h,
-                                      float f, const Microfacet::Core& core) const {
-  const float cosine = dot(o, h);
+ModelEval PrincipledModel::eval_front(const Vector3f& o, const Vector3f& i) const {
+  const Microfacet::Reflection r = facets.visible_ggx_reflection(o, i);
   const Choice pick = choice();
-  ModelEval e;
-  if (f > 0) e.value = front_fresnel(f, cosine) * (0.25f * core.value);
-  e.pdf =
-      pick.specular * (1 - bsdf() * (1 - f)) * 0.25f * core.density + pick.diffuse * i.z * kInvPi;
+  ModelEval e = eval_uncoated(o, i, r, pick);
   if (clearcoat > 0) {
+    const float h = (o.z + i.z) / (2 * r.cosine);  // the half vector's cosine
     const float d = clearcoat_density(h);
-    const float fc = lerp(0.04f, 1.0f, schlick_weight(cosine, eta));
+    const float fc = lerp(0.04f, 1.0f, schlick_weight(r.cosine, eta));
     e.value += Spectrum(0.25f * clearcoat * fc * d * clearcoat_masking(o.z) *
                         clearcoat_masking(i.z) * i.z);
-    e.pdf += pick.clearcoat * d * h.z / (4 * cosine);
+    e.pdf += pick.clearcoat * d * h / (4 * r.cosine);
   }
-  if (brdf() > 0)
-    e.value += base_color *
-               (brdf() * i.z * kInvPi * principled_diffuse(o.z, i.z, cosine, roughness, flatness));
-  if (sheen > 0)
-    e.value += lerp(Spectrum(1), tint, sheen_tint) *
-               (sheen * (1 - metallic) * schlick_weight(cosine) * i.z);
   return e;
 }
 
@@ -98,6 +61,7 @@ ModelEval PrincipledModel::eval(const Vector3f& wo, const Vector3f& wi, Transpor
   if ((below || !reflects) && !(bsdf() > 0)) return {};
   // The side that light comes from is up.
   const Vector3f o = mirrored(wo, below), i = mirrored(wi, below);
+  if (reflects && !below) return eval_front(o, i);
   const float relative = below ? 1 / eta : eta;
   Vector3f h = reflects ? o + i : o + i * relative;
   h = normalize(h.z < 0 ? -h : h);
@@ -105,7 +69,6 @@ ModelEval PrincipledModel::eval(const Vector3f& wo, const Vector3f& wi, Transpor
   if (!(h.z > 0 && oh > 0 && (reflects ? ih > 0 : ih < 0))) return {};
   const Microfacet::Core core = facets.core(o, i, h);
   const float f = fresnel_dielectric(oh, relative).reflectance;
-  if (reflects && !below) return eval_front(o, i, h, f, core);
   if (reflects) return {Spectrum(bsdf() * f * 0.25f * core.value), f * 0.25f * core.density};
   const float jacobian = sqr(relative / (oh + relative * ih)) * oh * -ih;
   const float compression = transport == Transport::radiance ? 1 / sqr(relative) : 1.0f;
@@ -171,10 +134,24 @@ Principled::Principled(const PrincipledOptions& options) : options_(options) {
 }
 
 PrincipledModel Principled::model(const Surface& s) const {
+  PrincipledModel m = without_color(s);
+  m.base_color = options_.base_color(s);
+  m.tint = tint_of(m.base_color);
+  return m;
+}
+
+std::optional<PrincipledModel> Principled::uniform_reflection() const {
+  const PrincipledOptions& o = options_;
+  if (!all_constant(o.roughness, o.metallic, o.spec_tint, o.sheen, o.sheen_tint, o.flatness) ||
+      is_used(o.anisotropic) || is_used(o.spec_trans) || is_used(o.clearcoat))
+    return std::nullopt;
+  return without_color({});
+}
+
+PrincipledModel Principled::without_color(const Surface& s) const {
   const PrincipledOptions& o = options_;
   PrincipledModel m;
-  m.base_color = o.base_color(s);
-  m.tint = tint_of(m.base_color);
+  m.base_color = m.tint = Spectrum(1);
   m.roughness = std::max(o.roughness(s), 0.0f);
   m.facets = principled_facets(m.roughness, clamped_to_unit(o.anisotropic(s)));
   m.metallic = clamped_to_unit(o.metallic(s));

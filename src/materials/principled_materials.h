@@ -23,6 +23,10 @@ class Principled final : public SingleModelMaterial<Principled> {
  public:
   explicit Principled(const PrincipledOptions& options);
   PrincipledModel model(const Surface& s) const;
+  const ColorSlot& base_color() const { return options_.base_color; }
+  /// The model but for its colour, if that is all that depends on the point, nothing is transmitted
+  /// and there is neither a clear coat nor anisotropy.
+  std::optional<PrincipledModel> uniform_reflection() const;
   SurfaceNeeds needs() const override;
   bool transmits() const override;
   Spectrum local_albedo(const Surface& s, const Vector3f&) const override {
@@ -33,6 +37,8 @@ class Principled final : public SingleModelMaterial<Principled> {
   }
 
  private:
+  PrincipledModel without_color(const Surface& s) const;
+
   PrincipledOptions options_;
 };
 

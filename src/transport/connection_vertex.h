@@ -30,7 +30,7 @@ struct ConnectionVertex {
   ConnectionVertex() = default;
   explicit ConnectionVertex(const PathVertex& v) : depth(v.depth) {
     const BsdfComponent* const only = v.bsdf.only_component();
-    if (!only || !reflects(only->kind)) return;
+    if (!only || !reflects(*only)) return;
     const Surface& s = v.surface;
     const float cosine = dot(s.shading.n, v.wo), geometric = dot(s.ng, v.wo);
     position = s.position;
@@ -54,9 +54,10 @@ struct ConnectionVertex {
 
  private:
   /// Whether all light stays on the side of the shading normal that it comes from.
-  static bool reflects(ModelKind kind) {
-    return kind == ModelKind::diffuse || kind == ModelKind::plastic ||
-           kind == ModelKind::rough_plastic || kind == ModelKind::rough_conductor;
+  static bool reflects(const BsdfComponent& c) {
+    if (c.kind == ModelKind::principled) return c.model.principled.spec_trans == 0;
+    return c.kind == ModelKind::diffuse || c.kind == ModelKind::plastic ||
+           c.kind == ModelKind::rough_plastic || c.kind == ModelKind::rough_conductor;
   }
 };
 

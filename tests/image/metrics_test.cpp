@@ -46,6 +46,22 @@ TEST_CASE("metrics of two images whose difference is known") {
   CHECK(!m.z_share);
 }
 
+TEST_CASE("two black images are the same, and what is lit is infinitely brighter than black") {
+  const Image black = constant_image(10, 10, 0), lit = constant_image(10, 10, 1);
+  const NoiseModel noise{&black, 16, 16};
+  const ImageMetrics same = compare_images(black, black, noise);
+  CHECK(same.relative_rmse == 0);
+  CHECK(same.mean_ratio == std::array{1.0, 1.0, 1.0});
+  CHECK(*same.bias == 0);
+  CHECK(*same.z_share == 1);
+  CHECK(*same.z_rms == 0);
+  const ImageMetrics other = compare_images(lit, black, noise);
+  CHECK(std::isinf(other.relative_rmse));
+  CHECK(std::isinf(other.mean_ratio[0]));
+  CHECK(std::isinf(*other.bias));
+  CHECK(*other.z_share == 0);
+}
+
 TEST_CASE("the trimmed error leaves out the worst thousandth of the pixels") {
   const Image b = constant_image(100, 20, 1);
   Image a = b;

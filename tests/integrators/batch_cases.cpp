@@ -24,6 +24,11 @@ std::string conductor(const std::string& parameters, bool two_sided) {
   return two_sided ? "<bsdf type='twosided'>" + metal + "</bsdf>" : metal;
 }
 
+std::string principled(const std::string& parameters, bool two_sided) {
+  const std::string burley = "<bsdf type='principled'>" + parameters + "</bsdf>";
+  return two_sided ? "<bsdf type='twosided'>" + burley + "</bsdf>" : burley;
+}
+
 std::string emitter(const std::string& type, const std::string& transform) {
   return "<shape type='" + type + "'><transform name='to_world'>" + transform +
          "</transform><emitter type='area'><rgb name='radiance' value='5,7,4'/></emitter></shape>";
@@ -138,6 +143,13 @@ const std::vector<BatchCase> kBatchCases = {
          "<shape type='cube'><transform name='to_world'><scale value='0.2'/><rotate z='1' "
          "angle='30'/><translate y='-0.5' z='1.2'/></transform>" +
          kAluminium + "</shape>"},
+    {"Burley's materials in lanes",
+     camera() + room_xml(kBurleyCheckers) + kLamp + lumpy_xml("-0.4,0.2,0.5", kBurleyMetal) +
+         hollow_xml("0.5,-0.3,0.3", "0.25", kBurleyCloth) +
+         hollow_xml("0.5,0.3,1.2", "0.3", kBurleyMetal) +
+         "<shape type='cube'><transform name='to_world'><scale value='0.2'/><rotate z='1' "
+         "angle='30'/><translate y='-0.5' z='1.2'/></transform>" +
+         kBurleyCloth + "</shape>"},
     {"smooth plastics",
      camera() + room_xml(smooth_plastic(kCheckerColours)) + kLamp +
          lumpy_xml("-0.4,0.2,0.5", smooth_plastic("<float name='int_ior' value='1.9'/>", false)) +

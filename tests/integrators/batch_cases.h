@@ -50,6 +50,21 @@ inline const std::string kBrushed = conductor(
     "<string name='material' value='Au'/><float name='alpha_u' value='0.1'/>"
     "<float name='alpha_v' value='0.4'/>");
 
+/// Burley's material, which batches scatter in lanes as long as nothing but its colour varies.
+std::string principled(const std::string& parameters, bool two_sided = true);
+inline const std::string kBurleyCheckers = principled(
+    "<float name='roughness' value='0.4'/><float name='spec_tint' value='0.3'/>"
+    "<texture type='checkerboard' name='base_color'><rgb name='color0' value='0.8,0.3,0.2'/>"
+    "<rgb name='color1' value='0,0,0'/><transform name='to_uv'><scale x='5' y='7'/></transform>"
+    "</texture>");
+inline const std::string kBurleyMetal = principled(
+    "<rgb name='base_color' value='0.9,0.5,0.3'/><float name='roughness' value='0.3'/>"
+    "<float name='metallic' value='0.8'/>",
+    false);
+inline const std::string kBurleyCloth = principled(
+    "<rgb name='base_color' value='0.2,0.3,0.7'/><float name='sheen' value='0.8'/>"
+    "<float name='sheen_tint' value='0.6'/><float name='flatness' value='0.5'/>");
+
 std::string emitter(const std::string& type, const std::string& transform);
 inline const std::string kDiskLamp =
     emitter("disk", "<scale x='0.3' y='0.2'/><rotate x='1' angle='170'/><translate z='1.9'/>");

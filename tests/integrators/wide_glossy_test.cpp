@@ -4,7 +4,9 @@
 #include "integrators/wide_conductor.h"
 #include "integrators/wide_dielectric.h"
 #include "integrators/wide_plastic.h"
+#include "integrators/wide_principled.h"
 #include "integrators/wide_specular.h"
+#include "materials/principled_materials.h"
 #include "math/sampler.h"
 #include "support/test_material.h"
 
@@ -35,6 +37,16 @@ const char* const kConductors[] = {
     R"({"type": "roughconductor", "alpha": 0.9, "eta": [0, 0.9, 0], "k": [0, 0, 2]})",
     R"({"type": "roughconductor", "alpha": 0.0001, "eta": [0, 0, 0], "k": [1, 1, 1]})",
     R"({"type": "roughconductor", "distribution": "ggx", "eta": [0, 0, 0], "k": [0, 0, 0]})",
+};
+
+const char* const kPrincipled[] = {
+    R"({"type": "principled"})",
+    R"({"type": "principled", "base_color": [0.2, 0.5, 0.8], "roughness": 0.1, "metallic": 0.6,
+        "spec_tint": 0.4, "eta": 1.8})",
+    R"({"type": "principled", "base_color": [0.9, 0.5, 0.1], "roughness": 0.7, "sheen": 0.9,
+        "sheen_tint": 0.3, "flatness": 0.8, "eta": 0.7})",
+    R"({"type": "principled", "base_color": [0, 0, 0], "metallic": 1, "eta": 1})",
+    R"({"type": "principled", "metallic": 0.5, "roughness": 0, "eta": 1.01})",
 };
 
 const char* const kRoughDielectrics[] = {
@@ -216,6 +228,11 @@ void compare_conductor(const std::string& description) {
           [](const RoughConductorSurface& s) -> const ColorSlot& { return s.reflectance; });
 }
 
+void compare_principled(const std::string& description) {
+  compare(description, as_principled,
+          [](const PrincipledSurface& s) -> const ColorSlot& { return s.base_color; });
+}
+
 }  // namespace
 
 TEST_CASE("rough plastics in lanes are what their Bsdf is") {
@@ -237,6 +254,24 @@ TEST_CASE("rough conductors in lanes are what their Bsdf is") {
     compare_conductor(bsdf);
     compare_conductor(two_sided(bsdf));
   }
+}
+
+TEST_CASE("Burley's materials in lanes are what their Bsdf is") {
+  for (const std::string bsdf : kPrincipled) {
+    compare_principled(bsdf);
+    compare_principled(two_sided(bsdf));
+  }
+  for (const char* description :
+       {R"({"type": "principled", "clearcoat": 0.1})",
+        R"({"type": "principled", "spec_trans": 0.1})",
+        R"({"type": "principled", "anisotropic": 0.1})", R"({"type": "principledthin"})"})
+    CHECK(!as_principled(*TestMaterial(description)));
+  const FlatTexture map(Spectrum(0.5f));
+  PrincipledOptions textured;
+  textured.base_color.texture = &map;
+  CHECK(as_principled(Principled(textured)));
+  textured.roughness.texture = &map;
+  CHECK(!as_principled(Principled(textured)));
 }
 
 TEST_CASE("rough dielectrics in lanes are what their Bsdf is") {
