@@ -430,6 +430,8 @@ MUTATIONS = [
      "scattering_.weight.set(i, scattering_.weight.vector(i) * next);", "", "below bump and normal maps*"),
     ("backs below maps are fronts in batches", "src/integrators/wide_perturbed.cpp",
      "surface.two_sided && wo.z < 0 ? -1.0f : 1.0f", "1.0f", "below bump and normal maps*"),
+    ("edges of lamps hide what groups of pixels gain", "src/integrators/group_pilot.cpp",
+     "std::max(m, p.least_mean)", "m", "groups gain as much where lamps are seen*"),
     ("principled materials of a batch have no tint", "src/integrators/wide_principled.cpp",
      "model.tint = tint_of(base_color);", "", "Burley's materials in lanes*"),
     ("principled materials scatter nothing in batches of sub-paths where they are black",

@@ -26,6 +26,7 @@ constexpr size_t kSizes = kAutoPixelGroups.size();
 struct PixelPairs {
   double own;
   std::array<double, kSizes> grouped;
+  double least_mean;  ///< the least of the means of two samples
 };
 
 /// Of a tile.
@@ -76,8 +77,11 @@ class TileTrial {
         grouped_[g]->trace(n, sampler_, grouped[g][s], out.grouped[g]);
     }
     for (int i = 0; i < count; ++i) {
-      PixelPairs pixel{squared_difference(own, i), {}};
-      for (size_t g = 0; g < kSizes; ++g) pixel.grouped[g] = squared_difference(grouped[g], i);
+      PixelPairs pixel{squared_difference(own, i), {}, mean(own, i)};
+      for (size_t g = 0; g < kSizes; ++g) {
+        pixel.grouped[g] = squared_difference(grouped[g], i);
+        pixel.least_mean = std::min(pixel.least_mean, mean(grouped[g], i));
+      }
       out.pixels.push_back(pixel);
       for (const WideSamples& w : grouped.back()) out.sum += grey(w, i);
     }
@@ -86,6 +90,9 @@ class TileTrial {
  private:
   static double grey(const WideSamples& w, int i) {
     return (double(w.r[i]) + double(w.g[i]) + double(w.b[i])) / 3;
+  }
+  static double mean(const std::array<WideSamples, kSamples>& samples, int i) {
+    return (grey(samples[0], i) + grey(samples[1], i)) / 2;
   }
   static double squared_difference(const std::array<WideSamples, kSamples>& samples, int i) {
     return std::pow(grey(samples[0], i) - grey(samples[1], i), 2);
@@ -140,7 +147,8 @@ std::vector<Point2i> choose_tiles(const PricingPlan& plan) {
 }
 
 /// The ratios of the variances, relative to the squared means of the tiles, without the pixels
-/// whose own are largest.
+/// whose own are largest. Pixels that are brighter by all samples, as those at the edges of a lamp,
+/// are relative to what they are by the least of these: noise of one kind alone is not.
 std::array<double, kSizes> variance_ratios(const std::vector<TileResult>& tiles) {
   double sum = 0, samples = 0;
   for (const TileResult& t : tiles) sum += t.sum, samples += double(kSamples * t.pixels.size());
@@ -148,8 +156,9 @@ std::array<double, kSizes> variance_ratios(const std::vector<TileResult>& tiles)
   std::vector<PixelPairs> pixels;
   for (const TileResult& t : tiles) {
     const double m = t.sum / double(kSamples * t.pixels.size());
-    const double scale = 1 / std::max(m * m + kDarkShare * mean * mean, 1e-60);
     for (PixelPairs p : t.pixels) {
+      const double bright = std::max(m, p.least_mean);
+      const double scale = 1 / std::max(bright * bright + kDarkShare * mean * mean, 1e-60);
       p.own *= scale;
       for (double& v : p.grouped) v *= scale;
       pixels.push_back(p);
