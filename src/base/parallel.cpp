@@ -6,9 +6,11 @@
 #include <tbb/task_arena.h>
 
 #include <algorithm>
+#include <atomic>
 #include <charconv>
 #include <condition_variable>
 #include <cstdlib>
+#include <exception>
 #include <map>
 #include <mutex>
 #include <optional>
@@ -18,6 +20,7 @@
 #include <vector>
 
 #include "base/failures.h"
+#include "base/thread_sanitizer.h"
 
 #if defined(__SSE2__)
 #include <xmmintrin.h>
@@ -53,6 +56,29 @@ class FlushDenormals {
 tbb::task_arena& arena_of(int threads) {
   thread_local std::map<int, tbb::task_arena> arenas;
   return arenas.try_emplace(threads, threads).first->second;
+}
+
+/// See kThreadSanitizer.
+[[maybe_unused]] void run_on_own_threads(size_t count, int threads,
+                                         const std::function<void(size_t)>& work) {
+  std::atomic<size_t> next{0};
+  std::mutex mutex;
+  std::exception_ptr failure;
+  const auto take = [&] {
+    const FlushDenormals mode;
+    try {
+      for (size_t i = next++; i < count; i = next++) work(i);
+    } catch (...) {
+      const std::lock_guard lock(mutex);
+      failure = std::current_exception();
+      next = count;
+    }
+  };
+  std::vector<std::thread> others;
+  while (int(others.size()) + 1 < threads) others.emplace_back(take);
+  take();
+  for (std::thread& t : others) t.join();
+  if (failure) std::rethrow_exception(failure);
 }
 
 std::optional<int> wanted_threads() {
@@ -111,6 +137,7 @@ void parallel_for(size_t count, int threads, const std::function<void(size_t)>& 
     for (size_t i = 0; i < count; ++i) work(i);
   };
   if (threads <= 1 || count <= 1) return one_by_one();
+  if constexpr (kThreadSanitizer) return run_on_own_threads(count, threads, work);
   // Without this TBB starts no more threads than the machine has processors. The least of all such
   // limits holds, and Embree has one, too: to ask for more would make TBB print a warning. Limits
   // wake TBB's threads, which takes longer than a small loop.

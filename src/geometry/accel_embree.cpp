@@ -3,6 +3,7 @@
 
 #include <stdexcept>
 
+#include "base/thread_sanitizer.h"
 #include "geometry/accel.h"
 #include "geometry/embree.h"
 
@@ -94,7 +95,7 @@ Accel::Accel(const std::vector<Shape>& shapes, ShapeRange top,
       top_count_(top.count),
       groups_(&groups),
       instances_(&instances) {
-  device_->device = rtcNewDevice(fmt::format("threads={}", threads).c_str());
+  device_->device = rtcNewDevice(fmt::format("threads={}", kThreadSanitizer ? 1 : threads).c_str());
   if (!device_->device) throw std::runtime_error("Embree could not be started");
   RTCDevice device = device_->device;
   device_->scenes.push_back(make_scene(device));
