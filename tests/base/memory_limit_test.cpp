@@ -121,7 +121,7 @@ TEST_CASE("what the process has in use") {
   // Of this program: at least what it has just written to.
   const std::vector<char> used(size_t(64 * kMB), 1);
   CHECK(memory_in_use() > double(used.size()));
-  const uint64_t now = memory_in_use();  // the peak may grow afterwards
+  const double now = memory_in_use();  // the peak may grow afterwards
   CHECK(memory_peak() >= now);
   CHECK(memory_limit().bytes > memory_in_use());
 }
