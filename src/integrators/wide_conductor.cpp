@@ -1,7 +1,5 @@
 #include "integrators/wide_conductor.h"
 
-#include "base/instruction_sets.h"
-
 namespace duet {
 
 namespace {
@@ -13,25 +11,21 @@ namespace {
   return conductor;
 }
 
-/// See RoughConductorModel::eval().
-template <class Facets>
-[[gnu::always_inline]] inline void evaluate_all(int n, const RoughConductorSurface& surface,
-                                                const WideVertices& vertices, WideGlossy& out) {
-  const RoughConductorModel conductor = surface.conductor;
-  const Facets facets(conductor.microfacet);
-  const bool two_sided = surface.two_sided;
-  const WideVertices v = vertices;
-  DUET_LANES
-  for (int k = 0; k < n; ++k) {
-    const int i = out.at[k];
-    const LocalPoint at = local_point(v, i, two_sided);
-    const Vector3f wi = at.to_local(out.towards.vector(k));
-    const Microfacet::Reflection r = facets.reflection(above_horizon(at.wo), above_horizon(wi));
-    const Spectrum reflected = model_at(conductor, v.points, i).by_index(r.cosine) * r.value;
-    const ModelEval e = if_above(at.wo, wi, {reflected, r.density});
-    out.value.set(k, e.value.r, e.value.g, e.value.b);
-    out.value_pdf[k] = e.pdf;
-  }
+/// RoughConductorModel::eval() at points of the surface, for evaluate_points() and
+/// reverse_points().
+template <class Use>
+[[gnu::always_inline]] inline void with_eval(const RoughConductorSurface& surface,
+                                             const WidePoints& points, const Use& use) {
+  with_facets(
+      surface.conductor.microfacet, [&]<class Facets>() __attribute__((always_inline)) {
+        const RoughConductorModel conductor = surface.conductor;
+        const Facets facets(conductor.microfacet);
+        use([&](int i, const Vector3f& wo, const Vector3f& wi) __attribute__((always_inline)) {
+          const Microfacet::Reflection r = facets.reflection(above_horizon(wo), above_horizon(wi));
+          const Spectrum reflected = model_at(conductor, points, i).by_index(r.cosine) * r.value;
+          return if_above(wo, wi, {reflected, r.density});
+        });
+      });
 }
 
 /// See RoughConductorModel::sample().
@@ -62,28 +56,13 @@ template <class Facets>
   }
 }
 
-template <class Facets>
-[[gnu::always_inline]] inline void reverse_all(int n, const RoughConductorSurface& surface,
-                                               const WideVertices& vertices, WideGlossy& out) {
-  const Facets facets(surface.conductor.microfacet);
-  const bool two_sided = surface.two_sided;
-  const WideVertices v = vertices;
-  DUET_LANES
-  for (int k = 0; k < n; ++k) {
-    const LocalPoint at = local_point(v, out.at[k], two_sided);
-    const Vector3f wi = at.to_local(out.towards.vector(k));
-    const Microfacet::Reflection r = facets.reflection(above_horizon(wi), above_horizon(at.wo));
-    out.reverse[k] = if_above(wi, at.wo, {Spectrum(0), r.density}).pdf;
-  }
-}
-
 }  // namespace
 
 DUET_WIDEST void evaluate_glossy(int n, const RoughConductorSurface& surface,
                                  const WideVertices& vertices, WideGlossy& out) {
-  with_facets(
-      surface.conductor.microfacet, [&]<class Facets>() __attribute__((always_inline)) {
-        evaluate_all<Facets>(n, surface, vertices, out);
+  with_eval(
+      surface, vertices.points, [&](const auto& eval) __attribute__((always_inline)) {
+        evaluate_points(n, surface.two_sided, vertices, out, eval);
       });
 }
 
@@ -97,9 +76,9 @@ DUET_WIDEST void sample_glossy(int n, const RoughConductorSurface& surface,
 
 DUET_WIDEST void reverse_glossy(int n, const RoughConductorSurface& surface,
                                 const WideVertices& vertices, WideGlossy& out) {
-  with_facets(
-      surface.conductor.microfacet, [&]<class Facets>() __attribute__((always_inline)) {
-        reverse_all<Facets>(n, surface, vertices, out);
+  with_eval(
+      surface, vertices.points, [&](const auto& eval) __attribute__((always_inline)) {
+        reverse_points(n, surface.two_sided, vertices, out, eval);
       });
 }
 

@@ -1,25 +1,21 @@
 #include "integrators/wide_dielectric.h"
 
-#include "base/instruction_sets.h"
-
 namespace duet {
 
 namespace {
 
-template <class Facets>
-[[gnu::always_inline]] inline void evaluate_all(int n, const RoughDielectricModel& model,
-                                                const WideVertices& vertices, WideGlossy& out) {
-  const RoughDielectricModel dielectric = model;
-  const Facets facets(dielectric.microfacet);
-  const WideVertices v = vertices;
-  DUET_LANES
-  for (int k = 0; k < n; ++k) {
-    const LocalPoint at = local_point(v, out.at[k], false);
-    const ModelEval e =
-        dielectric.eval_by(facets, at.wo, at.to_local(out.towards.vector(k)), v.transport);
-    out.value.set(k, e.value.r, e.value.g, e.value.b);
-    out.value_pdf[k] = e.pdf;
-  }
+/// RoughDielectricModel::eval() for evaluate_points() and reverse_points().
+template <class Use>
+[[gnu::always_inline]] inline void with_eval(const RoughDielectricSurface& surface,
+                                             Transport transport, const Use& use) {
+  with_facets(
+      surface.dielectric.microfacet, [&]<class Facets>() __attribute__((always_inline)) {
+        const RoughDielectricModel dielectric = surface.dielectric;
+        const Facets facets(dielectric.microfacet);
+        use([&](int, const Vector3f& wo, const Vector3f& wi) __attribute__((always_inline)) {
+          return dielectric.eval_by(facets, wo, wi, transport);
+        });
+      });
 }
 
 template <class Facets>
@@ -44,27 +40,13 @@ template <class Facets>
   }
 }
 
-template <class Facets>
-[[gnu::always_inline]] inline void reverse_all(int n, const RoughDielectricModel& model,
-                                               const WideVertices& vertices, WideGlossy& out) {
-  const RoughDielectricModel dielectric = model;
-  const Facets facets(dielectric.microfacet);
-  const WideVertices v = vertices;
-  DUET_LANES
-  for (int k = 0; k < n; ++k) {
-    const LocalPoint at = local_point(v, out.at[k], false);
-    const Vector3f wi = at.to_local(out.towards.vector(k));
-    out.reverse[k] = dielectric.eval_by(facets, wi, at.wo, v.transport).pdf;
-  }
-}
-
 }  // namespace
 
 DUET_WIDEST void evaluate_glossy(int n, const RoughDielectricSurface& surface,
                                  const WideVertices& vertices, WideGlossy& out) {
-  with_facets(
-      surface.dielectric.microfacet, [&]<class Facets>() __attribute__((always_inline)) {
-        evaluate_all<Facets>(n, surface.dielectric, vertices, out);
+  with_eval(
+      surface, vertices.transport, [&](const auto& eval) __attribute__((always_inline)) {
+        evaluate_points(n, false, vertices, out, eval);
       });
 }
 
@@ -78,9 +60,9 @@ DUET_WIDEST void sample_glossy(int n, const RoughDielectricSurface& surface,
 
 DUET_WIDEST void reverse_glossy(int n, const RoughDielectricSurface& surface,
                                 const WideVertices& vertices, WideGlossy& out) {
-  with_facets(
-      surface.dielectric.microfacet, [&]<class Facets>() __attribute__((always_inline)) {
-        reverse_all<Facets>(n, surface.dielectric, vertices, out);
+  with_eval(
+      surface, vertices.transport, [&](const auto& eval) __attribute__((always_inline)) {
+        reverse_points(n, false, vertices, out, eval);
       });
 }
 

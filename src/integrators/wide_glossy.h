@@ -1,6 +1,7 @@
 // What batches of paths do at points of glossy and of specular materials has in common.
 #pragma once
 
+#include "base/instruction_sets.h"
 #include "integrators/wide_state.h"
 #include "materials/microfacet.h"
 #include "materials/model.h"
@@ -103,6 +104,37 @@ struct LocalPoint {
 
 [[gnu::always_inline]] inline Spectrum reflectance_at(const WidePoints& points, int i) {
   return color_at(points.reflectance, i);
+}
+
+/// What `eval(point, wo, wi)` gives for the directions `out.towards`, of n points: a ModelEval for
+/// directions in the shading frame.
+template <class Eval>
+[[gnu::always_inline]] inline void evaluate_points(int n, bool two_sided,
+                                                   const WideVertices& vertices, WideGlossy& out,
+                                                   const Eval& eval) {
+  const WideVertices v = vertices;
+  DUET_LANES
+  for (int k = 0; k < n; ++k) {
+    const int i = out.at[k];
+    const LocalPoint at = local_point(v, i, two_sided);
+    const ModelEval e = eval(i, at.wo, at.to_local(out.towards.vector(k)));
+    out.value.set(k, e.value.r, e.value.g, e.value.b);
+    out.value_pdf[k] = e.pdf;
+  }
+}
+
+/// The reverse densities by the same function.
+template <class Eval>
+[[gnu::always_inline]] inline void reverse_points(int n, bool two_sided,
+                                                  const WideVertices& vertices, WideGlossy& out,
+                                                  const Eval& eval) {
+  const WideVertices v = vertices;
+  DUET_LANES
+  for (int k = 0; k < n; ++k) {
+    const int i = out.at[k];
+    const LocalPoint at = local_point(v, i, two_sided);
+    out.reverse[k] = eval(i, at.to_local(out.towards.vector(k)), at.wo).pdf;
+  }
 }
 
 /// `w`, or its mirror image if it is below the horizon, where formulas may divide by zero.

@@ -1,7 +1,5 @@
 #include "integrators/wide_plastic.h"
 
-#include "base/instruction_sets.h"
-
 namespace duet {
 
 namespace {
@@ -23,22 +21,32 @@ template <class Facets>
   return plastic;
 }
 
-template <class Facets>
-[[gnu::always_inline]] inline void evaluate_all(int n, const RoughPlasticSurface& surface,
-                                                const WideVertices& vertices, WideGlossy& out) {
-  const UniformRoughPlastic plastic = lanes_of(surface);
-  const Facets facets(plastic.microfacet);
-  const bool two_sided = surface.two_sided;
-  const WideVertices v = vertices;
-  DUET_LANES
-  for (int k = 0; k < n; ++k) {
-    const int i = out.at[k];
-    const LocalPoint at = local_point(v, i, two_sided);
-    const ModelEval e = evaluate(plastic.model(reflectance_at(v.points, i)), facets, at.wo,
-                                 at.to_local(out.towards.vector(k)));
-    out.value.set(k, e.value.r, e.value.g, e.value.b);
-    out.value_pdf[k] = e.pdf;
-  }
+/// The same at points of the surface, for evaluate_points() and reverse_points().
+template <class Use>
+[[gnu::always_inline]] inline void with_eval(const RoughPlasticSurface& surface,
+                                             const WidePoints& points, const Use& use) {
+  with_facets(
+      surface.plastic.microfacet, [&]<class Facets>() __attribute__((always_inline)) {
+        const UniformRoughPlastic plastic = lanes_of(surface);
+        const Facets facets(plastic.microfacet);
+        use([&](int i, const Vector3f& wo, const Vector3f& wi) __attribute__((always_inline)) {
+          return evaluate(plastic.model(reflectance_at(points, i)), facets, wo, wi);
+        });
+      });
+}
+
+/// PlasticModel::eval() likewise.
+template <class Use>
+[[gnu::always_inline]] inline void with_eval(const PlasticSurface& surface,
+                                             const WidePoints& points, const Use& use) {
+  const UniformPlastic plastic = surface.plastic;
+  use([&](int i, const Vector3f& wo, const Vector3f& wi) __attribute__((always_inline)) {
+    const ModelEval e =
+        plastic.model(reflectance_at(points, i)).eval_above(above_horizon(wo), above_horizon(wi));
+    const bool above = std::min(wo.z, wi.z) > 0;
+    return ModelEval{{above ? e.value.r : 0, above ? e.value.g : 0, above ? e.value.b : 0},
+                     above ? e.pdf : 0};
+  });
 }
 
 template <class Facets>
@@ -76,23 +84,6 @@ template <class Facets>
   }
 }
 
-template <class Facets>
-[[gnu::always_inline]] inline void reverse_all(int n, const RoughPlasticSurface& surface,
-                                               const WideVertices& vertices, WideGlossy& out) {
-  const UniformRoughPlastic plastic = lanes_of(surface);
-  const Facets facets(plastic.microfacet);
-  const bool two_sided = surface.two_sided;
-  const WideVertices v = vertices;
-  DUET_LANES
-  for (int k = 0; k < n; ++k) {
-    const int i = out.at[k];
-    const LocalPoint at = local_point(v, i, two_sided);
-    out.reverse[k] = evaluate(plastic.model(reflectance_at(v.points, i)), facets,
-                              at.to_local(out.towards.vector(k)), at.wo)
-                         .pdf;
-  }
-}
-
 /// Of directions whose cosines are not above `horizon` zero.
 template <class Model>
 [[gnu::always_inline]] inline void see_all(int n, const Model& model, float horizon,
@@ -109,9 +100,9 @@ template <class Model>
 
 DUET_WIDEST void evaluate_glossy(int n, const RoughPlasticSurface& surface,
                                  const WideVertices& vertices, WideGlossy& out) {
-  with_facets(
-      surface.plastic.microfacet, [&]<class Facets>() __attribute__((always_inline)) {
-        evaluate_all<Facets>(n, surface, vertices, out);
+  with_eval(
+      surface, vertices.points, [&](const auto& eval) __attribute__((always_inline)) {
+        evaluate_points(n, surface.two_sided, vertices, out, eval);
       });
 }
 
@@ -125,9 +116,9 @@ DUET_WIDEST void sample_glossy(int n, const RoughPlasticSurface& surface,
 
 DUET_WIDEST void reverse_glossy(int n, const RoughPlasticSurface& surface,
                                 const WideVertices& vertices, WideGlossy& out) {
-  with_facets(
-      surface.plastic.microfacet, [&]<class Facets>() __attribute__((always_inline)) {
-        reverse_all<Facets>(n, surface, vertices, out);
+  with_eval(
+      surface, vertices.points, [&](const auto& eval) __attribute__((always_inline)) {
+        reverse_points(n, surface.two_sided, vertices, out, eval);
       });
 }
 
@@ -138,20 +129,10 @@ DUET_WIDEST void see_bases(int n, const RoughPlasticSurface& surface, const floa
 
 DUET_WIDEST void evaluate_glossy(int n, const PlasticSurface& surface, const WideVertices& vertices,
                                  WideGlossy& out) {
-  const UniformPlastic plastic = surface.plastic;
-  const bool two_sided = surface.two_sided;
-  const WideVertices v = vertices;
-  DUET_LANES
-  for (int k = 0; k < n; ++k) {
-    const int i = out.at[k];
-    const LocalPoint at = local_point(v, i, two_sided);
-    const Vector3f wi = at.to_local(out.towards.vector(k));
-    const ModelEval e = plastic.model(reflectance_at(v.points, i))
-                            .eval_above(above_horizon(at.wo), above_horizon(wi));
-    const bool above = std::min(at.wo.z, wi.z) > 0;
-    out.value.set(k, above ? e.value.r : 0, above ? e.value.g : 0, above ? e.value.b : 0);
-    out.value_pdf[k] = above ? e.pdf : 0;
-  }
+  with_eval(
+      surface, vertices.points, [&](const auto& eval) __attribute__((always_inline)) {
+        evaluate_points(n, surface.two_sided, vertices, out, eval);
+      });
 }
 
 DUET_WIDEST void sample_glossy(int n, const PlasticSurface& surface, const WideVertices& vertices,
@@ -179,18 +160,10 @@ DUET_WIDEST void sample_glossy(int n, const PlasticSurface& surface, const WideV
 
 DUET_WIDEST void reverse_glossy(int n, const PlasticSurface& surface, const WideVertices& vertices,
                                 WideGlossy& out) {
-  const UniformPlastic plastic = surface.plastic;
-  const bool two_sided = surface.two_sided;
-  const WideVertices v = vertices;
-  DUET_LANES
-  for (int k = 0; k < n; ++k) {
-    const int i = out.at[k];
-    const LocalPoint at = local_point(v, i, two_sided);
-    const Vector3f wi = at.to_local(out.towards.vector(k));
-    const ModelEval e = plastic.model(reflectance_at(v.points, i))
-                            .eval_above(above_horizon(wi), above_horizon(at.wo));
-    out.reverse[k] = std::min(at.wo.z, wi.z) > 0 ? e.pdf : 0;
-  }
+  with_eval(
+      surface, vertices.points, [&](const auto& eval) __attribute__((always_inline)) {
+        reverse_points(n, surface.two_sided, vertices, out, eval);
+      });
 }
 
 DUET_WIDEST void see_bases(int n, const PlasticSurface& surface, const float* cosines,

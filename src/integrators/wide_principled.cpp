@@ -1,7 +1,5 @@
 #include "integrators/wide_principled.h"
 
-#include "base/instruction_sets.h"
-
 namespace duet {
 
 namespace {
@@ -17,23 +15,25 @@ namespace {
                   model.eval_uncoated(o, i, model.facets.visible_ggx_reflection(o, i), pick));
 }
 
+/// The same at points of the surface, for evaluate_points() and reverse_points().
+template <class Use>
+[[gnu::always_inline]] inline void with_eval(const PrincipledSurface& surface,
+                                             const WidePoints& points, const Use& use) {
+  const PrincipledModel model = surface.model;
+  const PrincipledModel::Choice pick = model.choice();
+  use([&](int i, const Vector3f& wo, const Vector3f& wi) __attribute__((always_inline)) {
+    return evaluate(model, reflectance_at(points, i), pick, wo, wi);
+  });
+}
+
 }  // namespace
 
 DUET_WIDEST void evaluate_glossy(int n, const PrincipledSurface& surface,
                                  const WideVertices& vertices, WideGlossy& out) {
-  const PrincipledModel model = surface.model;
-  const PrincipledModel::Choice pick = model.choice();
-  const bool two_sided = surface.two_sided;
-  const WideVertices v = vertices;
-  DUET_LANES
-  for (int k = 0; k < n; ++k) {
-    const int i = out.at[k];
-    const LocalPoint at = local_point(v, i, two_sided);
-    const ModelEval e = evaluate(model, reflectance_at(v.points, i), pick, at.wo,
-                                 at.to_local(out.towards.vector(k)));
-    out.value.set(k, e.value.r, e.value.g, e.value.b);
-    out.value_pdf[k] = e.pdf;
-  }
+  with_eval(
+      surface, vertices.points, [&](const auto& eval) __attribute__((always_inline)) {
+        evaluate_points(n, surface.two_sided, vertices, out, eval);
+      });
 }
 
 DUET_WIDEST void sample_glossy(int n, const PrincipledSurface& surface,
@@ -65,18 +65,10 @@ DUET_WIDEST void sample_glossy(int n, const PrincipledSurface& surface,
 
 DUET_WIDEST void reverse_glossy(int n, const PrincipledSurface& surface,
                                 const WideVertices& vertices, WideGlossy& out) {
-  const PrincipledModel model = surface.model;
-  const PrincipledModel::Choice pick = model.choice();
-  const bool two_sided = surface.two_sided;
-  const WideVertices v = vertices;
-  DUET_LANES
-  for (int k = 0; k < n; ++k) {
-    const int i = out.at[k];
-    const LocalPoint at = local_point(v, i, two_sided);
-    out.reverse[k] = evaluate(model, reflectance_at(v.points, i), pick,
-                              at.to_local(out.towards.vector(k)), at.wo)
-                         .pdf;
-  }
+  with_eval(
+      surface, vertices.points, [&](const auto& eval) __attribute__((always_inline)) {
+        reverse_points(n, surface.two_sided, vertices, out, eval);
+      });
 }
 
 }  // namespace duet
