@@ -8,8 +8,8 @@ The fitted set are scenes of scenes/ that have been looked at when the rules and
 set is made by bench/holdout_scenes.py, and nothing is fitted on it. Each round renders every scene with auto and with
 path, path in groups of 16 pixels, bdpt, vcm and ppm (volpath, bdpt and vcm where there is a medium), one after the
 other, as whole processes, each round with a seed of its own. Efficiency is 1 / (error · CPU s), with user + system
-seconds of the process, the pilot included, and error the mean over the pixels of ((a − b)² − v) / (b² + 0.01) without the worst 0.1 %
-of them: a image, b reference, v the variance of the reference. Figures are medians over the rounds.
+seconds of the process, the pilot included, and error the mean over the pixels of ((a − b)² − v) / (b² + 0.01) without
+the worst 0.1 % of them: a image, b reference, v the variance of the reference. Figures are medians over the rounds.
 
 References are Mitsuba's of reference/ where there are any, or else the mean of two images of --reference-spp samples
 with seeds of their own by a method that is not judged: bdpt with a light walk for every pixel, which is unbiased, or
@@ -18,9 +18,9 @@ where only merging finds all light (SDS below) vcm whose radius shrinks nearly t
 
 One rule for all, auto included: an image does not count if its mean is off by more than 0.5 %, or any of 8 × 8 tiles by
 more than 2 %, beyond four standard errors, too bright or too dark. Tiles darker than a twentieth of the image are
-measured by that. Standard errors come from the rounds, either of tiles or of pixels whose neighbours err alike, and
-from the reference. A fixed method that does not count is marked
-with a star and not the best; an auto that does not count reaches 0 of the best.
+measured by that. Standard errors come from the rounds and the reference. A fixed method that does not count is marked
+with a star and not the best; an auto that does not count reaches 0 of the best. Pixels that share paths (photons, groups)
+err alike, which three rounds may take for bias: repeat with more.
 
 --mitsuba renders with the llvm_ad_rgb variant of Mitsuba 3 in each round, too, by the scene's own integrator (path, volpath)
 as far as Mitsuba can read it. Its seconds are those of one more image, without start-up (mitsuba_render.py); those of Duet
@@ -53,8 +53,6 @@ MERGING = ['vcm', '-I', 'light_paths=1', '-I', 'alpha=0.1']
 GROUPS = 'path in groups'
 FIXED = {'path': '`path`', GROUPS: '… in groups', 'bdpt': '`bdpt`', 'vcm': '`vcm`', 'ppm': '`ppm`'}  # columns
 MITSUBA = 'Mitsuba'
-# Pixels whose errors are alike: near photons, and the members of a group.
-SHARED, SHARED_IN_GROUPS = 4, 32
 TILES, MEAN_LIMIT, TILE_LIMIT, ERRORS, DARK = 8, 0.005, 0.02, 4, 0.05
 
 
@@ -133,22 +131,22 @@ def tiles(values):
     return np.add.reduceat(np.add.reduceat(values.sum(2), rows, 0), columns, 1)
 
 
-def is_off(images, mean, variance, shared=SHARED):
+def is_off(images, mean, variance):
     """Whether images are wrong by the one rule."""
     images = np.array(images)
     n = len(images)
     noise = images.var(0, ddof=1) / n if n > 1 else 0 * mean
     counts = tiles(np.ones_like(mean))
     by_tile, truth = np.array([tiles(i) / counts for i in images]), tiles(mean) / counts
-    # Errors of neighbours are alike; so few rounds may agree by chance.
-    pixels = shared * tiles(noise) / counts ** 2
+    # Errors of neighbours are alike where photons are shared; so few rounds may agree by chance.
+    pixels = 4 * tiles(noise) / counts ** 2
     rounds = by_tile.var(0, ddof=1) / n if n > 1 else 0
     deviation = np.sqrt(np.maximum(pixels, rounds) + tiles(variance) / counts ** 2)
     off = np.abs(by_tile.mean(0) - truth)
     if (off > ERRORS * deviation + TILE_LIMIT * np.maximum(truth, DARK * mean.mean())).any():
         return True
     means = images.mean((1, 2, 3))
-    pixels = shared * noise.sum() / noise.size ** 2
+    pixels = 4 * noise.sum() / noise.size ** 2
     rounds = means.var(ddof=1) / n if n > 1 else 0
     deviation = math.sqrt(max(pixels, rounds) + variance.sum() / variance.size ** 2)
     return abs(means.mean() - mean.mean()) > ERRORS * deviation + MEAN_LIMIT * mean.mean()
@@ -172,9 +170,7 @@ def judge(scene, o, folder):
             efficiency[m].append(1 / (max(error(images[m][-1], mean, variance), 1e-9) * cpu))
     first = scene.fixed[0]
     relative = {m: statistics.median(e / p for e, p in zip(efficiency[m], efficiency[first])) for m in methods}
-    grouped = [GROUPS] + ['auto'] * ('pixel_group' in chosen)
-    off = [m for m in methods
-           if is_off(images[m], mean, variance, SHARED_IN_GROUPS if m in grouped else SHARED)]
+    off = [m for m in methods if is_off(images[m], mean, variance)]
     counted = [relative[m] for m in scene.fixed if m not in off]
     best = 0 if 'auto' in off or not counted else relative['auto'] / max(counted)
     return {'relative': relative, 'efficiency': {m: statistics.median(e) for m, e in efficiency.items()}, 'off': off,

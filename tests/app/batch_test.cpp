@@ -118,6 +118,17 @@ TEST_SUITE("program") {
     CHECK(place.count() == 1);
   }
 
+  TEST_CASE("display images need no module for image formats") {
+    const Workplace place;
+    place.scene();
+    const Outcome o = run_duet({"tiny.xml", "-o", "a.png", "-o", "a.jpg"},
+                               {.directory = place.path(""),
+                                .environment = {{"DUET_IMAGE_MODULE", place.path("none.so")}}});
+    CHECK(o.code == 0);
+    CHECK(place.has("a.png"));
+    CHECK(place.has("a.jpg"));
+  }
+
   TEST_CASE("directories of output files are made") {
     const Workplace place;
     place.scene();
